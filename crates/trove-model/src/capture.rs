@@ -1,0 +1,83 @@
+//! What a camera returns.
+
+use crate::{InstanceId, Raster};
+
+/// A picture and its labels.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// The picture; `None` where only labels were asked for.
+    pub color: Option<Color>,
+    /// The labels.
+    pub labels: Labels,
+    /// What it cost.
+    pub stats: CaptureStats,
+}
+
+/// A picture.
+#[derive(Clone, Debug)]
+pub struct Color {
+    /// Linear Rec. 709 radiance, denoised where that was asked for.
+    pub radiance: Raster<[f32; 3]>,
+    /// Exposed and tone-mapped, 8-bit sRGB.
+    pub srgb: Raster<[u8; 3]>,
+    /// The exposure that was used: radiance was multiplied by 2 to this power.
+    pub exposure_ev: f64,
+}
+
+/// Labels of one picture: every value belongs to the ray through the pixel's centre.
+#[derive(Clone, Debug)]
+pub struct Labels {
+    /// Class ids.
+    pub class: Raster<u8>,
+    /// Instance ids; 0 = none.
+    pub instance: Raster<u32>,
+    /// Metres along the camera's z axis; +inf = sky.
+    pub depth_m: Raster<f32>,
+    /// Unit geometric-surface normal in Camera, towards the camera; 0 = sky.
+    pub normal: Raster<[f32; 3]>,
+    /// Pixels (u right, v down) to the next keyframe; NaN = not defined.
+    pub flow_forward: Raster<[f32; 2]>,
+    /// Pixels to the previous keyframe; NaN = not defined.
+    pub flow_backward: Raster<[f32; 2]>,
+    /// Every object of which a pixel would be seen if nothing else were there, in the order of ids.
+    pub objects: Vec<ObjectLabel>,
+}
+
+/// Pixels from `min` to `max`, both included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelBox {
+    /// Left and top pixel.
+    pub min: [u32; 2],
+    /// Right and bottom pixel.
+    pub max: [u32; 2],
+}
+
+/// What one picture shows of one object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectLabel {
+    /// The object.
+    pub id: InstanceId,
+    /// Pixels that show it.
+    pub visible_px: u32,
+    /// Smallest box around them; `None` where there are none.
+    pub visible_box: Option<PixelBox>,
+    /// Pixels that would show it if nothing else were there.
+    pub amodal_px: u32,
+    /// Smallest box around those.
+    pub amodal_box: Option<PixelBox>,
+    /// Share of it outside the image, 0 to 1, by the projected 3D box.
+    pub truncation: f32,
+    /// Share of its amodal pixels that other things hide, 0 to 1.
+    pub occlusion: f32,
+    /// From the camera to the centre of its box, metres.
+    pub range_m: f32,
+}
+
+/// What a picture cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CaptureStats {
+    /// Rays traced, of all sorts.
+    pub rays: u64,
+    /// Whether the denoiser ran.
+    pub denoised: bool,
+}

@@ -1,0 +1,175 @@
+//! A recorded drive, whatever dataset it came from.
+
+use glam::{DVec3, Vec3};
+
+use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, World};
+
+/// One recorded scene: where the vehicle went, what its cameras saw, and who was there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// The dataset's name of it (`scene-0103`).
+    pub id: String,
+    /// The dataset (`nuscenes`).
+    pub dataset: String,
+    /// The dataset's name of the place (`boston-seaport`); empty where unknown.
+    pub place: String,
+    /// From latitude and longitude to World.
+    pub projection: MapProjection,
+    /// Cameras in the order of their names.
+    pub rig: Vec<RigCamera>,
+    /// The recording vehicle's own body.
+    pub ego_body: EgoBody,
+    /// Annotated moments in the order of time.
+    pub keyframes: Vec<Keyframe>,
+    /// Objects followed over time; [`ObjectBox::track`] is an index into it.
+    pub tracks: Vec<Track>,
+    /// The dataset's own map.
+    pub lane_map: Option<LaneMap>,
+    /// Licence of what came out of the dataset, with its name (`CC BY-NC-SA 4.0`).
+    pub licence: String,
+}
+
+/// A camera of the vehicle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigCamera {
+    /// The dataset's name of it (`CAM_FRONT`).
+    pub name: String,
+    /// Intrinsics.
+    pub lens: Lens,
+    /// Mounting.
+    pub ego_from_camera: Pose<Ego, Camera>,
+}
+
+/// The recording vehicle's own box, which no dataset annotates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EgoBody {
+    /// Centre of the box in Ego, metres.
+    pub centre_ego: DVec3,
+    /// Length, width, height.
+    pub size_m: DVec3,
+}
+
+/// An annotated moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keyframe {
+    /// Time of the annotation, nanoseconds since 1970 UTC.
+    pub time_ns: i64,
+    /// The dataset's name of it.
+    pub token: String,
+    /// Vehicle at that time.
+    pub world_from_ego: Pose<World, Ego>,
+    /// What the cameras took for it: one entry a camera of the rig, at most, in the rig's order.
+    pub exposures: Vec<Exposure>,
+    /// Annotated objects.
+    pub boxes: Vec<ObjectBox>,
+    /// The LiDAR's points, where the recording is at hand.
+    pub lidar: Option<LidarSweep>,
+}
+
+/// One picture's own time and poses; cameras do not fire together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exposure {
+    /// Index into [`Drive::rig`].
+    pub camera: usize,
+    /// Time of the picture, nanoseconds since 1970 UTC.
+    pub time_ns: i64,
+    /// Vehicle at that time.
+    pub world_from_ego: Pose<World, Ego>,
+    /// Intrinsics of this picture (a dataset may calibrate anew between logs).
+    pub lens: Lens,
+    /// Mounting at that time.
+    pub ego_from_camera: Pose<Ego, Camera>,
+    /// The dataset's name of it.
+    pub token: String,
+    /// The recorded picture's path below the dataset's root; empty where there is none.
+    pub file: String,
+}
+
+impl Exposure {
+    /// Pose of the camera.
+    pub fn world_from_camera(&self) -> Pose<World, Camera> {
+        self.world_from_ego * self.ego_from_camera
+    }
+}
+
+/// One annotated object at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectBox {
+    /// Index into [`Drive::tracks`].
+    pub track: usize,
+    /// What it is.
+    pub kind: Kind,
+    /// The dataset's own category.
+    pub category: String,
+    /// The dataset's name of this annotation.
+    pub token: String,
+    /// Box at the keyframe's time; x forward.
+    pub cuboid: Cuboid,
+    /// Velocity in World; `None` where it cannot be told.
+    pub velocity_mps: Option<DVec3>,
+    /// The dataset's attributes.
+    pub attributes: Vec<String>,
+    /// LiDAR points in the box; `None` where unknown.
+    pub lidar_points: Option<u32>,
+    /// Visible share by the annotator's judgement, 0 to 1, the middle of the dataset's bin; `None` where unknown.
+    pub visibility: Option<f32>,
+}
+
+/// An object over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// The dataset's name of it.
+    pub token: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Its boxes as (index of the keyframe, box), in the order of time.
+    pub boxes: Vec<(usize, Cuboid)>,
+}
+
+impl Track {
+    /// The box at a keyframe; `None` where it was not annotated then.
+    pub fn at(&self, keyframe: usize) -> Option<Cuboid> {
+        self.boxes.iter().find(|(k, _)| *k == keyframe).map(|(_, cuboid)| *cuboid)
+    }
+}
+
+/// What a LiDAR point lies on, where the dataset says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // the names are the definition
+pub enum LidarClass {
+    Road,
+    Sidewalk,
+    Terrain,
+    Vegetation,
+    /// Building or other structure.
+    Manmade,
+    /// Annotated objects, noise, and what is not known.
+    Other,
+}
+
+/// Points of one LiDAR revolution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LidarSweep {
+    /// Where the sensor was, World.
+    pub origin_world: DVec3,
+    /// Points in World, metres.
+    pub points_world: Vec<Vec3>,
+    /// One entry a point; empty where the dataset has no labels.
+    pub classes: Vec<LidarClass>,
+}
+
+impl Drive {
+    /// Rectangle around the driven path, the annotated objects and the LiDAR points nearer than `reach_m` to the
+    /// path; `None` for a drive without keyframes.
+    pub fn bounds(&self, reach_m: f64) -> Option<Bounds> {
+        let path = self.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
+        let boxes =
+            self.keyframes.iter().flat_map(|k| &k.boxes).map(|b| b.cuboid.world_from_body.translation.truncate());
+        let points = self.keyframes.iter().filter_map(|k| k.lidar.as_ref()).flat_map(move |sweep| {
+            let origin = sweep.origin_world.truncate();
+            let near = move |p: &glam::DVec2| p.distance(origin) < reach_m;
+            sweep.points_world.iter().map(|p| p.as_dvec3().truncate()).filter(near)
+        });
+        Bounds::around(path.chain(boxes).chain(points))
+    }
+}

@@ -1,0 +1,117 @@
+//! What a thing is, finer than its class.
+
+use crate::Class;
+
+/// What an object or an asset is; readers turn a dataset's categories into it, and assets are chosen by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[allow(missing_docs)] // the names are the definition
+pub enum Kind {
+    Adult,
+    Child,
+    ConstructionWorker,
+    PoliceOfficer,
+    /// Person on a scooter, skateboard or segway.
+    PersonalMobility,
+    /// Pram with the person pushing it.
+    Stroller,
+    Wheelchair,
+    Animal,
+    Bicycle,
+    BicycleWithRider,
+    Motorcycle,
+    MotorcycleWithRider,
+    /// Passenger car of any body: its assets are of class car, jeep or van.
+    Car,
+    PoliceCar,
+    Ambulance,
+    Truck,
+    Trailer,
+    ConstructionVehicle,
+    Bus,
+    ArticulatedBus,
+    Barrier,
+    TrafficCone,
+    /// Something pushed or pulled: bin on wheels, cart, suitcase.
+    PushablePullable,
+    /// Something lying about: bag, box, branch.
+    Debris,
+    BicycleRack,
+    Building,
+    Tree,
+    Bush,
+    TrafficSign,
+    TrafficSignal,
+    StreetLamp,
+    UtilityPole,
+    Bollard,
+    Hydrant,
+    Bin,
+    Bench,
+    Shelter,
+}
+
+impl Kind {
+    /// Every kind.
+    #[rustfmt::skip]
+    pub const ALL: [Self; 37] = [
+        Self::Adult, Self::Child, Self::ConstructionWorker, Self::PoliceOfficer, Self::PersonalMobility, Self::Stroller,
+        Self::Wheelchair, Self::Animal, Self::Bicycle, Self::BicycleWithRider, Self::Motorcycle, Self::MotorcycleWithRider,
+        Self::Car, Self::PoliceCar, Self::Ambulance, Self::Truck, Self::Trailer, Self::ConstructionVehicle, Self::Bus,
+        Self::ArticulatedBus, Self::Barrier, Self::TrafficCone, Self::PushablePullable, Self::Debris, Self::BicycleRack,
+        Self::Building, Self::Tree, Self::Bush, Self::TrafficSign, Self::TrafficSignal, Self::StreetLamp, Self::UtilityPole,
+        Self::Bollard, Self::Hydrant, Self::Bin, Self::Bench, Self::Shelter,
+    ];
+
+    /// The class where an asset does not say otherwise.
+    pub fn class(self) -> Class {
+        match self {
+            Self::Adult
+            | Self::Child
+            | Self::ConstructionWorker
+            | Self::PoliceOfficer
+            | Self::PersonalMobility
+            | Self::Stroller
+            | Self::Wheelchair => Class::Human,
+            Self::Bicycle | Self::BicycleWithRider => Class::CycleRider,
+            Self::Motorcycle | Self::MotorcycleWithRider => Class::MotorcycleRider,
+            Self::Car | Self::PoliceCar => Class::Car,
+            Self::Ambulance => Class::Van,
+            Self::Truck | Self::Trailer => Class::Truck,
+            Self::ConstructionVehicle => Class::Construction,
+            Self::Bus | Self::ArticulatedBus => Class::Bus,
+            Self::Barrier => Class::Barrier,
+            Self::TrafficCone => Class::TrafficCone,
+            Self::Building => Class::Building,
+            Self::Tree => Class::Tree,
+            Self::Bush => Class::Bush,
+            Self::TrafficSign
+            | Self::TrafficSignal
+            | Self::StreetLamp
+            | Self::UtilityPole
+            | Self::Bollard
+            | Self::Hydrant => Class::TrafficSign,
+            Self::Animal
+            | Self::PushablePullable
+            | Self::Debris
+            | Self::BicycleRack
+            | Self::Bin
+            | Self::Bench
+            | Self::Shelter => Class::Void,
+        }
+    }
+
+    /// Whether it drives, with a body that follows the ground's slope.
+    pub fn is_vehicle(self) -> bool {
+        matches!(
+            self.class(),
+            Class::Car
+                | Class::Bus
+                | Class::Jeep
+                | Class::Truck
+                | Class::Van
+                | Class::Construction
+                | Class::CycleRider
+                | Class::MotorcycleRider
+        )
+    }
+}

@@ -1,0 +1,50 @@
+//! The nouns of TRoVE and their mathematics.
+//!
+//! What goes in: numbers. What comes out: types with meaning. This crate must not know files, clocks, threads, the
+//! environment, or any third-party type but glam's.
+
+mod asset;
+mod capture;
+mod class;
+mod cuboid;
+mod drive;
+mod frames;
+mod height_field;
+mod kind;
+mod lane_map;
+mod lens;
+mod light;
+mod material;
+mod mesh;
+mod polygon;
+mod projection;
+mod raster;
+mod report;
+mod scene;
+mod seed;
+mod shot;
+mod street_map;
+
+pub use asset::{Asset, AssetLibrary, Slot, Surface, SurfaceKind};
+pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
+pub use class::{CLASSES, Class, Class13, ClassRow};
+pub use cuboid::Cuboid;
+pub use drive::{Drive, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Track};
+pub use frames::{Body, Camera, Ego, Frame, Pose, Sensor, World};
+pub use height_field::HeightField;
+pub use kind::Kind;
+pub use lane_map::{Lane, LaneMap};
+pub use lens::Lens;
+pub use light::{Environment, EnvironmentMap, Light, PhysicalSky};
+pub use material::{ColorSpace, Material, Texture};
+pub use mesh::Mesh;
+pub use polygon::{Bounds, Polygon};
+pub use projection::MapProjection;
+pub use raster::Raster;
+pub use report::{Entry, Measurement, Outcome, Report};
+pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
+pub use seed::{Random, Seed};
+pub use shot::{ExposureRule, Shot};
+pub use street_map::{
+    Building, Furniture, FurnitureKind, Land, LandKind, Road, RoadKind, RoofShape, SidewalkSides, StreetMap,
+};

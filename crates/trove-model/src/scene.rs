@@ -1,0 +1,75 @@
+//! The virtual scene: what is where, and how it is lit.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use crate::{Class, Kind, Light, Material, Mesh};
+
+/// An object's number, unique in a scene over all its keyframes and views; 0 is no object (stuff).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct InstanceId(pub u32);
+
+/// Everything that a picture of one moment needs.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Shapes, shared by instances (and by the scenes of other moments).
+    pub meshes: Vec<Arc<Mesh>>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// What stands where.
+    pub instances: Vec<Instance>,
+    /// Sky.
+    pub light: Light,
+    /// Where it came from.
+    pub provenance: Vec<Provenance>,
+}
+
+/// A mesh somewhere in World.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Number in the labels; 0 for stuff.
+    pub id: InstanceId,
+    /// What its pixels are.
+    pub class: Class,
+    /// Index into [`Scene::meshes`].
+    pub mesh: usize,
+    /// Index into [`Scene::materials`] for each slot of the mesh.
+    pub materials: Vec<usize>,
+    /// Placement, with scale.
+    pub world_from_mesh: DAffine3,
+    /// The same at the previous keyframe: the same matrix for what stands still, `None` where it was not there.
+    pub world_from_mesh_previous: Option<DAffine3>,
+    /// The same at the next keyframe.
+    pub world_from_mesh_next: Option<DAffine3>,
+    /// What it is, for the frame's table; `None` for stuff.
+    pub object: Option<Arc<SceneObject>>,
+}
+
+/// A countable thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneObject {
+    /// What it is.
+    pub kind: Kind,
+    /// The dataset's token of its track; empty for scenery.
+    pub track_token: String,
+    /// The dataset's token of the annotation at this moment; empty for scenery.
+    pub annotation_token: String,
+    /// The dataset's category; empty for scenery.
+    pub category: String,
+    /// The asset's id; empty for what was built for this place.
+    pub asset: String,
+    /// Its box as placed: the annotated size where there is one, else the mesh's.
+    pub cuboid: crate::Cuboid,
+    /// Velocity in World; `None` where unknown.
+    pub velocity_mps: Option<DVec3>,
+}
+
+/// A source and its licence.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Provenance {
+    /// What (`nuscenes scene-0103`, `boston-seaport.osm`, `asset library procedural`).
+    pub source: String,
+    /// Under which licence.
+    pub licence: String,
+}
