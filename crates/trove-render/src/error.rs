@@ -1,0 +1,43 @@
+//! What can be wrong with a scene or with the machine.
+
+use std::path::PathBuf;
+
+/// Why a renderer could not be made or a scene could not be prepared.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The scene breaks its own rules: its builder must act.
+    #[error("scene: {place}: expected {expected}, found {found}")]
+    Scene {
+        /// Which mesh, material or instance.
+        place: String,
+        /// What should be there.
+        expected: &'static str,
+        /// What is there.
+        found: String,
+    },
+    /// A shared library that was asked for is not on this machine or is not usable: the user must act.
+    #[error("{library}: {problem}; looked in {}; install it or choose the built-in kernel", list(.looked))]
+    Library {
+        /// Which.
+        library: &'static str,
+        /// What happened.
+        problem: String,
+        /// Where it was looked for.
+        looked: Vec<PathBuf>,
+    },
+    /// The machine refused threads.
+    #[error("cannot start {threads} threads: {source}; ask for fewer")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// The machine's answer.
+        source: rayon::ThreadPoolBuildError,
+    },
+}
+
+fn list(paths: &[PathBuf]) -> String {
+    if paths.is_empty() {
+        return "the system's folders".into();
+    }
+    paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
+}

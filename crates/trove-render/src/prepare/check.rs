@@ -1,0 +1,93 @@
+//! Everything in a scene that could make rendering fail is refused here, once.
+
+use trove_model::{Environment, Scene};
+
+use crate::RenderError;
+
+/// Checks all indices and numbers.
+pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
+    for (i, mesh) in scene.meshes.iter().enumerate() {
+        if let Some(defect) = mesh.defect() {
+            return refuse(format!("mesh {i}"), "a sound mesh", defect);
+        }
+        if mesh.triangles.len() >= u32::MAX as usize || mesh.positions.len() >= u32::MAX as usize {
+            return refuse(format!("mesh {i}"), "fewer than 2³² triangles", mesh.triangles.len().to_string());
+        }
+    }
+    for (i, material) in scene.materials.iter().enumerate() {
+        let place = || format!("material {i} ({})", material.name);
+        let numbers = [
+            material.alpha_cutoff,
+            material.roughness,
+            material.metalness,
+            material.ior,
+            material.coat,
+            material.transmission,
+            material.translucency,
+        ];
+        let finite = numbers.iter().all(|n| n.is_finite())
+            && material.base_color.is_finite()
+            && material.emission.is_finite()
+            && material.uv_scale.is_finite();
+        if !finite {
+            return refuse(place(), "finite numbers", format!("{material:?}").chars().take(200).collect());
+        }
+        for texture in material.textures() {
+            let texels = texture.width as usize * texture.height as usize;
+            if texels == 0 || texture.rgba.len() != texels {
+                let found = format!("{}×{} with {} texels", texture.width, texture.height, texture.rgba.len());
+                return refuse(format!("{}, texture {}", place(), texture.name), "width × height texels", found);
+            }
+        }
+    }
+    for (i, instance) in scene.instances.iter().enumerate() {
+        let place = || format!("instance {i} (id {}, {:?})", instance.id.0, instance.class);
+        let Some(mesh) = scene.meshes.get(instance.mesh) else {
+            let found = format!("index {} of {}", instance.mesh, scene.meshes.len());
+            return refuse(place(), "an existing mesh", found);
+        };
+        if instance.materials.len() < mesh.slot_count() {
+            let found = format!("{} for {} slots", instance.materials.len(), mesh.slot_count());
+            return refuse(place(), "a material for every slot", found);
+        }
+        if let Some(m) = instance.materials.iter().find(|&&m| m >= scene.materials.len()) {
+            return refuse(place(), "existing materials", format!("index {m} of {}", scene.materials.len()));
+        }
+        let poses = [Some(instance.world_from_mesh), instance.world_from_mesh_previous, instance.world_from_mesh_next];
+        if !poses.iter().flatten().all(|pose| pose.is_finite()) {
+            return refuse(place(), "finite placements", format!("{:?}", instance.world_from_mesh));
+        }
+        let volume = instance.world_from_mesh.matrix3.determinant();
+        if volume.abs() < 1e-12 {
+            return refuse(place(), "an invertible placement", format!("determinant {volume:e}"));
+        }
+    }
+    check_light(&scene.light.environment)
+}
+
+fn check_light(environment: &Environment) -> Result<(), RenderError> {
+    match environment {
+        Environment::Sky(sky) => {
+            let numbers = [sky.turbidity, sky.ground_albedo, sky.cloud_cover];
+            if !sky.to_sun.is_finite() || sky.to_sun.length() < 1e-6 || !numbers.iter().all(|n| n.is_finite()) {
+                return refuse("sky".into(), "finite numbers and a direction to the sun", format!("{sky:?}"));
+            }
+        }
+        Environment::Map(map) => {
+            let place = || format!("environment map {}", map.name);
+            let texels = map.width as usize * map.height as usize;
+            if texels == 0 || map.rgb.len() != texels {
+                let found = format!("{}×{} with {} texels", map.width, map.height, map.rgb.len());
+                return refuse(place(), "width × height texels", found);
+            }
+            if !map.rgb.iter().flatten().all(|c| c.is_finite() && *c >= 0.0) {
+                return refuse(place(), "finite radiance", "NaN, infinity or a negative number".into());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn refuse(place: String, expected: &'static str, found: String) -> Result<(), RenderError> {
+    Err(RenderError::Scene { place, expected, found })
+}

@@ -1,0 +1,160 @@
+//! A scene made ready for rays: checked, its textures filtered, its acceleration structure built.
+
+mod cache;
+mod check;
+mod surface;
+
+use std::sync::Arc;
+
+use glam::{Affine3A, DAffine3, Mat3A, Vec3};
+use trove_model::{Class, Cuboid, InstanceId, Mesh, Scene};
+
+use crate::RenderError;
+use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
+use crate::light::Lights;
+use crate::material::PreparedMaterial;
+
+pub(crate) use cache::TextureCache;
+pub(crate) use surface::Surface;
+
+/// A scene that can be rendered: from here on nothing can fail.
+pub struct PreparedScene {
+    pub(crate) instances: Vec<PreparedInstance>,
+    pub(crate) materials: Vec<PreparedMaterial>,
+    pub(crate) lights: Lights,
+    accel: Accel,
+}
+
+/// An instance in the renderer's precision.
+pub(crate) struct PreparedInstance {
+    pub(crate) id: InstanceId,
+    pub(crate) class: Class,
+    pub(crate) mesh: Arc<Mesh>,
+    /// Index into the scene's materials for each slot.
+    pub(crate) materials: Vec<u32>,
+    pub(crate) world_from_mesh: Affine3A,
+    /// Takes normals: the inverse transpose, not normalised, turned so that outside stays outside.
+    pub(crate) world_from_normal: Mat3A,
+    /// For flow, in the model's precision.
+    pub(crate) world_from_mesh_f64: DAffine3,
+    pub(crate) world_from_mesh_previous: Option<DAffine3>,
+    pub(crate) world_from_mesh_next: Option<DAffine3>,
+    /// Box of the object; `None` for stuff.
+    pub(crate) cuboid: Option<Cuboid>,
+}
+
+impl PreparedScene {
+    pub(crate) fn new(scene: &Scene, kernel: &Kernel, textures: &TextureCache) -> Result<Self, RenderError> {
+        check::check(scene)?;
+        textures.forget_unused();
+        let materials: Vec<_> = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).collect();
+        let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
+        let placed: Vec<_> = instances
+            .iter()
+            .map(|i| Placed {
+                mesh: i.mesh.clone(),
+                world_from_mesh: i.world_from_mesh,
+                tested: i.materials.iter().any(|&m| materials[m as usize].lets_light_pass()),
+            })
+            .collect();
+        let accel = kernel.build(&placed);
+        Ok(Self { instances, materials, lights: Lights::new(scene), accel })
+    }
+
+    /// The nearest surface; cut-out holes are not there.
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.accel.intersect(ray, &mut |hit| self.is_there(hit))
+    }
+
+    /// The same as if the instance `carrier` were not there.
+    pub(crate) fn intersect_past(&self, ray: &Ray, carrier: Option<InstanceId>) -> Option<Hit> {
+        let mut ray = *ray;
+        loop {
+            let hit = self.intersect(&ray)?;
+            if carrier.is_none_or(|id| id.0 == 0 || self.instances[hit.instance as usize].id != id) {
+                return Some(hit);
+            }
+            ray.t_min = hit.t * (1.0 + 1e-6) + 1e-6;
+        }
+    }
+
+    /// The nearest surface of one instance, as if nothing else were there.
+    pub(crate) fn intersect_instance(&self, ray: &Ray, instance: u32) -> Option<Hit> {
+        self.accel.intersect_instance(ray, instance, &mut |hit| self.is_there(hit))
+    }
+
+    /// The share of light that passes along a ray: 0 behind anything opaque, tinted behind thin glass.
+    pub(crate) fn transmittance(&self, ray: &Ray) -> Vec3 {
+        let mut passed: Vec<(u32, u32)> = Vec::new();
+        let mut share = Vec3::ONE;
+        let blocked = self.accel.occluded(ray, &mut |hit| {
+            let through = self.material_of(hit).pass(|| Surface::new(self, hit, ray));
+            if through == Vec3::ZERO {
+                return true;
+            }
+            // A kernel may report the same pane twice.
+            if through != Vec3::ONE && !passed.contains(&(hit.instance, hit.triangle)) {
+                passed.push((hit.instance, hit.triangle));
+                share *= through;
+            }
+            false
+        });
+        if blocked { Vec3::ZERO } else { share }
+    }
+
+    /// Material at a hit.
+    pub(crate) fn material_of(&self, hit: &Hit) -> &PreparedMaterial {
+        let instance = &self.instances[hit.instance as usize];
+        let slot = instance.mesh.slot(hit.triangle as usize);
+        &self.materials[instance.materials[usize::from(slot)] as usize]
+    }
+
+    /// Point of a hit in the coordinates of its mesh.
+    pub(crate) fn point_mesh(&self, hit: &Hit) -> Vec3 {
+        let mesh = &self.instances[hit.instance as usize].mesh;
+        let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|i| mesh.positions[i as usize]);
+        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
+    }
+
+    /// Unit normal of the triangle in World, on the side from which its corners run counter-clockwise.
+    pub(crate) fn geometric_normal(&self, hit: &Hit) -> Vec3 {
+        let instance = &self.instances[hit.instance as usize];
+        let [a, b, c] = instance.mesh.triangles[hit.triangle as usize].map(|i| instance.mesh.positions[i as usize]);
+        let normal_mesh = (b - a).cross(c - a);
+        (instance.world_from_normal * glam::Vec3A::from(normal_mesh)).normalize_or(glam::Vec3A::Z).into()
+    }
+
+    fn is_there(&self, hit: &Hit) -> bool {
+        let material = self.material_of(hit);
+        !material.has_cutout() || material.covers(surface::uv(&self.instances[hit.instance as usize].mesh, hit))
+    }
+}
+
+impl PreparedInstance {
+    fn new(scene: &Scene, instance: &trove_model::Instance) -> Self {
+        let m = instance.world_from_mesh;
+        let world_from_mesh = Affine3A::from_cols(
+            m.matrix3.x_axis.as_vec3a(),
+            m.matrix3.y_axis.as_vec3a(),
+            m.matrix3.z_axis.as_vec3a(),
+            m.translation.as_vec3a(),
+        );
+        let cofactor = m.matrix3.inverse().transpose() * m.matrix3.determinant().signum();
+        Self {
+            id: instance.id,
+            class: instance.class,
+            mesh: scene.meshes[instance.mesh].clone(),
+            materials: instance.materials.iter().map(|&m| m as u32).collect(),
+            world_from_mesh,
+            world_from_normal: Mat3A::from_cols(
+                cofactor.x_axis.as_vec3a(),
+                cofactor.y_axis.as_vec3a(),
+                cofactor.z_axis.as_vec3a(),
+            ),
+            world_from_mesh_f64: m,
+            world_from_mesh_previous: instance.world_from_mesh_previous,
+            world_from_mesh_next: instance.world_from_mesh_next,
+            cuboid: instance.object.as_ref().map(|o| o.cuboid),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The renderer: kernel, denoiser and threads, kept from one scene to the next.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use trove_model::{Capture, CaptureStats, Color, Scene, Shot};
+
+use crate::accel::{Kernel, KernelChoice};
+use crate::denoise::Denoiser;
+use crate::prepare::TextureCache;
+use crate::{PreparedScene, RenderError, film, labels, path};
+
+/// How to set a renderer up.
+#[derive(Clone, Debug, Default)]
+pub struct RendererOptions {
+    /// Which ray-tracing kernel.
+    pub kernel: KernelChoice,
+    /// Whether pictures are denoised where a denoiser is installed.
+    pub denoise: bool,
+    /// Threads; 0 is one for every core.
+    pub threads: usize,
+    /// Files, or folders with them, in which Embree and Open Image Denoise are looked for before the system's folders.
+    pub search: Vec<PathBuf>,
+}
+
+/// What a renderer works with.
+#[derive(Clone, Debug)]
+pub struct Capabilities {
+    /// Name and version of the ray-tracing kernel.
+    pub kernel: String,
+    /// Name and version of the denoiser, or why there is none.
+    pub denoiser: Result<String, String>,
+    /// Threads that it uses.
+    pub threads: usize,
+}
+
+/// Turns scenes into captures.
+pub struct Renderer {
+    kernel: Kernel,
+    denoiser: Result<Denoiser, String>,
+    textures: TextureCache,
+    pool: rayon::ThreadPool,
+}
+
+impl Renderer {
+    /// Loads the kernel and the denoiser and starts the threads.
+    pub fn new(options: &RendererOptions) -> Result<Self, RenderError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(options.threads)
+            .thread_name(|i| format!("render-{i}"))
+            .build()
+            .map_err(|source| RenderError::Threads { threads: options.threads, source })?;
+        let kernel = Kernel::new(options.kernel, &options.search)?;
+        let denoiser = if options.denoise {
+            Denoiser::load(&options.search, pool.current_num_threads()).map_err(|problem| problem.to_string())
+        } else {
+            Err("not asked for".into())
+        };
+        Ok(Self { kernel, denoiser, textures: TextureCache::default(), pool })
+    }
+
+    /// What this renderer works with.
+    pub fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            kernel: self.kernel.name(),
+            denoiser: self.denoiser.as_ref().map(Denoiser::name).map_err(Clone::clone),
+            threads: self.pool.current_num_threads(),
+        }
+    }
+
+    /// Checks a scene and makes it ready; what it shares with earlier scenes (by `Arc`) is not made again.
+    pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
+        self.pool.install(|| PreparedScene::new(scene, &self.kernel, &self.textures))
+    }
+
+    /// Takes a picture with its labels, or with `light` false the labels alone.
+    ///
+    /// `stop` is told the share of the work that is done, from any thread; once it answers true, nothing is returned.
+    pub fn render(
+        &self,
+        scene: &PreparedScene,
+        shot: &Shot,
+        light: bool,
+        stop: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Option<Capture> {
+        let stopped = AtomicBool::new(false);
+        let stop = |share: f32| {
+            if stop(share) {
+                stopped.store(true, Ordering::Relaxed);
+            }
+            stopped.load(Ordering::Relaxed)
+        };
+        self.pool.install(|| {
+            if stop(0.0) {
+                return None;
+            }
+            let labels = labels::render(scene, shot);
+            let mut stats = CaptureStats::default();
+            let color = if light {
+                let buffers = path::trace(scene, shot, &stop)?;
+                stats.rays = buffers.rays;
+                let clean = match &self.denoiser {
+                    Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal),
+                    Err(_) => None,
+                };
+                stats.denoised = clean.is_some();
+                let radiance = clean.unwrap_or(buffers.radiance);
+                let (srgb, exposure_ev) = film::develop(&radiance, &shot.exposure);
+                Some(Color { radiance, srgb, exposure_ev })
+            } else {
+                None
+            };
+            Some(Capture { color, labels, stats })
+        })
+    }
+}

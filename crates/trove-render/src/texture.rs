@@ -1,0 +1,129 @@
+//! Images on surfaces: bilinear look-up in a chain of ever smaller copies.
+
+use std::sync::LazyLock;
+
+use glam::{Vec2, Vec4};
+use trove_model::{ColorSpace, Texture};
+
+/// A texture and its smaller copies, 8 bits a channel as they came.
+pub(crate) struct MipMap {
+    levels: Vec<Level>,
+    color_space: ColorSpace,
+}
+
+struct Level {
+    width: u32,
+    height: u32,
+    texels: Vec<[u8; 4]>,
+}
+
+/// sRGB bytes to linear light.
+static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|i| {
+        let s = i as f32 / 255.0;
+        if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
+    })
+});
+
+/// Plain bytes to numbers.
+static PLAIN: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| i as f32 / 255.0));
+
+impl MipMap {
+    /// Averages 2×2 texels in linear light, down to one.
+    pub(crate) fn new(texture: &Texture) -> Self {
+        let mut levels =
+            vec![Level { width: texture.width, height: texture.height, texels: texture.rgba.clone() }];
+        while let Some(level) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
+            levels.push(level.halved(texture.color_space));
+        }
+        Self { levels, color_space: texture.color_space }
+    }
+
+    /// The colour at `uv` averaged over about `footprint` (side of the covered square in uv); alpha is the fourth.
+    pub(crate) fn sample(&self, uv: Vec2, footprint: f32) -> Vec4 {
+        let size = self.levels[0].width.max(self.levels[0].height) as f32;
+        let lod = (footprint * size).max(1.0).log2().min((self.levels.len() - 1) as f32);
+        let (fine, blend) = (lod as usize, lod.fract());
+        let table = table(self.color_space);
+        let sharp = self.levels[fine].bilinear(uv, table);
+        match self.levels.get(fine + 1) {
+            Some(coarse) if blend > 0.0 => sharp.lerp(coarse.bilinear(uv, table), blend),
+            _ => sharp,
+        }
+    }
+
+    /// Alpha at `uv` in full resolution.
+    pub(crate) fn alpha(&self, uv: Vec2) -> f32 {
+        self.levels[0].bilinear_alpha(uv)
+    }
+}
+
+fn table(color_space: ColorSpace) -> &'static [f32; 256] {
+    match color_space {
+        ColorSpace::Srgb => &LINEAR,
+        ColorSpace::Linear => &PLAIN,
+    }
+}
+
+impl Level {
+    /// The four texels around `uv` and the position between them; v runs up, rows run down.
+    fn corners(&self, uv: Vec2) -> ([[u8; 4]; 4], f32, f32) {
+        let x = (uv.x - uv.x.floor()) * self.width as f32 - 0.5;
+        let y = (1.0 - (uv.y - uv.y.floor())) * self.height as f32 - 0.5;
+        let (fx, fy) = (x - x.floor(), y - y.floor());
+        let wrap = |i: f32, n: u32| (i as i32).rem_euclid(n as i32) as usize;
+        let (x0, y0) = (wrap(x.floor(), self.width), wrap(y.floor(), self.height));
+        let (x1, y1) = ((x0 + 1) % self.width as usize, (y0 + 1) % self.height as usize);
+        let at = |x: usize, y: usize| self.texels[y * self.width as usize + x];
+        ([at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)], fx, fy)
+    }
+
+    fn bilinear(&self, uv: Vec2, table: &[f32; 256]) -> Vec4 {
+        let (corners, fx, fy) = self.corners(uv);
+        let [a, b, c, d] = corners.map(|t| decode(t, table));
+        a.lerp(b, fx).lerp(c.lerp(d, fx), fy)
+    }
+
+    fn bilinear_alpha(&self, uv: Vec2) -> f32 {
+        let (corners, fx, fy) = self.corners(uv);
+        let [a, b, c, d] = corners.map(|t| f32::from(t[3]));
+        let (top, bottom) = (a + (b - a) * fx, c + (d - c) * fx);
+        (top + (bottom - top) * fy) / 255.0
+    }
+
+    fn halved(&self, color_space: ColorSpace) -> Self {
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let table = table(color_space);
+        let at = |x: u32, y: u32| {
+            let (x, y) = (x.min(self.width - 1), y.min(self.height - 1));
+            decode(self.texels[y as usize * self.width as usize + x as usize], table)
+        };
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        for y in 0..height {
+            for x in 0..width {
+                let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| at(2 * x + dx, 2 * y + dy));
+                // Colours count by their coverage: what cannot be seen must not bleed into what can.
+                let alpha: f32 = four.iter().map(|t| t.w).sum();
+                let weight = |t: &Vec4| if alpha > 0.0 { t.w / alpha } else { 0.25 };
+                let mean: Vec4 = four.iter().map(|t| *t * weight(t)).sum();
+                texels.push(encode(mean.truncate().extend(alpha / 4.0), color_space));
+            }
+        }
+        Self { width, height, texels }
+    }
+}
+
+fn decode(t: [u8; 4], table: &[f32; 256]) -> Vec4 {
+    let [r, g, b, a] = t.map(usize::from);
+    Vec4::new(table[r], table[g], table[b], a as f32 / 255.0)
+}
+
+fn encode(value: Vec4, color_space: ColorSpace) -> [u8; 4] {
+    let byte = |c: f32| (c * 255.0).round().clamp(0.0, 255.0) as u8;
+    let color = |c: f32| match color_space {
+        ColorSpace::Linear => byte(c),
+        ColorSpace::Srgb if c <= 0.003_130_8 => byte(c * 12.92),
+        ColorSpace::Srgb => byte(1.055 * c.powf(1.0 / 2.4) - 0.055),
+    };
+    [color(value.x), color(value.y), color(value.z), byte(value.w)]
+}
