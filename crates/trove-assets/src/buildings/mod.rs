@@ -1,0 +1,8 @@
+//! Whole buildings.
+
+use trove_model::Asset;
+
+/// Every model of this family.
+pub(crate) fn assets() -> Vec<Asset> {
+    Vec::new()
+}

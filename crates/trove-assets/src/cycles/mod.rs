@@ -1,0 +1,8 @@
+//! Bicycles and motorcycles, with and without riders.
+
+use trove_model::Asset;
+
+/// Every model of this family.
+pub(crate) fn assets() -> Vec<Asset> {
+    Vec::new()
+}

@@ -1,0 +1,50 @@
+//! Shapes and their materials put together into an asset.
+
+use std::sync::Arc;
+
+use glam::{Vec3, vec3};
+use trove_model::{Asset, Class, Kind, Material, Slot};
+
+use super::Shape;
+
+/// An asset under construction.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Model {
+    shape: Shape,
+    slots: Vec<Slot>,
+}
+
+impl Model {
+    /// A slot with a material; `paints` are the base colours that it is seen in, a colour as often as it is common.
+    pub(crate) fn slot(&mut self, material: Material, paints: &[Vec3]) -> u16 {
+        self.slots.push(Slot { material, paints: paints.to_vec() });
+        self.slots.len() as u16 - 1
+    }
+
+    /// Adds a shape, all of it in one slot.
+    pub(crate) fn add(&mut self, slot: u16, shape: Shape) {
+        self.add_marked(shape.slot(slot));
+    }
+
+    /// Adds a shape that knows its slots.
+    pub(crate) fn add_marked(&mut self, shape: Shape) {
+        self.shape = std::mem::take(&mut self.shape).and(shape);
+    }
+
+    /// The asset: slots without triangles go, the origin comes to the middle of the bounds on the ground.
+    pub(crate) fn asset(self, id: &str, kind: Kind, class: Class) -> Asset {
+        let mut mesh = self.shape.into_mesh();
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let origin = vec3((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
+        mesh.positions.iter_mut().for_each(|p| *p -= origin);
+
+        let used: Vec<bool> = (0..self.slots.len()).map(|s| mesh.slots.contains(&(s as u16))).collect();
+        let number = |s: u16| used[..usize::from(s)].iter().filter(|u| **u).count() as u16;
+        mesh.slots.iter_mut().for_each(|s| *s = number(*s));
+        let slots = self.slots.into_iter().zip(&used).filter_map(|(slot, used)| used.then_some(slot)).collect();
+
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let size_m = high.as_dvec3() - low.as_dvec3();
+        Asset { id: id.into(), kind, class, size_m, mesh: Arc::new(mesh), slots, licence: crate::LICENCE.into() }
+    }
+}

@@ -1,0 +1,8 @@
+//! Cars, lorries, buses and machines.
+
+use trove_model::Asset;
+
+/// Every model of this family.
+pub(crate) fn assets() -> Vec<Asset> {
+    Vec::new()
+}
