@@ -1,0 +1,1 @@
+//! Equirectangular images (`.hdr`, `.exr`) → `EnvironmentMap`.

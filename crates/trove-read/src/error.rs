@@ -1,0 +1,49 @@
+//! What can go wrong while reading.
+
+use std::path::{Path, PathBuf};
+
+/// Why something could not be read, grouped by who must act.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The system refused; whoever runs the machine must act.
+    #[error("{path}: expected a readable file, found: {source}; check the path and its permissions", path = .path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Something is not there; whoever gave the path or the name must act.
+    #[error("{path}: expected {expected}, found {found}; {remedy}", path = .path.display())]
+    Missing {
+        /// The file or folder in which it was looked for.
+        path: PathBuf,
+        /// What was looked for.
+        expected: String,
+        /// What is there.
+        found: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// The file's content is not what it should be; whoever supplied the file must act.
+    #[error("{path}: {place}: expected {expected}, found {found}; {remedy}", path = .path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Where in it (`line 12`, `byte 4096`, `record 7`).
+        place: String,
+        /// What should stand there.
+        expected: String,
+        /// What stands there.
+        found: String,
+        /// What to do.
+        remedy: String,
+    },
+}
+
+impl ReadError {
+    /// The system refused `path`.
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+}

@@ -1,0 +1,1 @@
+//! nuScenes (v1.0) tables, LiDAR and map expansion → `Drive`.

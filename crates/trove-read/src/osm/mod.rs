@@ -1,0 +1,1 @@
+//! OpenStreetMap extracts (`.osm`, `.osm.pbf`) → `StreetMap`.
