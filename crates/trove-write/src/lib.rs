@@ -2,3 +2,16 @@
 //!
 //! What goes in: pictures, labels and the scene they show. What comes out: files that other tools open, each whole or
 //! not there. This crate must not know how any of it was made.
+
+pub mod contact_sheet;
+mod error;
+mod exr_file;
+mod files;
+mod frame;
+mod frame_table;
+pub mod gltf;
+mod png_file;
+
+pub use error::WriteError;
+pub use files::{WrittenFile, sha256_file, write_atomically};
+pub use frame::{FrameMeta, write_frame};

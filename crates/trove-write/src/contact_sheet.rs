@@ -1,0 +1,97 @@
+//! Many frames at a glance: for each its picture, its classes over the picture, its instances and its depth.
+//!
+//! The sheet is made from finished frames' files, so it is the same whatever order they were made in, by how many
+//! runs, and it can be made again at any time. One frame is in memory at once.
+
+mod letters;
+mod tiles;
+
+use std::path::{Path, PathBuf};
+
+use crate::{WriteError, png_file, write_atomically};
+use letters::draw_text;
+use tiles::Tiles;
+
+/// Width of one picture on the sheet, pixels.
+const TILE_WIDTH_PX: u32 = 320;
+/// Gap around everything, pixels.
+const GAP_PX: u32 = 6;
+/// Height of the line with a frame's name, pixels.
+const CAPTION_PX: u32 = 14;
+/// Frames at most: two seconds of reading, and a sheet of a few megabytes.
+const FRAMES: usize = 24;
+const PAPER: [u8; 3] = [24, 26, 30];
+const INK: [u8; 3] = [205, 208, 214];
+
+/// A frame to show.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Frame {
+    /// What is written over it (`scene-0103/v00/k005/ego.CAM_FRONT`); frames stand in the order of their names.
+    pub name: String,
+    /// Its finished folder.
+    pub dir: PathBuf,
+}
+
+/// Writes the sheet: all frames where they are few, else some spread evenly over the names in alphabetical order.
+pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
+    let chosen = spread(frames);
+    let mut columns = 1;
+    let mut drawn = Vec::new();
+    for frame in chosen {
+        drawn.push((frame.name.as_str(), Tiles::read(&frame.dir, TILE_WIDTH_PX)?));
+    }
+    // Few frames stand below each other, many in two columns: closer to a screen's form.
+    if drawn.len() > 4 {
+        columns = 2;
+    }
+    let cell_height = drawn.iter().map(|(_, t)| t.height).max().unwrap_or(0) + CAPTION_PX + GAP_PX;
+    let cell_width = 4 * (TILE_WIDTH_PX + 2) + GAP_PX;
+    let rows = (drawn.len() as u32).div_ceil(columns);
+    let mut sheet = Sheet::new(GAP_PX + columns * cell_width, GAP_PX + rows.max(1) * cell_height);
+    for (i, (name, tiles)) in drawn.iter().enumerate() {
+        let (column, row) = (i as u32 % columns, i as u32 / columns);
+        let (x, y) = (GAP_PX + column * cell_width, GAP_PX + row * cell_height);
+        draw_text(&mut sheet, x, y, name);
+        for (t, tile) in tiles.pictures.iter().enumerate() {
+            sheet.paste(x + t as u32 * (TILE_WIDTH_PX + 2), y + CAPTION_PX, TILE_WIDTH_PX, tile);
+        }
+    }
+    write_atomically(path, &png_file::rgb("contact_sheet.png", sheet.width, sheet.height, &sheet.pixels)?)
+}
+
+/// At most [`FRAMES`] of the frames, the first and the last among them.
+fn spread(frames: &[Frame]) -> Vec<&Frame> {
+    let mut sorted: Vec<&Frame> = frames.iter().collect();
+    sorted.sort();
+    sorted.dedup();
+    if sorted.len() <= FRAMES {
+        return sorted;
+    }
+    (0..FRAMES).map(|i| sorted[i * (sorted.len() - 1) / (FRAMES - 1)]).collect()
+}
+
+/// The picture in the making.
+struct Sheet {
+    width: u32,
+    height: u32,
+    pixels: Vec<[u8; 3]>,
+}
+
+impl Sheet {
+    fn new(width: u32, height: u32) -> Self {
+        Self { width, height, pixels: vec![PAPER; width as usize * height as usize] }
+    }
+
+    /// Sets a pixel; outside the sheet nothing happens.
+    fn set(&mut self, x: u32, y: u32, color: [u8; 3]) {
+        if x < self.width && y < self.height {
+            self.pixels[y as usize * self.width as usize + x as usize] = color;
+        }
+    }
+
+    fn paste(&mut self, x: u32, y: u32, width: u32, tile: &[[u8; 3]]) {
+        for (i, &color) in tile.iter().enumerate() {
+            self.set(x + i as u32 % width, y + i as u32 / width, color);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! One frame's small pictures, read from its folder.
+
+use std::path::Path;
+
+use image::{DynamicImage, ImageReader};
+use trove_model::{CLASSES, Class};
+
+use crate::{WriteError, exr_file};
+
+/// Depth at which the colours end, metres; they fall off with the logarithm.
+const FAR_M: f32 = 120.0;
+
+/// A frame's four pictures, all as large.
+pub(super) struct Tiles {
+    pub(super) height: u32,
+    pub(super) pictures: [Vec<[u8; 3]>; 4],
+}
+
+impl Tiles {
+    /// The picture (normals where only labels were made), classes over it, instances, depth.
+    pub(super) fn read(dir: &Path, width: u32) -> Result<Self, WriteError> {
+        let class = read_png(&dir.join("class.png"))?.into_luma8();
+        let instance = read_png(&dir.join("instance.png"))?.into_luma16();
+        let depth_m = exr_file::read_scalar(&dir.join("depth.exr"))?;
+        let (full_width, full_height) = class.dimensions();
+        for (name, found) in [("instance.png", instance.dimensions()), ("depth.exr", (depth_m.width, depth_m.height))] {
+            if found != (full_width, full_height) {
+                let found = format!("{}×{} pixels beside {full_width}×{full_height} of class.png", found.0, found.1);
+                return Err(WriteError::Damaged { path: dir.join(name), found });
+            }
+        }
+        let height = ((u64::from(full_height) * u64::from(width) / u64::from(full_width)) as u32).max(1);
+        let small = Grid { full: [full_width, full_height], small: [width, height] };
+
+        let rgb_path = dir.join("rgb.png");
+        let picture = if rgb_path.exists() {
+            let rgb = read_png(&rgb_path)?.into_rgb8();
+            if rgb.dimensions() != (full_width, full_height) {
+                let found = format!("{}×{} pixels", rgb.width(), rgb.height());
+                return Err(WriteError::Damaged { path: rgb_path, found });
+            }
+            small.averaged(|x, y| rgb.get_pixel(x, y).0)
+        } else {
+            let normal = exr_file::read_rgb(&dir.join("normal.exr"))?;
+            let within = |x: u32, y: u32| x < normal.width && y < normal.height;
+            small.averaged(|x, y| if within(x, y) { normal_color(*normal.at(x, y)) } else { [0; 3] })
+        };
+        let class_color = |x, y| {
+            let class = Class::from_id(class.get_pixel(x, y).0[0]).unwrap_or(Class::Void);
+            CLASSES[usize::from(class.id())].rgb
+        };
+        let mut classes = small.averaged(class_color);
+        for (color, seen) in classes.iter_mut().zip(&picture) {
+            // Two thirds class, one third brightness of the picture.
+            let grey = (u32::from(seen[0]) * 2 + u32::from(seen[1]) * 5 + u32::from(seen[2])) / 8;
+            *color = color.map(|c| ((u32::from(c) * 2 + grey) / 3) as u8);
+        }
+        let instances = small.averaged(|x, y| instance_color(instance.get_pixel(x, y).0[0]));
+        let depths = small.averaged(|x, y| depth_color(*depth_m.at(x, y)));
+        Ok(Self { height, pictures: [picture, classes, instances, depths] })
+    }
+}
+
+/// From an image's pixels to a tile's.
+struct Grid {
+    full: [u32; 2],
+    small: [u32; 2],
+}
+
+impl Grid {
+    /// Each tile's pixel is the mean colour of the pixels under it (of the nearest where the image is smaller).
+    fn averaged(&self, color: impl Fn(u32, u32) -> [u8; 3]) -> Vec<[u8; 3]> {
+        let range = |i: u32, axis: usize| {
+            let at = |i: u32| (u64::from(i) * u64::from(self.full[axis]) / u64::from(self.small[axis])) as u32;
+            at(i)..at(i + 1).max(at(i) + 1)
+        };
+        let mut pixels = Vec::with_capacity(self.small[0] as usize * self.small[1] as usize);
+        for y in 0..self.small[1] {
+            for x in 0..self.small[0] {
+                let (mut sum, mut count) = ([0u32; 3], 0);
+                for (px, py) in range(y, 1).flat_map(|py| range(x, 0).map(move |px| (px, py))) {
+                    let c = color(px, py);
+                    sum = [sum[0] + u32::from(c[0]), sum[1] + u32::from(c[1]), sum[2] + u32::from(c[2])];
+                    count += 1;
+                }
+                pixels.push(sum.map(|s| ((s + count / 2) / count) as u8));
+            }
+        }
+        pixels
+    }
+}
+
+/// Bright colours that differ between neighbouring ids: the hue goes round by the golden angle.
+fn instance_color(id: u16) -> [u8; 3] {
+    if id == 0 {
+        return [18, 18, 20];
+    }
+    let hue = (f32::from(id) * 0.618_034).fract() * 6.0;
+    let value = [1.0, 0.8, 0.62][usize::from(id % 3)];
+    // Three tents, a third of the circle apart.
+    [0.0, 2.0, 4.0].map(|offset: f32| {
+        let distance = ((hue - offset + 9.0) % 6.0 - 3.0).abs();
+        (255.0 * value * (0.2 + 0.8 * (2.0 - distance).clamp(0.0, 1.0))) as u8
+    })
+}
+
+/// Yellow near, violet far, black sky.
+fn depth_color(depth_m: f32) -> [u8; 3] {
+    const STOPS: [[f32; 3]; 5] =
+        [[252.0, 230.0, 100.0], [250.0, 150.0, 60.0], [200.0, 70.0, 90.0], [110.0, 30.0, 130.0], [25.0, 15.0, 60.0]];
+    if !depth_m.is_finite() {
+        return [0; 3];
+    }
+    let t = ((1.0 + depth_m.max(0.0)).ln() / (1.0 + FAR_M).ln()).clamp(0.0, 1.0) * 4.0;
+    let i = (t as usize).min(3);
+    let f = t - i as f32;
+    [0, 1, 2].map(|c| (STOPS[i][c] * (1.0 - f) + STOPS[i + 1][c] * f) as u8)
+}
+
+/// The usual colours of normals: x red, up green, towards the camera blue.
+fn normal_color(normal: [f32; 3]) -> [u8; 3] {
+    if normal == [0.0; 3] {
+        return [70, 130, 180];
+    }
+    [normal[0], -normal[1], -normal[2]].map(|n| (127.5 * (n + 1.0)).clamp(0.0, 255.0) as u8)
+}
+
+fn read_png(path: &Path) -> Result<DynamicImage, WriteError> {
+    let reader = ImageReader::open(path).map_err(WriteError::storage(path, "read the file"))?;
+    reader.decode().map_err(|e| WriteError::Damaged { path: path.to_owned(), found: e.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbouring_instances_have_colours_that_can_be_told_apart() {
+        for id in 1..2000u16 {
+            let distance = |a: [u8; 3], b: [u8; 3]| (0..3).map(|i| a[i].abs_diff(b[i]) as u32).sum::<u32>();
+            assert!(distance(instance_color(id), instance_color(id + 1)) > 120, "{id}");
+            assert!(distance(instance_color(id), [0; 3]) > 150, "{id}");
+        }
+    }
+
+    #[test]
+    fn small_pictures_are_enlarged_and_large_ones_averaged() {
+        let checker = |x: u32, y: u32| [if (x + y).is_multiple_of(2) { 0 } else { 200 }; 3];
+        assert_eq!(Grid { full: [4, 4], small: [2, 2] }.averaged(checker), vec![[100; 3]; 4]);
+        let large = Grid { full: [2, 1], small: [4, 2] }.averaged(checker);
+        assert_eq!(large, [[0; 3], [0; 3], [200; 3], [200; 3], [0; 3], [0; 3], [200; 3], [200; 3]]);
+    }
+}

@@ -1,0 +1,181 @@
+//! A scene as glTF 2.0 binary, which Blender and every viewer open.
+//!
+//! One glTF mesh a scene mesh and set of materials, one node an instance, below a root node that turns World's z-up
+//! into glTF's y-up. A node's extras hold class, id, kind, asset and track. Left out, because glTF has no word for
+//! them: the sky, and light that leaves come through (`translucency`).
+
+mod geometry;
+mod materials;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::DAffine3;
+use serde_json::{Value, json};
+use trove_model::{Instance, Scene};
+
+use crate::frame_table::kind_name;
+use crate::{WriteError, write_atomically};
+use geometry::Geometry;
+use materials::Materials;
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GlbStats {
+    /// glTF meshes: scene meshes times the sets of materials that they are seen in.
+    pub meshes: usize,
+    /// Nodes that stand for instances.
+    pub instances: usize,
+    /// Materials.
+    pub materials: usize,
+    /// Embedded pictures.
+    pub images: usize,
+    /// Triangles on the screen: a mesh counts as often as it is placed.
+    pub triangles: u64,
+    /// Length of the file.
+    pub bytes: u64,
+}
+
+/// Writes a scene into one file, whole or not at all.
+pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
+    let mut binary = Binary::default();
+    let materials = Materials::encode(scene, &mut binary)?;
+    let mut geometry = Geometry::new(scene, &mut binary);
+    // Meshes are told apart by their shape and the materials of their slots.
+    let mut mesh_of: BTreeMap<(usize, &[usize]), Option<usize>> = BTreeMap::new();
+    let mut meshes = Vec::new();
+    let mut nodes = vec![Value::Null];
+    let mut triangles = 0;
+    for instance in &scene.instances {
+        let key = (instance.mesh, instance.materials.as_slice());
+        let mesh = match mesh_of.get(&key) {
+            Some(&mesh) => mesh,
+            None => {
+                let encoded = geometry.mesh(instance)?;
+                let index = encoded.map(|mesh| {
+                    meshes.push(mesh);
+                    meshes.len() - 1
+                });
+                mesh_of.insert(key, index);
+                index
+            }
+        };
+        let Some(mesh) = mesh else { continue };
+        triangles += scene.meshes[instance.mesh].triangles.len() as u64;
+        nodes.push(node(instance, mesh)?);
+    }
+    let accessors = geometry.finish();
+    let half_turn = std::f64::consts::FRAC_1_SQRT_2;
+    nodes[0] = json!({
+        "name": "world (x east, y north, z up)",
+        "rotation": [-half_turn, 0.0, 0.0, half_turn],
+        "children": (1..nodes.len()).collect::<Vec<_>>(),
+    });
+
+    let stats = GlbStats {
+        meshes: meshes.len(),
+        instances: nodes.len() - 1,
+        materials: materials.materials.len(),
+        images: materials.images.len(),
+        triangles,
+        bytes: 0,
+    };
+    let licences: Vec<String> = scene.provenance.iter().map(|p| format!("{}: {}", p.source, p.licence)).collect();
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": concat!("TRoVE ", env!("CARGO_PKG_VERSION")), "copyright": licences.join("; ") },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": nodes,
+        "meshes": meshes,
+        "accessors": accessors,
+        "materials": materials.materials,
+        "textures": materials.textures,
+        "images": materials.images,
+        "samplers": if materials.textures.is_empty() { json!([]) } else { json!([{ "magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497 }]) },
+        "extensionsUsed": materials.extensions,
+        "bufferViews": binary.views,
+        "buffers": [{ "byteLength": binary.bytes.len() }],
+    });
+    // glTF forbids empty lists, and a buffer of nothing.
+    if let Some(fields) = root.as_object_mut() {
+        fields.retain(|_, value| value.as_array().is_none_or(|list| !list.is_empty()));
+        if binary.bytes.is_empty() {
+            fields.remove("buffers");
+        }
+    }
+    let bytes = container(&root.to_string(), &binary.bytes).ok_or_else(|| WriteError::Encoding {
+        name: file_name(path),
+        found: "over 4 GiB, the format's limit".into(),
+    })?;
+    write_atomically(path, &bytes)?;
+    Ok(GlbStats { bytes: bytes.len() as u64, ..stats })
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn node(instance: &Instance, mesh: usize) -> Result<Value, WriteError> {
+    let class = instance.class.row();
+    let mut extras = json!({ "class": class.name, "class_id": instance.class.id(), "id": instance.id.0 });
+    let mut name = class.name.to_owned();
+    if let Some(object) = &instance.object {
+        name = format!("{name} {}", instance.id.0);
+        extras["kind"] = kind_name(object.kind).into();
+        extras["asset"] = object.asset.as_str().into();
+        extras["category"] = object.category.as_str().into();
+        extras["track_token"] = object.track_token.as_str().into();
+    }
+    let placement = instance.world_from_mesh;
+    if !placement.is_finite() {
+        return Err(WriteError::Mismatch(format!("{name} placed by a number that is not finite")));
+    }
+    let mut node = json!({ "name": name, "mesh": mesh, "extras": extras });
+    if placement != DAffine3::IDENTITY {
+        node["matrix"] = json!(glam::DMat4::from(placement).to_cols_array());
+    }
+    Ok(node)
+}
+
+/// The binary part and what lies where in it.
+#[derive(Default)]
+struct Binary {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+}
+
+impl Binary {
+    /// Appends data on the next multiple of four bytes; `target` is glTF's number for vertices or indices.
+    fn add(&mut self, data: &[u8], target: Option<u32>) -> usize {
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": data.len() });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.bytes.extend_from_slice(data);
+        self.views.push(view);
+        self.views.len() - 1
+    }
+}
+
+/// Header, JSON chunk padded with spaces, binary chunk padded with zeros; `None` where the file would be too long.
+fn container(json: &str, binary: &[u8]) -> Option<Vec<u8>> {
+    let (json_len, binary_len) = (json.len().next_multiple_of(4), binary.len().next_multiple_of(4));
+    let binary_chunk = if binary.is_empty() { 0 } else { 8 + binary_len };
+    let total = u32::try_from(12 + 8 + json_len + binary_chunk).ok()?;
+    let mut bytes = Vec::with_capacity(total as usize);
+    bytes.extend(b"glTF");
+    bytes.extend(2u32.to_le_bytes());
+    bytes.extend(total.to_le_bytes());
+    bytes.extend((json_len as u32).to_le_bytes());
+    bytes.extend(b"JSON");
+    bytes.extend(json.as_bytes());
+    bytes.resize(20 + json_len, b' ');
+    if !binary.is_empty() {
+        bytes.extend((binary_len as u32).to_le_bytes());
+        bytes.extend(b"BIN\0");
+        bytes.extend(binary);
+        bytes.resize(total as usize, 0);
+    }
+    Some(bytes)
+}

@@ -1,0 +1,247 @@
+//! A frame's folder as other tools see it.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, DVec3};
+use trove_model::{
+    Capture, CaptureStats, Class, Color, Cuboid, Environment, ExposureRule, Instance, InstanceId, Kind, Labels, Lens,
+    Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+};
+use trove_write::{FrameMeta, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
+
+const W: u32 = 48;
+const H: u32 = 20;
+
+fn scene() -> Scene {
+    let object = SceneObject {
+        kind: Kind::BicycleWithRider,
+        track_token: "track".into(),
+        annotation_token: "annotation".into(),
+        category: "vehicle.bicycle".into(),
+        asset: "bicycle/city".into(),
+        cuboid: Cuboid {
+            world_from_body: Pose::from_yaw(std::f64::consts::FRAC_PI_2, DVec3::new(10.1, 0.2, 1.0)),
+            size_m: DVec3::new(1.8, 0.6, 1.7),
+        },
+        velocity_mps: Some(DVec3::new(0.1, 0.2, 0.0)),
+    };
+    let instance = Instance {
+        id: InstanceId(700),
+        class: Class::CycleRider,
+        mesh: 0,
+        materials: vec![],
+        world_from_mesh: DAffine3::IDENTITY,
+        world_from_mesh_previous: None,
+        world_from_mesh_next: None,
+        object: Some(Arc::new(object)),
+    };
+    let sky = PhysicalSky { to_sun: DVec3::Z, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.0, cloud_seed: 0 };
+    Scene {
+        meshes: vec![Arc::new(Mesh::default())],
+        materials: vec![],
+        instances: vec![instance],
+        light: Light { environment: Environment::Sky(sky) },
+        provenance: vec![],
+    }
+}
+
+fn shot() -> Shot {
+    Shot {
+        view: "ego.CAM_FRONT".into(),
+        lens: Lens { width_px: W, height_px: H, fx_px: 40.1, fy_px: 40.2, cx_px: 24.3, cy_px: 10.4 },
+        world_from_camera: Pose::from_yaw(0.3, DVec3::new(1.0, 2.0, 3.0)),
+        world_from_camera_previous: None,
+        world_from_camera_next: Some(Pose::from_yaw(0.3, DVec3::new(1.5, 2.0, 3.0))),
+        time_ns: 1_533_151_603_512_404_000,
+        spp: 4,
+        exposure: ExposureRule::Auto { compensation_ev: 0.0 },
+        seed: Seed(u64::MAX),
+        carrier: None,
+    }
+}
+
+fn capture() -> Capture {
+    let object = ObjectLabel {
+        id: InstanceId(700),
+        visible_px: 6,
+        visible_box: Some(PixelBox { min: [3, 4], max: [5, 5] }),
+        amodal_px: 8,
+        amodal_box: Some(PixelBox { min: [2, 4], max: [5, 5] }),
+        truncation: 0.1,
+        occlusion: 0.25,
+        range_m: 12.5,
+    };
+    let labels = Labels {
+        class: Raster::from_fn(W, H, |x, _| (x % 20) as u8),
+        instance: Raster::from_fn(W, H, |x, y| if x < 24 { 0 } else { 65_535 - y }),
+        depth_m: Raster::from_fn(W, H, |x, y| if y < 4 { f32::INFINITY } else { 1.0 + 0.1 * x as f32 }),
+        normal: Raster::from_fn(W, H, |_, y| if y < 4 { [0.0; 3] } else { [0.6, 0.0, -0.8] }),
+        flow_forward: Raster::from_fn(W, H, |x, y| if y < 4 { [f32::NAN; 2] } else { [x as f32, -0.5] }),
+        flow_backward: Raster::filled(W, H, [f32::NAN; 2]),
+        objects: vec![object],
+    };
+    let color = Color {
+        radiance: Raster::filled(W, H, [1.0; 3]),
+        srgb: Raster::from_fn(W, H, |x, y| [x as u8, y as u8, 200]),
+        exposure_ev: -0.7,
+    };
+    Capture { color: Some(color), labels, stats: CaptureStats { rays: 1, denoised: false } }
+}
+
+fn meta() -> FrameMeta {
+    FrameMeta {
+        scene: "scene-0103".into(),
+        dataset: "nuscenes".into(),
+        place: "boston-seaport".into(),
+        variation: 0,
+        keyframe: 5,
+        keyframe_token: "keyframe".into(),
+        keyframe_time_ns: 1_533_151_603_547_590_000,
+        source_token: "picture".into(),
+        source_image: "samples/CAM_FRONT/a.jpg".into(),
+        world_from_ego: None,
+        projection: MapProjection { origin_lat_deg: 42.3, origin_lon_deg: -71.1, anchor_m: DVec2::new(1.0, 2.0) },
+    }
+}
+
+fn write(dir: &Path, capture: &Capture) -> Result<Vec<WrittenFile>, WriteError> {
+    write_frame(dir, &scene(), &shot(), capture, &meta())
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_value_that_goes_in_comes_out_of_the_files() {
+    let root = tempfile::tempdir().unwrap();
+    let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
+    let files = write(&dir, &capture).unwrap();
+
+    assert_eq!(names(&dir).len(), 8);
+    assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
+    for file in &files {
+        assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
+        assert_eq!(file.bytes, fs::metadata(dir.join(&file.name)).unwrap().len());
+    }
+    let png = |name: &str| image::open(dir.join(name)).unwrap();
+    assert_eq!(png("rgb.png").as_rgb8().unwrap().as_raw(), capture.color.as_ref().unwrap().srgb.data.as_flattened());
+    assert_eq!(png("class.png").as_luma8().unwrap().as_raw(), &capture.labels.class.data);
+    let ids: Vec<u32> = png("instance.png").as_luma16().unwrap().iter().map(|&id| u32::from(id)).collect();
+    assert_eq!(ids, capture.labels.instance.data);
+
+    let planes = |name: &str| -> Vec<(String, Vec<u32>)> {
+        let image = exr::prelude::read_first_flat_layer_from_file(dir.join(name)).unwrap();
+        let bits = |c: &exr::prelude::AnyChannel<exr::prelude::FlatSamples>| {
+            (c.name.to_string(), c.sample_data.values_as_f32().map(f32::to_bits).collect())
+        };
+        image.layer_data.channel_data.list.iter().map(bits).collect()
+    };
+    let bits = |values: Vec<f32>| values.into_iter().map(f32::to_bits).collect::<Vec<_>>();
+    assert_eq!(planes("depth.exr"), [("Y".to_owned(), bits(capture.labels.depth_m.data.clone()))]);
+    let normal = planes("normal.exr");
+    for (name, i) in [("R", 0), ("G", 1), ("B", 2)] {
+        let plane = normal.iter().find(|(n, _)| n == name).unwrap();
+        assert_eq!(plane.1, bits(capture.labels.normal.data.iter().map(|n| n[i]).collect()));
+    }
+    let flow = planes("flow_forward.exr");
+    assert_eq!(flow.iter().find(|(n, _)| n == "R").unwrap().1[W as usize * 4 + 7], 7f32.to_bits());
+}
+
+#[test]
+fn the_table_says_where_camera_and_objects_are() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("frame");
+    write(&dir, &capture()).unwrap();
+    let text = fs::read_to_string(dir.join("frame.json")).unwrap();
+    let table: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(table["intrinsics"], serde_json::json!([[40.1, 0.0, 24.3], [0.0, 40.2, 10.4], [0.0, 0.0, 1.0]]));
+    assert_eq!(table["world_from_camera"][0][3], 1.0);
+    assert!((table["world_from_camera"][0][1].as_f64().unwrap() + 0.3f64.sin()).abs() < 1e-12);
+    assert_eq!(table["time_ns"], 1_533_151_603_512_404_000i64);
+    assert_eq!(table["seed"], u64::MAX);
+    assert_eq!(table["world_from_camera_previous"], serde_json::Value::Null);
+    let object = &table["objects"][0];
+    assert_eq!((&object["class"], &object["kind"]), (&"cycle_rider".into(), &"bicycle_with_rider".into()));
+    assert_eq!(object["visible_box"], serde_json::json!([3, 4, 5, 5]));
+    let north = object["world_from_body"][1][0].as_f64().unwrap();
+    assert!((north - 1.0).abs() < 1e-12, "the bicycle faces north");
+    assert_eq!(object["truncation"].to_string(), "0.1", "floats are as short as they can be");
+    assert_eq!(text.lines().count(), 30, "one line a field and an object:\n{text}");
+}
+
+#[test]
+fn the_same_capture_gives_the_same_bytes() {
+    let root = tempfile::tempdir().unwrap();
+    let files = |name: &str| write(&root.path().join(name), &capture()).unwrap();
+    assert_eq!(files("a"), files("b"));
+}
+
+#[test]
+fn labels_alone_leave_no_picture() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("frame");
+    let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
+    assert!(files.iter().all(|f| f.name != "rgb.png"));
+    assert_eq!(names(&dir).len(), 7);
+}
+
+#[test]
+fn an_unfinished_frame_is_replaced_and_a_finished_one_is_not() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("frame");
+    fs::create_dir_all(root.path().join(".frame.partial/left")).unwrap();
+    write(&dir, &capture()).unwrap();
+    assert!(matches!(write(&dir, &capture()), Err(WriteError::Occupied { .. })));
+    fs::remove_file(dir.join("depth.exr")).unwrap();
+    write(&dir, &capture()).unwrap();
+    fs::write(dir.join("notes.txt"), "mine").unwrap();
+    fs::remove_file(dir.join("depth.exr")).unwrap();
+    assert!(matches!(write(&dir, &capture()), Err(WriteError::Occupied { .. })), "what is not ours stays");
+}
+
+#[test]
+fn what_does_not_fit_is_an_error_and_leaves_nothing() {
+    let root = tempfile::tempdir().unwrap();
+    let refused = |change: fn(&mut Capture)| {
+        let mut capture = capture();
+        change(&mut capture);
+        let error = write(&root.path().join("frame"), &capture).unwrap_err();
+        assert_eq!(names(root.path()), Vec::<String>::new());
+        error.to_string()
+    };
+    assert!(refused(|c| c.labels.instance.data[3] = 65_536).contains("found object 65536"));
+    assert!(refused(|c| c.labels.depth_m = Raster::filled(2, 2, 1.0)).contains("depth of 2×2"));
+    assert!(refused(|c| c.labels.objects[0].id = InstanceId(3)).contains("object 3"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named_with_a_remedy() {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("file"), "").unwrap();
+    let message = write(&root.path().join("file/frame"), &capture()).unwrap_err().to_string();
+    assert!(message.contains("file/frame") && message.contains("move it away"), "{message}");
+    let message = write_atomically(&root.path().join("missing/manifest.json"), b"{}").unwrap_err().to_string();
+    assert!(message.contains("missing") && message.contains("check the path"), "{message}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_the_old_file_stays() {
+    use std::os::unix::fs::symlink;
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("manifest.json");
+    write_atomically(&path, b"old").unwrap();
+    // Whatever is written to /dev/full finds no space left.
+    symlink("/dev/full", root.path().join(".manifest.json.partial")).unwrap();
+    let message = write_atomically(&path, b"new").unwrap_err().to_string();
+    assert!(message.contains("free some space"), "{message}");
+    assert_eq!(fs::read(&path).unwrap(), b"old");
+    assert_eq!(names(root.path()), ["manifest.json"]);
+}
