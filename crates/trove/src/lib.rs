@@ -1,1 +1,22 @@
 //! The pipeline (recipe, run, resume, manifest) and the command line: the only crate that knows more than one stage.
+//!
+//! What goes in: arguments and a recipe. What comes out: folders of pictures with labels, and an exit status.
+
+mod build;
+mod cache;
+mod cli;
+mod demo;
+mod doctor;
+mod inspect;
+mod interrupt;
+mod libraries;
+mod place;
+mod progress;
+pub mod recipe;
+pub mod run;
+mod sources;
+
+pub use cli::main;
+
+/// Name of the built-in asset library in recipes.
+pub const PROCEDURAL: &str = "procedural";

@@ -1,0 +1,223 @@
+//! The command line.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::Result;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde_json::json;
+use trove_render::KernelChoice;
+
+use crate::progress::duration;
+use crate::recipe::{Dataset, Recipe};
+use crate::run::{RunOptions, Summary, generate};
+use crate::{build, demo, doctor, inspect, interrupt, libraries};
+
+/// Turns recordings of real roads into photorealistic virtual scenes with perfect labels.
+#[derive(Parser)]
+#[command(name = "trove", version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs the whole pipeline on a made-up drive: six annotated cameras and a contact sheet.
+    #[command(after_help = "Example:\n  trove demo --out demo-out")]
+    Demo {
+        /// Folder to write to; an earlier demo in it is finished, not redone.
+        #[arg(long, default_value = "demo-out")]
+        out: PathBuf,
+        #[command(flatten)]
+        machine: Machine,
+        /// Prints a summary as JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Says what this machine has: ray kernel, denoiser, threads, memory, GPU; what is missing and how to get it.
+    #[command(after_help = "Example:\n  trove doctor --json")]
+    Doctor {
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Lists the drives in a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
+    #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes")]
+    Inspect {
+        /// The dataset's root folder.
+        root: PathBuf,
+        /// Which dataset it is.
+        #[arg(long, value_enum)]
+        dataset: Option<Dataset>,
+        /// nuScenes' version folder, where there are several.
+        #[arg(long)]
+        version: Option<String>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Builds the virtual scene alone, as glTF 2.0 binary, with a report.
+    #[command(after_help = "Example:\n  trove build recipe.toml --out scene.glb --keyframe 10")]
+    Build {
+        /// The recipe.
+        recipe: PathBuf,
+        /// The .glb file to write.
+        #[arg(long)]
+        out: PathBuf,
+        /// The keyframe whose objects are placed; without it the recipe's first.
+        #[arg(long)]
+        keyframe: Option<usize>,
+        /// Prints the report as JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Does everything; running it again on the same folder finishes what is missing and redoes nothing.
+    #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
+    Generate {
+        /// The recipe.
+        recipe: PathBuf,
+        /// Folder to write to.
+        #[arg(long)]
+        out: PathBuf,
+        #[command(flatten)]
+        machine: Machine,
+        /// Prints a summary as JSON.
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// What to use of this machine.
+#[derive(Args)]
+struct Machine {
+    /// Threads, in place of the recipe's; 0 is all.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Ray kernel; obvhs is built in and gives the same bytes on every machine.
+    #[arg(long, value_enum, default_value = "auto")]
+    kernel: Kernel,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Kernel {
+    Auto,
+    Embree,
+    Obvhs,
+}
+
+impl Machine {
+    fn options(&self, site_packages: &[PathBuf]) -> RunOptions {
+        let kernel = match self.kernel {
+            Kernel::Auto => KernelChoice::Auto,
+            Kernel::Embree => KernelChoice::Embree,
+            Kernel::Obvhs => KernelChoice::Obvhs,
+        };
+        RunOptions { kernel, search: libraries::search(site_packages) }
+    }
+}
+
+/// Runs a command line, `args[0]` being the program's name, and returns the exit status: 0 done, 1 failed, 2 wrong
+/// usage. `site_packages` are the folders in which the calling Python keeps its packages.
+pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf]) -> i32 {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print(); // nothing is left to tell it to
+            return error.exit_code();
+        }
+    };
+    // A second call in one process (from Python) keeps the first one's subscriber.
+    let _ = tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).without_time().try_init();
+    match run(cli.command, site_packages) {
+        Ok(status) => status,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            1
+        }
+    }
+}
+
+fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
+    match command {
+        Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
+        Command::Inspect { root, dataset, version, json } => inspect::run(&root, dataset, version, json).map(|()| 0),
+        Command::Build { recipe, out, keyframe, json } => {
+            build::run(&Recipe::read(&recipe)?, &out, keyframe, json).map(|()| 0)
+        }
+        Command::Demo { out, machine, json } => {
+            let recipe = demo::recipe(&out)?;
+            produce(recipe, &out, &machine, site_packages, json)
+        }
+        Command::Generate { recipe, out, machine, json } => {
+            produce(Recipe::read(&recipe)?, &out, &machine, site_packages, json)
+        }
+    }
+}
+
+fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, site_packages: &[PathBuf], json: bool) -> Result<i32> {
+    interrupt::listen();
+    if let Some(threads) = machine.threads {
+        recipe.render.threads = threads;
+    }
+    let started = Instant::now();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(recipe.render.threads).build()?;
+    let summary = pool.install(|| generate(&recipe, out, &machine.options(site_packages)))?;
+    print(&summary, out, started.elapsed().as_secs_f64(), json)?;
+    Ok(i32::from(summary.interrupted))
+}
+
+fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<()> {
+    if as_json {
+        let printed = json!({
+            "out": out,
+            "frames": summary.frames,
+            "rendered": summary.rendered,
+            "interrupted": summary.interrupted,
+            "seconds": seconds,
+        });
+        println!("{}", serde_json::to_string_pretty(&printed)?);
+    } else if summary.interrupted {
+        eprintln!(
+            "interrupted after {} frames of {}; the same command goes on from here",
+            summary.rendered, summary.frames
+        );
+    } else {
+        let rate = if summary.rendered > 0 {
+            format!(", {} a frame", duration(seconds / summary.rendered as f64))
+        } else {
+            String::new()
+        };
+        println!("{} frames, {} of them new, in {}{rate}", summary.frames, summary.rendered, duration(seconds));
+        println!("see {}", out.join("contact_sheet.png").display());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_command_has_help_with_an_example() {
+        let mut cli = Cli::command();
+        cli.build();
+        for command in cli.get_subcommands().filter(|command| command.get_name() != "help") {
+            let example = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(example.contains(&format!("trove {}", command.get_name())), "{}", command.get_name());
+        }
+    }
+
+    #[test]
+    fn wrong_usage_is_2_failure_is_1_and_help_is_0() {
+        for (args, status) in [
+            (vec!["trove", "--help"], 0),
+            (vec!["trove", "generate"], 2),
+            (vec!["trove", "generate", "no-such-recipe.toml", "--out", "no-such-folder"], 1),
+        ] {
+            assert_eq!(main(args.iter().map(OsString::from), &[]), status, "{args:?}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! `trove doctor`: what this machine has.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use serde_json::json;
+use trove_render::{KernelChoice, Renderer, RendererOptions};
+
+/// Prints what is there, what is missing and how to get it.
+pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
+    let options = RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search };
+    let found = Renderer::new(&options)?.capabilities();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let memory_gib = memory_gib();
+    let gpus = gpus();
+    if as_json {
+        let report = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "kernel": found.kernel,
+            "denoiser": found.denoiser.as_ref().ok(),
+            "denoiser_missing": found.denoiser.as_ref().err(),
+            "threads": threads,
+            "memory_gib": memory_gib,
+            "gpus": gpus,
+            "cache": crate::cache::folder(),
+        });
+        println!("{}", serde_json::to_string_pretty(&report)?);
+        return Ok(());
+    }
+    println!("trove       {}", env!("CARGO_PKG_VERSION"));
+    println!("ray kernel  {}", found.kernel);
+    if found.kernel.starts_with("obvhs") {
+        println!("            Embree is two to five times faster: pip install embreex, or set TROVE_EMBREE to its library");
+    }
+    match &found.denoiser {
+        Ok(denoiser) => println!("denoiser    {denoiser}"),
+        Err(why) => {
+            println!("denoiser    missing: {why}");
+            println!("            pip install pyoidn, or set TROVE_OIDN to its library; until then pictures keep their noise");
+        }
+    }
+    println!("threads     {threads}");
+    println!("memory      {}", memory_gib.map_or("unknown".into(), |gib| format!("{gib:.1} GiB")));
+    println!("GPU         {}", if gpus.is_empty() { "none (none is needed)".into() } else { gpus.join(", ") });
+    match crate::cache::folder() {
+        Some(cache) => println!("cache       {}", cache.display()),
+        None => println!("cache       none: set TROVE_CACHE to a folder, or each run scans large datasets anew"),
+    }
+    Ok(())
+}
+
+/// All memory of the machine, where Linux tells.
+fn memory_gib() -> Option<f64> {
+    let info = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = info.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let kib: f64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(kib / 1024.0 / 1024.0)
+}
+
+/// Models of NVIDIA cards, where their driver tells. They are not used yet.
+fn gpus() -> Vec<String> {
+    let Ok(cards) = std::fs::read_dir("/proc/driver/nvidia/gpus") else { return Vec::new() };
+    let mut models: Vec<String> = cards
+        .flatten()
+        .filter_map(|card| std::fs::read_to_string(card.path().join("information")).ok())
+        .filter_map(|text| text.lines().find_map(|line| line.strip_prefix("Model:").map(|m| m.trim().to_owned())))
+        .collect();
+    models.sort();
+    models
+}

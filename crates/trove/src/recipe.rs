@@ -1,0 +1,386 @@
+//! What a user asks for: the TOML recipe.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use serde::{Deserialize, Serialize};
+
+/// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recipe {
+    /// The only source of randomness.
+    #[serde(default)]
+    pub seed: u64,
+    /// A recorded drive …
+    pub drive: Option<DriveSection>,
+    /// … or a place without one.
+    pub place: Option<PlaceSection>,
+    /// The street map.
+    #[serde(default)]
+    pub map: MapSection,
+    /// Models.
+    #[serde(default)]
+    pub assets: AssetsSection,
+    /// Cameras.
+    #[serde(default)]
+    pub views: ViewsSection,
+    /// Sky.
+    #[serde(default)]
+    pub light: LightSection,
+    /// Pictures.
+    #[serde(default)]
+    pub render: RenderSection,
+    /// How many scenes a keyframe becomes.
+    #[serde(default)]
+    pub variations: VariationsSection,
+    /// The recipe's own folder, where its relative paths start; empty is the working directory.
+    #[serde(skip)]
+    pub folder: PathBuf,
+}
+
+/// `[drive]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct DriveSection {
+    /// Which reader.
+    pub dataset: Dataset,
+    /// The dataset's root folder.
+    pub root: PathBuf,
+    /// nuScenes' version folder; without it the only one there is.
+    pub version: Option<String>,
+    /// Names of scenes; without it all.
+    pub scenes: Option<Vec<String>>,
+    /// Which moments.
+    #[serde(default)]
+    pub keyframes: Keyframes,
+}
+
+/// A dataset that has a reader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Dataset {
+    /// nuScenes.
+    Nuscenes,
+}
+
+/// Which keyframes of a drive.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum Keyframes {
+    /// `"all"`
+    #[default]
+    #[serde(with = "all")]
+    All,
+    /// `[0, 10]`: these, by their number from 0.
+    Listed(Vec<usize>),
+    /// `{ every = 5 }`: 0, 5, 10, …
+    Every(EveryNth),
+}
+
+/// `{ every = N }`
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct EveryNth {
+    /// Distance of one keyframe to the next.
+    pub every: usize,
+}
+
+/// `[place]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceSection {
+    /// Latitude of the middle.
+    pub lat_deg: f64,
+    /// Longitude of the middle.
+    pub lon_deg: f64,
+    /// Side of the square.
+    #[serde(default = "default_place_size_m")]
+    pub size_m: f64,
+}
+
+/// `[map]`
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapSection {
+    /// OpenStreetMap extract, `.osm` or `.osm.pbf`.
+    pub osm: Option<PathBuf>,
+}
+
+/// `[assets]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AssetsSection {
+    /// Libraries that are searched together.
+    pub libraries: Vec<String>,
+    /// Draw among the k best fits; 1 is the best.
+    pub top_k: usize,
+}
+
+/// `[views]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ViewsSection {
+    /// Which of the vehicle's cameras.
+    pub rig: Rig,
+    /// How many other vehicles carry the rig too.
+    pub other_vehicles: usize,
+}
+
+/// Cameras of the rig.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum Rig {
+    /// `"all"`
+    #[serde(with = "all")]
+    All,
+    /// One camera's name.
+    One(String),
+    /// Names of cameras.
+    Named(Vec<String>),
+}
+
+/// `[light]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LightSection {
+    /// `capture-time`, `random`, or the path of an `.hdr` or `.exr` file.
+    pub environment: String,
+}
+
+/// `[render]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RenderSection {
+    /// Of the dataset's own resolution.
+    pub scale: f64,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Whether noise is removed.
+    pub denoise: bool,
+    /// False: labels only.
+    pub light: bool,
+    /// 0: all. It is not kept in the manifest, for it changes nothing.
+    #[serde(skip_serializing)]
+    pub threads: usize,
+}
+
+/// `[variations]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VariationsSection {
+    /// Scenes per keyframe.
+    pub count: u32,
+}
+
+impl Default for AssetsSection {
+    fn default() -> Self {
+        Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3 }
+    }
+}
+
+impl Default for ViewsSection {
+    fn default() -> Self {
+        Self { rig: Rig::All, other_vehicles: 0 }
+    }
+}
+
+impl Default for LightSection {
+    fn default() -> Self {
+        Self { environment: "capture-time".into() }
+    }
+}
+
+impl Default for RenderSection {
+    fn default() -> Self {
+        Self { scale: 1.0, spp: 64, denoise: true, light: true, threads: 0 }
+    }
+}
+
+impl Default for VariationsSection {
+    fn default() -> Self {
+        Self { count: 1 }
+    }
+}
+
+fn default_place_size_m() -> f64 {
+    400.0
+}
+
+/// The word `"all"` in place of a list.
+mod all {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str("all")
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        let word = String::deserialize(deserializer)?;
+        if word == "all" { Ok(()) } else { Err(D::Error::custom("expected \"all\"")) }
+    }
+}
+
+impl Recipe {
+    /// Reads a recipe file; relative paths in it start from its folder.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path)
+            .with_context(|| format!("{}: expected a recipe (TOML) that can be read", path.display()))?;
+        let mut recipe = Self::parse(&text).with_context(|| path.display().to_string())?;
+        recipe.folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Ok(recipe)
+    }
+
+    /// Reads a recipe's text and checks its values.
+    pub fn parse(text: &str) -> Result<Self> {
+        let recipe: Self = toml::from_str(text).map_err(|error| explain(&error))?;
+        recipe.check()?;
+        Ok(recipe)
+    }
+
+    /// A path of the recipe as this process reaches it.
+    pub fn at(&self, path: &Path) -> PathBuf {
+        self.folder.join(path)
+    }
+
+    fn check(&self) -> Result<()> {
+        match (&self.drive, &self.place) {
+            (None, None) => bail!("expected a [drive] or a [place] section, found neither; add one of them"),
+            (Some(_), Some(_)) => bail!("expected [drive] or [place], found both; remove one of them"),
+            (None, Some(place)) => {
+                check("place.lat_deg", place.lat_deg, (-85.0..=85.0).contains(&place.lat_deg), "-85 to 85")?;
+                check("place.lon_deg", place.lon_deg, (-180.0..=180.0).contains(&place.lon_deg), "-180 to 180")?;
+                check("place.size_m", place.size_m, (50.0..=5000.0).contains(&place.size_m), "50 to 5000")?;
+                ensure!(self.map.osm.is_some(), "map.osm: a [place] has no map of its own; name an OpenStreetMap extract");
+            }
+            (Some(drive), None) => {
+                if let Keyframes::Every(EveryNth { every }) = drive.keyframes {
+                    check("drive.keyframes.every", every, every > 0, "1 or more")?;
+                }
+                if let Keyframes::Listed(listed) = &drive.keyframes {
+                    ensure!(!listed.is_empty(), "drive.keyframes: expected at least one keyframe, found none");
+                }
+                let names_none = drive.scenes.as_ref().is_some_and(Vec::is_empty);
+                ensure!(!names_none, "drive.scenes: expected at least one scene, found none; leave it out for all");
+            }
+        }
+        let (render, assets) = (&self.render, &self.assets);
+        check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
+        check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
+        check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
+        let count = self.variations.count;
+        check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
+        ensure!(!assets.libraries.is_empty(), "assets.libraries: expected at least one, found none");
+        for library in &assets.libraries {
+            ensure!(
+                library == crate::PROCEDURAL,
+                "assets.libraries: \"{library}\" is not known; expected \"{}\"",
+                crate::PROCEDURAL
+            );
+        }
+        Ok(())
+    }
+
+    /// The picture of a sky that is asked for; `None` for a computed one.
+    pub fn environment_file(&self) -> Option<PathBuf> {
+        match self.light.environment.as_str() {
+            "capture-time" | "random" => None,
+            file => Some(self.at(Path::new(file))),
+        }
+    }
+
+    /// The cameras that are asked for; `None` for all.
+    pub fn camera_names(&self) -> Option<Vec<String>> {
+        match &self.views.rig {
+            Rig::All => None,
+            Rig::One(name) => Some(vec![name.clone()]),
+            Rig::Named(names) => Some(names.clone()),
+        }
+    }
+}
+
+impl Keyframes {
+    /// The keyframes' numbers out of `count`, ascending; an error for one that is not there.
+    pub fn of(&self, count: usize) -> Result<Vec<usize>> {
+        match self {
+            Self::All => Ok((0..count).collect()),
+            Self::Every(EveryNth { every }) => Ok((0..count).step_by(*every).collect()),
+            Self::Listed(listed) => {
+                if let Some(missing) = listed.iter().find(|&&k| k >= count) {
+                    bail!("drive.keyframes: expected numbers from 0 to {}, found {missing}", count.saturating_sub(1));
+                }
+                let mut listed = listed.clone();
+                listed.sort_unstable();
+                listed.dedup();
+                Ok(listed)
+            }
+        }
+    }
+}
+
+fn check(key: &str, value: impl Display, holds: bool, expected: &str) -> Result<()> {
+    ensure!(holds, "{key}: expected {expected}, found {value}");
+    Ok(())
+}
+
+/// The parser's error (which shows the place) and, for a key that is not known, the nearest one that is.
+fn explain(error: &toml::de::Error) -> anyhow::Error {
+    let names: Vec<&str> = error.message().split('`').skip(1).step_by(2).collect();
+    let hint = match names.split_first() {
+        Some((unknown, known)) if error.message().starts_with("unknown field") => {
+            let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
+            nearest.map(|name| format!("did you mean `{name}`?")).unwrap_or_default()
+        }
+        _ => String::new(),
+    };
+    anyhow!("{error}{hint}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DRIVE: &str = "[drive]\ndataset = \"nuscenes\"\nroot = \"data\"\n";
+
+    fn error(text: &str) -> String {
+        format!("{:#}", Recipe::parse(text).unwrap_err())
+    }
+
+    #[test]
+    fn everything_but_the_drive_has_a_default() {
+        let recipe = Recipe::parse(DRIVE).unwrap();
+        assert_eq!((recipe.render.spp, recipe.assets.top_k, recipe.variations.count), (64, 3, 1));
+        assert_eq!(recipe.drive.unwrap().keyframes, Keyframes::All);
+        assert_eq!(recipe.views.rig, Rig::All);
+    }
+
+    #[test]
+    fn keyframes_come_in_three_forms() {
+        for (text, expect) in [("\"all\"", vec![0, 1, 2, 3]), ("[2, 0, 2]", vec![0, 2]), ("{ every = 3 }", vec![0, 3])] {
+            let recipe = Recipe::parse(&format!("{DRIVE}keyframes = {text}\n")).unwrap();
+            assert_eq!(recipe.drive.unwrap().keyframes.of(4).unwrap(), expect, "{text}");
+        }
+        assert!(Keyframes::Listed(vec![4]).of(4).is_err());
+    }
+
+    #[test]
+    fn an_unknown_key_names_the_nearest_known_one_and_its_line() {
+        let message = error(&format!("{DRIVE}[render]\nssp = 3\n"));
+        assert!(message.contains("did you mean `spp`?") && message.contains("line 5"), "{message}");
+    }
+
+    #[test]
+    fn a_value_out_of_range_says_what_was_expected() {
+        for (text, expect) in [
+            ("[render]\nscale = 0\n", "render.scale: expected more than 0"),
+            ("[render]\nspp = 0\n", "render.spp: expected 1 to 65536, found 0"),
+            ("[variations]\ncount = 0\n", "variations.count"),
+            ("[assets]\nlibraries = [\"mine\"]\n", "\"mine\" is not known"),
+        ] {
+            let message = error(&format!("{DRIVE}{text}"));
+            assert!(message.contains(expect), "{message}");
+        }
+        assert!(error("seed = 1").contains("neither"));
+    }
+}

@@ -1,0 +1,336 @@
+//! `trove generate`: from a recipe to a folder of labelled pictures, and on from where an earlier run ended.
+
+mod manifest;
+mod output;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use serde_json::{Value, json};
+use trove_build::{BuildSettings, LightChoice, Site, ViewSettings};
+use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
+use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_write::contact_sheet::ContactSheet;
+use trove_write::{FrameMeta, WrittenFile, write_frame};
+
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::recipe::Recipe;
+use crate::sources::Sources;
+pub(crate) use manifest::report_json;
+use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
+use output::OutputFolder;
+pub(crate) use output::{PRIVATE, refuse_foreign};
+
+/// Cameras of a rig before the first drive has been read.
+const CAMERAS_HINT: usize = 6;
+
+/// How to run, beside the recipe; none of it changes the labels.
+pub struct RunOptions {
+    /// Ray kernel.
+    pub kernel: KernelChoice,
+    /// Files and folders to look for Embree and Open Image Denoise in.
+    pub search: Vec<PathBuf>,
+}
+
+/// What a run did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// Frames that the recipe asks for, as far as they are known.
+    pub frames: usize,
+    /// Frames rendered by this run.
+    pub rendered: usize,
+    /// Whether it was asked to end before all were done.
+    pub interrupted: bool,
+}
+
+/// Runs a recipe; what `out` already holds of it is kept.
+pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Summary> {
+    let renderer = Renderer::new(&RendererOptions {
+        kernel: options.kernel,
+        denoise: recipe.render.denoise && recipe.render.light,
+        threads: recipe.render.threads,
+        search: options.search.clone(),
+    })?;
+    let identity = identity(recipe, &renderer)?;
+    let report = Report::default();
+    if let (true, Err(why)) = (recipe.render.denoise && recipe.render.light, renderer.capabilities().denoiser) {
+        tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
+        report.note(Outcome::Warned, "pictures keep their noise: no denoiser", why);
+    }
+    let sources = Sources::open(recipe, &report)?;
+    let scenes = sources.scenes()?;
+    let output = OutputFolder::open(out, &identity)?;
+    let frames_hint = frames_hint(recipe, &scenes);
+    let mut run = Run {
+        recipe,
+        renderer,
+        sources,
+        library: trove_assets::library(),
+        output,
+        sheet: ContactSheet::new(),
+        progress: Progress::new(frames_hint),
+        report,
+        rows: Vec::new(),
+        sites: Vec::new(),
+        rendered: 0,
+    };
+    for (scene, _) in &scenes {
+        if let Err(stop) = run.scene(scene) {
+            run.progress.finish();
+            return match stop {
+                Stop::Interrupted => {
+                    let frames = frames_hint.max(run.rows.len());
+                    Ok(Summary { frames, rendered: run.rendered, interrupted: true })
+                }
+                Stop::Failed(error) => Err(error),
+            };
+        }
+    }
+    run.finish(&identity)
+}
+
+/// Everything that decides the output's bytes: a folder holds the frames of one identity.
+fn identity(recipe: &Recipe, renderer: &Renderer) -> Result<Value> {
+    let found = renderer.capabilities();
+    Ok(json!({
+        "recipe": serde_json::to_value(recipe)?,
+        "versions": {
+            "trove": env!("CARGO_PKG_VERSION"),
+            "kernel": found.kernel,
+            "denoiser": found.denoiser.ok(),
+        },
+    }))
+}
+
+fn frames_hint(recipe: &Recipe, scenes: &[(String, usize)]) -> usize {
+    let cameras = recipe.camera_names().map_or(CAMERAS_HINT, |names| names.len());
+    let views = cameras * (1 + recipe.views.other_vehicles);
+    let chosen = |&(_, count): &(String, usize)| match &recipe.drive {
+        Some(drive) => drive.keyframes.of(count).map_or(0, |keyframes| keyframes.len()),
+        None => count,
+    };
+    scenes.iter().map(chosen).sum::<usize>() * views * recipe.variations.count as usize
+}
+
+/// Why a run ends early.
+enum Stop {
+    Interrupted,
+    Failed(anyhow::Error),
+}
+
+impl<E: Into<anyhow::Error>> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// A run under way.
+struct Run<'a> {
+    recipe: &'a Recipe,
+    renderer: Renderer,
+    sources: Sources<'a>,
+    library: AssetLibrary,
+    output: OutputFolder,
+    sheet: ContactSheet,
+    progress: Progress,
+    report: Report,
+    rows: Vec<Value>,
+    sites: Vec<SiteSummary>,
+    rendered: usize,
+}
+
+/// A scene of one variation, ready to be photographed.
+struct Built {
+    drive: Drive,
+    site: Site,
+    /// Shots of each chosen keyframe.
+    shots: Vec<(usize, Vec<Shot>)>,
+}
+
+impl Run<'_> {
+    /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
+    fn scene(&mut self, scene: &str) -> Result<(), Stop> {
+        for variation in 0..self.recipe.variations.count {
+            let folder = self.output.root().join(scene).join(format!("v{variation:02}"));
+            let known = SiteFile::read(&folder);
+            let missing = match &known {
+                Some(site) => self.missing(scene, variation, site)?,
+                None => true,
+            };
+            let (file, built) = match (known, missing) {
+                (Some(file), false) => (file, None),
+                _ => {
+                    self.progress.say(&format!("building {scene} v{variation:02}"));
+                    match self.build(scene, variation) {
+                        Ok((file, built)) => {
+                            file.write(&folder)?;
+                            (file, Some(built))
+                        }
+                        Err(error) => {
+                            self.progress.say(&format!("{scene} is passed over: {error:#}"));
+                            self.report.note(Outcome::Dropped, "scene", format!("{scene}: {error:#}"));
+                            continue;
+                        }
+                    }
+                }
+            };
+            self.frames(scene, variation, &file, built.as_ref())?;
+            self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
+        }
+        Ok(())
+    }
+
+    /// Whether a frame of a built scene is not finished.
+    fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile) -> Result<bool> {
+        for (keyframe, view) in &site.frames {
+            let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
+            if self.finished(&key)?.is_none() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
+        let names: &[&str] = if self.recipe.render.light { &trove_write::FILES } else { &trove_write::LABEL_FILES };
+        self.output.finished(&key.path(), names)
+    }
+
+    fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
+        let report = Report::default();
+        let (drive, map) = self.sources.drive(scene, &report)?;
+        let settings = self.settings(scene, variation);
+        let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
+        let views = ViewSettings {
+            rig: self.recipe.camera_names(),
+            other_vehicles: self.recipe.views.other_vehicles,
+            scale: self.recipe.render.scale,
+            spp: self.recipe.render.spp,
+        };
+        let keyframes = match &self.recipe.drive {
+            Some(section) => section.keyframes.of(drive.keyframes.len())?,
+            None => (0..drive.keyframes.len()).collect(),
+        };
+        let seed = settings.seed.child("views");
+        let shots: Vec<(usize, Vec<Shot>)> = keyframes
+            .into_iter()
+            .map(|k| (k, trove_build::shots(&drive, &site, k, &views, seed, &report)))
+            .collect();
+        ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
+        let file = SiteFile {
+            drive: drive_row(&drive),
+            sources: site.provenance().iter().map(Into::into).collect(),
+            report: report_json(&report),
+            frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
+        };
+        Ok((file, Built { drive, site, shots }))
+    }
+
+    fn settings(&self, scene: &str, variation: u32) -> BuildSettings {
+        let light = match (&self.sources.environment, self.recipe.light.environment.as_str()) {
+            (Some(map), _) => LightChoice::Map(map.clone()),
+            // The recording's own light is one; further variations are to differ in it.
+            (None, "capture-time") if variation == 0 => LightChoice::CaptureTime,
+            (None, _) => LightChoice::Random,
+        };
+        let seed = Seed(self.recipe.seed).child(scene).nth(u64::from(variation));
+        BuildSettings { seed, top_k: self.recipe.assets.top_k, light }
+    }
+
+    /// Renders what is missing of a scene and collects the rows of all its frames.
+    fn frames(&mut self, scene: &str, variation: u32, file: &SiteFile, built: Option<&Built>) -> Result<(), Stop> {
+        let mut photographed: Option<(usize, Scene, trove_render::PreparedScene)> = None;
+        for (keyframe, view) in &file.frames {
+            let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
+            let files = match (self.finished(&key)?, built) {
+                (Some(files), _) => files,
+                (None, Some(built)) => {
+                    let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
+                    if photographed.as_ref().is_none_or(|(k, ..)| k != keyframe) {
+                        let scene = built.site.scene(&built.drive, *keyframe);
+                        let prepared = self.renderer.prepare(&scene)?;
+                        photographed = Some((*keyframe, scene, prepared));
+                    }
+                    let (_, scene, prepared) = photographed.as_ref().context("the scene was prepared above")?;
+                    self.frame(&key, &built.drive, scene, prepared, shot)?
+                }
+                (None, None) => return Err(anyhow::anyhow!("{}: vanished during the run", key.path()).into()),
+            };
+            self.progress.frame_done();
+            self.rows.push(frame_row(&key.path(), &key, &files));
+        }
+        Ok(())
+    }
+
+    /// Renders and writes one frame.
+    fn frame(
+        &mut self,
+        key: &FrameKey,
+        drive: &Drive,
+        scene: &Scene,
+        prepared: &trove_render::PreparedScene,
+        shot: &Shot,
+    ) -> Result<Vec<WrittenFile>, Stop> {
+        self.progress.say(&key.path());
+        let within = |share: f32| {
+            self.progress.within(share);
+            interrupt::requested()
+        };
+        let capture = self.renderer.render(prepared, shot, self.recipe.render.light, &within);
+        let Some(capture) = capture else { return Err(Stop::Interrupted) };
+        let moment = &drive.keyframes[key.keyframe];
+        let exposure = moment.exposures.iter().find(|e| shot.view == format!("ego.{}", drive.rig[e.camera].name));
+        let meta = FrameMeta {
+            scene: key.scene.clone(),
+            dataset: drive.dataset.clone(),
+            place: drive.place.clone(),
+            variation: key.variation,
+            keyframe: key.keyframe as u32,
+            keyframe_token: moment.token.clone(),
+            keyframe_time_ns: moment.time_ns,
+            source_token: exposure.map(|e| e.token.clone()).unwrap_or_default(),
+            source_image: exposure.map(|e| e.file.clone()).unwrap_or_default(),
+            world_from_ego: exposure.map(|e| e.world_from_ego),
+            projection: drive.projection,
+        };
+        let path = key.path();
+        let folder = self.output.root().join(&path);
+        let files = write_frame(&folder, scene, shot, &capture, &meta)?;
+        self.output.record(&path, &files)?;
+        self.rendered += 1;
+        if interrupt::requested() {
+            return Err(Stop::Interrupted);
+        }
+        Ok(files)
+    }
+
+    /// Writes what sums the run up.
+    fn finish(mut self, identity: &Value) -> Result<Summary> {
+        self.progress.finish();
+        ensure!(!self.rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
+        let root = self.output.root().to_owned();
+        for row in &self.rows {
+            let path = row["path"].as_str().unwrap_or_default();
+            self.sheet.add(path, &root.join(path))?;
+        }
+        self.sheet.write(&root.join("contact_sheet.png"))?;
+        write_report(&root.join("report.json"), &self.report, &self.sites)?;
+        let frames = self.rows.len();
+        write_manifest(&root.join("manifest.json"), identity, &self.sites, std::mem::take(&mut self.rows))?;
+        Ok(Summary { frames, rendered: self.rendered, interrupted: false })
+    }
+
+    fn dropped_scenes(&self) -> String {
+        let entries = self.report.entries();
+        let examples = entries.iter().filter(|e| e.outcome == Outcome::Dropped).flat_map(|e| e.examples.clone());
+        examples.collect::<Vec<_>>().join("; ")
+    }
+}
+
+impl Built {
+    fn shot(&self, keyframe: usize, view: &str) -> Option<&Shot> {
+        let (_, shots) = self.shots.iter().find(|(k, _)| *k == keyframe)?;
+        shots.iter().find(|shot| shot.view == view)
+    }
+}

@@ -1,0 +1,111 @@
+//! What a recipe builds on: its drives, and the street map around each.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::{Context, Result, bail, ensure};
+use trove_model::{Drive, EnvironmentMap, Outcome, Report, StreetMap};
+use trove_read::nuscenes::NuScenes;
+use trove_read::{environment, osm};
+
+use crate::recipe::{Dataset, DriveSection, Recipe};
+use crate::{cache, place};
+
+/// Opened sources of a recipe.
+pub(crate) struct Sources<'a> {
+    recipe: &'a Recipe,
+    dataset: Option<NuScenes>,
+    /// The picture of the sky, where one is asked for.
+    pub(crate) environment: Option<Arc<EnvironmentMap>>,
+}
+
+impl<'a> Sources<'a> {
+    /// Opens the dataset and reads the sky; `report` takes what is wrong with the dataset as a whole.
+    pub(crate) fn open(recipe: &'a Recipe, report: &Report) -> Result<Self> {
+        let dataset = match &recipe.drive {
+            Some(section) => Some(open_dataset(section, &recipe.at(&section.root), report)?),
+            None => None,
+        };
+        let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?.map(Arc::new);
+        Ok(Self { recipe, dataset, environment })
+    }
+
+    /// Names of the scenes that the recipe asks for, with the number of their keyframes as far as it is known.
+    pub(crate) fn scenes(&self) -> Result<Vec<(String, usize)>> {
+        let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else {
+            return Ok(vec![(place::NAME.to_owned(), place::KEYFRAMES_HINT)]);
+        };
+        let known = dataset.scenes();
+        let Some(names) = &section.scenes else {
+            ensure!(!known.is_empty(), "{}: expected at least one scene, found none", section.root.display());
+            return Ok(known.into_iter().map(|scene| (scene.name, scene.keyframes)).collect());
+        };
+        let mut chosen = Vec::new();
+        for name in names {
+            match known.iter().find(|scene| &scene.name == name) {
+                Some(scene) => chosen.push((scene.name.clone(), scene.keyframes)),
+                None => {
+                    let nearest = known.iter().min_by_key(|s| strsim::damerau_levenshtein(&s.name, name));
+                    let hint = nearest.map(|s| format!("; did you mean \"{}\"?", s.name)).unwrap_or_default();
+                    bail!("drive.scenes: {} has no scene \"{name}\"{hint}", section.root.display());
+                }
+            }
+        }
+        chosen.sort();
+        chosen.dedup();
+        Ok(chosen)
+    }
+
+    /// One scene's drive and the map around it.
+    pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
+        let Some(dataset) = &self.dataset else { return place::drive(self.recipe, report) };
+        let drive = dataset.drive(scene, report)?;
+        let Some(path) = &self.recipe.map.osm else {
+            report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
+            return Ok((drive, None));
+        };
+        let map = read_map(&self.recipe.at(path), &drive, report)?;
+        Ok((drive, Some(map)))
+    }
+}
+
+/// Opens a dataset; without a version the only one that is there.
+pub(crate) fn open_dataset(section: &DriveSection, root: &Path, report: &Report) -> Result<NuScenes> {
+    let Dataset::Nuscenes = section.dataset;
+    let version = match &section.version {
+        Some(version) => version.clone(),
+        None => match NuScenes::versions(root).as_slice() {
+            [only] => only.clone(),
+            [] => bail!(
+                "{}: expected a nuScenes root with a folder v1.0-* of tables, found none; check drive.root",
+                root.display()
+            ),
+            several => bail!("{}: expected one version, found {several:?}; name one in drive.version", root.display()),
+        },
+    };
+    let cache = cache::folder();
+    Ok(NuScenes::open(root, &version, cache.as_deref(), report)?)
+}
+
+/// The part of an extract that lies around a drive; an extract of another place is an error.
+fn read_map(path: &Path, drive: &Drive, report: &Report) -> Result<StreetMap> {
+    let area = trove_build::area(drive).context("the drive is empty")?;
+    let extent = osm::extent(path)?;
+    let corners = [area.min, area.max].map(|corner| drive.projection.geo_from_world(corner));
+    ensure!(
+        extent.overlaps(corners[0], corners[1]),
+        "{}: expected a map of {} (latitude {:.4} to {:.4}, longitude {:.4} to {:.4}), found one of latitude {:.4} to \
+         {:.4}, longitude {:.4} to {:.4}; name the extract of that place in map.osm",
+        path.display(),
+        if drive.place.is_empty() { &drive.id } else { &drive.place },
+        corners[0].0,
+        corners[1].0,
+        corners[0].1,
+        corners[1].1,
+        extent.min_lat_deg,
+        extent.max_lat_deg,
+        extent.min_lon_deg,
+        extent.max_lon_deg,
+    );
+    Ok(osm::read(path, &drive.projection, area, report)?)
+}

@@ -1,0 +1,102 @@
+"""Opens everything that `trove generate` wrote with other people's loaders and checks it against the contract.
+
+As a program: `check_output.py DIR`; it prints what it looked at and fails on the first thing that is wrong.
+"""
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+from PIL import Image
+
+LABELS = [
+    "class.png",
+    "instance.png",
+    "depth.exr",
+    "normal.exr",
+    "flow_forward.exr",
+    "flow_backward.exr",
+    "frame.json",
+]
+SKY, CLASSES = 1, 20
+
+
+def exr(path):
+    """The channels of an EXR file as a float32 array, height × width (× channels where there are several)."""
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        channels = {name: channel.pixels for name, channel in file.channels().items()}
+    order = [name for name in ("R", "G", "B", "Y") if name in channels]
+    assert len(order) == len(channels), f"{path}: unexpected channels {sorted(channels)}"
+    planes = [channels[name] for name in order]
+    assert all(plane.dtype == np.float32 for plane in planes), f"{path}: expected 32-bit float"
+    return planes[0] if len(planes) == 1 else np.stack(planes, axis=-1)
+
+
+def pixel_box(mask):
+    """[x0, y0, x1, y1] of the true pixels, both ends included; None where there are none."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return [int(columns[0]), int(rows[0]), int(columns[-1]), int(rows[-1])] if len(rows) else None
+
+
+def check_frame(folder, hashes):
+    """Checks one frame's files, their hashes and what they say of each other; returns frame.json."""
+    assert sorted(hashes) == sorted(p.name for p in folder.iterdir()), f"{folder}: files that the manifest lacks"
+    assert set(LABELS) <= set(hashes), f"{folder}: {sorted(set(LABELS) - set(hashes))} missing"
+    for name, expected in hashes.items():
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == expected, f"{folder / name}: hash differs"
+
+    frame = json.loads((folder / "frame.json").read_text())
+    shape = (frame["height_px"], frame["width_px"])
+    classes = np.asarray(Image.open(folder / "class.png"))
+    instances = np.asarray(Image.open(folder / "instance.png"))
+    assert classes.shape == shape and classes.dtype == np.uint8 and classes.max() < CLASSES
+    assert instances.shape == shape and instances.dtype in (np.uint16, np.int32)
+    if "rgb.png" in hashes:
+        rgb = np.asarray(Image.open(folder / "rgb.png"))
+        assert rgb.shape == (*shape, 3) and rgb.dtype == np.uint8 and rgb.std() > 5, f"{folder}: a flat picture"
+
+    depth, normal = exr(folder / "depth.exr"), exr(folder / "normal.exr")
+    sky = classes == SKY
+    assert depth.shape == shape and np.array_equal(np.isinf(depth), sky) and (depth > 0).all()
+    assert normal.shape == (*shape, 3) and (normal[sky] == 0).all()
+    assert np.abs(np.linalg.norm(normal[~sky], axis=-1) - 1).max(initial=0) < 1e-5, f"{folder}: normals are not unit"
+    for name in ("flow_forward.exr", "flow_backward.exr"):
+        flow = exr(folder / name)
+        assert flow.shape == (*shape, 2)
+        assert np.array_equal(np.isnan(flow[..., 0]), np.isnan(flow[..., 1]))
+
+    rows = {row["id"]: row for row in frame["objects"]}
+    assert len(rows) == len(frame["objects"]), f"{folder}: an id twice"
+    assert set(np.unique(instances)) - {0} <= set(rows), f"{folder}: pixels of an object without a row"
+    for number, row in rows.items():
+        mask = instances == number
+        assert mask.sum() == row["visible_px"] <= row["amodal_px"], f"{folder}: object {number}"
+        assert pixel_box(mask) == row["visible_box"], f"{folder}: object {number}"
+        assert (classes[mask] == row["class_id"]).all(), f"{folder}: object {number}"
+        assert 0 <= row["truncation"] <= 1 and 0 <= row["occlusion"] <= 1
+    return frame
+
+
+def check(root):
+    """Checks a whole output folder and returns the frames' tables by their path."""
+    root = Path(root)
+    manifest = json.loads((root / "manifest.json").read_text())
+    json.loads((root / "report.json").read_text())
+    assert Image.open(root / "contact_sheet.png").size[0] > 0
+    assert [row["id"] for row in manifest["classes"]] == list(range(CLASSES))
+    assert manifest["frames"] and manifest["licences"] and manifest["drives"]
+    frames = {row["path"]: check_frame(root / row["path"], row["files"]) for row in manifest["frames"]}
+    identities = {}
+    for path, frame in frames.items():
+        scene = "/".join(path.split("/")[:2])
+        for row in frame["objects"]:
+            known = identities.setdefault((scene, row["id"]), (row["track_token"], row["asset"]))
+            assert known == (row["track_token"], row["asset"]), f"{path}: id {row['id']} names another object elsewhere"
+    return frames
+
+
+if __name__ == "__main__":
+    print(f"{len(check(sys.argv[1]))} frames are as they should be")

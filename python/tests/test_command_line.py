@@ -1,0 +1,174 @@
+"""The installed program, as a user meets it."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import check_output
+import pytest
+
+
+def trove(*args, **more):
+    """Runs the program and returns what it did."""
+    command = [sys.executable, "-m", "trove", *map(str, args)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, **more)
+
+
+@pytest.fixture(scope="session")
+def recipe(tmp_path_factory):
+    """A quick recipe on the demo's drive: two keyframes, three cameras, another vehicle."""
+    folder = tmp_path_factory.mktemp("recipe")
+    # The demo writes its drive before it renders; it is ended as soon as that is there.
+    demo = subprocess.Popen([sys.executable, "-m", "trove", "demo", "--out", folder / "demo"])
+    source = folder / "demo" / ".trove" / "demo"
+    deadline = time.monotonic() + 60
+    while not (source / "recipe.toml").exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    demo.kill()
+    demo.wait()
+    text = f"""
+seed = 3
+[drive]
+dataset = "nuscenes"
+root = "{source / "nuscenes"}"
+keyframes = [1, 2]
+[map]
+osm = "{source / "crossing.osm"}"
+[views]
+rig = ["CAM_FRONT", "CAM_BACK"]
+other_vehicles = 1
+[render]
+scale = 0.1
+spp = 4
+"""
+    path = folder / "recipe.toml"
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture(scope="session")
+def finished(recipe):
+    """What the recipe gives in one uninterrupted run on one thread."""
+    out = recipe.parent / "finished"
+    done = trove("generate", recipe, "--out", out, "--threads", 1)
+    assert done.returncode == 0, done.stderr
+    return out
+
+
+def files(root):
+    """The public files of an output folder with their bytes."""
+    paths = (path for path in root.rglob("*") if path.is_file() and ".trove" not in path.parts)
+    return {str(path.relative_to(root)): path.read_bytes() for path in paths}
+
+
+def test_every_file_of_the_contract_opens_and_agrees_with_the_others(finished):
+    frames = check_output.check(finished)
+    views = {path.rsplit("/", 1)[1] for path in frames}
+    assert {"ego.CAM_FRONT", "ego.CAM_BACK"} <= views
+    assert any(view.startswith("v1.") for view in views)
+
+
+def test_two_threads_give_the_same_bytes_as_one(recipe, finished, tmp_path):
+    done = trove("generate", recipe, "--out", tmp_path / "out", "--threads", 2)
+    assert done.returncode == 0, done.stderr
+    assert files(tmp_path / "out") == files(finished)
+
+
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
+def test_a_run_that_is_ended_and_started_again_gives_the_same_bytes(recipe, finished, tmp_path, end):
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "trove", "generate", str(recipe), "--out", str(out)]
+    run = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    while not any(out.glob("*/v00/*/*/frame.json")) and run.poll() is None:
+        time.sleep(0.02)
+    time.sleep(random.uniform(0, 1))
+    os.kill(run.pid, end)
+    assert run.wait(timeout=60) != 0 or (out / "manifest.json").exists()
+    kept = {path: path.stat().st_mtime_ns for path in out.glob("*/v00/*/*/frame.json")}
+    again = trove("generate", recipe, "--out", out)
+    assert again.returncode == 0, again.stderr
+    assert files(out) == files(finished)
+    assert all(path.stat().st_mtime_ns == time_ns for path, time_ns in kept.items()), "a finished frame was redone"
+
+
+def test_a_second_run_redoes_nothing(recipe, finished):
+    before = {name: (finished / name).stat().st_mtime_ns for name in files(finished) if name.count("/") > 1}
+    done = trove("generate", recipe, "--out", finished, "--json")
+    assert json.loads(done.stdout)["rendered"] == 0
+    assert before == {name: (finished / name).stat().st_mtime_ns for name in before}
+
+
+def test_labels_alone_cost_no_light(recipe, finished, tmp_path):
+    labels = tmp_path / "labels.toml"
+    labels.write_text(recipe.read_text() + "light = false\n")
+    done = trove("generate", labels, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    frames = check_output.check(tmp_path / "out")
+    for path in frames:
+        assert not (tmp_path / "out" / path / "rgb.png").exists()
+        for name in ("class.png", "depth.exr", "flow_forward.exr"):
+            assert (tmp_path / "out" / path / name).read_bytes() == (finished / path / name).read_bytes()
+
+
+def test_a_place_without_a_drive_is_photographed_from_its_streets(recipe, tmp_path):
+    source = recipe.parent / "demo" / ".trove" / "demo"
+    place = tmp_path / "place.toml"
+    place.write_text(
+        f'[place]\nlat_deg = 47.37449\nlon_deg = 8.54664\nsize_m = 300\n[map]\nosm = "{source / "crossing.osm"}"\n'
+        '[views]\nrig = "CAM_FRONT"\n[render]\nscale = 0.05\nspp = 1\n'
+    )
+    done = trove("generate", place, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert len(check_output.check(tmp_path / "out")) > 3
+
+
+def test_the_virtual_scene_is_a_binary_gltf(recipe, tmp_path):
+    done = trove("build", recipe, "--out", tmp_path / "scene.glb", "--json")
+    assert done.returncode == 0, done.stderr
+    report = json.loads(done.stdout)
+    data = (tmp_path / "scene.glb").read_bytes()
+    assert data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data) == report["bytes"]
+    assert "map.path_to_road_median_m" in report["report"]["measurements"]
+
+
+def test_doctor_and_inspect_speak_json(recipe):
+    doctor = json.loads(trove("doctor", "--json").stdout)
+    assert doctor["kernel"] and doctor["threads"] >= 1
+    root = recipe.parent / "demo" / ".trove" / "demo" / "nuscenes"
+    drives = json.loads(trove("inspect", root, "--json").stdout)["drives"]
+    assert drives[0]["scene"] == "demo-0001" and drives[0]["boxes"]["car"] > 10
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (('"CAM_FRONT"', '"CAM_FORNT"'), "CAM_FRONT"),
+        (("spp = 4", "ssp = 4"), "did you mean `spp`?"),
+        (("crossing.osm", "nowhere.osm"), "nowhere.osm"),
+        (("keyframes = [1, 2]", "keyframes = [99]"), "99"),
+        (("keyframes = [1, 2]", 'scenes = ["demo-0002"]'), "demo-0001"),
+    ],
+)
+def test_wrong_input_is_named_with_a_remedy(recipe, tmp_path, change, expected):
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(recipe.read_text().replace(*change))
+    done = trove("generate", wrong, "--out", tmp_path / "out")
+    assert done.returncode == 1
+    assert expected in done.stderr and "panicked" not in done.stderr, done.stderr
+
+
+def test_an_unwritable_folder_and_another_recipe_are_refused(recipe, finished, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    done = trove("generate", recipe, "--out", blocked / "out")
+    assert done.returncode == 1 and str(blocked) in done.stderr
+    other = tmp_path / "other.toml"
+    other.write_text(recipe.read_text().replace("seed = 3", "seed = 4"))
+    done = trove("generate", other, "--out", finished)
+    assert done.returncode == 1 and "choose another --out" in done.stderr
+    assert Path(finished / "manifest.json").exists()

@@ -1,0 +1,67 @@
+//! The rules of the house (see ARCHITECTURE.md), held by the tree itself.
+
+#![allow(clippy::unwrap_used)] // all of this is tests
+use std::path::{Path, PathBuf};
+
+const STAGES: [&str; 5] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write"];
+/// A file longer than this does more than one thing.
+const LONGEST_FILE: usize = 800;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Names under `[dependencies]` of a crate's Cargo.toml.
+fn dependencies(name: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).unwrap();
+    let manifest: toml::Table = text.parse().unwrap();
+    manifest.get("dependencies").and_then(|d| d.as_table()).map(|d| d.keys().cloned().collect()).unwrap_or_default()
+}
+
+fn sources(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            sources(&path, ending, found);
+        } else if path.extension().is_some_and(|e| e == ending) {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn stages_know_the_model_and_not_each_other() {
+    for stage in STAGES {
+        let ours: Vec<String> = dependencies(stage).into_iter().filter(|d| d.starts_with("trove")).collect();
+        assert_eq!(ours, ["trove-model"], "{stage}");
+    }
+    assert_eq!(dependencies("trove-py").into_iter().filter(|d| d.starts_with("trove")).collect::<Vec<_>>(), ["trove"]);
+}
+
+#[test]
+fn the_model_knows_glam_and_nothing_else() {
+    assert_eq!(dependencies("trove-model"), ["glam"]);
+}
+
+#[test]
+fn no_file_is_longer_than_it_should_be() {
+    let mut files = Vec::new();
+    sources(&root().join("crates"), "rs", &mut files);
+    sources(&root().join("python"), "py", &mut files);
+    assert!(files.len() > 50);
+    for file in files {
+        let lines = std::fs::read_to_string(&file).unwrap().lines().count();
+        assert!(lines <= LONGEST_FILE, "{}: {lines} lines", file.display());
+    }
+}
+
+#[test]
+fn no_module_is_a_drawer_for_everything() {
+    let mut files = Vec::new();
+    sources(&root().join("crates"), "rs", &mut files);
+    for file in files {
+        let stem = file.file_stem().unwrap().to_string_lossy().into_owned();
+        let drawer = ["util", "utils", "common", "helper", "helpers", "manager", "misc"].contains(&stem.as_str());
+        assert!(!drawer, "{}", file.display());
+    }
+}
