@@ -48,6 +48,11 @@ const FILES: [&str; 8] = [
     "frame.json",
 ];
 
+/// Names of the files in a finished frame's folder; without a picture there is no `rgb.png`.
+pub fn frame_files(colored: bool) -> &'static [&'static str] {
+    if colored { &FILES } else { &FILES[1..] }
+}
+
 /// Writes a frame's folder whole: under a hidden name beside it first, then renamed, so that `dir` is never there in
 /// part. What an interrupted run left under the hidden name, and a `dir` without all its files, is replaced; a finished
 /// frame is not.
@@ -113,16 +118,15 @@ fn clear_unfinished(dir: &Path, colored: bool) -> Result<(), WriteError> {
         Err(e) => return Err(WriteError::storage(dir, "look into the folder")(e)),
     };
     let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
-    let mut present = [false; FILES.len()];
+    let mut present = Vec::new();
     for entry in entries {
         let name = entry.map_err(WriteError::storage(dir, "look into the folder"))?.file_name();
-        match FILES.iter().position(|f| name == *f) {
-            Some(i) => present[i] = true,
+        match FILES.iter().find(|file| name == **file) {
+            Some(file) => present.push(file),
             None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
         }
     }
-    let finished = |i: usize| present[i] || (FILES[i] == "rgb.png" && !colored);
-    if (0..FILES.len()).all(finished) {
+    if frame_files(colored).iter().all(|file| present.contains(&file)) {
         return occupied("one".into());
     }
     fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))

@@ -30,13 +30,17 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     println!("trove       {}", env!("CARGO_PKG_VERSION"));
     println!("ray kernel  {}", found.kernel);
     if found.kernel.starts_with("obvhs") {
-        println!("            Embree is two to five times faster: pip install embreex, or set TROVE_EMBREE to its library");
+        println!(
+            "            Embree is two to five times faster: pip install embreex, or set TROVE_EMBREE to its library"
+        );
     }
     match &found.denoiser {
         Ok(denoiser) => println!("denoiser    {denoiser}"),
         Err(why) => {
             println!("denoiser    missing: {why}");
-            println!("            pip install pyoidn, or set TROVE_OIDN to its library; until then pictures keep their noise");
+            println!(
+                "            pip install pyoidn, or set TROVE_OIDN to its library; until then pictures keep their noise"
+            );
         }
     }
     println!("threads     {threads}");

@@ -74,17 +74,16 @@ fn describe(drive: &Drive) -> serde_json::Value {
 fn print(drive: &Drive) {
     let (lat_deg, lon_deg) = drive.projection.geo_from_world(glam::DVec2::ZERO);
     println!("{} ({}, {lat_deg:.5}, {lon_deg:.5})", drive.id, drive.place);
-    println!(
-        "  {} keyframes over {:.1} s and {:.0} m",
-        drive.keyframes.len(),
-        duration_s(drive),
-        path_m(drive)
-    );
+    println!("  {} keyframes over {:.1} s and {:.0} m", drive.keyframes.len(), duration_s(drive), path_m(drive));
     let cameras: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
     println!("  cameras: {}", cameras.join(", "));
     let boxes: Vec<String> = boxes_by_class(drive).iter().map(|(class, n)| format!("{class} {n}")).collect();
     println!("  {} tracks; boxes: {}", drive.tracks.len(), boxes.join(", "));
-    println!("  LiDAR at {} keyframes; own map: {}", lidar_keyframes(drive), if drive.lane_map.is_some() { "yes" } else { "no" });
+    println!(
+        "  LiDAR at {} keyframes; own map: {}",
+        lidar_keyframes(drive),
+        if drive.lane_map.is_some() { "yes" } else { "no" }
+    );
 }
 
 fn lidar_keyframes(drive: &Drive) -> usize {

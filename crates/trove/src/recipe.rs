@@ -252,7 +252,10 @@ impl Recipe {
                 check("place.lat_deg", place.lat_deg, (-85.0..=85.0).contains(&place.lat_deg), "-85 to 85")?;
                 check("place.lon_deg", place.lon_deg, (-180.0..=180.0).contains(&place.lon_deg), "-180 to 180")?;
                 check("place.size_m", place.size_m, (50.0..=5000.0).contains(&place.size_m), "50 to 5000")?;
-                ensure!(self.map.osm.is_some(), "map.osm: a [place] has no map of its own; name an OpenStreetMap extract");
+                ensure!(
+                    self.map.osm.is_some(),
+                    "map.osm: a [place] has no map of its own; name an OpenStreetMap extract"
+                );
             }
             (Some(drive), None) => {
                 if let Keyframes::Every(EveryNth { every }) = drive.keyframes {
@@ -357,7 +360,8 @@ mod tests {
 
     #[test]
     fn keyframes_come_in_three_forms() {
-        for (text, expect) in [("\"all\"", vec![0, 1, 2, 3]), ("[2, 0, 2]", vec![0, 2]), ("{ every = 3 }", vec![0, 3])] {
+        for (text, expect) in [("\"all\"", vec![0, 1, 2, 3]), ("[2, 0, 2]", vec![0, 2]), ("{ every = 3 }", vec![0, 3])]
+        {
             let recipe = Recipe::parse(&format!("{DRIVE}keyframes = {text}\n")).unwrap();
             assert_eq!(recipe.drive.unwrap().keyframes.of(4).unwrap(), expect, "{text}");
         }

@@ -114,9 +114,7 @@ fn samples() -> Value {
 }
 
 fn sensors() -> Value {
-    let row = |camera: &(&str, [f64; 3], f64, f64, i64)| {
-        json!({ "token": token_of("sensor", camera.0), "channel": camera.0, "modality": "camera" })
-    };
+    let row = |camera: &(&str, [f64; 3], f64, f64, i64)| json!({ "token": token_of("sensor", camera.0), "channel": camera.0, "modality": "camera" });
     CAMERAS.iter().map(row).collect()
 }
 

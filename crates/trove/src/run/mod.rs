@@ -10,8 +10,7 @@ use serde_json::{Value, json};
 use trove_build::{BuildSettings, LightChoice, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
-use trove_write::contact_sheet::ContactSheet;
-use trove_write::{FrameMeta, WrittenFile, write_frame};
+use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
 
 use crate::interrupt;
 use crate::progress::Progress;
@@ -68,7 +67,6 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         sources,
         library: trove_assets::library(),
         output,
-        sheet: ContactSheet::new(),
         progress: Progress::new(frames_hint),
         report,
         rows: Vec::new(),
@@ -132,7 +130,6 @@ struct Run<'a> {
     sources: Sources<'a>,
     library: AssetLibrary,
     output: OutputFolder,
-    sheet: ContactSheet,
     progress: Progress,
     report: Report,
     rows: Vec<Value>,
@@ -193,8 +190,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        let names: &[&str] = if self.recipe.render.light { &trove_write::FILES } else { &trove_write::LABEL_FILES };
-        self.output.finished(&key.path(), names)
+        self.output.finished(&key.path(), frame_files(self.recipe.render.light))
     }
 
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
@@ -213,10 +209,8 @@ impl Run<'_> {
             None => (0..drive.keyframes.len()).collect(),
         };
         let seed = settings.seed.child("views");
-        let shots: Vec<(usize, Vec<Shot>)> = keyframes
-            .into_iter()
-            .map(|k| (k, trove_build::shots(&drive, &site, k, &views, seed, &report)))
-            .collect();
+        let shots: Vec<(usize, Vec<Shot>)> =
+            keyframes.into_iter().map(|k| (k, trove_build::shots(&drive, &site, k, &views, seed, &report))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
             drive: drive_row(&drive),
@@ -306,18 +300,20 @@ impl Run<'_> {
     }
 
     /// Writes what sums the run up.
-    fn finish(mut self, identity: &Value) -> Result<Summary> {
+    fn finish(self, identity: &Value) -> Result<Summary> {
         self.progress.finish();
         ensure!(!self.rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
         let root = self.output.root().to_owned();
-        for row in &self.rows {
-            let path = row["path"].as_str().unwrap_or_default();
-            self.sheet.add(path, &root.join(path))?;
-        }
-        self.sheet.write(&root.join("contact_sheet.png"))?;
+        let sheet: Vec<contact_sheet::Frame> = self
+            .rows
+            .iter()
+            .filter_map(|row| row["path"].as_str())
+            .map(|path| contact_sheet::Frame { name: path.to_owned(), dir: root.join(path) })
+            .collect();
+        contact_sheet::write(&root.join("contact_sheet.png"), &sheet)?;
         write_report(&root.join("report.json"), &self.report, &self.sites)?;
         let frames = self.rows.len();
-        write_manifest(&root.join("manifest.json"), identity, &self.sites, std::mem::take(&mut self.rows))?;
+        write_manifest(&root.join("manifest.json"), identity, &self.sites, self.rows)?;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false })
     }
 
