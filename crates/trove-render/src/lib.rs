@@ -2,3 +2,21 @@
 //!
 //! What goes in: a virtual scene and a camera. What comes out: the picture and its labels. This crate must not know
 //! where the scene came from, nor how a capture is written.
+
+mod accel;
+mod denoise;
+mod error;
+mod film;
+mod labels;
+mod light;
+mod material;
+mod path;
+mod prepare;
+mod renderer;
+mod sampling;
+mod texture;
+
+pub use accel::KernelChoice;
+pub use error::RenderError;
+pub use prepare::PreparedScene;
+pub use renderer::{Capabilities, Renderer, RendererOptions};

@@ -31,18 +31,18 @@ static PLAIN: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| i 
 impl MipMap {
     /// Averages 2×2 texels in linear light, down to one.
     pub(crate) fn new(texture: &Texture) -> Self {
-        let mut levels =
-            vec![Level { width: texture.width, height: texture.height, texels: texture.rgba.clone() }];
+        let mut levels = vec![Level { width: texture.width, height: texture.height, texels: texture.rgba.clone() }];
         while let Some(level) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
             levels.push(level.halved(texture.color_space));
         }
         Self { levels, color_space: texture.color_space }
     }
 
-    /// The colour at `uv` averaged over about `footprint` (side of the covered square in uv); alpha is the fourth.
-    pub(crate) fn sample(&self, uv: Vec2, footprint: f32) -> Vec4 {
-        let size = self.levels[0].width.max(self.levels[0].height) as f32;
-        let lod = (footprint * size).max(1.0).log2().min((self.levels.len() - 1) as f32);
+    /// The colour at `uv` averaged over about `footprint` (in units of uv); alpha is the fourth.
+    pub(crate) fn sample(&self, uv: Vec2, footprint: Vec2) -> Vec4 {
+        let texels = footprint * Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
+        // Both directions alike: the geometric mean of the two sides.
+        let lod = (0.5 * (texels.x * texels.y).max(1.0).log2()).min((self.levels.len() - 1) as f32);
         let (fine, blend) = (lod as usize, lod.fract());
         let table = table(self.color_space);
         let sharp = self.levels[fine].bilinear(uv, table);

@@ -85,19 +85,13 @@ impl PreparedScene {
 
     /// The share of light that passes along a ray: 0 behind anything opaque, tinted behind thin glass.
     pub(crate) fn transmittance(&self, ray: &Ray) -> Vec3 {
-        let mut passed: Vec<(u32, u32)> = Vec::new();
         let mut share = Vec3::ONE;
         let blocked = self.accel.occluded(ray, &mut |hit| {
-            let through = self.material_of(hit).pass(|| Surface::new(self, hit, ray));
-            if through == Vec3::ZERO {
-                return true;
+            if !self.is_there(hit) {
+                return false;
             }
-            // A kernel may report the same pane twice.
-            if through != Vec3::ONE && !passed.contains(&(hit.instance, hit.triangle)) {
-                passed.push((hit.instance, hit.triangle));
-                share *= through;
-            }
-            false
+            share *= self.material_of(hit).straight_through(self.geometric_normal(hit).dot(ray.direction));
+            share == Vec3::ZERO
         });
         if blocked { Vec3::ZERO } else { share }
     }

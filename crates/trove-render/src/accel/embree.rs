@@ -1,0 +1,280 @@
+//! Embree 4: one Embree scene for each mesh, and one of instances over them.
+
+use std::collections::HashMap;
+use std::ffi::c_void;
+use std::path::PathBuf;
+use std::ptr;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glam::Affine3A;
+use trove_model::Mesh;
+
+use super::embree_api::{self as api, Api, Context, FilterArguments, Handle, QueryArguments, RawHit, RawRay, RayHit};
+use super::{Accept, Hit, Placed, Ray};
+use crate::RenderError;
+
+/// The loaded library and its device.
+struct Device {
+    api: Api,
+    handle: Handle,
+}
+
+// SAFETY: Embree's documentation allows devices to be used from several threads.
+unsafe impl Send for Device {}
+// SAFETY: as above.
+unsafe impl Sync for Device {}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // SAFETY: the handle came from `new_device` and is released once.
+        unsafe { (self.api.release_device)(self.handle) }
+    }
+}
+
+/// A committed scene, which is not changed any more.
+struct BuiltScene {
+    device: Arc<Device>,
+    handle: Handle,
+}
+
+// SAFETY: a committed scene is only read, which Embree's documentation allows from several threads.
+unsafe impl Send for BuiltScene {}
+// SAFETY: as above.
+unsafe impl Sync for BuiltScene {}
+
+impl Drop for BuiltScene {
+    fn drop(&mut self) {
+        // SAFETY: the handle came from `new_scene` and is released once; Embree counts references of instances itself.
+        unsafe { (self.device.api.release_scene)(self.handle) }
+    }
+}
+
+/// A mesh's address and whether its hits are tested, which is a property of what Embree builds.
+type BottomKey = (usize, bool);
+
+/// Embree with what it built of the meshes so far; an entry keeps its mesh, and so the address, alive.
+pub(crate) struct Kernel {
+    device: Arc<Device>,
+    built: Mutex<HashMap<BottomKey, (Arc<Mesh>, Arc<BuiltScene>)>>,
+}
+
+/// A two-level scene.
+pub(crate) struct Accel {
+    top: BuiltScene,
+    /// By index of the instance: what it shows and its `mesh_from_world`.
+    bottoms: Vec<(Arc<BuiltScene>, Affine3A)>,
+}
+
+impl Kernel {
+    /// Loads the library and asks it a question with a known answer.
+    pub(super) fn load(search: &[PathBuf]) -> Result<Self, RenderError> {
+        let refuse = |problem: String| RenderError::Library { library: "Embree 4", problem, looked: search.to_vec() };
+        let api = Api::load(search).map_err(refuse)?;
+        // One thread builds: the same tree, and so the same choice among equally near hits, in every run.
+        // SAFETY: the configuration is a C string.
+        let handle = unsafe { (api.new_device)(c"threads=1,set_affinity=0".as_ptr()) };
+        if handle.is_null() {
+            return Err(refuse("it has no device for this processor".into()));
+        }
+        let device = Arc::new(Device { api, handle });
+        let kernel = Self { device, built: Mutex::default() };
+        if kernel.device.api.version(handle)[0] != 4 || !kernel.answers_correctly() {
+            return Err(refuse(format!("{} does not answer as Embree 4 does", kernel.name())));
+        }
+        Ok(kernel)
+    }
+
+    pub(super) fn name(&self) -> String {
+        let [major, minor, patch] = self.device.api.version(self.device.handle);
+        format!("Embree {major}.{minor}.{patch}")
+    }
+
+    /// Two instances of one triangle, of which the nearer one is refused: guards against another binary interface.
+    fn answers_correctly(&self) -> bool {
+        let mesh = Arc::new(Mesh {
+            positions: vec![glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        });
+        let at = |z: f32| Placed {
+            mesh: mesh.clone(),
+            world_from_mesh: Affine3A::from_translation(glam::Vec3::Z * z),
+            tested: true,
+        };
+        let accel = self.build(&[at(1.0), at(3.0)]);
+        let ray = Ray::new(glam::Vec3::new(0.25, 0.5, 0.0), glam::Vec3::Z);
+        let mut asked = [false; 2];
+        let hit = accel.intersect(&ray, &mut |hit| {
+            asked[hit.instance as usize & 1] = true;
+            hit.instance == 1
+        });
+        asked[0] && hit == Some(Hit { t: 3.0, instance: 1, triangle: 0, u: 0.25, v: 0.5 })
+    }
+
+    pub(super) fn build(&self, placed: &[Placed]) -> Accel {
+        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
+        built.retain(|_, (mesh, _)| Arc::strong_count(mesh) > 1);
+        let api = &self.device.api;
+        let top = BuiltScene { device: self.device.clone(), handle: new_scene(&self.device) };
+        let mut bottoms = Vec::with_capacity(placed.len());
+        for (i, p) in placed.iter().enumerate() {
+            let key = (Arc::as_ptr(&p.mesh) as usize, p.tested);
+            let make = || (p.mesh.clone(), Arc::new(build_mesh(&self.device, &p.mesh, p.tested)));
+            let bottom = built.entry(key).or_insert_with(make).1.clone();
+            let columns = p.world_from_mesh.to_cols_array();
+            // SAFETY: all handles are alive; the transform is 12 floats, column by column; ids are distinct.
+            unsafe {
+                let geometry = (api.new_geometry)(self.device.handle, api::GEOMETRY_INSTANCE);
+                (api.set_instanced_scene)(geometry, bottom.handle);
+                let format = api::FORMAT_FLOAT3X4_COLUMN_MAJOR;
+                (api.set_transform)(geometry, 0, format, columns.as_ptr().cast());
+                (api.commit_geometry)(geometry);
+                (api.attach_by_id)(top.handle, geometry, i as u32);
+                (api.release_geometry)(geometry);
+            }
+            bottoms.push((bottom, p.world_from_mesh.inverse()));
+        }
+        // SAFETY: the scene is alive and complete.
+        unsafe { (api.commit_scene)(top.handle) };
+        Accel { top, bottoms }
+    }
+}
+
+fn new_scene(device: &Device) -> Handle {
+    let api = &device.api;
+    // SAFETY: the device is alive; flags and quality are Embree's.
+    unsafe {
+        let scene = (api.new_scene)(device.handle);
+        (api.set_scene_flags)(scene, api::SCENE_ROBUST | api::SCENE_FILTER_IN_ARGUMENTS);
+        (api.set_scene_quality)(scene, api::QUALITY_MEDIUM);
+        scene
+    }
+}
+
+fn build_mesh(device: &Arc<Device>, mesh: &Mesh, tested: bool) -> BuiltScene {
+    let api = &device.api;
+    let scene = BuiltScene { device: device.clone(), handle: new_scene(device) };
+    // SAFETY: handles are alive; Embree's own buffers have room for exactly the vertices (12 bytes) and triangles
+    // (12 bytes) that are copied into them.
+    unsafe {
+        if !mesh.triangles.is_empty() {
+            let geometry = (api.new_geometry)(device.handle, api::GEOMETRY_TRIANGLE);
+            let vertices = mesh.positions.len();
+            let to = (api.new_buffer)(geometry, api::BUFFER_VERTEX, 0, api::FORMAT_FLOAT3, 12, vertices);
+            ptr::copy_nonoverlapping(mesh.positions.as_ptr().cast::<u8>(), to.cast(), 12 * vertices);
+            let triangles = mesh.triangles.len();
+            let to = (api.new_buffer)(geometry, api::BUFFER_INDEX, 0, api::FORMAT_UINT3, 12, triangles);
+            ptr::copy_nonoverlapping(mesh.triangles.as_ptr().cast::<u8>(), to.cast(), 12 * triangles);
+            (api.filter_from_arguments)(geometry, tested);
+            (api.commit_geometry)(geometry);
+            (api.attach_by_id)(scene.handle, geometry, 0);
+            (api.release_geometry)(geometry);
+        }
+        (api.commit_scene)(scene.handle);
+    }
+    scene
+}
+
+/// What the filter is given: the caller's closure, and the instance where Embree does not know it.
+struct Question<'a, 'b> {
+    accept: &'a mut Accept<'b>,
+    instance: Option<u32>,
+}
+
+/// Puts a candidate to the closure.
+///
+/// # Safety
+/// To be called by Embree with a context made by [`arguments`].
+unsafe extern "C" fn filter(arguments: *const FilterArguments) {
+    // SAFETY: Embree passes valid pointers to one ray and one hit (N = 1, because only single rays are traced), and the
+    // context that the query was made with, whose `user` points to a `Question` that outlives the query.
+    let (arguments, question) = unsafe {
+        let arguments = &*arguments;
+        (arguments, &mut *(*arguments.context).user.cast::<Question<'_, '_>>())
+    };
+    // SAFETY: as above.
+    let (ray, raw) = unsafe { (&*arguments.ray, &*arguments.hit) };
+    let hit = hit_of(raw, ray.t_max, question.instance);
+    if !(question.accept)(&hit) {
+        // SAFETY: `valid` points to one number.
+        unsafe { *arguments.valid = 0 };
+    }
+}
+
+fn hit_of(raw: &RawHit, t: f32, instance: Option<u32>) -> Hit {
+    Hit { t, instance: instance.unwrap_or(raw.instance), triangle: raw.primitive, u: raw.u, v: raw.v }
+}
+
+fn raw_ray(ray: &Ray) -> RawRay {
+    RawRay {
+        origin: ray.origin.to_array(),
+        t_min: ray.t_min,
+        direction: ray.direction.to_array(),
+        time: 0.0,
+        t_max: ray.t_max,
+        mask: u32::MAX,
+        id: 0,
+        flags: 0,
+    }
+}
+
+fn context(question: &mut Question<'_, '_>) -> Context {
+    Context { ids: [api::INVALID_ID; 4], user: ptr::from_mut(question).cast::<c_void>() }
+}
+
+fn arguments(context: &mut Context) -> QueryArguments {
+    QueryArguments {
+        flags: 0,
+        features: api::FEATURES_ALL,
+        context,
+        filter: Some(filter),
+        user_geometry: ptr::null_mut(),
+        min_width: 0.0,
+    }
+}
+
+impl BuiltScene {
+    fn intersect(&self, ray: &Ray, mut accept: Accept<'_>, instance: Option<u32>) -> Option<Hit> {
+        let hit = RawHit {
+            normal: [0.0; 3],
+            u: 0.0,
+            v: 0.0,
+            primitive: api::INVALID_ID,
+            geometry: api::INVALID_ID,
+            instance: api::INVALID_ID,
+        };
+        let mut ray_hit = RayHit { ray: raw_ray(ray), hit, room: [api::INVALID_ID; 4] };
+        let mut question = Question { accept: &mut accept, instance };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context);
+        // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
+        unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, &mut arguments) };
+        (ray_hit.hit.geometry != api::INVALID_ID).then(|| hit_of(&ray_hit.hit, ray_hit.ray.t_max, instance))
+    }
+}
+
+impl Accel {
+    pub(super) fn intersect(&self, ray: &Ray, accept: Accept<'_>) -> Option<Hit> {
+        self.top.intersect(ray, accept, None)
+    }
+
+    pub(super) fn occluded(&self, ray: &Ray, mut accept: Accept<'_>) -> bool {
+        let mut raw = raw_ray(ray);
+        let mut question = Question { accept: &mut accept, instance: None };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context);
+        // SAFETY: as for `intersect`.
+        unsafe { (self.top.device.api.occluded1)(self.top.handle, &mut raw, &mut arguments) };
+        raw.t_max == f32::NEG_INFINITY
+    }
+
+    pub(super) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {
+        let (bottom, mesh_from_world) = &self.bottoms[instance as usize];
+        let local = Ray {
+            origin: mesh_from_world.transform_point3(ray.origin),
+            direction: mesh_from_world.transform_vector3(ray.direction),
+            ..*ray
+        };
+        bottom.intersect(&local, accept, Some(instance))
+    }
+}

@@ -1,0 +1,157 @@
+//! The built-in kernel: obvhs's binary hierarchy over instances, and one over each mesh's triangles.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use glam::{Affine3A, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::{build_bvh2, build_bvh2_from_tris};
+use obvhs::ray::RayHit;
+use obvhs::triangle::Triangle;
+use rayon::prelude::*;
+use trove_model::Mesh;
+
+use super::watertight::Sheared;
+use super::{Accept, Hit, Placed, Ray};
+
+/// What was built of the meshes so far, by their address, which the entry keeps alive.
+#[derive(Default)]
+pub(crate) struct Kernel {
+    built: Mutex<HashMap<usize, (Arc<Mesh>, Arc<Bottom>)>>,
+}
+
+/// A mesh's hierarchy with its triangles in the order of the leaves.
+struct Bottom {
+    bvh: Bvh2,
+    triangles: Vec<[Vec3; 3]>,
+}
+
+struct Top {
+    bottom: Arc<Bottom>,
+    mesh_from_world: Affine3A,
+    tested: bool,
+}
+
+/// A two-level scene.
+pub(crate) struct Accel {
+    bvh: Bvh2,
+    /// By index of the instance.
+    tops: Vec<Top>,
+}
+
+impl Kernel {
+    pub(super) fn build(&self, placed: &[Placed]) -> Accel {
+        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
+        built.retain(|_, (mesh, _)| Arc::strong_count(mesh) > 1);
+        let mut missing: Vec<&Arc<Mesh>> = placed.iter().map(|p| &p.mesh).collect();
+        missing.sort_by_key(|mesh| Arc::as_ptr(mesh));
+        missing.dedup_by_key(|mesh| Arc::as_ptr(mesh));
+        missing.retain(|mesh| !built.contains_key(&(Arc::as_ptr(mesh) as usize)));
+        let new: Vec<_> = missing.into_par_iter().map(|mesh| (mesh.clone(), Arc::new(Bottom::new(mesh)))).collect();
+        built.extend(new.into_iter().map(|(mesh, bottom)| (Arc::as_ptr(&mesh) as usize, (mesh, bottom))));
+
+        let tops: Vec<Top> = placed
+            .iter()
+            .map(|p| Top {
+                bottom: built[&(Arc::as_ptr(&p.mesh) as usize)].1.clone(),
+                mesh_from_world: p.world_from_mesh.inverse(),
+                tested: p.tested,
+            })
+            .collect();
+        let boxes: Vec<Aabb> = placed.iter().map(box_world).collect();
+        let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
+        Accel { bvh, tops }
+    }
+}
+
+/// Box around a placed mesh; an empty mesh gets an empty box, which no ray meets.
+fn box_world(placed: &Placed) -> Aabb {
+    let points = placed.mesh.positions.iter().map(|&p| placed.world_from_mesh.transform_point3a(p.into()));
+    let mut bounds: Option<Aabb> = None;
+    for p in points {
+        bounds.get_or_insert(Aabb::from_point(p)).extend(p);
+    }
+    // A hair larger, because rays are moved to the mesh's coordinates and triangles are not moved to World.
+    bounds.map_or(Aabb::new(Vec3A::ZERO, Vec3A::ZERO), |b| {
+        let margin = (b.max.abs().max(b.min.abs()) * 1e-6).max(Vec3A::splat(1e-6));
+        Aabb::new(b.min - margin, b.max + margin)
+    })
+}
+
+impl Bottom {
+    fn new(mesh: &Mesh) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|i| mesh.positions[i as usize]);
+        let all: Vec<[Vec3; 3]> = mesh.triangles.iter().map(corners).collect();
+        let boxed: Vec<_> =
+            all.iter().map(|&[a, b, c]| Triangle { v0: a.into(), v1: b.into(), v2: c.into() }).collect();
+        let bvh = build_bvh2_from_tris(&boxed, BvhBuildParams::medium_build(), &mut Duration::default());
+        let triangles = bvh.primitive_indices.iter().map(|&i| all[i as usize]).collect();
+        Self { bvh, triangles }
+    }
+}
+
+impl Top {
+    /// The nearest hit before `t_max`; `stop_at_any` ends at the first.
+    fn intersect(&self, ray: &Ray, instance: u32, t_max: f32, stop_at_any: bool, accept: Accept<'_>) -> Option<Hit> {
+        if self.bottom.triangles.is_empty() {
+            return None;
+        }
+        let origin = self.mesh_from_world.transform_point3(ray.origin);
+        let direction = self.mesh_from_world.transform_vector3(ray.direction);
+        let sheared = Sheared::new(origin, direction);
+        let mut nearest: Option<Hit> = None;
+        let mut meet = |ray: &obvhs::ray::Ray, index: usize| {
+            let Some((t, u, v)) = sheared.intersect(&self.bottom.triangles[index], ray.tmin, ray.tmax) else {
+                return f32::INFINITY;
+            };
+            let hit = Hit { t, instance, triangle: self.bottom.bvh.primitive_indices[index], u, v };
+            if self.tested && !accept(&hit) {
+                return f32::INFINITY;
+            }
+            nearest = Some(hit);
+            t
+        };
+        let local = obvhs::ray::Ray::new(origin.into(), direction.into(), ray.t_min, t_max);
+        if stop_at_any {
+            self.bottom.bvh.ray_traverse_miss(local, &mut meet);
+        } else {
+            self.bottom.bvh.ray_traverse(local, &mut RayHit::none(), &mut meet);
+        }
+        nearest
+    }
+}
+
+impl Accel {
+    pub(super) fn intersect(&self, ray: &Ray, accept: Accept<'_>) -> Option<Hit> {
+        let mut nearest = None;
+        let meet = |world: &obvhs::ray::Ray, index: usize| {
+            let instance = self.bvh.primitive_indices[index];
+            let hit = self.tops[instance as usize].intersect(ray, instance, world.tmax, false, accept);
+            let t = hit.map_or(f32::INFINITY, |hit| hit.t);
+            nearest = hit.or(nearest);
+            t
+        };
+        self.bvh.ray_traverse(in_world(ray), &mut RayHit::none(), meet);
+        nearest
+    }
+
+    pub(super) fn occluded(&self, ray: &Ray, accept: Accept<'_>) -> bool {
+        let meet = |_: &obvhs::ray::Ray, index: usize| {
+            let instance = self.bvh.primitive_indices[index];
+            let hit = self.tops[instance as usize].intersect(ray, instance, ray.t_max, true, accept);
+            hit.map_or(f32::INFINITY, |hit| hit.t)
+        };
+        !self.bvh.ray_traverse_miss(in_world(ray), meet)
+    }
+
+    pub(super) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {
+        self.tops[instance as usize].intersect(ray, instance, ray.t_max, false, accept)
+    }
+}
+
+fn in_world(ray: &Ray) -> obvhs::ray::Ray {
+    obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), ray.t_min, ray.t_max)
+}

@@ -1,0 +1,50 @@
+//! The GGX distribution of facets (Walter et al. 2007) in coordinates whose z is the shading normal.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::Vec3;
+
+/// Smallest α: below it highlights are narrower than single precision resolves, and than the sun.
+pub(crate) const ALPHA_MIN: f32 = 1e-3;
+
+/// Density of facets with normal `h`.
+pub(crate) fn distribution(h: Vec3, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    let d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+    a2 / (PI * d * d)
+}
+
+/// Share of facets visible from a direction with cosine `cos` (Smith).
+fn visible(cos: f32, alpha: f32) -> f32 {
+    2.0 * cos / (cos + (alpha * alpha + (1.0 - alpha * alpha) * cos * cos).sqrt())
+}
+
+/// Reflected light without the Fresnel term, times cos θi, and the density with which [`sample`] draws `wi`.
+pub(crate) fn eval(wo: Vec3, wi: Vec3, alpha: f32) -> (f32, f32) {
+    let h = (wo + wi).normalize_or(Vec3::Z);
+    let d = distribution(h, alpha);
+    let a2 = alpha * alpha;
+    // Masking and shadowing at correlated heights (Heitz 2014).
+    let lambda = |a: f32, b: f32| a * (a2 + (1.0 - a2) * b * b).sqrt();
+    let g2 = 2.0 * wo.z * wi.z / (lambda(wo.z, wi.z) + lambda(wi.z, wo.z));
+    (d * g2 / (4.0 * wo.z), d * visible(wo.z, alpha) / (4.0 * wo.z))
+}
+
+/// A direction reflected by a facet that is drawn among those visible from `wo` (Dupuy, Benyoub 2023); it may lie
+/// below the surface.
+pub(crate) fn sample(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
+    let w = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
+    let (sin_phi, cos_phi) = (TAU * u[0]).sin_cos();
+    let z = (1.0 - u[1]) * (1.0 + w.z) - w.z;
+    let sin = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
+    let h = Vec3::new(sin * cos_phi, sin * sin_phi, z) + w;
+    let h = Vec3::new(h.x * alpha, h.y * alpha, h.z).normalize();
+    2.0 * wo.dot(h) * h - wo
+}
+
+/// Fresnel reflectance by Schlick's approximation (1994) for normal reflectance `f0`.
+pub(crate) fn schlick(f0: Vec3, cos: f32) -> Vec3 {
+    let m = (1.0 - cos).clamp(0.0, 1.0);
+    let m2 = m * m;
+    f0 + (Vec3::ONE - f0) * (m2 * m2 * m)
+}

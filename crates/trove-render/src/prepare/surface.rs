@@ -1,0 +1,92 @@
+//! What a ray finds at a hit, derived from the mesh in one way for all kernels.
+
+use glam::{Vec2, Vec3, Vec3A};
+use trove_model::Mesh;
+
+use super::PreparedScene;
+use crate::accel::{Hit, Ray};
+
+/// A point on a surface, in World, seen from where the ray came.
+pub(crate) struct Surface {
+    pub(crate) point: Vec3,
+    /// Unit, towards the ray's origin.
+    pub(crate) wo: Vec3,
+    /// Unit normal of the triangle, on the side of `wo`.
+    pub(crate) geometric: Vec3,
+    /// Unit interpolated normal, on the side of the triangle's normal.
+    pub(crate) shading: Vec3,
+    /// Whether the ray came from outside (the side from which corners run counter-clockwise).
+    pub(crate) is_front: bool,
+    /// Texture coordinates before the material's scale.
+    pub(crate) uv: Vec2,
+    /// Directions in which u and v grow fastest, per unit of uv; `None` where the mesh has no useful uvs.
+    pub(crate) uv_axes: Option<[Vec3; 2]>,
+}
+
+impl Surface {
+    pub(crate) fn new(scene: &PreparedScene, hit: &Hit, ray: &Ray) -> Self {
+        let instance = &scene.instances[hit.instance as usize];
+        let mesh = &*instance.mesh;
+        let corners = mesh.triangles[hit.triangle as usize];
+        let [a, b, c] = corners.map(|i| Vec3A::from(mesh.positions[i as usize]));
+        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
+
+        // The point lies on the triangle, not on the ray: the ray's error grows with distance.
+        let point = instance.world_from_mesh.transform_point3a(a * weights[0] + b * weights[1] + c * weights[2]);
+        let (edge_b, edge_c) = (b - a, c - a);
+        let outside = (instance.world_from_normal * edge_b.cross(edge_c)).normalize_or(Vec3A::Z);
+
+        let wo = -Vec3A::from(ray.direction).normalize();
+        let is_front = outside.dot(wo) >= 0.0;
+        let side = if is_front { 1.0 } else { -1.0 };
+
+        let shading = if mesh.normals.is_empty() {
+            outside
+        } else {
+            let [na, nb, nc] = corners.map(|i| Vec3A::from(mesh.normals[i as usize]));
+            let normal = instance.world_from_normal * (na * weights[0] + nb * weights[1] + nc * weights[2]);
+            // A normal that contradicts its triangle is the model's mistake.
+            let normal = normal.normalize_or(outside);
+            if normal.dot(outside) < 0.0 { -normal } else { normal }
+        };
+
+        let (mut uv, mut uv_axes) = (Vec2::ZERO, None);
+        if !mesh.uvs.is_empty() {
+            let [ta, tb, tc] = corners.map(|i| mesh.uvs[i as usize]);
+            uv = ta * weights[0] + tb * weights[1] + tc * weights[2];
+            let (db, dc) = (tb - ta, tc - ta);
+            let det = db.perp_dot(dc);
+            if det.abs() > 1e-12 {
+                let along_u = (edge_b * dc.y - edge_c * db.y) / det;
+                let along_v = (edge_c * db.x - edge_b * dc.x) / det;
+                let world = |v: Vec3A| Vec3::from(instance.world_from_mesh.transform_vector3a(v));
+                uv_axes = Some([world(along_u), world(along_v)]);
+            }
+        }
+        Self {
+            point: point.into(),
+            wo: wo.into(),
+            geometric: (outside * side).into(),
+            shading: (shading * side).into(),
+            is_front,
+            uv,
+            uv_axes,
+        }
+    }
+
+    /// Where a ray in direction `wi` starts so that it does not meet its own surface again.
+    pub(crate) fn leave(&self, wi: Vec3) -> Vec3 {
+        // Single precision near `point`, with room for the two transforms that it went through.
+        let gap = 2e-5 + self.point.abs().max_element() * 1e-6;
+        self.point + self.geometric * if wi.dot(self.geometric) >= 0.0 { gap } else { -gap }
+    }
+}
+
+/// Texture coordinates at a hit; zero where the mesh has none.
+pub(super) fn uv(mesh: &Mesh, hit: &Hit) -> Vec2 {
+    if mesh.uvs.is_empty() {
+        return Vec2::ZERO;
+    }
+    let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|i| mesh.uvs[i as usize]);
+    a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
+}

@@ -1,0 +1,90 @@
+//! Random numbers for a pixel and what directions are drawn with them.
+
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use glam::Vec3;
+use trove_model::Seed;
+
+/// The numbers of one sample of one pixel: an Owen-scrambled Sobol sequence (Burley 2020), four dimensions at a time.
+pub(crate) struct Sampler {
+    index: u32,
+    seed: u32,
+    set: u32,
+}
+
+impl Sampler {
+    /// For the `index`-th sample of pixel (x, y).
+    pub(crate) fn new(seed: Seed, x: u32, y: u32, index: u32) -> Self {
+        let bits = seed.nth((u64::from(y) << 32) | u64::from(x)).0;
+        // The sequence has 2¹⁶ points; further samples start another one.
+        let seed = (bits ^ (bits >> 32)) as u32 ^ (index >> 16).wrapping_mul(0x9e37_79b9);
+        Self { index: index & 0xffff, seed, set: 0 }
+    }
+
+    /// The next four numbers in [0, 1).
+    pub(crate) fn next4(&mut self) -> [f32; 4] {
+        let sets = sobol_burley::NUM_DIMENSION_SETS_4D;
+        let seed = self.seed.wrapping_add((self.set / sets).wrapping_mul(0x85eb_ca6b));
+        let four = sobol_burley::sample_4d(self.index, self.set % sets, seed);
+        self.set += 1;
+        four
+    }
+}
+
+/// A position drawn with the tent filter of radius 1 (Pharr et al. 2023, A.4.1), from −1 to 1.
+pub(crate) fn tent(u: f32) -> f32 {
+    if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 * (1.0 - u)).sqrt() }
+}
+
+/// A direction about +z with density cos θ / π.
+pub(crate) fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
+    let [x, y] = disk(u);
+    Vec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
+}
+
+/// Density of [`cosine_hemisphere`].
+pub(crate) fn cosine_pdf(cos: f32) -> f32 {
+    cos.max(0.0) / PI
+}
+
+/// A point on the unit disk, neighbours staying neighbours (Shirley, Chiu 1997).
+pub(crate) fn disk(u: [f32; 2]) -> [f32; 2] {
+    let [x, y] = u.map(|u| 2.0 * u - 1.0);
+    if x == 0.0 && y == 0.0 {
+        return [0.0, 0.0];
+    }
+    let (r, angle) = if x.abs() > y.abs() { (x, FRAC_PI_4 * (y / x)) } else { (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)) };
+    let (sin, cos) = angle.sin_cos();
+    [r * cos, r * sin]
+}
+
+/// Three axes of which z is given.
+#[derive(Clone, Copy)]
+pub(crate) struct Basis {
+    x: Vec3,
+    y: Vec3,
+    z: Vec3,
+}
+
+impl Basis {
+    /// About a unit vector.
+    pub(crate) fn about(z: Vec3) -> Self {
+        let (x, y) = z.any_orthonormal_pair();
+        Self { x, y, z }
+    }
+
+    pub(crate) fn to_world(self, v: Vec3) -> Vec3 {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    pub(crate) fn to_local(self, v: Vec3) -> Vec3 {
+        Vec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
+    }
+}
+
+/// Weight of a direction drawn with density `a` that could have been drawn with density `b` too (Veach 1995, power 2).
+pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
+    // Divided first, so that large densities do not overflow.
+    let ratio = b / a;
+    1.0 / (1.0 + ratio * ratio)
+}
