@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python lint clean
+.PHONY: demo install test test-rust test-python lint bench-build bench-frame bench-memory clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -32,6 +32,10 @@ lint:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets -- -D warnings
 	if command -v cargo-deny >/dev/null; then cargo deny check; fi
+
+# Benchmarks on the real data in TROVE_TEST_DATA; see benches/README.md.
+bench-build bench-frame bench-memory: bench-%: install
+	$(BIN)/python benches/bench.py $*
 
 clean:
 	rm -rf target $(VENV) demo-out

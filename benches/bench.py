@@ -1,0 +1,92 @@
+"""Measures the installed program on real data (the folder in TROVE_TEST_DATA).
+
+`bench.py build` times the building of scene-0103, `bench.py frame` a 1600×900 frame with all labels at 64 spp, denoised,
+of both scenes, and `bench.py memory` the peak memory over 100 frames.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PLACES = {"scene-0103": "boston-seaport", "scene-0061": "singapore-onenorth"}
+
+
+def recipe(folder, scene, keyframes, rig, render):
+    """Writes a recipe on real data."""
+    data = Path(os.environ["TROVE_TEST_DATA"]).resolve()
+    path = folder / f"{scene}.toml"
+    path.write_text(
+        f'seed = 7\n[drive]\ndataset = "nuscenes"\nroot = "{data / "nuscenes"}"\nscenes = ["{scene}"]\n'
+        f'keyframes = {keyframes}\n[map]\nosm = "{data / "osm" / PLACES[scene]}.osm"\n'
+        f"[views]\nrig = {json.dumps(rig)}\n[render]\n{render}\n"
+    )
+    return path
+
+
+def trove(*args):
+    """Starts the program."""
+    command = [sys.executable, "-m", "trove", *map(str, args)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+
+
+def peak_mib(pid):
+    """The largest resident size that a running process has had, MiB; 0 once it has ended."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return 0.0
+    lines = [line for line in status.splitlines() if line.startswith("VmHWM:")]
+    return int(lines[0].split()[1]) / 1024 if lines else 0.0
+
+
+def build(folder):
+    """Time to build scene-0103 with its map, without the start of the program."""
+    path = recipe(folder, "scene-0103", "[0]", "all", "scale = 1.0")
+    times = []
+    for _ in range(5):
+        out, _ = trove("build", path, "--out", folder / "scene.glb", "--json").communicate()
+        times.append(json.loads(out)["report"]["measurements"]["build.seconds"])
+    print(f"scene-0103 is built in {sorted(times)[len(times) // 2]:.2f} s (median of {len(times)})")
+
+
+def frame(folder):
+    """Time of a frame at full size with all labels, denoised."""
+    for scene in PLACES:
+        path = recipe(folder, scene, "[1]", "all", "spp = 64")
+        started = time.monotonic()
+        run = trove("generate", path, "--out", folder / scene, "--json")
+        peak = 0.0
+        while run.poll() is None:
+            peak = max(peak, peak_mib(run.pid))
+            time.sleep(0.2)
+        summary = json.loads(run.stdout.read())
+        seconds = time.monotonic() - started
+        print(
+            f"{scene}: {summary['rendered']} frames of 1600×900 at 64 spp with all labels in {seconds:.1f} s, "
+            f"{seconds / summary['rendered']:.1f} s each with reading and building, peak {peak:.0f} MiB"
+        )
+
+
+def memory(folder):
+    """Peak memory after 10 frames and after all of more than 100."""
+    path = recipe(folder, "scene-0103", "{ every = 2 }", "all", "scale = 0.25\nspp = 4")
+    out = folder / "memory"
+    run = trove("generate", path, "--out", out)
+    marks = {}
+    while run.poll() is None:
+        done = sum(1 for _ in out.glob("*/*/*/*/frame.json"))
+        peak = peak_mib(run.pid)
+        if peak:
+            marks[done] = peak
+        time.sleep(0.1)
+    early = min((done for done in marks if done >= 10), default=max(marks))
+    print(f"peak memory {marks[early]:.0f} MiB after {early} frames, {marks[max(marks)]:.0f} MiB after {max(marks)}")
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as temporary:
+        {"build": build, "frame": frame, "memory": memory}[sys.argv[1]](Path(temporary))
