@@ -135,6 +135,20 @@ impl Shape {
         (inside, self)
     }
 
+    /// The largest y of the surface at (x, z).
+    pub(crate) fn outside_at(&self, x: f32, z: f32) -> Option<f32> {
+        let hits = self.triangles.iter().filter_map(|t| {
+            let [a, b, c] = t.map(|i| self.positions[i as usize]);
+            let flat = |p: Vec3| vec2(p.x - x, p.z - z);
+            let (p, q, r) = (flat(a), flat(b), flat(c));
+            let weights = vec3(q.perp_dot(r), r.perp_dot(p), p.perp_dot(q));
+            let sum = weights.x + weights.y + weights.z;
+            let inside = weights.cmpge(Vec3::ZERO).all() || weights.cmple(Vec3::ZERO).all();
+            (inside && sum != 0.0).then(|| weights.dot(vec3(a.y, b.y, c.y)) / sum)
+        });
+        hits.reduce(f32::max)
+    }
+
     fn fan(&mut self, polygon: &[Corner], slot: u16) {
         let corners: Vec<u32> = polygon.iter().map(|c| self.vertex(c.position, c.normal, c.uv)).collect();
         for w in corners[1..].windows(2) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{Vec3, vec3};
 use trove_model::{Asset, Class, Kind, Material, Slot};
 
-use super::Shape;
+use super::{Prism, Shape};
 
 /// An asset under construction.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +29,15 @@ impl Model {
     /// Adds a shape that knows its slots.
     pub(crate) fn add_marked(&mut self, shape: Shape) {
         self.shape = std::mem::take(&mut self.shape).and(shape);
+    }
+
+    /// What is in slot `from` inside a prism or its mirror image goes to slot `to`.
+    pub(crate) fn mark_both(&mut self, prism: &Prism, from: u16, to: u16) {
+        for prism in [prism.clone(), prism.mirrored()] {
+            let (mut inside, outside) = std::mem::take(&mut self.shape).split(&prism);
+            inside.slots.iter_mut().filter(|s| **s == from).for_each(|s| *s = to);
+            self.shape = outside.and(inside);
+        }
     }
 
     /// The asset: slots without triangles go, the origin comes to the middle of the bounds on the ground.

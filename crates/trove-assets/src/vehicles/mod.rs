@@ -1,8 +1,15 @@
 //! Cars, lorries, buses and machines.
 
+mod body;
+mod car;
+mod cars;
+mod extras;
+mod palette;
+mod wheel;
+
 use trove_model::Asset;
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
-    Vec::new()
+    cars::assets()
 }
