@@ -1,9 +1,19 @@
 //! `Drive` + `StreetMap` + `AssetLibrary` → `Scene` and its `Shot`s.
 //!
-//! What goes in: the model's nouns. What comes out: the virtual scene of every keyframe. This crate must not know
-//! files, datasets' formats or the renderer.
+//! What goes in: the model's nouns. What comes out: the virtual scene of every keyframe and the cameras in it. This
+//! crate must not know files, datasets' formats or the renderer.
 
 mod buildings;
+mod error;
 mod ground;
+mod light;
 mod piece;
+mod placement;
 mod roads;
+mod site;
+mod views;
+
+pub use error::BuildError;
+pub use light::LightChoice;
+pub use site::{BuildSettings, Site, area, build};
+pub use views::{ViewSettings, shots};
