@@ -1,0 +1,64 @@
+//! Which of the library's surfaces a place is made of.
+
+use glam::Vec3;
+use trove_model::{AssetLibrary, Material, Report, Seed, Surface, SurfaceKind};
+
+/// Draws surfaces: the same name gets the same one.
+pub(crate) struct Palette<'a> {
+    pub library: &'a AssetLibrary,
+    pub seed: Seed,
+    pub report: &'a Report,
+}
+
+impl Palette<'_> {
+    /// A surface of a kind for what is called `name`; a plain colour where the library has none.
+    pub(crate) fn surface(&self, kind: SurfaceKind, name: &str) -> Surface {
+        let all: Vec<&Surface> = self.library.surfaces_of(kind).collect();
+        match self.seed.child(name).random().pick(&all) {
+            Some(surface) => (*surface).clone(),
+            None => {
+                let what = "the asset library has no surface of a kind: a plain colour stands for it";
+                self.report.note(trove_model::Outcome::Substituted, what, format_args!("{kind:?}"));
+                plain(kind)
+            }
+        }
+    }
+
+    /// The same, the material alone.
+    pub(crate) fn material(&self, kind: SurfaceKind, name: &str) -> Material {
+        self.surface(kind, name).material
+    }
+}
+
+/// A plain colour in place of a texture; facades get bays of 3.5 m and storeys of 3.2 m.
+fn plain(kind: SurfaceKind) -> Surface {
+    let (name, rgb) = match kind {
+        SurfaceKind::Asphalt => ("plain asphalt", [0.08, 0.08, 0.08]),
+        SurfaceKind::MarkingWhite => ("plain white marking", [0.7, 0.7, 0.7]),
+        SurfaceKind::MarkingYellow => ("plain yellow marking", [0.65, 0.4, 0.05]),
+        SurfaceKind::Paving => ("plain paving", [0.35, 0.34, 0.32]),
+        SurfaceKind::Kerb => ("plain kerb", [0.42, 0.41, 0.39]),
+        SurfaceKind::Concrete => ("plain concrete", [0.38, 0.37, 0.35]),
+        SurfaceKind::Grass => ("plain grass", [0.06, 0.11, 0.03]),
+        SurfaceKind::Soil => ("plain soil", [0.14, 0.1, 0.06]),
+        SurfaceKind::Gravel => ("plain gravel", [0.3, 0.28, 0.25]),
+        SurfaceKind::Water => ("plain water", [0.02, 0.04, 0.05]),
+        SurfaceKind::FlatRoof => ("plain flat roof", [0.25, 0.25, 0.25]),
+        SurfaceKind::RoofTiles => ("plain roof tiles", [0.3, 0.12, 0.08]),
+        SurfaceKind::Facade => ("plain facade", [0.45, 0.4, 0.35]),
+        SurfaceKind::FacadeGroundFloor => ("plain ground floor", [0.3, 0.28, 0.26]),
+    };
+    let roughness = if kind == SurfaceKind::Water { 0.1 } else { 0.85 };
+    let size_m = match kind {
+        SurfaceKind::Facade => [3.5, 3.2],
+        SurfaceKind::FacadeGroundFloor => [5.0, 4.0],
+        _ => [1.0, 1.0],
+    };
+    Surface {
+        id: name.replace(' ', "-"),
+        kind,
+        material: Material::plain(name, Vec3::from_array(rgb), roughness),
+        size_m,
+        cells: [1, 1],
+    }
+}

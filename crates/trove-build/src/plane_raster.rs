@@ -1,0 +1,72 @@
+//! A fast answer to what lies at a point.
+
+use glam::DVec2;
+use trove_model::{Bounds, Polygon, Raster};
+
+/// Values over World's plane in square cells; 0 outside.
+#[derive(Clone, Debug)]
+pub(crate) struct PlaneRaster {
+    origin: DVec2,
+    cell_m: f64,
+    cells: Raster<u8>,
+}
+
+impl PlaneRaster {
+    /// 0 everywhere.
+    pub(crate) fn new(bounds: Bounds, cell_m: f64) -> Self {
+        let size = (bounds.size_m() / cell_m).ceil().max(DVec2::ONE).as_uvec2();
+        Self { origin: bounds.min, cell_m, cells: Raster::filled(size.x, size.y, 0) }
+    }
+
+    /// Sets the cells whose centres lie in an area.
+    pub(crate) fn fill(&mut self, area: &[Polygon], value: u8) {
+        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.cells.height as usize];
+        for polygon in area {
+            for (a, b) in polygon.edges() {
+                let (a, b) = ((a - self.origin) / self.cell_m - 0.5, (b - self.origin) / self.cell_m - 0.5);
+                let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
+                let rows = low.y.ceil().max(0.0) as usize..(high.y.ceil().max(0.0) as usize).min(crossings.len());
+                for row in rows {
+                    crossings[row].push(low.x + (high.x - low.x) * (row as f64 - low.y) / (high.y - low.y));
+                }
+            }
+        }
+        let width = self.cells.width as usize;
+        for (row, xs) in crossings.iter_mut().enumerate() {
+            xs.sort_by(f64::total_cmp);
+            for pair in xs.chunks_exact(2) {
+                let (from, to) = (pair[0].ceil().max(0.0) as usize, pair[1].ceil().max(0.0) as usize);
+                let (from, to) = (from.min(width), to.min(width));
+                self.cells.data[row * width + from..row * width + to].fill(value);
+            }
+        }
+    }
+
+    /// The value at a point.
+    pub(crate) fn at(&self, p: DVec2) -> u8 {
+        let cell = ((p - self.origin) / self.cell_m).floor();
+        let limit = DVec2::new(f64::from(self.cells.width), f64::from(self.cells.height));
+        let inside = cell.cmpge(DVec2::ZERO).all() && cell.cmplt(limit).all();
+        if inside { *self.cells.at(cell.x as u32, cell.y as u32) } else { 0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane;
+
+    #[test]
+    fn a_filled_ring_is_empty_in_its_hole_and_outside() {
+        let hole = plane::rectangle(Bounds::square(DVec2::ZERO, 4.0)).exterior;
+        let outer = plane::rectangle(Bounds::square(DVec2::ZERO, 10.0)).exterior;
+        let ring = Polygon { exterior: outer, holes: vec![hole] };
+        let mut raster = PlaneRaster::new(Bounds::square(DVec2::ZERO, 20.0), 0.25);
+        raster.fill(std::slice::from_ref(&ring), 7);
+        for i in 0..400 {
+            let p = DVec2::new(f64::from(i % 20) - 9.6, f64::from(i / 20) - 9.6);
+            assert_eq!(raster.at(p) == 7, ring.contains(p), "{p}");
+        }
+        assert_eq!(raster.at(DVec2::splat(11.0)), 0);
+    }
+}
