@@ -183,7 +183,7 @@ fn park(file: &mut OsmFile) {
 
 fn furniture(file: &mut OsmFile) {
     let mut random = Seed(1).child("demo furniture").random();
-    let mut along =
+    let along =
         |file: &mut OsmFile, step_m: f64, first_m: f64, y: f64, tags: &[(&str, &str)], random: &mut Random| {
             let mut x = first_m;
             while x < 180.0 {
