@@ -1,32 +1,210 @@
 //! Removes the noise that few samples leave, where a denoiser is installed.
 
+mod api;
+
+use std::ffi::{CStr, c_int};
 use std::path::PathBuf;
+use std::ptr;
+use std::sync::{Mutex, PoisonError};
 
 use trove_model::Raster;
 
 use crate::RenderError;
+use api::{Api, Handle};
 
-/// A denoiser.
-pub(crate) struct Denoiser;
+/// The best of its three qualities: beside a path-traced frame it costs a few seconds, and fine texture shows it.
+const QUALITY: c_int = api::QUALITY_HIGH;
+
+/// Open Image Denoise on the processor.
+pub(crate) struct Denoiser {
+    /// The library runs one filter a device at a time; a lock says so here.
+    device: Mutex<Device>,
+    name: String,
+}
+
+struct Device {
+    api: Api,
+    handle: Handle,
+}
+
+// SAFETY: a device belongs to no thread, by the library's documentation; it is only used under the lock.
+unsafe impl Send for Device {}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // SAFETY: the handle came from `new_device` and is released once.
+        unsafe { (self.api.release_device)(self.handle) }
+    }
+}
 
 impl Denoiser {
     /// Loads the library; `search` are folders or files in which to look for it.
-    pub(crate) fn load(search: &[PathBuf], _threads: usize) -> Result<Self, RenderError> {
-        Err(RenderError::Library { library: "Open Image Denoise", problem: "not found".into(), looked: search.to_vec() })
+    pub(crate) fn load(search: &[PathBuf], threads: usize) -> Result<Self, RenderError> {
+        let refuse = |problem: String| RenderError::Library {
+            library: "Open Image Denoise 2",
+            problem,
+            looked: search.to_vec(),
+        };
+        let api = Api::load(search).map_err(refuse)?;
+        // SAFETY: the function takes a kind of device.
+        let handle = unsafe { (api.new_device)(api::DEVICE_CPU) };
+        if handle.is_null() {
+            let problem = api.error(ptr::null_mut()).err();
+            return Err(refuse(problem.unwrap_or_else(|| "it has no device for this processor".into())));
+        }
+        let device = Device { api, handle };
+        let threads = c_int::try_from(threads).unwrap_or(c_int::MAX);
+        // SAFETY: the device is alive, and the names are those of its parameters. Threads stay where the system puts
+        // them, because others render beside this one.
+        let number = unsafe {
+            (device.api.set_device_int)(handle, c"numThreads".as_ptr(), threads);
+            (device.api.set_device_bool)(handle, c"setAffinity".as_ptr(), false);
+            (device.api.commit_device)(handle);
+            (device.api.get_device_int)(handle, c"version".as_ptr())
+        };
+        device.api.error(handle).map_err(refuse)?;
+        // The version is one number: 20501 is 2.5.1.
+        let [major, minor, patch] = [number / 10_000, number / 100 % 100, number % 100];
+        if major != 2 {
+            return Err(refuse(format!("expected version 2, found {major}.{minor}.{patch}")));
+        }
+        Ok(Self { device: Mutex::new(device), name: format!("Open Image Denoise {major}.{minor}.{patch}") })
     }
 
     /// Name and version, for people.
     pub(crate) fn name(&self) -> String {
-        String::new()
+        self.name.clone()
     }
 
-    /// The picture without noise; `albedo` and `normal` (World, unit or 0) are guides of the same size.
+    /// The picture without noise; `albedo` and `normal` (World, unit or 0) are guides of the same size. `None` where
+    /// the library gives up, as without memory.
     pub(crate) fn denoise(
         &self,
         color: &Raster<[f32; 3]>,
-        _albedo: &Raster<[f32; 3]>,
-        _normal: &Raster<[f32; 3]>,
+        albedo: &Raster<[f32; 3]>,
+        normal: &Raster<[f32; 3]>,
     ) -> Option<Raster<[f32; 3]>> {
-        Some(color.clone())
+        let device = self.device.lock().unwrap_or_else(PoisonError::into_inner);
+        // Guides carry noise of their own (cut-outs, edges, glass): cleaned first, they may be trusted to the pixel.
+        let clean = || {
+            let albedo = device.run(&[(c"albedo", albedo)], false)?;
+            let normal = device.run(&[(c"normal", normal)], false)?;
+            device.run(&[(c"color", color), (c"albedo", &albedo), (c"normal", &normal)], true)
+        };
+        match clean() {
+            Ok(picture) => Some(picture),
+            Err(problem) => {
+                tracing::warn!(problem, "the denoiser failed; the picture stays as it is");
+                None
+            }
+        }
+    }
+}
+
+impl Device {
+    /// One filter over one picture, the first, with guides.
+    fn run(&self, images: &[(&CStr, &Raster<[f32; 3]>)], is_color: bool) -> Result<Raster<[f32; 3]>, String> {
+        let (width, height) = (images[0].1.width, images[0].1.height);
+        if images.iter().any(|(_, image)| (image.width, image.height) != (width, height)) {
+            return Err("pictures of different sizes".into());
+        }
+        let mut output = Raster::filled(width, height, [0.0f32; 3]);
+        if output.data.is_empty() {
+            return Ok(output);
+        }
+        let api = &self.api;
+        // SAFETY: device and filter are alive; names are those of the filter `RT`; every image has width × height
+        // pixels of three floats, packed, and outlives the filter, which only writes to `output`.
+        unsafe {
+            let filter = (api.new_filter)(self.handle, c"RT".as_ptr());
+            if filter.is_null() {
+                return Err(self.api.error(self.handle).err().unwrap_or_else(|| "no filter `RT`".into()));
+            }
+            let set = |name: &CStr, data: *mut [f32; 3]| {
+                let (width, height) = (width as usize, height as usize);
+                let format = api::FORMAT_FLOAT3;
+                (api.set_shared_image)(filter, name.as_ptr(), data.cast(), format, width, height, 0, 0, 0);
+            };
+            for (name, image) in images {
+                set(name, image.data.as_ptr().cast_mut());
+            }
+            set(c"output", output.data.as_mut_ptr());
+            (api.set_filter_int)(filter, c"quality".as_ptr(), QUALITY);
+            if is_color {
+                (api.set_filter_bool)(filter, c"hdr".as_ptr(), true);
+                (api.set_filter_bool)(filter, c"cleanAux".as_ptr(), true);
+            }
+            (api.commit_filter)(filter);
+            (api.execute_filter)(filter);
+            (api.release_filter)(filter);
+        }
+        self.api.error(self.handle).map(|()| output)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use trove_model::Seed;
+
+    use super::*;
+
+    /// The installed denoiser; tests that need it say so where there is none.
+    fn installed(threads: usize) -> Option<Denoiser> {
+        let search: Vec<PathBuf> = std::env::var_os("TROVE_OIDN").map(PathBuf::from).into_iter().collect();
+        let loaded = Denoiser::load(&search, threads);
+        loaded.map_err(|problem| eprintln!("skipped: {problem}")).ok()
+    }
+
+    #[test]
+    fn a_missing_library_is_a_reason_and_not_a_crash() {
+        let Err(problem) = Denoiser::load(&[PathBuf::from("/nowhere")], 1) else { return };
+        assert!(problem.to_string().contains("/nowhere"), "{problem}");
+    }
+
+    #[test]
+    fn a_file_that_is_no_library_is_named_in_the_reason() {
+        let Err(problem) = Denoiser::load(&[PathBuf::from(file!()), PathBuf::from("Cargo.toml")], 1) else { return };
+        assert!(problem.to_string().contains("Cargo.toml"), "{problem}");
+    }
+
+    #[test]
+    fn only_the_library_itself_is_a_candidate() {
+        for (name, is) in [
+            ("libOpenImageDenoise.so.2.5.1", true),
+            ("libOpenImageDenoise.2.dylib", true),
+            ("OpenImageDenoise.dll", true),
+            ("libOpenImageDenoise_core.so.2.5.1", false),
+            ("libtbb.so.12", false),
+        ] {
+            assert_eq!(api::is_library(Path::new(name)), is, "{name}");
+        }
+    }
+
+    #[test]
+    fn noise_goes_edges_stay_and_threads_do_not_matter() {
+        let (Some(one), Some(two)) = (installed(1), installed(2)) else { return };
+        let mut random = Seed(5).random();
+        let side = |x: u32| if x < 100 { 0.2 } else { 0.8 };
+        let guide = Raster::from_fn(200, 120, |x, _| [side(x) as f32; 3]);
+        let normal = Raster::filled(200, 120, [0.0, 0.0, 1.0f32]);
+        let noisy = Raster::from_fn(200, 120, |x, _| [(side(x) * (1.0 + 0.5 * random.normal())).max(0.0) as f32; 3]);
+        let clean = one.denoise(&noisy, &guide, &normal).unwrap();
+        let error = |image: &Raster<[f32; 3]>| {
+            let squares = (0..120).flat_map(|y| (0..200).map(move |x| (x, y)));
+            squares.map(|(x, y)| (f64::from(image.at(x, y)[0]) - side(x)).powi(2)).sum::<f64>()
+        };
+        assert!(error(&clean) < 0.02 * error(&noisy), "{} of {}", error(&clean), error(&noisy));
+        assert_eq!(clean, one.denoise(&noisy, &guide, &normal).unwrap());
+        assert_eq!(clean, two.denoise(&noisy, &guide, &normal).unwrap());
+    }
+
+    #[test]
+    fn guides_of_another_size_are_refused() {
+        let Some(denoiser) = installed(1) else { return };
+        let (small, large) = (Raster::filled(8, 8, [0.5; 3]), Raster::filled(9, 8, [0.5; 3]));
+        assert!(denoiser.denoise(&small, &large, &small).is_none());
+        assert!(denoiser.denoise(&small, &small, &small).is_some());
     }
 }
