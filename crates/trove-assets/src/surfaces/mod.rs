@@ -1,8 +1,127 @@
-//! Materials whose textures tile.
+//! Textures that tile, for everything that is built in place.
 
-use trove_model::Surface;
+mod canvas;
+mod facade;
+mod ground;
+mod ground_floor;
+mod noise;
+mod opening;
+mod paving;
+mod roof;
+#[cfg(test)]
+mod tests;
+mod wall;
 
-/// Every surface.
+use glam::{Vec3, vec2, vec3};
+use rayon::prelude::*;
+use trove_model::{Surface, SurfaceKind};
+
+pub(crate) use canvas::{Canvas, Texel};
+pub(crate) use noise::{Noise, hash, step};
+
+use facade::Facade;
+use ground::Wear;
+
+/// How a surface is painted.
+enum Paint {
+    Plain(Box<dyn Fn() -> Canvas + Send + Sync>),
+    Storeys(Box<dyn Fn() -> Facade + Send + Sync>),
+}
+
+type Recipe = (&'static str, SurfaceKind, Paint);
+
+fn plain(id: &'static str, kind: SurfaceKind, paint: impl Fn() -> Canvas + Send + Sync + 'static) -> Recipe {
+    (id, kind, Paint::Plain(Box::new(paint)))
+}
+
+fn storeys(id: &'static str, kind: SurfaceKind, paint: impl Fn() -> Facade + Send + Sync + 'static) -> Recipe {
+    (id, kind, Paint::Storeys(Box::new(paint)))
+}
+
+/// Every surface, in no particular order.
 pub(crate) fn surfaces() -> Vec<Surface> {
-    Vec::new()
+    ground_recipes().into_iter().chain(building_recipes()).collect::<Vec<_>>().par_iter().map(surface).collect()
+}
+
+fn surface((id, kind, paint): &Recipe) -> Surface {
+    let (canvas, cells, coarser) = match paint {
+        Paint::Plain(paint) => (paint(), [1, 1], 1),
+        Paint::Storeys(paint) => {
+            let (canvas, grid) = paint();
+            (canvas, grid.cells, 2)
+        }
+    };
+    let mut material = canvas.material(id, coarser);
+    if matches!(kind, SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow) {
+        material.alpha_cutoff = 0.5;
+    }
+    if *kind == SurfaceKind::Water {
+        material.ior = 1.33;
+    }
+    Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells }
+}
+
+/// Roads, paths and land.
+fn ground_recipes() -> Vec<Recipe> {
+    use SurfaceKind::*;
+    let worn = Wear { binder: 0.07, stone: 0.17, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
+    let green = vec3(0.075, 0.115, 0.028);
+    let straw = vec3(0.2, 0.165, 0.075);
+    vec![
+        plain("asphalt/new", Asphalt, || {
+            let new = Wear { binder: 0.045, stone: 0.1, worn: 0.15, cracks: 0.0, patches: false, seed: 1 };
+            ground::asphalt(new)
+        }),
+        plain("asphalt/worn", Asphalt, move || ground::asphalt(worn)),
+        plain("asphalt/patched", Asphalt, move || {
+            ground::asphalt(Wear { cracks: 0.6, patches: true, seed: 3, ..worn })
+        }),
+        plain("marking/white", MarkingWhite, || ground::marking(vec3(0.62, 0.62, 0.6), 11)),
+        plain("marking/yellow", MarkingYellow, || ground::marking(vec3(0.56, 0.33, 0.035), 12)),
+        plain("paving/slabs", Paving, || paving::slabs(vec3(0.31, 0.3, 0.28), vec2(0.6, 0.6), 21)),
+        plain("paving/bricks", Paving, || paving::bricks(vec3(0.24, 0.13, 0.095), 22)),
+        plain("paving/herringbone", Paving, || paving::herringbone(vec3(0.25, 0.19, 0.155), 23)),
+        plain("paving/concrete", Paving, || paving::concrete(vec3(0.3, 0.29, 0.27), [3.0, 3.0], 0.012, 24)),
+        plain("kerb/concrete", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), false, 31)),
+        plain("kerb/black-white", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), true, 32)),
+        plain("concrete/plain", Concrete, || paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33)),
+        plain("grass/lawn", Grass, move || ground::grass(green, straw, 0.12, 41)),
+        plain("grass/worn", Grass, move || ground::grass(green * 0.95, straw, 0.42, 42)),
+        plain("soil/earth", Soil, || ground::soil(43)),
+        plain("gravel/grey", Gravel, || ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44)),
+        plain("water/still", Water, ground::water),
+        plain("flat-roof/bitumen", FlatRoof, || roof::bitumen(51)),
+        plain("flat-roof/gravel", FlatRoof, || ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52)),
+        plain("roof-tiles/red", RoofTiles, || roof::tiles(vec3(0.27, 0.105, 0.06), 53)),
+        plain("roof-tiles/dark", RoofTiles, || roof::tiles(vec3(0.085, 0.08, 0.08), 54)),
+    ]
+}
+
+/// Upper storeys and ground floors.
+fn building_recipes() -> Vec<Recipe> {
+    use SurfaceKind::{Facade, FacadeGroundFloor};
+    let brown = vec3(0.22, 0.125, 0.085);
+    let blue = || facade::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24), 105);
+    let green = || facade::curtain_wall(vec3(0.6, 0.95, 0.85), vec3(0.07, 0.095, 0.085), Vec3::splat(0.1), 106);
+    let cream = || facade::plaster_shutters(vec3(0.5, 0.42, 0.29), vec3(0.05, 0.1, 0.075), 103);
+    vec![
+        storeys("facade/brick-row", Facade, move || facade::brick_row(brown, 101)),
+        storeys("facade/brick-mill", Facade, || facade::brick_mill(102)),
+        storeys("facade/plaster-shutters", Facade, cream),
+        storeys("facade/victorian", Facade, || facade::victorian(104)),
+        storeys("facade/glass-blue", Facade, blue),
+        storeys("facade/glass-green", Facade, green),
+        storeys("facade/office-ribbon", Facade, || facade::ribbon(107)),
+        storeys("facade/slab-block", Facade, || facade::slab_block(vec3(0.2, 0.3, 0.36), 108)),
+        storeys("facade/hotel-grid", Facade, || facade::hotel(vec3(0.5, 0.49, 0.47), 109)),
+        storeys("facade/warehouse-metal", Facade, || facade::warehouse(vec3(0.36, 0.38, 0.39), 110)),
+        storeys("facade/mixed-use", Facade, || facade::mixed_use(111)),
+        storeys("facade/white-panel", Facade, || facade::panel(vec3(0.6, 0.6, 0.59), 0.45, 112)),
+        storeys("facade/metal-panel", Facade, || facade::panel(vec3(0.22, 0.235, 0.26), 0.4, 113)),
+        storeys("ground-floor/shops", FacadeGroundFloor, || ground_floor::shops(121)),
+        storeys("ground-floor/entrances", FacadeGroundFloor, move || ground_floor::entrances(brown, 122)),
+        storeys("ground-floor/loading", FacadeGroundFloor, || ground_floor::loading(123)),
+        storeys("ground-floor/arcade", FacadeGroundFloor, || ground_floor::arcade(124)),
+        storeys("ground-floor/lobby", FacadeGroundFloor, || ground_floor::lobby(125)),
+    ]
 }

@@ -1,0 +1,180 @@
+//! Asphalt, paint on it, and what is not paved.
+
+use glam::{Vec2, Vec3, vec2, vec3};
+
+use super::canvas::{Canvas, Texel};
+use super::noise::{Noise, step};
+
+/// Asphalt's character.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wear {
+    /// Colour of the binder between the stones.
+    pub(super) binder: f32,
+    /// Colour of the stones.
+    pub(super) stone: f32,
+    /// Share of the stones that the binder has worn off, 0 to 1.
+    pub(super) worn: f32,
+    /// Cracks, 0 to 1.
+    pub(super) cracks: f32,
+    /// Squares cut open and filled with darker asphalt.
+    pub(super) patches: bool,
+    pub(super) seed: u32,
+}
+
+/// Stones in bitumen, stains, hairline cracks and patches.
+pub(super) fn asphalt(kind: Wear) -> Canvas {
+    let size = [6.0, 6.0];
+    let size_m = Vec2::from_array(size);
+    let noise = |feature_m, salt| Noise::new(size_m, feature_m, kind.seed * 31 + salt);
+    let (stones, grain, blotch, stain) = (noise(0.014, 1), noise(0.05, 2), noise(1.5, 3), noise(0.6, 4));
+    let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6), noise(1.7, 7));
+    let warm = vec3(1.03, 1.0, 0.955);
+    let mut canvas = Canvas::new([1024, 1024], size, |p| {
+        let stone = stones.near(p);
+        let broad = blotch.fbm(p, 3);
+        let shown = step(0.62, 0.25, stone.first) * step(1.0 - kind.worn, 1.15 - kind.worn, stone.id + 0.25 * broad);
+        let tone = kind.stone * (0.65 + 0.7 * stone.id);
+        let mut value = kind.binder * (1.0 + 0.22 * grain.at(p)) + (tone - kind.binder) * shown;
+        value *= 1.0 + 0.14 * broad - 0.16 * step(0.25, 0.7, stain.fbm(p, 3));
+        let mut texel = Texel::new(warm * value, 0.86 - 0.1 * shown);
+        texel.height_m = 0.0012 * step(0.7, 0.2, stone.first) + 0.0015 * grain.at(p);
+        if kind.cracks > 0.0 {
+            let bent = p + vec2(warp.fbm(p, 3), warp.fbm(p + size_m * 0.37, 3)) * 0.22;
+            let cell = plates.near(bent);
+            let open = step(0.25, 0.55, sparse.at(p) + kind.cracks - 0.45);
+            let crack = step(0.012, 0.003, cell.second - cell.first) * open;
+            texel.tint(Vec3::splat(0.022), 0.85 * crack);
+            texel.height_m -= 0.004 * crack;
+        }
+        texel
+    });
+    if kind.patches {
+        for (i, (low, high)) in
+            [(vec2(0.7, 0.9), vec2(2.3, 2.0)), (vec2(3.6, 3.1), vec2(4.4, 5.6)), (vec2(4.9, 0.4), vec2(5.6, 1.3))]
+                .into_iter()
+                .enumerate()
+        {
+            patch(&mut canvas, low, high, &warp, i as f32);
+        }
+    }
+    canvas
+}
+
+/// A rectangle of newer asphalt with a sealed edge.
+fn patch(canvas: &mut Canvas, low: Vec2, high: Vec2, warp: &Noise, tone: f32) {
+    let size = high - low;
+    canvas.rect(low - 0.05, high + 0.05, |p, texel| {
+        let p = p - 0.05;
+        let edge = p.min(size - p).min_element() + 0.025 * warp.fbm(p + low, 3);
+        let inside = step(-0.006, 0.006, edge);
+        let seal = step(0.05, 0.03, (edge - 0.01).abs() * 1.2) * inside;
+        texel.albedo *= 1.0 - inside * (0.3 - 0.07 * tone);
+        texel.tint(Vec3::splat(0.025), 0.8 * seal);
+        texel.roughness -= 0.15 * seal;
+        texel.height_m += 0.004 * inside;
+    });
+}
+
+/// Road paint that has worn off in places (alpha), over stones that show through.
+pub(super) fn marking(color: Vec3, seed: u32) -> Canvas {
+    let size = [2.0, 2.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (stones, grain, blotch, dirt) = (noise(0.014, 1), noise(0.03, 2), noise(0.45, 3), noise(0.2, 4));
+    Canvas::new([512, 512], size, |p| {
+        let stone = stones.near(p);
+        let broad = blotch.fbm(p, 4);
+        let worn = broad + 0.55 * (0.5 - stone.first) + 0.35 * grain.at(p);
+        let grime = 0.35 * step(0.0, 0.8, worn) + 0.15 * step(-0.2, 0.6, dirt.fbm(p, 3));
+        let mut texel = Texel::new(color.lerp(Vec3::splat(0.14), grime), 0.62);
+        texel.height_m = 0.001 * step(0.7, 0.2, stone.first);
+        texel.alpha = step(0.8, 0.62, worn);
+        texel
+    })
+}
+
+/// Grass seen from above: blades, clumps, and bare earth by `bare`.
+pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
+    let size = [4.0, 4.0];
+    let size_m = Vec2::from_array(size);
+    let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
+    let (clump, tuft, patch, earth) = (noise(0.5, 1), noise(0.09, 2), noise(1.3, 3), noise(0.025, 4));
+    let mut canvas = Canvas::new([768, 768], size, |p| {
+        let (c, e) = (clump.fbm(p, 3), earth.fbm(p, 2));
+        let soil = vec3(0.13, 0.09, 0.058) * (1.0 + 0.3 * e);
+        let dead = step(0.1, 0.7, patch.fbm(p, 3) + 0.25 * c);
+        let green = fresh.lerp(dry, 0.35 * dead) * (0.75 + 0.3 * c);
+        let open = step(1.0 - bare, 1.25 - bare, 0.5 + 0.5 * patch.fbm(p + size_m * 0.31, 4) + 0.2 * tuft.at(p));
+        let mut texel = Texel::new((green * 0.55).lerp(soil, open), 0.9);
+        texel.height_m = 0.006 * tuft.fbm(p, 2) - 0.012 * open;
+        texel.alpha = 1.0 - open;
+        texel
+    });
+    // Blades: short strokes, each of its own shade; they thin out over bare earth (kept in alpha until here).
+    let mut random = trove_model::Seed(u64::from(seed)).child("blades").random();
+    for _ in 0..17_000 {
+        let at = vec2(random.unit() as f32, random.unit() as f32) * size_m;
+        let along = Vec2::from_angle(random.range(0.0, std::f64::consts::TAU) as f32);
+        let length = random.range(0.035, 0.085) as f32;
+        let shade = random.range(0.55, 1.55) as f32;
+        let hue = random.unit() as f32;
+        let keep = random.unit() as f32;
+        let reach = along.abs() * length / 2.0 + 0.004;
+        canvas.rect(at - reach, at + reach, |p, texel| {
+            let q = p - reach;
+            let (t, off) = (q.dot(along) / length, q.perp_dot(along).abs());
+            if texel.alpha > keep * 0.8 && t.abs() < 0.5 && off < 0.0042 * (0.65 - t) {
+                texel.albedo = fresh.lerp(dry, hue * hue) * shade * (0.8 + 0.5 * t);
+                texel.height_m = 0.01 + 0.012 * t;
+                texel.roughness = 0.75;
+            }
+        });
+    }
+    canvas.all(|_, texel| texel.alpha = 1.0);
+    canvas
+}
+
+/// Bare earth with crumbs and small stones.
+pub(super) fn soil(seed: u32) -> Canvas {
+    let size = [3.0, 3.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (crumb, broad, pebble) = (noise(0.05, 1), noise(0.8, 2), noise(0.11, 3));
+    Canvas::new([512, 512], size, |p| {
+        let (c, b) = (crumb.fbm(p, 4), broad.fbm(p, 4));
+        let stone = pebble.near(p);
+        let is_stone = step(0.24, 0.17, stone.first) * step(0.72, 0.75, stone.id);
+        let earth = vec3(0.135, 0.095, 0.064) * (1.0 + 0.35 * c + 0.3 * b);
+        let mut texel = Texel::new(earth.lerp(vec3(0.21, 0.19, 0.165) * (0.7 + 0.5 * stone.id), is_stone), 0.93);
+        texel.height_m = 0.012 * c + 0.02 * b + 0.012 * is_stone;
+        texel
+    })
+}
+
+/// Loose stones of about `stone_m`.
+pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32) -> Canvas {
+    let size = [2.0, 2.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (stones, fine, grain, broad) = (noise(stone_m, 1), noise(stone_m * 0.6, 2), noise(0.02, 3), noise(0.6, 4));
+    Canvas::new([512, 512], size, |p| {
+        let (large, small) = (stones.near(p), fine.near(p));
+        let on_top = large.first < 0.52;
+        let (stone, depth) = if on_top { (large, 1.0) } else { (small, 0.6) };
+        let dome = (1.0 - (stone.first * 1.5).powi(2)).max(0.0);
+        let tone = depth * (0.55 + 0.8 * stone.id) * (0.45 + 0.55 * dome) * (1.0 + 0.15 * grain.at(p));
+        let warm = vec3(1.0 + 0.12 * (stone.id - 0.5), 1.0, 1.0 - 0.15 * (stone.id - 0.5));
+        let mut texel = Texel::new(color * warm * tone * (1.0 + 0.2 * broad.fbm(p, 3)), 0.88);
+        texel.height_m = stone_m * (0.3 * dome + if on_top { 0.25 } else { 0.0 });
+        texel
+    })
+}
+
+/// Still water with small ripples.
+pub(super) fn water() -> Canvas {
+    let size = [8.0, 8.0];
+    let noise = |feature_m, seed| Noise::new(Vec2::from_array(size), feature_m, seed);
+    let (swell, ripple) = (noise(1.6, 881), noise(0.4, 882));
+    Canvas::new([512, 512], size, |p| {
+        let mut texel = Texel::new(vec3(0.012, 0.022, 0.02), 0.06);
+        texel.height_m = 0.018 * swell.fbm(p, 3) + 0.005 * ripple.fbm(p, 3);
+        texel
+    })
+}

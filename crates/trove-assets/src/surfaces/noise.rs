@@ -1,0 +1,151 @@
+//! Noise that repeats with the texture.
+
+use glam::{IVec2, Vec2, ivec2, vec2};
+
+/// A random number in 0..1 for a lattice point.
+pub(crate) fn hash(x: i32, y: i32, seed: u32) -> f32 {
+    let mut h = (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841);
+    h ^= seed.wrapping_mul(0xcb1a_b31f);
+    h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
+    h = (h ^ (h >> 12)).wrapping_mul(0x297a_2d39);
+    ((h ^ (h >> 15)) >> 8) as f32 / (1 << 24) as f32
+}
+
+/// A lattice over a texture, which has a whole number of cells each way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Noise {
+    cells: IVec2,
+    cells_per_m: Vec2,
+    seed: u32,
+}
+
+/// What a point is near to among points strewn one a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    /// Distance to the nearest, in cells.
+    pub(crate) first: f32,
+    /// Distance to the second nearest, in cells.
+    pub(crate) second: f32,
+    /// A random number in 0..1 of the nearest.
+    pub(crate) id: f32,
+    /// From the nearest to the point, in cells.
+    pub(crate) offset: Vec2,
+}
+
+impl Noise {
+    /// Features of about `feature_m` on a texture that covers `size_m`.
+    pub(crate) fn new(size_m: Vec2, feature_m: f32, seed: u32) -> Self {
+        Self::stretched(size_m, Vec2::splat(feature_m), seed)
+    }
+
+    /// Features of about `feature_m` across and up.
+    pub(crate) fn stretched(size_m: Vec2, feature_m: Vec2, seed: u32) -> Self {
+        let cells = (size_m / feature_m).round().max(Vec2::ONE);
+        Self { cells: cells.as_ivec2(), cells_per_m: cells / size_m, seed }
+    }
+
+    fn hash(&self, cell: IVec2, salt: u32) -> f32 {
+        hash(cell.x.rem_euclid(self.cells.x), cell.y.rem_euclid(self.cells.y), self.seed.wrapping_add(salt))
+    }
+
+    /// Perlin's gradient noise at a point in metres, about −1 to 1.
+    pub(crate) fn at(&self, p_m: Vec2) -> f32 {
+        let p = p_m * self.cells_per_m;
+        let cell = p.floor();
+        let f = p - cell;
+        let cell = cell.as_ivec2();
+        let corner = |dx: i32, dy: i32| {
+            let h = self.hash(cell + ivec2(dx, dy), 0) * 16.0;
+            let (x, y) = GRADIENTS[h as usize & 15];
+            x * (f.x - dx as f32) + y * (f.y - dy as f32)
+        };
+        let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        let low = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * w.x;
+        let high = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * w.x;
+        1.5 * (low + (high - low) * w.y)
+    }
+
+    /// Several octaves of [`Noise::at`], each half as large and half as strong; about −1 to 1.
+    pub(crate) fn fbm(&self, p_m: Vec2, octaves: u32) -> f32 {
+        let (mut layer, mut sum, mut weight) = (*self, 0.0, 0.6);
+        for octave in 0..octaves {
+            sum += layer.at(p_m) * weight;
+            weight *= 0.5;
+            layer.cells *= 2;
+            layer.cells_per_m *= 2.0;
+            layer.seed = self.seed.wrapping_add(101 * (octave + 1));
+        }
+        sum
+    }
+
+    /// Worley's cellular noise at a point in metres.
+    pub(crate) fn near(&self, p_m: Vec2) -> Near {
+        let p = p_m * self.cells_per_m;
+        let cell = p.floor().as_ivec2();
+        let mut near = Near { first: f32::INFINITY, second: f32::INFINITY, id: 0.0, offset: Vec2::ZERO };
+        for dy in -1..=1 {
+            for dx in -1..=1 {
+                let c = cell + ivec2(dx, dy);
+                let offset = p - c.as_vec2() - vec2(self.hash(c, 1), self.hash(c, 2));
+                let d = offset.length_squared();
+                if d < near.first {
+                    near = Near { first: d, second: near.first, id: self.hash(c, 3), offset };
+                } else if d < near.second {
+                    near.second = d;
+                }
+            }
+        }
+        Near { first: near.first.sqrt(), second: near.second.sqrt(), ..near }
+    }
+}
+
+/// Sixteen directions around the circle.
+const GRADIENTS: [(f32, f32); 16] = {
+    const A: f32 = 0.923_879_5;
+    const B: f32 = 0.707_106_77;
+    const C: f32 = 0.382_683_43;
+    [
+        (1.0, 0.0),
+        (A, C),
+        (B, B),
+        (C, A),
+        (0.0, 1.0),
+        (-C, A),
+        (-B, B),
+        (-A, C),
+        (-1.0, 0.0),
+        (-A, -C),
+        (-B, -B),
+        (-C, -A),
+        (0.0, -1.0),
+        (C, -A),
+        (B, -B),
+        (A, -C),
+    ]
+};
+
+/// 0 below `low`, 1 above `high`, smooth between.
+pub(crate) fn step(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_repeats_with_the_texture_and_fills_its_range() {
+        let size = vec2(3.0, 2.0);
+        let noise = Noise::new(size, 0.3, 7);
+        let mut range = (0.0f32, 0.0f32);
+        for i in 0..200 {
+            let p = vec2(hash(i, 0, 1), hash(i, 1, 1)) * size;
+            let value = noise.fbm(p, 4);
+            assert!((value - noise.fbm(p + size, 4)).abs() < 1e-3);
+            assert!((noise.near(p).first - noise.near(p - size).first).abs() < 1e-3);
+            range = (range.0.min(value), range.1.max(value));
+        }
+        assert!(range.0 < -0.4 && range.1 > 0.4 && range.0 > -1.2 && range.1 < 1.2, "{range:?}");
+    }
+}
