@@ -1,0 +1,121 @@
+//! One scene, joined from its tables.
+
+use glam::{DVec2, DVec3};
+use trove_model::{Drive, EgoBody, Keyframe, Outcome, Report};
+
+use super::exposures::{self, GlobalFromEgo, Taken};
+use super::index::read_spans;
+use super::lidar::{self, SweepFiles};
+use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
+use super::tables::ByToken;
+use super::{LICENCE, NuScenes, boxes, keyframes, kinds, lane_map, place};
+use crate::ReadError;
+
+/// nuScenes' recording cars are Renault Zoes: published length, width without mirrors, and height. The origin of Ego
+/// is the middle of the rear axle; wheelbase and rear overhang put the car's centre about 1.3 m before it.
+const EGO_BODY: EgoBody = EgoBody { centre_ego: DVec3::new(1.3, 0.0, 0.781), size_m: DVec3::new(4.084, 1.730, 1.562) };
+
+/// A sample that is used, with what was taken for it.
+struct Moment<'a> {
+    sample: &'a SampleRecord,
+    taken: Taken,
+    global_from_ego: GlobalFromEgo,
+}
+
+/// Loads the scene at a place in the scene table.
+pub(super) fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, ReadError> {
+    let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
+    let record = &tables.scenes[scene];
+    let moments = moments(dataset, scene, report)?;
+    let Some(first) = moments.first() else { return Err(empty(dataset, &record.name)) };
+
+    // World is the global frame with the first position taken off, so that numbers are small.
+    let anchor_m = first.global_from_ego.translation.truncate().round();
+    let world_pose = |mut pose: GlobalFromEgo| {
+        pose.translation -= anchor_m.extend(0.0);
+        pose
+    };
+    let rig = exposures::rig(moments.iter().map(|m| &m.taken));
+    let mut keyframes: Vec<_> = moments
+        .iter()
+        .map(|moment| Keyframe {
+            time_ns: moment.sample.timestamp.saturating_mul(1000),
+            token: moment.sample.token.clone(),
+            world_from_ego: world_pose(moment.global_from_ego),
+            exposures: exposures::exposures(&moment.taken, &rig, world_pose),
+            boxes: Vec::new(),
+            lidar: None,
+        })
+        .collect();
+    read_sweeps(dataset, &moments, &mut keyframes, world_pose, report);
+
+    let annotations = read_spans::<AnnotationRecord>(&dataset.folder, &spans.annotations, report)?;
+    let tracks = boxes::place(tables, &annotations, &mut keyframes, anchor_m, report);
+    let log = dataset.log(record);
+    if log.is_none() {
+        report.note(Outcome::Warned, "nuScenes scene of an unknown log", &record.name);
+    }
+    let place_name = log.map_or("", |l| l.location.as_str());
+    let path: Vec<DVec2> = keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    Ok(Drive {
+        id: record.name.clone(),
+        dataset: "nuscenes".to_owned(),
+        place: place_name.to_owned(),
+        projection: place::projection(log, anchor_m, report),
+        rig,
+        ego_body: EGO_BODY,
+        lane_map: lane_map::read(&dataset.root, place_name, anchor_m, &path, report),
+        keyframes,
+        tracks,
+        licence: log.and_then(|l| l.trove_licence.clone()).unwrap_or_else(|| LICENCE.to_owned()),
+    })
+}
+
+/// The scene's samples that have a pose, in order.
+fn moments<'a>(dataset: &'a NuScenes, scene: usize, report: &Report) -> Result<Vec<Moment<'a>>, ReadError> {
+    let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
+    let data = read_spans::<SampleDataRecord>(&dataset.folder, &spans.sample_data, report)?;
+    let ego_poses = read_spans::<EgoPoseRecord>(&dataset.folder, &spans.ego_poses, report)?;
+    let ego_poses: ByToken<_> = ego_poses.into_iter().map(|p| (p.token.clone(), p)).collect();
+    let mut taken = exposures::join(&dataset.root, tables, data, &ego_poses, report);
+    let moment = |sample: &'a SampleRecord| {
+        let taken = taken.remove(&sample.token).unwrap_or_default();
+        match taken.global_from_ego(sample.timestamp.saturating_mul(1000), &sample.token, report) {
+            Some(global_from_ego) => Some(Moment { sample, taken, global_from_ego }),
+            None => {
+                report.note(Outcome::Dropped, "nuScenes sample without a usable ego pose", &sample.token);
+                None
+            }
+        }
+    };
+    Ok(keyframes::in_order(tables, scene, report).into_iter().filter_map(moment).collect())
+}
+
+fn read_sweeps(
+    dataset: &NuScenes,
+    moments: &[Moment],
+    keyframes: &mut [Keyframe],
+    world_pose: impl Fn(GlobalFromEgo) -> GlobalFromEgo,
+    report: &Report,
+) {
+    let numbered = dataset.tables.categories.values().filter_map(|c| Some((c.index?, c.name.as_str())));
+    let classes = kinds::lidar_classes(numbered);
+    for (moment, keyframe) in moments.iter().zip(keyframes) {
+        let Some(revolution) = moment.taken.revolution.as_ref().filter(|r| !r.file.is_empty()) else { continue };
+        let labels = dataset.tables.lidarseg_files.get(&revolution.token).map_or("", String::as_str);
+        let labels = exposures::existing(&dataset.root, labels, report);
+        let files = SweepFiles { points: &revolution.file, labels: &labels };
+        let world_from_sensor = world_pose(revolution.global_from_ego) * revolution.ego_from_sensor;
+        keyframe.lidar = lidar::sweep(&dataset.root, &files, world_from_sensor, &classes, report);
+    }
+}
+
+fn empty(dataset: &NuScenes, scene: &str) -> ReadError {
+    ReadError::Format {
+        path: dataset.folder.join("sample.json"),
+        place: scene.to_owned(),
+        expected: "at least one keyframe with an ego pose".to_owned(),
+        found: "none that can be used".to_owned(),
+        remedy: "choose another scene, or unpack the tables again".to_owned(),
+    }
+}
