@@ -103,6 +103,17 @@ impl Shape {
         self.split(prism).0
     }
 
+    /// What is in a slot, and the rest.
+    pub(crate) fn split_slot(self, slot: u16) -> (Self, Self) {
+        let part = |wanted: bool| {
+            let chosen = self.triangles.iter().zip(&self.slots).filter(|(_, s)| (**s == slot) == wanted);
+            let (triangles, slots) = chosen.map(|(t, s)| (*t, *s)).unzip();
+            let (positions, normals, uvs) = (self.positions.clone(), self.normals.clone(), self.uvs.clone());
+            Self { positions, normals, uvs, triangles, slots }.without_unused_vertices()
+        };
+        (part(true), part(false))
+    }
+
     /// The surface inside a prism, and the rest.
     pub(crate) fn split(mut self, prism: &Prism) -> (Self, Self) {
         let mut inside = Self::default();

@@ -226,7 +226,7 @@ impl Shape {
         self
     }
 
-    fn without_unused_vertices(self) -> Self {
+    pub(super) fn without_unused_vertices(self) -> Self {
         let mut kept = Self { slots: self.slots, ..Self::default() };
         let mut place: HashMap<u32, u32> = HashMap::new();
         for t in &self.triangles {

@@ -31,13 +31,16 @@ impl Model {
         self.shape = std::mem::take(&mut self.shape).and(shape);
     }
 
-    /// What is in slot `from` inside a prism or its mirror image goes to slot `to`.
+    /// What is in slot `from` inside a prism goes to slot `to`.
+    pub(crate) fn mark(&mut self, prism: &Prism, from: u16, to: u16) {
+        let (chosen, other) = std::mem::take(&mut self.shape).split_slot(from);
+        self.shape = other.and(chosen.mark(prism, to));
+    }
+
+    /// `mark` on both sides of y = 0.
     pub(crate) fn mark_both(&mut self, prism: &Prism, from: u16, to: u16) {
-        for prism in [prism.clone(), prism.mirrored()] {
-            let (mut inside, outside) = std::mem::take(&mut self.shape).split(&prism);
-            inside.slots.iter_mut().filter(|s| **s == from).for_each(|s| *s = to);
-            self.shape = outside.and(inside);
-        }
+        self.mark(prism, from, to);
+        self.mark(&prism.mirrored(), from, to);
     }
 
     /// The asset: slots without triangles go, the origin comes to the middle of the bounds on the ground.
