@@ -1,0 +1,159 @@
+//! Which piece of the plane is what: carriageway, kerb, pavement.
+
+use glam::DVec2;
+use trove_model::{Bounds, Drive, Outcome, Polygon, Report, RoadKind, StreetMap};
+
+use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch};
+use crate::plane::{difference, grown, intersection, rectangle, strip, union};
+use crate::plane_raster::PlaneRaster;
+
+/// Width of a kerb stone.
+const KERB_STONE_M: f64 = 0.15;
+/// Width of a sidewalk that the map does not draw.
+const SIDEWALK_M: f64 = 2.5;
+/// Width of a path in a park.
+const FOOTWAY_M: f64 = 1.8;
+/// Half of the gaps that are closed between OpenStreetMap's carriageways, which also rounds their corners.
+const CORNER_M: f64 = 2.5;
+/// Half of the gaps that are closed between carriageway and walkway: nobody leaves strips that narrow.
+const GAP_M: f64 = 0.6;
+/// Islands smaller than this are errors of drawing, m².
+const ISLAND_M2: f64 = 1.5;
+/// Half of the width of a road of which only the driven path is known.
+const PATH_HALF_WIDTH_M: f64 = 3.5;
+/// A street is built up where a building stands this near.
+const BUILT_UP_M: f64 = 40.0;
+
+/// The plane, divided; no two areas overlap.
+pub(super) struct Layout<'a> {
+    /// What the dataset's map says; within the carriageway.
+    pub recorded: PlaneRaster,
+    /// Road beyond it.
+    pub stretches: Vec<Stretch<'a>>,
+    pub carriageway: Vec<Polygon>,
+    pub kerb: Vec<Polygon>,
+    pub pavement: Vec<Polygon>,
+    /// What is left.
+    pub land: Vec<Polygon>,
+}
+
+/// Divides the plane within `bounds`.
+pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Bounds, report: &Report) -> Layout<'a> {
+    let whole = [rectangle(bounds)];
+    let lanes = drive.lane_map.as_ref();
+    let drivable = lanes.map(|m| union(&[m.drivable.clone(), m.carparks.clone()].concat())).unwrap_or_default();
+    let drivable = intersection(&drivable, &whole);
+    let mut recorded = PlaneRaster::new(bounds, 0.25);
+    recorded.fill(&grown(&drivable, BESIDE_M), NEAR);
+    recorded.fill(&drivable, RECORDED);
+
+    // Roads of the map where the recording ends, their corners rounded.
+    let stretches = map.map(|m| network::stretches(m, &recorded, bounds, report)).unwrap_or_default();
+    let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, s.width_m / 2.0)).collect();
+    let mapped = closed(&union(&strips), CORNER_M);
+    let mut carriageway = union(&[drivable, mapped].concat());
+
+    // The vehicle drove on a road, whatever the maps say.
+    let path = untouched_path(drive, &carriageway);
+    if !path.is_empty() {
+        report.note(Outcome::Guessed, "road under the driven path, which no map has", &drive.id);
+        let strips: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
+        carriageway = union(&[carriageway, closed(&union(&strips), GAP_M)].concat());
+    }
+    let mut carriageway = intersection(&carriageway, &whole);
+    for polygon in &mut carriageway {
+        polygon.holes.retain(|hole| Polygon::simple(hole.clone()).area_m2() > ISLAND_M2);
+    }
+    carriageway.retain(|p| p.area_m2() > ISLAND_M2);
+
+    // Walkways of the dataset, bands along the other roads, footpaths.
+    let mut walks = lanes.map(|m| m.walkways.clone()).unwrap_or_default();
+    if let Some(map) = map {
+        walks.extend(stretches.iter().flat_map(|s| bands(s, map)));
+        walks.extend(footways(map, &recorded, bounds));
+    }
+    let walks = union(&walks);
+    let walked = closed(&union(&[walks, carriageway.clone()].concat()), GAP_M);
+
+    let stones = grown(&carriageway, KERB_STONE_M);
+    let kerb = intersection(&difference(&stones, &carriageway), &whole);
+    let pavement = intersection(&difference(&walked, &stones), &whole);
+    let land = difference(&difference(&whole, &stones), &pavement);
+    Layout { recorded, stretches, carriageway, kerb, pavement, land }
+}
+
+/// With gaps narrower than twice `radius_m` closed.
+fn closed(area: &[Polygon], radius_m: f64) -> Vec<Polygon> {
+    grown(&grown(area, radius_m), -radius_m)
+}
+
+/// Stretches of the driven path that lie on no carriageway; a point off it makes a stretch with its neighbours.
+fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
+    let path: Vec<DVec2> = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let off: Vec<bool> = path.iter().map(|&p| !carriageway.iter().any(|c| c.contains(p))).collect();
+    let mut lines: Vec<Vec<DVec2>> = Vec::new();
+    for i in 0..path.len().saturating_sub(1) {
+        if !(off[i] || off[i + 1]) {
+            continue;
+        }
+        match lines.last_mut() {
+            Some(line) if line.last() == Some(&path[i]) => line.push(path[i + 1]),
+            _ => lines.push(vec![path[i], path[i + 1]]),
+        }
+    }
+    // A vehicle that stood still all the time has no path: its own length stands for it.
+    if let (true, Some(k)) = (path.len() == 1 && off[0], drive.keyframes.first()) {
+        let forward = k.world_from_ego.vector(glam::DVec3::X).truncate() * 10.0;
+        lines.push(vec![path[0] - forward, path[0] + forward]);
+    }
+    lines
+}
+
+/// The sidewalks of a stretch: as tagged, else on both sides of a street in a built-up place.
+fn bands(stretch: &Stretch<'_>, map: &StreetMap) -> Vec<Polygon> {
+    let road = stretch.road;
+    let usual = (RoadKind::Primary..=RoadKind::Minor).contains(&road.kind) && is_built_up(&stretch.line, map);
+    let (left, right) = (road.sidewalk.left.unwrap_or(usual), road.sidewalk.right.unwrap_or(usual));
+    let half_m = stretch.width_m / 2.0;
+    // A band on one side is the strip of a line shifted to that side.
+    let shift_m = match (left, right) {
+        (false, false) => return Vec::new(),
+        (true, true) => return strip(&stretch.line, half_m + SIDEWALK_M),
+        (true, false) => SIDEWALK_M / 2.0,
+        (false, true) => -SIDEWALK_M / 2.0,
+    };
+    strip(&shifted(&stretch.line, shift_m), half_m + SIDEWALK_M / 2.0)
+}
+
+fn is_built_up(line: &[DVec2], map: &StreetMap) -> bool {
+    let near =
+        |p: &DVec2| map.buildings.iter().filter_map(|b| b.footprint.bounds()).any(|b| b.grown(BUILT_UP_M).contains(*p));
+    map.buildings.is_empty() || line.iter().step_by(10).any(near)
+}
+
+/// The line moved to its left by `distance_m`.
+pub(super) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
+    let direction = |i: usize| (line[i + 1] - line[i]).normalize_or_zero();
+    (0..line.len())
+        .map(|i| {
+            let before = if i > 0 { direction(i - 1) } else { direction(0) };
+            let after = if i + 1 < line.len() { direction(i) } else { before };
+            line[i] + (before + after).normalize_or(after).perp() * distance_m
+        })
+        .collect()
+}
+
+/// Footpaths and cycleways away from what was recorded.
+fn footways(map: &StreetMap, recorded: &PlaneRaster, bounds: Bounds) -> Vec<Polygon> {
+    map.roads
+        .iter()
+        .filter(|r| matches!(r.kind, RoadKind::Pedestrian | RoadKind::Cycleway | RoadKind::Footway))
+        .filter(|r| r.layer == 0 && !r.tunnel && !r.bridge)
+        .filter(|r| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&bounds)))
+        .filter(|r| r.centreline.iter().any(|&p| recorded.at(p) == 0))
+        .flat_map(|r| {
+            let usual_m = if r.kind == RoadKind::Pedestrian { 2.0 * FOOTWAY_M } else { FOOTWAY_M };
+            strip(&r.centreline, r.width_m.filter(|w| (0.5..=20.0).contains(w)).unwrap_or(usual_m) / 2.0)
+        })
+        .collect()
+}

@@ -1,0 +1,215 @@
+//! Carriageways of OpenStreetMap's roads, where the dataset's own map ends.
+
+use glam::DVec2;
+use trove_model::{Bounds, Outcome, Report, Road, RoadKind, StreetMap};
+
+use crate::plane_raster::PlaneRaster;
+
+/// Roads are looked at every so many metres.
+const STEP_M: f64 = 2.0;
+/// A road that stays this near to the recorded area is the recorded road, drawn a little beside it.
+pub(super) const BESIDE_M: f64 = 8.0;
+/// How far a road that leaves the recorded area is taken back into it, so that the two join.
+const OVERLAP_STEPS: usize = 2;
+/// Values of the raster that tells what was recorded.
+pub(super) const NEAR: u8 = 1;
+pub(super) const RECORDED: u8 = 2;
+/// A street that is wider than this was measured across a square or a car park.
+const WIDEST_M: f64 = 30.0;
+
+/// A stretch of road with its width.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch<'a> {
+    pub road: &'a Road,
+    pub line: Vec<DVec2>,
+    pub width_m: f64,
+}
+
+/// The stretches of the map's roads for cars that the recorded area lacks.
+pub(super) fn stretches<'a>(
+    map: &'a StreetMap,
+    recorded: &PlaneRaster,
+    bounds: Bounds,
+    report: &Report,
+) -> Vec<Stretch<'a>> {
+    let near = bounds.grown(50.0);
+    let reaches = |r: &&Road| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&near));
+    let (flat, raised): (Vec<&Road>, Vec<&Road>) =
+        map.roads.iter().filter(|r| r.kind.is_for_cars()).filter(reaches).partition(|r| on_the_ground(r));
+    let mut stretches = Vec::new();
+    for road in flat.iter().copied().chain(raised.iter().copied().filter(|r| {
+        // A bridge over nothing but water or a valley carries its road on the level.
+        let kept = r.bridge && !r.tunnel && !flat.iter().any(|other| crosses(r, other));
+        if !kept {
+            report.note(Outcome::Dropped, "road above or below the ground", format_args!("osm way {}", r.id));
+        }
+        kept
+    })) {
+        let points = resampled(&road.centreline);
+        let measured = measured_width_m(&points, recorded);
+        let width_m =
+            measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w))).unwrap_or_else(|| usual_width_m(road));
+        for line in beyond(&points, recorded) {
+            if measured.is_none() && road.width_m.is_none() {
+                let what = "width of a road, from its lanes or kind";
+                report.note(Outcome::Guessed, what, format_args!("osm way {}", road.id));
+            }
+            stretches.push(Stretch { road, line, width_m });
+        }
+    }
+    stretches
+}
+
+fn on_the_ground(road: &Road) -> bool {
+    road.layer == 0 && !road.tunnel && !road.bridge
+}
+
+/// Whether two ways cross between their vertices; ways that meet share a vertex.
+fn crosses(a: &Road, b: &Road) -> bool {
+    a.centreline.windows(2).any(|s| {
+        b.centreline.windows(2).any(|t| {
+            let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+            side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) < 0.0
+                && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) < 0.0
+        })
+    })
+}
+
+/// Carriageway width where nothing tells it, metres.
+fn usual_width_m(road: &Road) -> f64 {
+    let lane_m = match road.kind {
+        RoadKind::Motorway | RoadKind::Trunk => 3.6,
+        RoadKind::Primary | RoadKind::Secondary => 3.4,
+        RoadKind::Service => 2.75,
+        _ => 3.2,
+    };
+    let lanes = road.lanes.filter(|l| (1..=10).contains(l)).map(f64::from);
+    let lanes = lanes.unwrap_or(match (road.kind, road.oneway) {
+        (RoadKind::Motorway | RoadKind::Trunk, _) => 2.0,
+        (RoadKind::Primary | RoadKind::Secondary, true) => 2.0,
+        (RoadKind::Primary, false) => 4.0,
+        (RoadKind::Service, true) => 1.3,
+        // One lane and a row of parked cars.
+        (_, true) => 1.7,
+        (RoadKind::Service, false) => 1.8,
+        _ => 2.0,
+    });
+    // Gutters, a quarter of a metre to each side.
+    (lanes.max(1.0) * lane_m + 0.5).max(3.0)
+}
+
+/// The line with points every [`STEP_M`]; its own vertices stay.
+pub(super) fn resampled(line: &[DVec2]) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = line.first().copied().into_iter().collect();
+    for pair in line.windows(2) {
+        let steps = (pair[0].distance(pair[1]) / STEP_M).ceil().max(1.0);
+        points.extend((1..=steps as usize).map(|i| pair[0].lerp(pair[1], i as f64 / steps)));
+    }
+    points
+}
+
+/// The median width of the recorded area along a road, across junctions left out; `None` where they share too little.
+fn measured_width_m(points: &[DVec2], recorded: &PlaneRaster) -> Option<f64> {
+    const SAMPLE_M: f64 = 0.5;
+    let reach = |from: DVec2, step: DVec2| {
+        (1..60).find(|&i| recorded.at(from + step * f64::from(i)) != RECORDED).map(|i| f64::from(i) * SAMPLE_M)
+    };
+    let mut widths: Vec<f64> = points
+        .windows(2)
+        .filter(|w| recorded.at(w[0]) == RECORDED)
+        .filter_map(|w| {
+            let across = (w[1] - w[0]).normalize_or_zero().perp() * SAMPLE_M;
+            Some(reach(w[0], across)? + reach(w[0], -across)?).filter(|&width| width <= WIDEST_M)
+        })
+        .collect();
+    widths.sort_by(f64::total_cmp);
+    // Ten samples are 20 m: less is a junction.
+    (widths.len() >= 10).then(|| widths[widths.len() / 2].max(3.0))
+}
+
+/// The parts of a resampled road outside the recorded area.
+fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
+    let state: Vec<u8> = points.iter().map(|&p| recorded.at(p)).collect();
+    let near_steps = (BESIDE_M * 1.5 / STEP_M) as usize;
+    let mut lines = Vec::new();
+    let mut i = 0;
+    while i < points.len() {
+        if state[i] == RECORDED {
+            i += 1;
+            continue;
+        }
+        let end = (i..points.len()).find(|&k| state[k] == RECORDED).unwrap_or(points.len());
+        let far = (i..end).find(|&k| state[k] != NEAR).zip((i..end).rfind(|&k| state[k] != NEAR));
+        if let Some((first, last)) = far {
+            // It leaves the recorded area: up to its edge, unless it runs beside it for long.
+            let from = if first - i <= near_steps { i.saturating_sub(OVERLAP_STEPS) } else { first };
+            let to = if end - 1 - last <= near_steps { (end + OVERLAP_STEPS).min(points.len()) } else { last + 1 };
+            if to - from >= 2 {
+                lines.push(points[from..to].to_vec());
+            }
+        }
+        i = end;
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane;
+    use trove_model::SidewalkSides;
+
+    fn road(points: &[(f64, f64)]) -> Road {
+        Road {
+            id: 1,
+            kind: RoadKind::Residential,
+            centreline: points.iter().map(|&(x, y)| DVec2::new(x, y)).collect(),
+            lanes: None,
+            width_m: None,
+            oneway: false,
+            sidewalk: SidewalkSides::default(),
+            layer: 0,
+            bridge: false,
+            tunnel: false,
+            surface: String::new(),
+            name: String::new(),
+        }
+    }
+
+    fn recorded() -> (PlaneRaster, Bounds) {
+        let bounds = Bounds::square(DVec2::ZERO, 400.0);
+        let area = [plane::rectangle(Bounds { min: DVec2::new(-100.0, -6.0), max: DVec2::new(100.0, 6.0) })];
+        let mut raster = PlaneRaster::new(bounds, 0.5);
+        raster.fill(&plane::grown(&area, BESIDE_M), NEAR);
+        raster.fill(&area, RECORDED);
+        (raster, bounds)
+    }
+
+    #[test]
+    fn a_road_goes_on_where_the_recording_ends_with_the_recorded_width() {
+        let (raster, bounds) = recorded();
+        let map = StreetMap { roads: vec![road(&[(-50.0, 0.0), (150.0, 0.0)])], ..StreetMap::default() };
+        let found = stretches(&map, &raster, bounds, &Report::default());
+        assert_eq!(found.len(), 1);
+        assert!((found[0].width_m - 12.0).abs() <= 1.0, "{}", found[0].width_m);
+        assert!(found[0].line[0].x < 100.0 && found[0].line[0].x > 90.0);
+    }
+
+    #[test]
+    fn a_road_drawn_beside_the_recorded_one_is_not_built_again() {
+        let (raster, bounds) = recorded();
+        let map = StreetMap { roads: vec![road(&[(-90.0, 9.0), (90.0, 9.0)])], ..StreetMap::default() };
+        assert!(stretches(&map, &raster, bounds, &Report::default()).is_empty());
+    }
+
+    #[test]
+    fn a_bridge_over_a_road_is_dropped_and_reported() {
+        let (raster, bounds) = recorded();
+        let bridge = Road { bridge: true, layer: 1, ..road(&[(0.0, 50.0), (0.0, 150.0)]) };
+        let roads = vec![road(&[(-50.0, 100.0), (50.0, 100.0)]), bridge];
+        let report = Report::default();
+        let map = StreetMap { roads, ..StreetMap::default() };
+        assert_eq!(stretches(&map, &raster, bounds, &report).len(), 1);
+        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.count == 1));
+    }
+}
