@@ -39,7 +39,8 @@ pub struct Labels {
     pub flow_forward: Raster<[f32; 2]>,
     /// Pixels to the previous keyframe; NaN = not defined.
     pub flow_backward: Raster<[f32; 2]>,
-    /// Every object of which a pixel would be seen if nothing else were there, in the order of ids.
+    /// Every recorded object of which a pixel would be seen if nothing else were there, and all scenery of which one is
+    /// seen, in the order of ids; without the object that carries the camera.
     pub objects: Vec<ObjectLabel>,
 }
 

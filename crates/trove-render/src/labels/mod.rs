@@ -1,19 +1,77 @@
 //! What every pixel shows: one ray through each pixel's centre.
+//!
+//! The ray finds the surface in the renderer's precision; depth, normal and flow are then derived in the model's, from
+//! the triangle's own corners. Holes of cut-outs are not there. A pane of glass is: its pixels are the pane's, not
+//! those of what is seen through it.
 
-use trove_model::{Labels, Raster, Shot};
+mod flow;
+mod geometry;
+mod objects;
+mod outline;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use trove_model::{Class, Labels, Raster, Shot};
 
 use crate::PreparedScene;
+use crate::accel::Ray;
+use flow::Neighbour;
+
+/// Index of no instance.
+const NOTHING: u32 = u32::MAX;
+
+/// Everything that one pixel shows.
+struct Pixel {
+    /// Index into the scene's instances, or [`NOTHING`].
+    instance: u32,
+    depth_m: f32,
+    normal: [f32; 3],
+    flow_forward: [f32; 2],
+    flow_backward: [f32; 2],
+}
 
 /// All labels of a picture, computed with the current thread pool.
-pub(crate) fn render(_scene: &PreparedScene, shot: &Shot) -> Labels {
-    let (w, h) = (shot.lens.width_px, shot.lens.height_px);
+pub(crate) fn render(scene: &PreparedScene, shot: &Shot) -> Labels {
+    let (width, height) = (shot.lens.width_px, shot.lens.height_px);
+    let neighbours = [
+        Neighbour::new(scene, shot, shot.world_from_camera_next, |i| i.world_from_mesh_next),
+        Neighbour::new(scene, shot, shot.world_from_camera_previous, |i| i.world_from_mesh_previous),
+    ];
+    let pixels: Vec<Pixel> = (0..width * height)
+        .into_par_iter()
+        .map(|i| pixel(scene, shot, &neighbours, DVec2::new(f64::from(i % width) + 0.5, f64::from(i / width) + 0.5)))
+        .collect();
+
+    let instance = |index: u32| scene.instances.get(index as usize);
+    let shown = Raster { width, height, data: pixels };
+    let class = shown.map(|p| instance(p.instance).map_or(Class::Sky, |i| i.class).id());
+    let objects = objects::list(scene, shot, &shown);
     Labels {
-        class: Raster::filled(w, h, 0),
-        instance: Raster::filled(w, h, 0),
-        depth_m: Raster::filled(w, h, f32::INFINITY),
-        normal: Raster::filled(w, h, [0.0; 3]),
-        flow_forward: Raster::filled(w, h, [f32::NAN; 2]),
-        flow_backward: Raster::filled(w, h, [f32::NAN; 2]),
-        objects: Vec::new(),
+        class,
+        instance: shown.map(|p| instance(p.instance).map_or(0, |i| i.id.0)),
+        depth_m: shown.map(|p| p.depth_m),
+        normal: shown.map(|p| p.normal),
+        flow_forward: shown.map(|p| p.flow_forward),
+        flow_backward: shown.map(|p| p.flow_backward),
+        objects,
     }
+}
+
+fn pixel(scene: &PreparedScene, shot: &Shot, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {
+    let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
+    let Some(hit) = scene.intersect_past(&ray(shot, direction), shot.carrier) else {
+        let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));
+        return Pixel { instance: NOTHING, depth_m: f32::INFINITY, normal: [0.0; 3], flow_forward, flow_backward };
+    };
+    let origin = shot.world_from_camera.translation;
+    let seen = geometry::seen(scene, &hit, origin, direction);
+    let point = origin + direction * seen.depth_m;
+    let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow(centre, hit.instance, point));
+    let normal = shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array();
+    Pixel { instance: hit.instance, depth_m: seen.depth_m as f32, normal, flow_forward, flow_backward }
+}
+
+/// The ray of a direction whose z in Camera is 1, so that distances along it are depths.
+fn ray(shot: &Shot, direction_world: DVec3) -> Ray {
+    Ray::new(shot.world_from_camera.translation.as_vec3(), direction_world.as_vec3())
 }

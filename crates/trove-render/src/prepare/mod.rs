@@ -7,7 +7,7 @@ mod surface;
 use std::sync::Arc;
 
 use glam::{Affine3A, DAffine3, Mat3A, Vec3};
-use trove_model::{Class, Cuboid, InstanceId, Mesh, Scene};
+use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
@@ -39,8 +39,8 @@ pub(crate) struct PreparedInstance {
     pub(crate) world_from_mesh_f64: DAffine3,
     pub(crate) world_from_mesh_previous: Option<DAffine3>,
     pub(crate) world_from_mesh_next: Option<DAffine3>,
-    /// Box of the object; `None` for stuff.
-    pub(crate) cuboid: Option<Cuboid>,
+    /// What it is; `None` for stuff.
+    pub(crate) object: Option<Arc<SceneObject>>,
 }
 
 impl PreparedScene {
@@ -148,7 +148,7 @@ impl PreparedInstance {
             world_from_mesh_f64: m,
             world_from_mesh_previous: instance.world_from_mesh_previous,
             world_from_mesh_next: instance.world_from_mesh_next,
-            cuboid: instance.object.as_ref().map(|o| o.cuboid),
+            object: instance.object.clone(),
         }
     }
 }

@@ -1,0 +1,115 @@
+//! What a picture shows of each object.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
+
+use super::{NOTHING, Pixel, outline, ray};
+use crate::PreparedScene;
+use crate::prepare::PreparedInstance;
+
+/// Pixels, and the smallest box around them.
+#[derive(Clone, Copy, Default)]
+struct Extent {
+    count: u32,
+    around: Option<PixelBox>,
+}
+
+impl Extent {
+    fn of(x: u32, y: u32) -> Self {
+        Self { count: 1, around: Some(PixelBox { min: [x, y], max: [x, y] }) }
+    }
+
+    fn and(self, other: Self) -> Self {
+        let around = match (self.around, other.around) {
+            (Some(a), Some(b)) => Some(PixelBox {
+                min: [a.min[0].min(b.min[0]), a.min[1].min(b.min[1])],
+                max: [a.max[0].max(b.max[0]), a.max[1].max(b.max[1])],
+            }),
+            (a, b) => a.or(b),
+        };
+        Self { count: self.count + other.count, around }
+    }
+}
+
+/// All recorded objects of which a pixel would be seen if nothing else were there, and the scenery of which one is seen,
+/// in the order of ids.
+pub(super) fn list(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>) -> Vec<ObjectLabel> {
+    let mut visible = vec![Extent::default(); scene.instances.len()];
+    for (i, pixel) in shown.data.iter().enumerate().filter(|(_, pixel)| pixel.instance != NOTHING) {
+        let extent = &mut visible[pixel.instance as usize];
+        *extent = extent.and(Extent::of(i as u32 % shown.width, i as u32 / shown.width));
+    }
+    let mut objects: Vec<ObjectLabel> = (0..scene.instances.len())
+        .into_par_iter()
+        .filter_map(|i| {
+            let instance = &scene.instances[i];
+            let object =
+                instance.object.as_deref().filter(|_| instance.id.0 != 0 && Some(instance.id) != shot.carrier)?;
+            // Scenery is plentiful, and nobody asks for the thousand trees behind the houses.
+            let is_recorded = !object.annotation_token.is_empty();
+            (is_recorded || visible[i].count > 0).then(|| label(scene, shot, shown, i, object, visible[i])).flatten()
+        })
+        .collect();
+    objects.sort_by_key(|object| object.id);
+    objects
+}
+
+fn label(
+    scene: &PreparedScene,
+    shot: &Shot,
+    shown: &Raster<Pixel>,
+    index: usize,
+    object: &SceneObject,
+    visible: Extent,
+) -> Option<ObjectLabel> {
+    let amodal = visible.and(hidden(scene, shot, shown, index));
+    let camera_from_world = shot.world_from_camera.inverse();
+    let corners_camera = object.cuboid.corners_world().map(|corner| camera_from_world.point(corner));
+    let range_m = object.cuboid.world_from_body.translation.distance(shot.world_from_camera.translation);
+    (amodal.count > 0).then(|| ObjectLabel {
+        id: scene.instances[index].id,
+        visible_px: visible.count,
+        visible_box: visible.around,
+        amodal_px: amodal.count,
+        amodal_box: amodal.around,
+        truncation: outline::truncation(&shot.lens, outline::project(&shot.lens, &corners_camera)) as f32,
+        occlusion: 1.0 - visible.count as f32 / amodal.count as f32,
+        range_m: range_m as f32,
+    })
+}
+
+/// The pixels that would show an instance if other things did not hide it.
+fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usize) -> Extent {
+    let Some((corners_camera, farthest_m)) = bounds_camera(&scene.instances[index], shot) else {
+        return Extent::default();
+    };
+    let Some(around) = outline::pixels_around(&shot.lens, &outline::project(&shot.lens, &corners_camera)) else {
+        return Extent::default();
+    };
+    // Where something farther than all of it is seen, the instance is not: no ray is needed.
+    let may_hide = |pixel: &Pixel| pixel.instance != index as u32 && f64::from(pixel.depth_m) <= farthest_m;
+    let is_hidden = |x: u32, y: u32| {
+        let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
+        may_hide(shown.at(x, y)) && scene.intersect_instance(&ray(shot, direction), index as u32).is_some()
+    };
+    (around.min[1]..=around.max[1])
+        .into_par_iter()
+        .map(|y| {
+            let columns = (around.min[0]..=around.max[0]).filter(|&x| is_hidden(x, y));
+            columns.fold(Extent::default(), |extent, x| extent.and(Extent::of(x, y)))
+        })
+        .reduce(Extent::default, Extent::and)
+}
+
+/// Corners of the box around an instance's mesh in Camera, and the greatest depth among them; `None` for an empty mesh.
+fn bounds_camera(instance: &PreparedInstance, shot: &Shot) -> Option<([DVec3; 8], f64)> {
+    let (low, high) = instance.mesh.bounds()?;
+    let (middle_mesh, size_m) = ((low + high).as_dvec3() * 0.5, (high - low).as_dvec3());
+    let around_middle = Cuboid { world_from_body: Pose::IDENTITY, size_m };
+    let camera_from_mesh = shot.world_from_camera.inverse().affine() * instance.world_from_mesh_f64;
+    let corners = around_middle.corners_world().map(|corner| camera_from_mesh.transform_point3(middle_mesh + corner));
+    let farthest_m = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+    Some((corners, farthest_m))
+}
