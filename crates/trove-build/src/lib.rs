@@ -3,17 +3,23 @@
 //! What goes in: the model's nouns. What comes out: the virtual scene of every keyframe and the cameras in it. This
 //! crate must not know files, datasets' formats or the renderer.
 
+mod assembly;
 mod buildings;
 mod error;
 mod ground;
 mod light;
+mod moments;
 mod palette;
 mod piece;
 mod placement;
 mod plane;
 mod plane_raster;
 mod roads;
+mod scenery;
 mod site;
+mod stock;
+#[cfg(test)]
+mod testing;
 mod views;
 
 pub use error::BuildError;

@@ -1,0 +1,176 @@
+//! Puts the parts of a place together: one stock of meshes and materials, one numbering.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use trove_model::{
+    Asset, Class, Cuboid, Drive, Instance, InstanceId, Kind, Mesh, Pose, Provenance, SceneObject, StreetMap,
+};
+
+use crate::piece::Piece;
+use crate::placement::Role;
+use crate::scenery::Scenery;
+use crate::stock::Stock;
+
+/// A recorded object with its asset, ready to be put into a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Actor {
+    /// What it is.
+    pub kind: Kind,
+    /// What its pixels are.
+    pub class: Class,
+    /// The asset's id.
+    pub asset: String,
+    mesh: usize,
+    materials: Vec<usize>,
+    /// By keyframe, in the order of time.
+    poses: Vec<(usize, ActorPose)>,
+}
+
+/// An actor at one keyframe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ActorPose {
+    /// Placement of its mesh.
+    pub world_from_mesh: DAffine3,
+    /// Its box as placed.
+    pub cuboid: Cuboid,
+}
+
+impl Actor {
+    /// Where it is at a keyframe; `None` where it was not annotated then.
+    pub(crate) fn at(&self, keyframe: usize) -> Option<&ActorPose> {
+        let found = self.poses.binary_search_by_key(&keyframe, |(k, _)| *k).ok()?;
+        Some(&self.poses[found].1)
+    }
+
+    /// Its instance at a keyframe, with the motion to and from the neighbouring ones.
+    pub(crate) fn instance(
+        &self,
+        id: InstanceId,
+        keyframe: usize,
+        [previous, next]: [Option<usize>; 2],
+        object: SceneObject,
+    ) -> Option<Instance> {
+        let matrix = |k: Option<usize>| Some(self.at(k?)?.world_from_mesh);
+        Some(Instance {
+            id,
+            class: self.class,
+            mesh: self.mesh,
+            materials: self.materials.clone(),
+            world_from_mesh: self.at(keyframe)?.world_from_mesh,
+            world_from_mesh_previous: matrix(previous),
+            world_from_mesh_next: matrix(next),
+            object: Some(Arc::new(object)),
+        })
+    }
+}
+
+/// A place being put together.
+#[derive(Debug, Default)]
+pub(crate) struct Assembly {
+    /// Meshes and materials so far.
+    pub stock: Stock,
+    /// What stands still so far.
+    pub fixed: Vec<Instance>,
+    /// Assets used so far, by licence.
+    licences: BTreeMap<String, BTreeSet<String>>,
+}
+
+impl Assembly {
+    /// Takes a recorded object.
+    pub(crate) fn actor(&mut self, role: &Role) -> Actor {
+        let pose = |(k, p): &(usize, crate::placement::Placement)| {
+            (*k, ActorPose { world_from_mesh: role.world_from_mesh(p), cuboid: p.cuboid })
+        };
+        self.credit(role.asset);
+        Actor {
+            kind: role.kind,
+            class: role.asset.class,
+            asset: role.asset.id.clone(),
+            mesh: self.stock.mesh(&role.asset.mesh),
+            materials: self.stock.painted(role.asset, role.seed),
+            poses: role.placements.iter().map(pose).collect(),
+        }
+    }
+
+    /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
+    pub(crate) fn piece(&mut self, piece: &Piece, next_id: &mut u32) {
+        let object =
+            piece.kind.map(|kind| scene_object(kind, &piece.asset, cuboid(&piece.mesh, &piece.world_from_mesh)));
+        let instance = Instance {
+            id: object.as_ref().map_or(InstanceId(0), |_| take(next_id)),
+            class: piece.class,
+            mesh: self.stock.mesh(&piece.mesh),
+            materials: piece.materials.iter().map(|m| self.stock.material(m)).collect(),
+            world_from_mesh: piece.world_from_mesh,
+            world_from_mesh_previous: Some(piece.world_from_mesh),
+            world_from_mesh_next: Some(piece.world_from_mesh),
+            object: object.map(Arc::new),
+        };
+        self.fixed.push(instance);
+    }
+
+    /// Takes a plant or a piece of furniture.
+    pub(crate) fn scenery(&mut self, scenery: &Scenery, next_id: &mut u32) {
+        self.credit(scenery.asset);
+        let world_from_mesh = scenery.world_from_mesh();
+        let object = scene_object(scenery.asset.kind, &scenery.asset.id, cuboid(&scenery.asset.mesh, &world_from_mesh));
+        let instance = Instance {
+            id: take(next_id),
+            class: scenery.asset.class,
+            mesh: self.stock.mesh(&scenery.asset.mesh),
+            materials: self.stock.painted(scenery.asset, scenery.seed),
+            world_from_mesh,
+            world_from_mesh_previous: Some(world_from_mesh),
+            world_from_mesh_next: Some(world_from_mesh),
+            object: Some(Arc::new(object)),
+        };
+        self.fixed.push(instance);
+    }
+
+    /// Where everything came from: recording, map, and the assets by licence.
+    pub(crate) fn provenance(&self, drive: &Drive, map: Option<&StreetMap>) -> Vec<Provenance> {
+        let recording = (!drive.licence.is_empty())
+            .then(|| Provenance { source: format!("{} {}", drive.dataset, drive.id), licence: drive.licence.clone() });
+        let street_map =
+            map.map(|m| Provenance { source: format!("street map of {}", drive.id), licence: m.licence.clone() });
+        let assets = self.licences.iter().map(|(licence, ids)| {
+            let ids: Vec<&str> = ids.iter().map(String::as_str).collect();
+            Provenance { source: format!("assets {}", ids.join(", ")), licence: licence.clone() }
+        });
+        recording.into_iter().chain(street_map).chain(assets).collect()
+    }
+
+    fn credit(&mut self, asset: &Asset) {
+        self.licences.entry(asset.licence.clone()).or_default().insert(asset.id.clone());
+    }
+}
+
+fn take(next_id: &mut u32) -> InstanceId {
+    *next_id += 1;
+    InstanceId(*next_id - 1)
+}
+
+fn scene_object(kind: Kind, asset: &str, cuboid: Cuboid) -> SceneObject {
+    SceneObject {
+        kind,
+        track_token: String::new(),
+        annotation_token: String::new(),
+        category: String::new(),
+        asset: asset.to_owned(),
+        cuboid,
+        velocity_mps: None,
+    }
+}
+
+/// The box of a mesh where it stands.
+fn cuboid(mesh: &Mesh, world_from_mesh: &DAffine3) -> Cuboid {
+    let (low, high) = mesh.bounds().unwrap_or_default();
+    let (low, high) = (low.as_dvec3(), high.as_dvec3());
+    let axes = world_from_mesh.matrix3;
+    let scale = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
+    let rotation = DMat3::from_cols(axes.x_axis / scale.x, axes.y_axis / scale.y, axes.z_axis / scale.z);
+    let centre_world = world_from_mesh.transform_point3((low + high) / 2.0);
+    Cuboid { world_from_body: Pose::new(DQuat::from_mat3(&rotation), centre_world), size_m: (high - low) * scale }
+}

@@ -1,0 +1,213 @@
+//! Which asset stands for which object.
+
+use glam::{DAffine3, DVec3};
+use trove_model::{Asset, AssetLibrary, Cuboid, Drive, Kind, Outcome, Pose, Report, Seed};
+
+use super::fit::Fit;
+use super::stand::{Placement, Stand};
+
+/// An object of the drive with its asset: the same at every keyframe.
+#[derive(Clone, Debug)]
+pub(crate) struct Role<'a> {
+    /// What it is.
+    pub kind: Kind,
+    /// What stands for it.
+    pub asset: &'a Asset,
+    /// How it is made to fit.
+    pub fit: Fit,
+    /// Draws its paints.
+    pub seed: Seed,
+    /// Where it stands, by keyframe, in the order of time.
+    pub placements: Vec<(usize, Placement)>,
+}
+
+impl Role<'_> {
+    /// From the asset's mesh to World where it was placed.
+    pub(crate) fn world_from_mesh(&self, placement: &Placement) -> DAffine3 {
+        placement.world_from_base * self.fit.body_from_mesh()
+    }
+}
+
+/// Chooses an asset for every track, and for the recording vehicle, which comes last; `None` where the library has
+/// nothing of the kind.
+pub(crate) fn cast<'a>(
+    drive: &Drive,
+    library: &'a AssetLibrary,
+    stand: &Stand,
+    top_k: usize,
+    seed: Seed,
+    report: &Report,
+) -> Vec<Option<Role<'a>>> {
+    let mut roles = Vec::with_capacity(drive.tracks.len() + 1);
+    for track in &drive.tracks {
+        let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
+        let unsound = track.boxes.len() - boxes.len();
+        for _ in 0..unsound {
+            report.note(Outcome::Dropped, "box without size or with numbers that are not finite", &track.token);
+        }
+        let size_m = median_size_m(&boxes);
+        let role = size_m.and_then(|size_m| {
+            let seed = seed.child(&track.token);
+            let Some((asset, fit)) = choose(library, track.kind, size_m, top_k, seed) else {
+                report.note(
+                    Outcome::Dropped,
+                    &format!("object without an asset of kind {:?}", track.kind),
+                    &track.token,
+                );
+                return None;
+            };
+            let place = |(k, cuboid): &(usize, Cuboid)| (*k, stand.place(cuboid, track.kind));
+            Some(Role { kind: track.kind, asset, fit, seed, placements: boxes.iter().map(place).collect() })
+        });
+        if let Some(lift_m) = role.iter().flat_map(|r| &r.placements).find_map(|(_, p)| p.kept_lift_m) {
+            let example = format!("{} ({:?}), {lift_m:.1} m", track.token, track.kind);
+            report.note(Outcome::Warned, "object stands above the ground as annotated", example);
+        }
+        roles.push(role);
+    }
+    measure_fit(&roles, report);
+    roles.push(ego(drive, library, stand, top_k, seed));
+    roles
+}
+
+/// The recording vehicle at every keyframe, in its own body.
+fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize, seed: Seed) -> Option<Role<'a>> {
+    let body = drive.ego_body;
+    let seed = seed.child("ego");
+    let (asset, fit) = choose(library, Kind::Car, body.size_m, top_k, seed)?;
+    let place = |(k, keyframe): (usize, &trove_model::Keyframe)| {
+        let ego = keyframe.world_from_ego;
+        let cuboid =
+            Cuboid { world_from_body: Pose::new(ego.rotation, ego.point(body.centre_ego)), size_m: body.size_m };
+        (k, stand.place(&cuboid, Kind::Car))
+    };
+    Some(Role {
+        kind: Kind::Car,
+        asset,
+        fit,
+        seed,
+        placements: drive.keyframes.iter().enumerate().map(place).collect(),
+    })
+}
+
+/// One of the `top_k` assets that fit best, drawn with equal chances.
+fn choose<'a>(
+    library: &'a AssetLibrary,
+    kind: Kind,
+    size_m: DVec3,
+    top_k: usize,
+    seed: Seed,
+) -> Option<(&'a Asset, Fit)> {
+    let mut fits: Vec<(&Asset, Fit)> =
+        library.of_kind(kind).map(|asset| (asset, Fit::new(asset.size_m, size_m, kind))).collect();
+    fits.sort_by(|(a, fa), (b, fb)| fb.quality_m.total_cmp(&fa.quality_m).then_with(|| a.id.cmp(&b.id)));
+    fits.truncate(top_k.max(1));
+    seed.child("asset").random().pick(&fits).copied()
+}
+
+fn is_sound(cuboid: &Cuboid) -> bool {
+    cuboid.world_from_body.is_finite() && cuboid.size_m.is_finite() && cuboid.size_m.min_element() > 0.0
+}
+
+/// The middle length, width and height of a track's boxes; `None` without boxes.
+fn median_size_m(boxes: &[(usize, Cuboid)]) -> Option<DVec3> {
+    let median = |axis: usize| {
+        let mut sides: Vec<f64> = boxes.iter().map(|(_, c)| c.size_m[axis]).collect();
+        sides.sort_by(f64::total_cmp);
+        sides.get(sides.len() / 2).copied()
+    };
+    Some(DVec3::new(median(0)?, median(1)?, median(2)?))
+}
+
+fn measure_fit(roles: &[Option<Role>], report: &Report) {
+    let fits: Vec<&Fit> = roles.iter().flatten().map(|r| &r.fit).collect();
+    if fits.is_empty() {
+        return;
+    }
+    let mean = |of: fn(&Fit) -> f64| fits.iter().map(|f| of(f)).sum::<f64>() / fits.len() as f64;
+    report.measure("fit.objects", fits.len() as f64);
+    report.measure("fit.mean_quality", mean(|f| f.quality_m));
+    report.measure("fit.mean_iou3d", mean(|f| f.iou3d));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::roads::RoadSurfaces;
+    use crate::testing;
+    use glam::DVec2;
+    use trove_model::{HeightField, Raster};
+
+    fn slope() -> HeightField {
+        let nodes = Raster::from_fn(41, 41, |x, y| 0.05 * x as f32 - 0.02 * y as f32);
+        HeightField { origin: DVec2::splat(-200.0), cell_m: 10.0, nodes }
+    }
+
+    fn surfaces() -> RoadSurfaces {
+        testing::surfaces(&testing::drive(), &slope())
+    }
+
+    fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {
+        let (ground, surfaces) = (slope(), surfaces());
+        let stand = Stand { ground: &ground, surfaces: &surfaces };
+        cast(&testing::drive(), library, &stand, top_k, seed, report)
+    }
+
+    #[test]
+    fn everything_stands_on_the_ground_with_its_heading_kept() {
+        let (library, drive, ground) = (testing::library(), testing::drive(), slope());
+        for (track, role) in roles(&library, 3, Seed(1), &Report::default()).iter().enumerate() {
+            let role = role.as_ref().unwrap();
+            for (k, placement) in &role.placements {
+                let foot_world = role.world_from_mesh(placement).transform_point3(DVec3::ZERO);
+                let kerb_m = if role.kind == Kind::Adult { crate::roads::KERB_M } else { 0.0 };
+                let surface_m = ground.height_m(foot_world.truncate()) + kerb_m;
+                assert!((foot_world.z - surface_m).abs() < 1e-3, "{:?} at {k}: {foot_world}", role.kind);
+                if let Some(annotated) = drive.tracks.get(track).and_then(|t| t.at(*k)) {
+                    let turn = placement.cuboid.world_from_body.yaw_rad() - annotated.world_from_body.yaw_rad();
+                    assert!(turn.sin().abs() < 1e-3);
+                    assert_eq!(placement.cuboid.size_m, annotated.size_m);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_best_asset_is_taken_and_among_the_best_the_track_decides() {
+        let (library, report) = (testing::library(), Report::default());
+        let best = roles(&library, 1, Seed(1), &report);
+        assert_eq!(best[0].as_ref().unwrap().asset.id, best[1].as_ref().unwrap().asset.id);
+        let drawn: Vec<String> =
+            (0..20).map(|s| roles(&library, 3, Seed(s), &report)[0].as_ref().unwrap().asset.id.clone()).collect();
+        assert!(drawn.iter().any(|id| *id != drawn[0]));
+        assert!(drawn.iter().all(|id| id != "car/limousine"));
+        let differs = |s| {
+            let roles = roles(&library, 3, Seed(s), &report);
+            roles[0].as_ref().unwrap().asset.id != roles[1].as_ref().unwrap().asset.id
+        };
+        assert!((0..20).any(differs));
+    }
+
+    #[test]
+    fn a_kind_without_an_asset_is_reported() {
+        let library =
+            AssetLibrary { assets: vec![testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5])], surfaces: Vec::new() };
+        let report = Report::default();
+        let roles = roles(&library, 3, Seed(1), &report);
+        assert!(roles[2].is_none() && roles[3].is_none());
+        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.what.contains("Truck")));
+    }
+
+    #[test]
+    fn someone_on_a_platform_stays_there_and_is_reported() {
+        let (ground, surfaces) = (slope(), surfaces());
+        let stand = Stand { ground: &ground, surfaces: &surfaces };
+        let annotated = Cuboid {
+            world_from_body: Pose::from_yaw(0.0, DVec3::new(0.0, 0.0, ground.height_m(DVec2::ZERO) + 3.9)),
+            size_m: DVec3::new(0.6, 0.6, 1.8),
+        };
+        let placed = stand.place(&annotated, Kind::Adult);
+        assert!((placed.kept_lift_m.unwrap() - 3.0).abs() < 1e-9);
+        assert!((placed.cuboid.world_from_body.translation - annotated.world_from_body.translation).length() < 1e-9);
+    }
+}

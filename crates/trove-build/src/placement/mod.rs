@@ -1,0 +1,8 @@
+//! The annotated objects and the recording vehicle as assets on the ground.
+
+mod cast;
+mod fit;
+mod stand;
+
+pub(crate) use cast::{Role, cast};
+pub(crate) use stand::{Placement, Stand};

@@ -1,0 +1,270 @@
+//! The static place of one drive, and the scene of each of its moments.
+
+use trove_model::{
+    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Polygon, Provenance, Report,
+    Scene, SceneObject, Seed, StreetMap,
+};
+
+use crate::assembly::{Actor, Assembly};
+use crate::error::BuildError;
+use crate::light::{LightChoice, light};
+use crate::moments::{next, previous};
+use crate::placement::{Stand, cast};
+use crate::stock::Stock;
+use crate::{buildings, ground, roads};
+
+/// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
+const MIN_SIDE_M: f64 = 600.0;
+/// LiDAR points further from the sensor do not widen the place, metres.
+const LIDAR_REACH_M: f64 = 100.0;
+/// Added around everything seen, metres.
+const MARGIN_M: f64 = 60.0;
+
+/// What decides how a place is built.
+#[derive(Clone, Debug)]
+pub struct BuildSettings {
+    /// Source of all randomness in it.
+    pub seed: Seed,
+    /// An object's asset is drawn among the best so many; 1 is the best.
+    pub top_k: usize,
+    /// Where the light comes from.
+    pub light: LightChoice,
+}
+
+/// The static place of one drive and variation: ground, roads, buildings, plants, furniture, with the objects' assets
+/// chosen.
+#[derive(Clone, Debug)]
+pub struct Site {
+    ground: HeightField,
+    stock: Stock,
+    /// Everything that stands still, the same at all moments.
+    fixed: Vec<Instance>,
+    /// The drive's tracks in their order, then the recording vehicle; `None` where no asset stands for it.
+    actors: Vec<Option<Actor>>,
+    footprints: Vec<Polygon>,
+    light: Light,
+    provenance: Vec<Provenance>,
+}
+
+/// The square that is built around a drive: around the driven path, the annotated objects and the LiDAR points within
+/// 100 m of the sensor, with a margin, and at least 600 m wide; `None` for a drive without keyframes.
+///
+/// A place without a recording ([`place_drive`](crate::place_drive)) is as wide as its views are spread.
+pub fn area(drive: &Drive) -> Option<Bounds> {
+    let seen = drive.bounds(LIDAR_REACH_M)?.grown(MARGIN_M);
+    let least_m = if drive.dataset == crate::views::PLACE_DATASET { 0.0 } else { MIN_SIDE_M };
+    Some(Bounds::square(seen.centre(), seen.size_m().max_element().max(least_m)))
+}
+
+/// Builds the place of a drive.
+pub fn build(
+    drive: &Drive,
+    map: Option<&StreetMap>,
+    library: &AssetLibrary,
+    settings: &BuildSettings,
+    report: &Report,
+) -> Result<Site, BuildError> {
+    let bounds = checked_area(drive)?;
+    let seed = settings.seed;
+
+    // What lies and stands for good.
+    let ground = ground::height_field(drive, bounds, report);
+    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, seed.child("roads"), report);
+    let buildings = buildings::buildings(map, &surfaces, &ground, bounds, library, seed.child("buildings"), report);
+
+    // The recorded objects come before all that is made up around them.
+    let stand = Stand { ground: &ground, surfaces: &surfaces };
+    let roles = cast(drive, library, &stand, settings.top_k, seed.child("cast"), report);
+
+    // Numbers: tracks from 1, the recording vehicle, then what stands still.
+    let mut assembly = Assembly::default();
+    let actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
+    let mut next_id = actors.len() as u32 + 1;
+    for piece in surfaces.pieces.iter().chain(&buildings.pieces) {
+        assembly.piece(piece, &mut next_id);
+    }
+    Ok(Site {
+        light: light(drive, bounds, &settings.light, seed.child("light")),
+        provenance: assembly.provenance(drive, map),
+        ground,
+        stock: assembly.stock,
+        fixed: assembly.fixed,
+        actors,
+        footprints: buildings.footprints,
+    })
+}
+
+/// The area of a drive that has one.
+fn checked_area(drive: &Drive) -> Result<Bounds, BuildError> {
+    for (keyframe, k) in drive.keyframes.iter().enumerate() {
+        if !k.world_from_ego.is_finite() {
+            return Err(BuildError::BadPose {
+                drive: drive.id.clone(),
+                keyframe,
+                found: format!("{:?}", k.world_from_ego.translation),
+            });
+        }
+    }
+    area(drive).ok_or_else(|| BuildError::EmptyDrive { drive: drive.id.clone() })
+}
+
+impl Site {
+    /// Everything that a picture of one keyframe needs; a keyframe that the drive does not have shows the place alone.
+    pub fn scene(&self, drive: &Drive, keyframe: usize) -> Scene {
+        let neighbours = [previous(drive, keyframe), next(drive, keyframe)];
+        let mut instances = Vec::with_capacity(self.fixed.len() + self.actors.len());
+        let boxes = drive.keyframes.get(keyframe).map_or(&[][..], |k| &k.boxes);
+        for annotated in boxes {
+            let (Some(Some(actor)), Some(track)) =
+                (self.actors.get(annotated.track), drive.tracks.get(annotated.track))
+            else {
+                continue;
+            };
+            let Some(pose) = actor.at(keyframe) else { continue };
+            let object = SceneObject {
+                kind: annotated.kind,
+                track_token: track.token.clone(),
+                annotation_token: annotated.token.clone(),
+                category: annotated.category.clone(),
+                asset: actor.asset.clone(),
+                cuboid: pose.cuboid,
+                velocity_mps: annotated.velocity_mps,
+            };
+            instances.extend(actor.instance(track_id(annotated.track), keyframe, neighbours, object));
+        }
+        instances.extend(self.ego_instance(drive, keyframe, neighbours));
+        instances.sort_by_key(|i| i.id);
+        instances.extend(self.fixed.iter().cloned());
+        Scene {
+            meshes: self.stock.meshes.clone(),
+            materials: self.stock.materials.clone(),
+            instances,
+            light: self.light.clone(),
+            provenance: self.provenance.clone(),
+        }
+    }
+
+    fn ego_instance(&self, drive: &Drive, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
+        let ego = self.actors.last()?.as_ref()?;
+        let object = SceneObject {
+            kind: Kind::Car,
+            track_token: String::new(),
+            annotation_token: String::new(),
+            category: "ego".into(),
+            asset: ego.asset.clone(),
+            cuboid: ego.at(keyframe)?.cuboid,
+            velocity_mps: None,
+        };
+        ego.instance(self.ego_id(drive), keyframe, neighbours, object)
+    }
+
+    /// The number of the recording vehicle.
+    pub fn ego_id(&self, drive: &Drive) -> InstanceId {
+        track_id(drive.tracks.len())
+    }
+
+    /// Height of the carriageway.
+    pub fn ground(&self) -> &HeightField {
+        &self.ground
+    }
+
+    /// Where everything came from, with licences.
+    pub fn provenance(&self) -> &[Provenance] {
+        &self.provenance
+    }
+
+    /// The box of a track as placed at a keyframe; `None` where it was not annotated or has no asset.
+    pub(crate) fn placed(&self, track: usize, keyframe: usize) -> Option<Cuboid> {
+        Some(self.actors.get(track)?.as_ref()?.at(keyframe)?.cuboid)
+    }
+
+    /// Outlines of the buildings.
+    pub(crate) fn footprints(&self) -> &[Polygon] {
+        &self.footprints
+    }
+
+    /// Boxes of what stands still and has one of its own, but for buildings.
+    pub(crate) fn fixed_boxes(&self) -> impl Iterator<Item = &Cuboid> {
+        self.fixed.iter().filter_map(|i| i.object.as_deref()).filter(|o| o.kind != Kind::Building).map(|o| &o.cuboid)
+    }
+}
+
+/// The number of a track: 1 for the first.
+pub(crate) fn track_id(track: usize) -> InstanceId {
+    InstanceId(track as u32 + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use crate::views::{ViewSettings, shots};
+    use glam::DVec3;
+
+    fn settings(seed: u64) -> BuildSettings {
+        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::CaptureTime }
+    }
+
+    fn site(seed: u64) -> Site {
+        build(&testing::drive(), None, &testing::library(), &settings(seed), &Report::default()).unwrap()
+    }
+
+    #[test]
+    fn an_object_keeps_its_number_asset_and_paint_over_all_keyframes() {
+        let (drive, site) = (testing::drive(), site(1));
+        let first = site.scene(&drive, 0);
+        for k in 1..10 {
+            let scene = site.scene(&drive, k);
+            assert_eq!(scene.instances.len(), first.instances.len());
+            for (a, b) in first.instances.iter().zip(&scene.instances) {
+                assert_eq!((a.id, a.class, a.mesh, &a.materials), (b.id, b.class, b.mesh, &b.materials));
+            }
+        }
+        let ids: Vec<u32> = first.instances.iter().map(|i| i.id.0).filter(|&id| id > 0).collect();
+        assert!(ids.iter().enumerate().all(|(i, &id)| id == i as u32 + 1), "{ids:?}");
+    }
+
+    #[test]
+    fn motion_leads_from_keyframe_to_keyframe_and_ends_with_the_recording() {
+        let (drive, site) = (testing::drive(), site(1));
+        let scenes: Vec<Scene> = (0..10).map(|k| site.scene(&drive, k)).collect();
+        for k in 1..10 {
+            for (before, now) in scenes[k - 1].instances.iter().zip(&scenes[k].instances) {
+                assert_eq!(before.world_from_mesh_next, Some(now.world_from_mesh));
+                assert_eq!(now.world_from_mesh_previous, Some(before.world_from_mesh));
+            }
+        }
+        assert!(scenes[0].instances[1].world_from_mesh_previous.is_none());
+        let ahead = &scenes[3].instances[1];
+        let moved = ahead.world_from_mesh_next.unwrap().translation - ahead.world_from_mesh.translation;
+        assert!((moved - DVec3::new(5.0, 0.0, 0.0)).length() < 1e-2, "{moved}");
+    }
+
+    #[test]
+    fn the_same_seed_builds_the_same_place_with_any_number_of_threads() {
+        let built = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let drive = testing::drive();
+            let site = pool.install(|| site(5));
+            let views = ViewSettings { rig: None, other_vehicles: 2, scale: 0.5, spp: 1 };
+            let scene = site.scene(&drive, 4);
+            format!(
+                "{:?} {:?}",
+                (scene.instances, scene.materials),
+                shots(&drive, &site, 4, &views, Seed(5), &Report::default())
+            )
+        };
+        assert_eq!(built(1), built(2));
+    }
+
+    #[test]
+    fn a_drive_without_keyframes_or_with_a_broken_pose_is_an_error() {
+        let (library, report) = (testing::library(), Report::default());
+        let empty = Drive { keyframes: Vec::new(), ..testing::drive() };
+        assert!(matches!(build(&empty, None, &library, &settings(0), &report), Err(BuildError::EmptyDrive { .. })));
+        let mut broken = testing::drive();
+        broken.keyframes[3].world_from_ego.translation.x = f64::NAN;
+        let error = build(&broken, None, &library, &settings(0), &report).unwrap_err();
+        assert!(matches!(error, BuildError::BadPose { keyframe: 3, .. }));
+    }
+}

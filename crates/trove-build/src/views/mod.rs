@@ -1,0 +1,139 @@
+//! Where the pictures are taken from.
+
+mod carriers;
+
+use trove_model::{Drive, ExposureRule, Lens, Outcome, Pose, Report, Seed, Shot};
+
+use crate::moments::{next, previous};
+use crate::site::Site;
+
+/// The dataset's name of a drive that was made up from a map.
+pub(crate) const PLACE_DATASET: &str = "place";
+
+/// Which pictures are taken of a keyframe.
+#[derive(Clone, Debug)]
+pub struct ViewSettings {
+    /// Names of cameras; `None` is all.
+    pub rig: Option<Vec<String>>,
+    /// How many vehicles of the scene carry the rig too.
+    pub other_vehicles: usize,
+    /// Of the dataset's own resolution.
+    pub scale: f64,
+    /// Samples a pixel.
+    pub spp: u32,
+}
+
+impl ViewSettings {
+    fn wants(&self, camera: &str) -> bool {
+        self.rig.as_ref().is_none_or(|names| names.iter().any(|n| n == camera))
+    }
+
+    fn lens(&self, lens: &Lens) -> Lens {
+        if self.scale == 1.0 { *lens } else { lens.scaled(self.scale) }
+    }
+}
+
+/// A clone of every recorded camera at its own time and pose, then the rig on other vehicles.
+pub fn shots(
+    drive: &Drive,
+    site: &Site,
+    keyframe: usize,
+    views: &ViewSettings,
+    seed: Seed,
+    report: &Report,
+) -> Vec<Shot> {
+    let Some(moment) = drive.keyframes.get(keyframe) else {
+        let example = format!("{} keyframe {keyframe}", drive.id);
+        report.note(Outcome::Dropped, "view of a keyframe that the drive does not have", example);
+        return Vec::new();
+    };
+    let mut shots = Vec::new();
+    for exposure in &moment.exposures {
+        let Some(camera) = drive.rig.get(exposure.camera).filter(|c| views.wants(&c.name)) else { continue };
+        let world_from_camera = exposure.world_from_camera();
+        if !world_from_camera.is_finite() {
+            report.note(Outcome::Dropped, "view whose pose is not finite", format!("{keyframe} {}", camera.name));
+            continue;
+        }
+        let at = |k: Option<usize>| {
+            let exposure = drive.keyframes[k?].exposures.iter().find(|e| e.camera == exposure.camera)?;
+            Some(exposure.world_from_camera()).filter(Pose::is_finite)
+        };
+        let view = format!("ego.{}", camera.name);
+        shots.push(Shot {
+            lens: views.lens(&exposure.lens),
+            world_from_camera,
+            world_from_camera_previous: at(previous(drive, keyframe)),
+            world_from_camera_next: at(next(drive, keyframe)),
+            time_ns: exposure.time_ns,
+            spp: views.spp,
+            exposure: ExposureRule::Auto { compensation_ev: 0.0 },
+            seed: shot_seed(seed, keyframe, &view),
+            carrier: Some(site.ego_id(drive)),
+            view,
+        });
+    }
+    shots.extend(carriers::shots(drive, site, keyframe, views, seed, report));
+    shots
+}
+
+fn shot_seed(seed: Seed, keyframe: usize, view: &str) -> Seed {
+    seed.child("shot").nth(keyframe as u64).child(view)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use crate::{BuildSettings, LightChoice, build};
+
+    fn site() -> Site {
+        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::CaptureTime };
+        build(&testing::drive(), None, &testing::library(), &settings, &Report::default()).unwrap()
+    }
+
+    fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
+        let views = ViewSettings { rig: None, other_vehicles: 2, scale: 0.5, spp: 1 };
+        shots(&testing::drive(), site, keyframe, &views, Seed(seed), &Report::default())
+    }
+
+    #[test]
+    fn every_recorded_camera_is_cloned_with_its_neighbours_in_time() {
+        let drive = testing::drive();
+        let shots = taken(&site(), 0, 1);
+        let front = shots.iter().find(|s| s.view == "ego.CAM_FRONT").unwrap();
+        assert_eq!(front.world_from_camera, drive.keyframes[0].exposures[1].world_from_camera());
+        assert_eq!(front.world_from_camera_previous, None);
+        assert_eq!(front.world_from_camera_next, Some(drive.keyframes[1].exposures[1].world_from_camera()));
+        assert_eq!((front.lens.width_px, front.lens.fx_px), (80, 63.0));
+        assert_eq!(front.carrier, Some(trove_model::InstanceId(5)));
+    }
+
+    #[test]
+    fn other_vehicles_carry_the_rig_clear_of_all_geometry() {
+        let (drive, site) = (testing::drive(), site());
+        for keyframe in 0..10 {
+            let shots = taken(&site, keyframe, 3);
+            let others: Vec<&Shot> = shots.iter().filter(|s| s.view.starts_with('v')).collect();
+            assert_eq!(others.len(), 4);
+            for shot in others {
+                for annotated in &drive.keyframes[keyframe].boxes {
+                    let carries = shot.carrier == Some(trove_model::InstanceId(annotated.track as u32 + 1));
+                    let grown = annotated.cuboid.grown(if carries { 0.0 } else { 0.25 });
+                    let roof = annotated.cuboid.world_from_body.translation.z + annotated.cuboid.size_m.z / 2.0;
+                    let position = shot.world_from_camera.translation;
+                    assert!(!grown.contains(position) || (carries && roof - position.z < 0.2), "{}", shot.view);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_seed_chooses_the_carriers_and_they_change_over_time() {
+        let site = site();
+        let carriers = |k, seed| taken(&site, k, seed).iter().map(|s| s.carrier).collect::<Vec<_>>();
+        assert_eq!(carriers(4, 1), carriers(4, 1));
+        let first = carriers(0, 1);
+        assert!((1..10).any(|k| carriers(k, 1) != first));
+    }
+}
