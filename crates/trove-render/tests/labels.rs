@@ -1,0 +1,291 @@
+//! Labels whose values are known in closed form.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
+use trove_model::{
+    Body, Camera, Class, Cuboid, Environment, EnvironmentMap, ExposureRule, Instance, InstanceId, Kind, Labels, Lens,
+    Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Scene, SceneObject, Seed, Shot, World,
+};
+use trove_render::{KernelChoice, Renderer, RendererOptions};
+
+const LENS: Lens = Lens { width_px: 80, height_px: 60, fx_px: 60.0, fy_px: 62.0, cx_px: 41.3, cy_px: 28.6 };
+
+/// Far from the origin, where single precision has coarse steps.
+const PLACE: DVec3 = DVec3::new(812.3, -1033.7, 14.0);
+
+#[test]
+fn the_ground_has_the_depth_normal_and_flow_of_a_plane() {
+    let mut shot = shot(PLACE + DVec3::Z * 1.6);
+    let next = Pose::new(shot.world_from_camera.rotation, PLACE + DVec3::new(0.4, 2.5, 1.6));
+    shot.world_from_camera_next = Some(next);
+    let labels = look(&scene(vec![stuff(GROUND, PLACE)]), &shot);
+    let (mut seen, mut worst_depth, mut worst_flow) = (0, 0.0f64, 0.0f64);
+    for (x, y, centre) in centres() {
+        let direction = shot.world_from_camera.vector(LENS.unproject(centre));
+        let depth = -1.6 / direction.z;
+        if direction.z >= 0.0 || depth > 100.0 {
+            continue;
+        }
+        seen += 1;
+        worst_depth = worst_depth.max((f64::from(*labels.depth_m.at(x, y)) - depth).abs() / depth.max(1.0));
+        let normal = Vec3::from(*labels.normal.at(x, y));
+        assert!((normal - Vec3::NEG_Y).length() < 1e-5 && normal.is_normalized(), "{normal}");
+        let point = shot.world_from_camera.translation + direction * depth;
+        let then = LENS.project(next.inverse().point(point));
+        let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
+        match then {
+            Some(then) => worst_flow = worst_flow.max((flow - (then - centre)).length() / (then - centre).length()),
+            None => assert!(flow.is_nan()),
+        }
+        assert!(labels.flow_backward.at(x, y)[0].is_nan());
+        assert_eq!(*labels.class.at(x, y), Class::Road.id());
+    }
+    assert!(seen > 2000 && worst_depth < 1e-6 && worst_flow < 1e-6, "{seen} pixels, {worst_depth}, {worst_flow}");
+}
+
+#[test]
+fn a_ball_has_the_depth_and_the_normals_of_a_ball() {
+    let centre = PLACE + DVec3::new(0.2, 6.0, 0.1);
+    let shot = shot(PLACE);
+    let labels = look(&scene(vec![stuff(BALL, centre)]), &shot);
+    let mut seen = 0;
+    for (x, y, pixel) in centres() {
+        let direction = shot.world_from_camera.vector(LENS.unproject(pixel));
+        // |direction · t − to_centre| = 1
+        let (a, b, to_centre) = (direction.length_squared(), direction.dot(centre - PLACE), centre - PLACE);
+        let root = b * b - a * (to_centre.length_squared() - 1.0);
+        if root < 0.3 {
+            continue; // past it, or so near its rim that the facets show
+        }
+        seen += 1;
+        let t = (b - root.sqrt()) / a;
+        assert!((f64::from(*labels.depth_m.at(x, y)) - t).abs() < 1e-4, "{}", *labels.depth_m.at(x, y));
+        let normal = shot.world_from_camera.inverse().vector(direction * t - to_centre).as_vec3();
+        assert!(normal.dot(Vec3::from(*labels.normal.at(x, y))) > 0.9999);
+    }
+    assert!(seen > 200, "{seen}");
+}
+
+#[test]
+fn a_moving_box_flows_with_its_tracks_and_the_sky_with_the_cameras_turn() {
+    let mut shot = shot(PLACE);
+    let turned = shot.world_from_camera * Pose::<Camera, Camera>::new(DQuat::from_rotation_y(0.05), DVec3::ZERO);
+    shot.world_from_camera_next = Some(Pose::new(turned.rotation, PLACE + DVec3::Y));
+    shot.world_from_camera_previous = Some(Pose::new(shot.world_from_camera.rotation, PLACE - DVec3::Y));
+    let now = DAffine3::from_translation(PLACE + DVec3::Y * 8.0);
+    let next = DAffine3::from_rotation_translation(DQuat::from_rotation_z(0.3), PLACE + DVec3::new(1.0, 9.0, 0.0));
+    let mut moving = object(1, PLACE + DVec3::Y * 8.0, 1.0);
+    (moving.world_from_mesh_next, moving.world_from_mesh_previous) = (Some(next), None);
+    let labels = look(&scene(vec![moving]), &shot);
+    for (x, y, centre) in centres() {
+        let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
+        let direction = shot.world_from_camera.vector(LENS.unproject(centre));
+        let next_from_world = shot.world_from_camera_next.unwrap().inverse();
+        let then = if *labels.instance.at(x, y) == 1 {
+            assert!(labels.flow_backward.at(x, y)[0].is_nan(), "it was not there");
+            let point = PLACE + direction * f64::from(*labels.depth_m.at(x, y));
+            next_from_world.point((next * now.inverse()).transform_point3(point))
+        } else {
+            assert_eq!(*labels.class.at(x, y), Class::Sky.id());
+            assert_eq!((*labels.depth_m.at(x, y), *labels.normal.at(x, y)), (f32::INFINITY, [0.0; 3]));
+            let back = DVec2::from_array(labels.flow_backward.at(x, y).map(f64::from));
+            assert!(back.length() < 1e-6, "a camera that does not turn sees the sky stand");
+            next_from_world.vector(direction)
+        };
+        let expected = LENS.project(then).unwrap() - centre;
+        assert!((flow - expected).length() < 1e-3, "({x}, {y}): {flow} instead of {expected}");
+    }
+    assert!(labels.instance.data.contains(&1));
+}
+
+#[test]
+fn a_box_behind_another_is_hidden_and_keeps_its_amodal_extent() {
+    let (front, behind) = (object(7, PLACE + DVec3::Y * 6.0, 3.0), object(3, PLACE + DVec3::Y * 12.0, 1.0));
+    let both = objects(vec![front.clone(), behind.clone()]);
+    assert_eq!(both.iter().map(|o| o.id.0).collect::<Vec<_>>(), [3, 7]);
+    let [hidden, shown] = [&both[0], &both[1]];
+    assert_eq!((hidden.visible_px, hidden.visible_box, hidden.occlusion), (0, None, 1.0));
+    assert_eq!((shown.occlusion, shown.truncation), (0.0, 0.0));
+    assert_eq!((shown.visible_px, shown.visible_box), (shown.amodal_px, shown.amodal_box));
+    let alone = &objects(vec![behind])[0];
+    assert_eq!((hidden.amodal_px, hidden.amodal_box), (alone.visible_px, alone.visible_box));
+    assert!((hidden.range_m - 12.0).abs() < 1e-4);
+    // The near face of the front box, 4.5 m away and 3 m wide, is 40 × 41.3 pixels around the principal point.
+    assert_eq!(shown.amodal_box, Some(PixelBox { min: [21, 8], max: [60, 48] }));
+}
+
+#[test]
+fn scenery_is_listed_where_it_is_seen_and_the_carrier_is_not() {
+    let mut tree = object(3, PLACE + DVec3::Y * 12.0, 1.0);
+    let mut place = (**tree.object.as_ref().unwrap()).clone();
+    place.annotation_token.clear();
+    tree.object = Some(Arc::new(place));
+    assert_eq!(objects(vec![object(7, PLACE + DVec3::Y * 6.0, 3.0), tree.clone()]).len(), 1);
+    assert_eq!(objects(vec![tree.clone()])[0].occlusion, 0.0);
+    // The camera stands in the box that carries it, and sees out.
+    let carried = scene(vec![object(1, PLACE, 2.0), tree]);
+    let labels = look(&carried, &Shot { carrier: Some(InstanceId(1)), ..shot(PLACE) });
+    assert_eq!(labels.objects.iter().map(|o| o.id.0).collect::<Vec<_>>(), [3]);
+    assert!(!labels.instance.data.contains(&1));
+}
+
+#[test]
+fn a_box_across_the_border_is_truncated_and_one_outside_is_not_listed() {
+    let half = &objects(vec![object(1, PLACE + DVec3::new(-5.0, 7.5, 0.0), 3.0)])[0];
+    assert!((0.3..0.7).contains(&half.truncation), "{}", half.truncation);
+    assert_eq!(half.amodal_box.unwrap().min[0], 0);
+    assert!(objects(vec![object(1, PLACE + DVec3::new(-30.0, 7.5, 0.0), 3.0)]).is_empty());
+    assert!(objects(vec![object(1, PLACE - DVec3::Y * 7.5, 3.0)]).is_empty());
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_labels() {
+    let boxes = (1..20).map(|i| {
+        let angle = f64::from(i) * 2.4;
+        object(i, PLACE + DVec3::new(angle.sin() * 3.0, 5.0 + f64::from(i), angle.cos()), 1.5)
+    });
+    let scene = scene(boxes.collect());
+    let [one, two] = [1, 2].map(|threads| format!("{:?}", labels(&scene, &shot(PLACE), threads)));
+    assert!(one == two);
+}
+
+fn look(scene: &Scene, shot: &Shot) -> Labels {
+    labels(scene, shot, 2)
+}
+
+fn labels(scene: &Scene, shot: &Shot, threads: usize) -> Labels {
+    let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: false, threads, search: Vec::new() };
+    let renderer = Renderer::new(&options).unwrap();
+    let prepared = renderer.prepare(scene).unwrap();
+    renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
+}
+
+fn objects(instances: Vec<Instance>) -> Vec<ObjectLabel> {
+    look(&scene(instances), &shot(PLACE)).objects
+}
+
+fn centres() -> impl Iterator<Item = (u32, u32, DVec2)> {
+    let row = |y: u32| (0..LENS.width_px).map(move |x| (x, y, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)));
+    (0..LENS.height_px).flat_map(row)
+}
+
+/// A camera that looks north.
+fn shot(position: DVec3) -> Shot {
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
+    Shot {
+        view: "test".into(),
+        lens: LENS,
+        world_from_camera: Pose::<World, Camera>::new(rotation, position),
+        world_from_camera_previous: None,
+        world_from_camera_next: None,
+        time_ns: 0,
+        spp: 1,
+        exposure: ExposureRule::Fixed { ev: 0.0 },
+        seed: Seed(1),
+        carrier: None,
+    }
+}
+
+/// Indices of the test meshes.
+const GROUND: usize = 0;
+const BALL: usize = 1;
+const CUBE: usize = 2;
+
+fn scene(instances: Vec<Instance>) -> Scene {
+    let sky = EnvironmentMap { name: "white".into(), width: 2, height: 1, rgb: vec![[1.0; 3]; 2] };
+    Scene {
+        meshes: [ground(), ball(400), cube()].map(Arc::new).to_vec(),
+        materials: vec![Material::default()],
+        instances,
+        light: Light { environment: Environment::Map(Arc::new(sky)) },
+        provenance: Vec::new(),
+    }
+}
+
+fn stuff(mesh: usize, place: DVec3) -> Instance {
+    let world_from_mesh = DAffine3::from_translation(place);
+    Instance {
+        id: InstanceId(0),
+        class: Class::Road,
+        mesh,
+        materials: vec![0],
+        world_from_mesh,
+        world_from_mesh_previous: Some(world_from_mesh),
+        world_from_mesh_next: Some(world_from_mesh),
+        object: None,
+    }
+}
+
+/// A recorded cube.
+fn object(id: u32, place: DVec3, side_m: f64) -> Instance {
+    let world_from_mesh = DAffine3::from_scale_rotation_translation(DVec3::splat(side_m), DQuat::IDENTITY, place);
+    let object = SceneObject {
+        kind: Kind::Car,
+        track_token: "track".into(),
+        annotation_token: "annotation".into(),
+        category: "vehicle.car".into(),
+        asset: "cube".into(),
+        cuboid: Cuboid { world_from_body: Pose::<World, Body>::from_yaw(0.0, place), size_m: DVec3::splat(side_m) },
+        velocity_mps: None,
+    };
+    Instance {
+        id: InstanceId(id),
+        class: Class::Car,
+        world_from_mesh,
+        world_from_mesh_previous: Some(world_from_mesh),
+        world_from_mesh_next: Some(world_from_mesh),
+        object: Some(Arc::new(object)),
+        ..stuff(CUBE, place)
+    }
+}
+
+/// A square kilometre at z = 0 in four triangles.
+fn ground() -> Mesh {
+    Mesh {
+        positions: [[-500.0, -500.0], [500.0, -500.0], [500.0, 500.0], [-500.0, 500.0], [3.0, 7.0]]
+            .map(|[x, y]| Vec3::new(x, y, 0.0))
+            .to_vec(),
+        triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+        ..Mesh::default()
+    }
+}
+
+/// Radius 1.
+fn ball(rings: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for ring in 0..=rings {
+        for side in 0..=2 * rings {
+            let (sin, cos) = (ring as f32 / rings as f32 * std::f32::consts::PI).sin_cos();
+            let (y, x) = (side as f32 / rings as f32 * std::f32::consts::PI).sin_cos();
+            mesh.positions.push(Vec3::new(sin * x, sin * y, -cos));
+        }
+    }
+    for ring in 0..rings {
+        for side in 0..2 * rings {
+            let a = ring * (2 * rings + 1) + side;
+            let b = a + 2 * rings + 1;
+            mesh.triangles.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
+        }
+    }
+    mesh
+}
+
+/// Side 1 around the origin.
+fn cube() -> Mesh {
+    let mut mesh = Mesh::default();
+    for axis in 0..3 {
+        for side in [-0.5, 0.5] {
+            let base = mesh.positions.len() as u32;
+            for (u, v) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
+                let mut p = Vec3::ZERO;
+                p[axis] = side;
+                p[(axis + 1) % 3] = u;
+                p[(axis + 2) % 3] = v;
+                mesh.positions.push(p);
+            }
+            mesh.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
+        }
+    }
+    mesh
+}
