@@ -145,7 +145,7 @@ pub(super) fn arcade(seed: u32) -> Facade {
             texel.roughness = texel.roughness.max(0.15);
         });
         slab(canvas, corner + vec2(-0.36, 0.0), corner + vec2(0.36, 0.3), vec3(0.25, 0.24, 0.22), 0.05, 1);
-        slab(canvas, corner + vec2(-0.4, 3.1), corner + vec2(0.4, 3.3), vec3(0.42, 0.4, 0.37), 0.08, 1);
+        slab(canvas, corner + vec2(-0.4, 3.1), corner + vec2(0.4, 3.28), vec3(0.42, 0.4, 0.37), 0.08, 1);
         slab(canvas, corner + vec2(0.0, 3.8), corner + vec2(3.6, 4.0), vec3(0.42, 0.4, 0.37), 0.1, 1);
     });
     (canvas, grid)

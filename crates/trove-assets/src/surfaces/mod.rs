@@ -44,14 +44,14 @@ pub(crate) fn surfaces() -> Vec<Surface> {
 }
 
 fn surface((id, kind, paint): &Recipe) -> Surface {
-    let (canvas, cells, coarser) = match paint {
-        Paint::Plain(paint) => (paint(), [1, 1], 1),
+    let (canvas, cells) = match paint {
+        Paint::Plain(paint) => (paint(), [1, 1]),
         Paint::Storeys(paint) => {
             let (canvas, grid) = paint();
-            (canvas, grid.cells, 2)
+            (canvas, grid.cells)
         }
     };
-    let mut material = canvas.material(id, coarser);
+    let mut material = canvas.material(id, 2);
     if matches!(kind, SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow) {
         material.alpha_cutoff = 0.5;
     }

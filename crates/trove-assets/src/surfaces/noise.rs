@@ -4,11 +4,15 @@ use glam::{IVec2, Vec2, ivec2, vec2};
 
 /// A random number in 0..1 for a lattice point.
 pub(crate) fn hash(x: i32, y: i32, seed: u32) -> f32 {
+    (bits(x, y, seed) >> 8) as f32 / (1 << 24) as f32
+}
+
+fn bits(x: i32, y: i32, seed: u32) -> u32 {
     let mut h = (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841);
     h ^= seed.wrapping_mul(0xcb1a_b31f);
     h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
     h = (h ^ (h >> 12)).wrapping_mul(0x297a_2d39);
-    ((h ^ (h >> 15)) >> 8) as f32 / (1 << 24) as f32
+    h ^ (h >> 15)
 }
 
 /// A lattice over a texture, which has a whole number of cells each way.
@@ -28,8 +32,6 @@ pub(crate) struct Near {
     pub(crate) second: f32,
     /// A random number in 0..1 of the nearest.
     pub(crate) id: f32,
-    /// From the nearest to the point, in cells.
-    pub(crate) offset: Vec2,
 }
 
 impl Noise {
@@ -44,24 +46,38 @@ impl Noise {
         Self { cells: cells.as_ivec2(), cells_per_m: cells / size_m, seed }
     }
 
-    fn hash(&self, cell: IVec2, salt: u32) -> f32 {
-        hash(cell.x.rem_euclid(self.cells.x), cell.y.rem_euclid(self.cells.y), self.seed.wrapping_add(salt))
+    /// The cell that a point in cells lies in, brought into the texture, and where in it the point lies.
+    fn locate(&self, p: Vec2) -> (IVec2, Vec2) {
+        let cell = p.floor();
+        let wrapped = cell - self.cells.as_vec2() * (cell / self.cells.as_vec2()).floor();
+        (wrapped.as_ivec2(), p - cell)
+    }
+
+    /// A coordinate at most one beyond the texture, brought back into it.
+    fn wrapped(x: i32, cells: i32) -> i32 {
+        if x < 0 {
+            x + cells
+        } else if x >= cells {
+            x - cells
+        } else {
+            x
+        }
     }
 
     /// Perlin's gradient noise at a point in metres, about −1 to 1.
     pub(crate) fn at(&self, p_m: Vec2) -> f32 {
-        let p = p_m * self.cells_per_m;
-        let cell = p.floor();
-        let f = p - cell;
-        let cell = cell.as_ivec2();
-        let corner = |dx: i32, dy: i32| {
-            let h = self.hash(cell + ivec2(dx, dy), 0) * 16.0;
-            let (x, y) = GRADIENTS[h as usize & 15];
-            x * (f.x - dx as f32) + y * (f.y - dy as f32)
+        // Every seed's lattice lies elsewhere, lest the zeros of all octaves meet at the texture's edge.
+        let shift = vec2((self.seed & 63) as f32, (self.seed >> 1 & 63) as f32) * 0.377;
+        let (cell, f) = self.locate(p_m * self.cells_per_m + shift);
+        let next = ivec2(Self::wrapped(cell.x + 1, self.cells.x), Self::wrapped(cell.y + 1, self.cells.y));
+        let corner = |x: i32, y: i32, from: Vec2| {
+            let (gx, gy) = GRADIENTS[(bits(x, y, self.seed) >> 28) as usize];
+            gx * from.x + gy * from.y
         };
         let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-        let low = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * w.x;
-        let high = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * w.x;
+        let (a, b) = (corner(cell.x, cell.y, f), corner(next.x, cell.y, f - Vec2::X));
+        let (c, d) = (corner(cell.x, next.y, f - Vec2::Y), corner(next.x, next.y, f - Vec2::ONE));
+        let (low, high) = (a + (b - a) * w.x, c + (d - c) * w.x);
         1.5 * (low + (high - low) * w.y)
     }
 
@@ -80,22 +96,22 @@ impl Noise {
 
     /// Worley's cellular noise at a point in metres.
     pub(crate) fn near(&self, p_m: Vec2) -> Near {
-        let p = p_m * self.cells_per_m;
-        let cell = p.floor().as_ivec2();
-        let mut near = Near { first: f32::INFINITY, second: f32::INFINITY, id: 0.0, offset: Vec2::ZERO };
+        let (cell, f) = self.locate(p_m * self.cells_per_m);
+        let (mut first, mut second, mut nearest) = (f32::INFINITY, f32::INFINITY, 0);
         for dy in -1..=1 {
+            let y = Self::wrapped(cell.y + dy, self.cells.y);
             for dx in -1..=1 {
-                let c = cell + ivec2(dx, dy);
-                let offset = p - c.as_vec2() - vec2(self.hash(c, 1), self.hash(c, 2));
-                let d = offset.length_squared();
-                if d < near.first {
-                    near = Near { first: d, second: near.first, id: self.hash(c, 3), offset };
-                } else if d < near.second {
-                    near.second = d;
+                let h = bits(Self::wrapped(cell.x + dx, self.cells.x), y, self.seed);
+                let point = vec2((h & 0xffff) as f32, (h >> 16) as f32) / 65536.0;
+                let d = (f - point - vec2(dx as f32, dy as f32)).length_squared();
+                second = second.min(d.max(first));
+                if d < first {
+                    (first, nearest) = (d, h);
                 }
             }
         }
-        Near { first: near.first.sqrt(), second: near.second.sqrt(), ..near }
+        let id = (nearest.wrapping_mul(0x9e37_79b1) >> 8) as f32 / (1 << 24) as f32;
+        Near { first: first.sqrt(), second: second.sqrt(), id }
     }
 }
 

@@ -108,8 +108,8 @@ impl View {
     fn draw(make: &Window, random: &mut Random) -> Self {
         let home = make.dress == Dress::Home;
         let blind = match make.dress {
-            Dress::Home if random.chance(0.3) => 1.0 - random.unit() as f32 * random.unit() as f32 * 1.1,
-            Dress::Office if random.chance(0.55) => 1.0 - random.unit() as f32 * 0.8,
+            Dress::Home if random.chance(0.22) => 1.0 - random.unit() as f32 * random.unit() as f32 * 1.1,
+            Dress::Office if random.chance(0.4) => 1.0 - (random.unit() * random.unit()) as f32 * 0.9,
             _ => 1.0,
         };
         let curtains = if home && random.chance(0.65) { random.range(0.08, 0.35) as f32 } else { 0.0 };
@@ -129,8 +129,10 @@ impl View {
     fn at(&self, p: Vec2) -> Vec3 {
         let noise = |x: f32, y: f32| hash((p.x * x) as i32, (p.y * y) as i32, self.seed);
         let mut color = Vec3::splat(0.028 + 0.03 * (1.0 - p.y));
-        // Dim shapes of a room.
-        color *= 0.6 + 0.8 * noise(4.0, 3.0);
+        // Dim shapes of a room: its back wall, a dark corner, furniture under the sill.
+        let depth = step(0.35, 0.2, (p.x - 0.3 - 0.4 * noise(0.0, 0.0)).abs());
+        let furniture = step(0.02, 0.0, p.y - 0.12 - 0.2 * noise(2.6, 0.0));
+        color *= 0.6 + 0.7 * depth - 0.4 * furniture;
         if self.lit {
             color += vec3(0.16, 0.125, 0.08) * (0.4 + 0.6 * p.y);
         }
@@ -140,9 +142,16 @@ impl View {
                 color += Vec3::splat(0.22) * lamp * if self.lit { 1.0 } else { 0.15 };
             }
             Dress::Shop => {
-                let goods = step(0.62, 0.5, p.y + 0.25 * noise(9.0, 1.0));
-                let hue = vec3(noise(9.0, 5.0), noise(8.0, 6.0), noise(7.0, 4.0));
-                color += goods * (Vec3::splat(0.05) + 0.13 * hue) + vec3(0.07, 0.06, 0.045) * p.y;
+                // Shelves with things on them, a poster, a lit ceiling.
+                let shelf = (p.y * 7.0).fract();
+                let thing = hash((p.x * 26.0) as i32, (p.y * 7.0) as i32, self.seed);
+                let goods = step(0.62, 0.6, p.y) * step(0.25 + 0.7 * thing, 0.2 + 0.7 * thing, shelf);
+                let hue = vec3(thing, (thing * 7.3).fract(), (thing * 3.7).fract());
+                color += goods * (Vec3::splat(0.02) + 0.11 * hue * hue) + vec3(0.07, 0.06, 0.045) * p.y;
+                let poster = (p - vec2(0.15 + 0.5 * noise(0.0, 0.0), 0.55)).abs();
+                if poster.x < 0.09 && poster.y < 0.2 {
+                    color = vec3(0.35, 0.33, 0.3) * (0.35 + hash((p.x * 30.0) as i32, (p.y * 14.0) as i32, self.seed));
+                }
             }
             Dress::Home | Dress::Bare => {}
         }
@@ -153,7 +162,7 @@ impl View {
         }
         if p.y > self.blind {
             let slat = 0.8 + 0.2 * (p.y * 150.0).sin();
-            color = vec3(0.46, 0.46, 0.43) * slat * 0.75;
+            color = vec3(0.33, 0.33, 0.31) * slat * 0.75;
         }
         color
     }

@@ -21,7 +21,7 @@ impl Grid {
     }
 
     fn size_px(&self) -> [u32; 2] {
-        if self.cells[1] == 1 { [1024, 512] } else { [1024, 1024] }
+        if self.cells[1] < 4 { [1024, 512] } else { [1024, 1024] }
     }
 
     /// Every cell's low corner, with a number of its own.
