@@ -16,20 +16,21 @@ pub(super) const ERROR_NONE: c_int = 0;
 
 macro_rules! api {
     ($($field:ident = $symbol:literal : fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// The functions; valid as long as the library is loaded, which is as long as they are kept.
+        /// The functions; they stay valid, because the library is never unloaded.
         pub(super) struct Api {
             $(pub(super) $field: unsafe extern "C" fn($($arg),*) $(-> $ret)?,)*
-            _library: Library,
         }
 
         impl Api {
             fn from_library(library: Library) -> Result<Self, libloading::Error> {
                 $(
-                    // SAFETY: the type is the one that `oidn.h` of version 2 declares for this symbol, and the pointer
-                    // is kept beside the library that it points into.
+                    // SAFETY: the type is the one that `oidn.h` of version 2 declares for this symbol, and the library
+                    // stays loaded.
                     let $field = unsafe { *library.get::<unsafe extern "C" fn($($arg),*) $(-> $ret)?>($symbol)? };
                 )*
-                Ok(Self { $($field,)* _library: library })
+                // oneTBB's threads may still be on their way out when the last device is released.
+                std::mem::forget(library);
+                Ok(Self { $($field,)* })
             }
         }
     };
