@@ -5,6 +5,7 @@
 
 mod assembly;
 mod buildings;
+mod driving_side;
 mod error;
 mod ground;
 mod light;
@@ -25,4 +26,4 @@ mod views;
 pub use error::BuildError;
 pub use light::LightChoice;
 pub use site::{BuildSettings, Site, area, build};
-pub use views::{ViewSettings, shots};
+pub use views::{ViewSettings, place_drive, shots};

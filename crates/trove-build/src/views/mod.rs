@@ -1,8 +1,11 @@
 //! Where the pictures are taken from.
 
 mod carriers;
+mod place;
 
 use trove_model::{Drive, ExposureRule, Lens, Outcome, Pose, Report, Seed, Shot};
+
+pub use place::place_drive;
 
 use crate::moments::{next, previous};
 use crate::site::Site;

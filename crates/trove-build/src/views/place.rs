@@ -1,0 +1,193 @@
+//! A place without recorded traffic, seen from its own streets.
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+use trove_model::{
+    Bounds, Camera, Drive, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome, Pose, Report, RigCamera,
+    Road, Seed, StreetMap, World,
+};
+
+use super::PLACE_DATASET;
+use crate::driving_side::drives_on_left;
+use crate::error::BuildError;
+
+/// At most so many views' positions.
+const MAX_VIEWS: usize = 20;
+/// They stand at least this far apart, metres.
+const SPACING_M: f64 = 30.0;
+/// Candidates along the roads, metres.
+const STEP_M: f64 = 5.0;
+/// Share of the side that is left free along the border, so that views do not look out of the place.
+const BORDER: f64 = 0.15;
+/// Where no lanes are tagged, the middle of the driven lane is this far from a two-way road's middle, metres.
+const LANE_OFFSET_M: f64 = 1.75;
+/// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
+const STEP_NS: i64 = 60_000_000_000;
+
+/// A drive without boxes whose keyframes stand on the map's roads, spaced, with six cameras around the roof.
+///
+/// `place` names it; `size_m` is the side of the square around World's origin; `time_ns` is the first keyframe's.
+pub fn place_drive(
+    map: &StreetMap,
+    projection: MapProjection,
+    place: &str,
+    size_m: f64,
+    time_ns: i64,
+    seed: Seed,
+    report: &Report,
+) -> Result<Drive, BuildError> {
+    let inner = Bounds::square(DVec2::ZERO, size_m * (1.0 - 2.0 * BORDER));
+    let on_left = drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg);
+    let mut candidates: Vec<Pose<World, Ego>> = map
+        .roads
+        .iter()
+        .filter(|r| r.kind.is_for_cars() && !r.tunnel && !r.bridge && r.layer == 0)
+        .flat_map(|road| standpoints(road, on_left))
+        .filter(|pose| inner.contains(pose.translation.truncate()))
+        .collect();
+    if candidates.is_empty() {
+        return Err(BuildError::NoRoads { place: place.into(), size_m });
+    }
+
+    // Drawn one after the other; what is too near to one that stands is passed over.
+    let mut random = seed.child("standpoints").random();
+    let mut stands: Vec<Pose<World, Ego>> = Vec::new();
+    while stands.len() < MAX_VIEWS && !candidates.is_empty() {
+        let drawn = candidates.swap_remove(random.index(candidates.len()));
+        if stands.iter().all(|s| s.translation.distance(drawn.translation) >= SPACING_M) {
+            stands.push(drawn);
+        }
+    }
+    if stands.len() < MAX_VIEWS {
+        report.note(Outcome::Warned, "fewer standpoints than usual fit on the place's roads", stands.len());
+    }
+    let rig = rig();
+    let keyframe = |(i, &world_from_ego): (usize, &Pose<World, Ego>)| {
+        let time_ns = time_ns + i as i64 * STEP_NS;
+        let exposure = |(camera, c): (usize, &RigCamera)| Exposure {
+            camera,
+            time_ns,
+            world_from_ego,
+            lens: c.lens,
+            ego_from_camera: c.ego_from_camera,
+            token: String::new(),
+            file: String::new(),
+        };
+        Keyframe {
+            time_ns,
+            token: format!("{place}-{i:03}"),
+            world_from_ego,
+            exposures: rig.iter().enumerate().map(exposure).collect(),
+            boxes: Vec::new(),
+            lidar: None,
+        }
+    };
+    Ok(Drive {
+        id: place.into(),
+        dataset: PLACE_DATASET.into(),
+        place: place.into(),
+        projection,
+        keyframes: stands.iter().enumerate().map(keyframe).collect(),
+        rig,
+        ego_body: EgoBody { centre_ego: DVec3::new(1.2, 0.0, 0.78), size_m: DVec3::new(4.08, 1.73, 1.56) },
+        tracks: Vec::new(),
+        lane_map: None,
+        licence: String::new(),
+    })
+}
+
+/// Poses along a road in a lane of its own, in both directions where it has both.
+fn standpoints(road: &Road, on_left: bool) -> Vec<Pose<World, Ego>> {
+    let lanes = f64::from(road.lanes.unwrap_or(0).max(1));
+    let offset_m = match (road.oneway, road.width_m) {
+        (true, _) => 0.0,
+        (false, Some(width_m)) => width_m / 4.0,
+        (false, None) => LANE_OFFSET_M * (lanes / 2.0).max(1.0).round(),
+    };
+    let side = if on_left { 1.0 } else { -1.0 };
+    let mut poses = Vec::new();
+    for segment in road.centreline.windows(2) {
+        let Some(along) = (segment[1] - segment[0]).try_normalize() else { continue };
+        let count = (segment[0].distance(segment[1]) / STEP_M).floor() as usize;
+        for i in 1..=count {
+            let middle = segment[0] + along * (i as f64 * STEP_M - STEP_M / 2.0);
+            let directions = if road.oneway { vec![along] } else { vec![along, -along] };
+            poses.extend(directions.iter().map(|&forward| {
+                let position = middle + forward.perp() * side * offset_m;
+                Pose::from_yaw(forward.y.atan2(forward.x), position.extend(0.0))
+            }));
+        }
+    }
+    poses
+}
+
+/// Six cameras like those of nuScenes' vehicles: 70° wide and 60° apart, 110° wide to the back.
+fn rig() -> Vec<RigCamera> {
+    const WIDE: (f64, f64) = (1266.0, 1.51);
+    const MOUNTS: [(&str, f64, [f64; 2], f64); 6] = [
+        ("CAM_BACK", 180.0, [0.03, 0.0], 809.0),
+        ("CAM_BACK_LEFT", 110.0, [1.04, 0.48], WIDE.0),
+        ("CAM_BACK_RIGHT", -110.0, [1.01, -0.48], WIDE.0),
+        ("CAM_FRONT", 0.0, [1.70, 0.02], WIDE.0),
+        ("CAM_FRONT_LEFT", 55.0, [1.52, 0.49], WIDE.0),
+        ("CAM_FRONT_RIGHT", -55.0, [1.55, -0.49], WIDE.0),
+    ];
+    let ahead = DQuat::from_mat3(&DMat3::from_cols(-DVec3::Y, -DVec3::Z, DVec3::X));
+    let camera = |(name, heading_deg, [x, y], focal_px): (&str, f64, [f64; 2], f64)| RigCamera {
+        name: name.into(),
+        lens: Lens { width_px: 1600, height_px: 900, fx_px: focal_px, fy_px: focal_px, cx_px: 800.0, cy_px: 450.0 },
+        ego_from_camera: Pose::<Ego, Camera>::new(
+            DQuat::from_rotation_z(heading_deg.to_radians()) * ahead,
+            DVec3::new(x, y, WIDE.1),
+        ),
+    };
+    MOUNTS.map(camera).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trove_model::{RoadKind, SidewalkSides};
+
+    fn map() -> StreetMap {
+        let road = |id: i64, ends: [[f64; 2]; 2]| Road {
+            id,
+            kind: RoadKind::Residential,
+            centreline: ends.map(DVec2::from_array).to_vec(),
+            lanes: None,
+            width_m: None,
+            oneway: false,
+            sidewalk: SidewalkSides::default(),
+            layer: 0,
+            bridge: false,
+            tunnel: false,
+            surface: String::new(),
+            name: String::new(),
+        };
+        StreetMap {
+            roads: vec![road(1, [[-300.0, 0.0], [300.0, 0.0]]), road(2, [[0.0, -300.0], [0.0, 300.0]])],
+            ..StreetMap::default()
+        }
+    }
+
+    #[test]
+    fn views_stand_spaced_in_the_right_lane_within_the_place() {
+        let helsinki = MapProjection { origin_lat_deg: 60.17, origin_lon_deg: 24.94, anchor_m: DVec2::ZERO };
+        let drive = place_drive(&map(), helsinki, "p", 400.0, 0, Seed(1), &Report::default()).unwrap();
+        assert!(drive.keyframes.len() >= 8);
+        for (i, a) in drive.keyframes.iter().enumerate() {
+            let position = a.world_from_ego.translation;
+            assert!(position.abs().max_element() <= 140.0);
+            let right = a.world_from_ego.vector(-DVec3::Y);
+            assert!((position * right.abs()).length() < 2.0 && position.dot(right) > 1.0, "{position}");
+            let near = |b: &Keyframe| b.world_from_ego.translation.distance(position) < SPACING_M;
+            assert!(!drive.keyframes[i + 1..].iter().any(near));
+        }
+    }
+
+    #[test]
+    fn a_place_without_roads_is_an_error() {
+        let nowhere = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
+        let error = place_drive(&StreetMap::default(), nowhere, "p", 400.0, 0, Seed(1), &Report::default());
+        assert!(matches!(error, Err(BuildError::NoRoads { .. })));
+    }
+}
