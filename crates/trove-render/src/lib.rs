@@ -4,6 +4,7 @@
 //! where the scene came from, nor how a capture is written.
 
 mod accel;
+mod cache;
 mod denoise;
 mod error;
 mod film;

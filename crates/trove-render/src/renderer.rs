@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, Scene, Shot};
+use trove_model::{Capture, CaptureStats, Color, Scene, Shot, Texture};
 
 use crate::accel::{Kernel, KernelChoice};
+use crate::cache::Cache;
 use crate::denoise::Denoiser;
-use crate::prepare::TextureCache;
+use crate::texture::MipMap;
 use crate::{PreparedScene, RenderError, film, labels, path};
 
 /// How to set a renderer up.
@@ -38,7 +39,7 @@ pub struct Capabilities {
 pub struct Renderer {
     kernel: Kernel,
     denoiser: Result<Denoiser, String>,
-    textures: TextureCache,
+    textures: Cache<Texture, MipMap>,
     pool: rayon::ThreadPool,
 }
 
@@ -56,7 +57,7 @@ impl Renderer {
         } else {
             Err("not asked for".into())
         };
-        Ok(Self { kernel, denoiser, textures: TextureCache::default(), pool })
+        Ok(Self { kernel, denoiser, textures: Cache::default(), pool })
     }
 
     /// What this renderer works with.

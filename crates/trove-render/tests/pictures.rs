@@ -1,5 +1,7 @@
 //! Pictures whose radiance is known in closed form, and pictures that must be equal.
 
+#![allow(clippy::unwrap_used)] // its helpers are tests too
+
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, vec2, vec3};

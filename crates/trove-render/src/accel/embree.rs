@@ -1,10 +1,9 @@
 //! Embree 4: one Embree scene for each mesh, and one of instances over them.
 
-use std::collections::HashMap;
 use std::ffi::c_void;
 use std::path::PathBuf;
 use std::ptr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::Affine3A;
 use trove_model::Mesh;
@@ -12,6 +11,7 @@ use trove_model::Mesh;
 use super::embree_api::{self as api, Api, Context, FilterArguments, Handle, QueryArguments, RawHit, RawRay, RayHit};
 use super::{Accept, Hit, Placed, Ray};
 use crate::RenderError;
+use crate::cache::Cache;
 
 /// The loaded library and its device.
 struct Device {
@@ -49,13 +49,11 @@ impl Drop for BuiltScene {
     }
 }
 
-/// A mesh's address and whether its hits are tested, which is a property of what Embree builds.
-type BottomKey = (usize, bool);
-
-/// Embree with what it built of the meshes so far; an entry keeps its mesh, and so the address, alive.
+/// Embree with what it built of the meshes so far.
 pub(crate) struct Kernel {
     device: Arc<Device>,
-    built: Mutex<HashMap<BottomKey, (Arc<Mesh>, Arc<BuiltScene>)>>,
+    /// Whether hits are tested is a property of what is built: without tests, with tests.
+    built: [Cache<Mesh, BuiltScene>; 2],
 }
 
 /// A two-level scene.
@@ -77,7 +75,7 @@ impl Kernel {
             return Err(refuse("it has no device for this processor".into()));
         }
         let device = Arc::new(Device { api, handle });
-        let kernel = Self { device, built: Mutex::default() };
+        let kernel = Self { device, built: Default::default() };
         if kernel.device.api.version(handle)[0] != 4 || !kernel.answers_correctly() {
             return Err(refuse(format!("{} does not answer as Embree 4 does", kernel.name())));
         }
@@ -112,15 +110,13 @@ impl Kernel {
     }
 
     pub(super) fn build(&self, placed: &[Placed]) -> Accel {
-        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
-        built.retain(|_, (mesh, _)| Arc::strong_count(mesh) > 1);
+        self.built.iter().for_each(Cache::forget_unused);
         let api = &self.device.api;
         let top = BuiltScene { device: self.device.clone(), handle: new_scene(&self.device) };
         let mut bottoms = Vec::with_capacity(placed.len());
         for (i, p) in placed.iter().enumerate() {
-            let key = (Arc::as_ptr(&p.mesh) as usize, p.tested);
-            let make = || (p.mesh.clone(), Arc::new(build_mesh(&self.device, &p.mesh, p.tested)));
-            let bottom = built.entry(key).or_insert_with(make).1.clone();
+            let cache = &self.built[usize::from(p.tested)];
+            let bottom = cache.get(&p.mesh, |mesh| build_mesh(&self.device, mesh, p.tested));
             let columns = p.world_from_mesh.to_cols_array();
             // SAFETY: all handles are alive; the transform is 12 floats, column by column; ids are distinct.
             unsafe {

@@ -42,10 +42,6 @@ impl Ray {
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
-
-    pub(crate) fn at(&self, t: f32) -> Vec3 {
-        self.origin + self.direction * t
-    }
 }
 
 /// Where a ray meets a triangle: the point is (1 − u − v)·a + u·b + v·c.

@@ -1,7 +1,6 @@
 //! The built-in kernel: obvhs's binary hierarchy over instances, and one over each mesh's triangles.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{Affine3A, Vec3, Vec3A};
@@ -16,11 +15,12 @@ use trove_model::Mesh;
 
 use super::watertight::Sheared;
 use super::{Accept, Hit, Placed, Ray};
+use crate::cache::Cache;
 
-/// What was built of the meshes so far, by their address, which the entry keeps alive.
+/// What was built of the meshes so far.
 #[derive(Default)]
 pub(crate) struct Kernel {
-    built: Mutex<HashMap<usize, (Arc<Mesh>, Arc<Bottom>)>>,
+    built: Cache<Mesh, Bottom>,
 }
 
 /// A mesh's hierarchy with its triangles in the order of the leaves.
@@ -44,23 +44,18 @@ pub(crate) struct Accel {
 
 impl Kernel {
     pub(super) fn build(&self, placed: &[Placed]) -> Accel {
-        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
-        built.retain(|_, (mesh, _)| Arc::strong_count(mesh) > 1);
-        let mut missing: Vec<&Arc<Mesh>> = placed.iter().map(|p| &p.mesh).collect();
-        missing.sort_by_key(|mesh| Arc::as_ptr(mesh));
-        missing.dedup_by_key(|mesh| Arc::as_ptr(mesh));
-        missing.retain(|mesh| !built.contains_key(&(Arc::as_ptr(mesh) as usize)));
-        let new: Vec<_> = missing.into_par_iter().map(|mesh| (mesh.clone(), Arc::new(Bottom::new(mesh)))).collect();
-        built.extend(new.into_iter().map(|(mesh, bottom)| (Arc::as_ptr(&mesh) as usize, (mesh, bottom))));
+        self.built.forget_unused();
+        let mut meshes: Vec<&Arc<Mesh>> = placed.iter().map(|p| &p.mesh).collect();
+        meshes.sort_by_key(|mesh| Arc::as_ptr(mesh));
+        meshes.dedup_by_key(|mesh| Arc::as_ptr(mesh));
+        meshes.into_par_iter().for_each(|mesh| drop(self.built.get(mesh, Bottom::new)));
 
-        let tops: Vec<Top> = placed
-            .iter()
-            .map(|p| Top {
-                bottom: built[&(Arc::as_ptr(&p.mesh) as usize)].1.clone(),
-                mesh_from_world: p.world_from_mesh.inverse(),
-                tested: p.tested,
-            })
-            .collect();
+        let top = |p: &Placed| Top {
+            bottom: self.built.get(&p.mesh, Bottom::new),
+            mesh_from_world: p.world_from_mesh.inverse(),
+            tested: p.tested,
+        };
+        let tops: Vec<Top> = placed.iter().map(top).collect();
         let boxes: Vec<Aabb> = placed.iter().map(box_world).collect();
         let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
         Accel { bvh, tops }

@@ -7,12 +7,13 @@ mod ggx;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use trove_model::Material;
+use trove_model::{Material, Texture};
 
-use crate::prepare::{Surface, TextureCache};
+use crate::cache::Cache;
+use crate::prepare::Surface;
 use crate::texture::MipMap;
 
-pub(crate) use bsdf::{Bsdf, BsdfSample};
+pub(crate) use bsdf::Bsdf;
 
 /// A material with its textures filtered.
 pub(crate) struct PreparedMaterial {
@@ -34,8 +35,8 @@ pub(crate) struct PreparedMaterial {
 
 impl PreparedMaterial {
     /// Numbers outside their range are brought into it.
-    pub(crate) fn new(material: &Material, textures: &TextureCache) -> Self {
-        let map = |texture: &Option<_>| texture.as_ref().map(|t| textures.get(t));
+    pub(crate) fn new(material: &Material, textures: &Cache<Texture, MipMap>) -> Self {
+        let map = |texture: &Option<Arc<Texture>>| texture.as_ref().map(|t| textures.get(t, MipMap::new));
         let ior = material.ior.max(1.0);
         Self {
             base_color: material.base_color.clamp(Vec3::ZERO, Vec3::ONE),

@@ -1,20 +1,20 @@
 //! A scene made ready for rays: checked, its textures filtered, its acceleration structure built.
 
-mod cache;
 mod check;
 mod surface;
 
 use std::sync::Arc;
 
 use glam::{Affine3A, DAffine3, Mat3A, Vec3};
-use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject};
+use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject, Texture};
 
 use crate::RenderError;
 use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
+use crate::cache::Cache;
 use crate::light::Lights;
 use crate::material::PreparedMaterial;
+use crate::texture::MipMap;
 
-pub(crate) use cache::TextureCache;
 pub(crate) use surface::Surface;
 
 /// A scene that can be rendered: from here on nothing can fail.
@@ -44,7 +44,7 @@ pub(crate) struct PreparedInstance {
 }
 
 impl PreparedScene {
-    pub(crate) fn new(scene: &Scene, kernel: &Kernel, textures: &TextureCache) -> Result<Self, RenderError> {
+    pub(crate) fn new(scene: &Scene, kernel: &Kernel, textures: &Cache<Texture, MipMap>) -> Result<Self, RenderError> {
         check::check(scene)?;
         textures.forget_unused();
         let materials: Vec<_> = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).collect();
@@ -101,13 +101,6 @@ impl PreparedScene {
         let instance = &self.instances[hit.instance as usize];
         let slot = instance.mesh.slot(hit.triangle as usize);
         &self.materials[instance.materials[usize::from(slot)] as usize]
-    }
-
-    /// Point of a hit in the coordinates of its mesh.
-    pub(crate) fn point_mesh(&self, hit: &Hit) -> Vec3 {
-        let mesh = &self.instances[hit.instance as usize].mesh;
-        let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|i| mesh.positions[i as usize]);
-        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
     }
 
     /// Unit normal of the triangle in World, on the side from which its corners run counter-clockwise.

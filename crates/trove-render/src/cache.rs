@@ -1,0 +1,59 @@
+//! What was made of meshes and textures before, for the next scene that shares them.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+
+/// What was made (`T`) of things (`S`) that somebody else still holds.
+pub(crate) struct Cache<S, T> {
+    /// By address, which cannot be used again as long as the weak reference is there.
+    entries: Mutex<BTreeMap<usize, Entry<S, T>>>,
+}
+
+struct Entry<S, T> {
+    source: Weak<S>,
+    made: Arc<T>,
+}
+
+impl<S, T> Default for Cache<S, T> {
+    fn default() -> Self {
+        Self { entries: Mutex::default() }
+    }
+}
+
+impl<S, T> Cache<S, T> {
+    /// What was made of `source`, or is made now.
+    pub(crate) fn get(&self, source: &Arc<S>, make: impl FnOnce(&S) -> T) -> Arc<T> {
+        let address = Arc::as_ptr(source) as usize;
+        if let Some(entry) = self.lock().get(&address) {
+            return entry.made.clone();
+        }
+        // Not under the lock, so that others can be made at the same time.
+        let entry = Entry { source: Arc::downgrade(source), made: Arc::new(make(source)) };
+        self.lock().entry(address).or_insert(entry).made.clone()
+    }
+
+    /// Drops what was made of things that are no more.
+    pub(crate) fn forget_unused(&self) {
+        self.lock().retain(|_, entry| entry.source.strong_count() > 0);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<usize, Entry<S, T>>> {
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thing_is_made_once_as_long_as_it_lives() {
+        let cache = Cache::default();
+        let source = Arc::new(3);
+        let first = cache.get(&source, |n| n + 1);
+        assert!(Arc::ptr_eq(&first, &cache.get(&source, |_| panic!("made again"))));
+        drop(source);
+        cache.forget_unused();
+        assert_eq!(cache.lock().len(), 0);
+    }
+}
