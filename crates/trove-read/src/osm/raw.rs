@@ -1,0 +1,171 @@
+//! Nodes, ways and relations as they stand in the file, whatever its format.
+
+use trove_model::{Outcome, Report};
+
+/// The tags that say something about what a place looks like; all others are not kept.
+#[rustfmt::skip]
+const KEYS: [&str; 68] = [
+    "amenity", "area", "area:highway", "barrier", "bridge", "building", "building:cladding", "building:color",
+    "building:colour", "building:facade:colour", "building:facade:material", "building:height", "building:levels",
+    "building:material", "building:min_height", "building:min_level", "building:part", "colour", "covered",
+    "crossing", "cycleway", "direction", "emergency", "est_height", "fire_hydrant:type", "footway", "height",
+    "highway", "indoor", "junction", "landcover", "landuse", "lanes", "lanes:backward", "lanes:forward", "layer",
+    "leisure", "level", "levels", "location", "man_made", "material", "min_height", "min_level", "name", "natural",
+    "oneway", "parking", "path", "place", "power", "public_transport", "railway", "roof:color", "roof:colour",
+    "roof:height", "roof:shape", "sidewalk", "sidewalk:both", "sidewalk:left", "sidewalk:right", "surface",
+    "traffic_sign", "traffic_signals:direction", "tunnel", "type", "waterway", "width",
+];
+
+/// Tags of [`KEYS`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Tags(Vec<(&'static str, String)>);
+
+impl Tags {
+    /// Adds a tag where its key is one that is looked at.
+    pub(super) fn push(&mut self, key: &str, value: &str) {
+        if let Ok(i) = KEYS.binary_search(&key) {
+            self.0.push((KEYS[i], value.trim().to_owned()));
+        }
+    }
+
+    /// The value of a key; empty where it is not tagged.
+    pub(super) fn get(&self, key: &str) -> &str {
+        debug_assert!(KEYS.binary_search(&key).is_ok(), "{key} is not kept");
+        self.0.iter().find(|(k, _)| *k == key).map_or("", |(_, value)| value)
+    }
+
+    /// The value of the first key that is tagged; empty where none is.
+    pub(super) fn first(&self, keys: &[&str]) -> &str {
+        keys.iter().map(|key| self.get(key)).find(|value| !value.is_empty()).unwrap_or("")
+    }
+
+    /// Whether a key is tagged with anything but a denial.
+    pub(super) fn has(&self, key: &str) -> bool {
+        !matches!(self.get(key), "" | "no" | "none" | "0" | "false")
+    }
+
+    /// Whether nothing is tagged.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The key that says what a thing is, for reports; empty where none does.
+    pub(super) fn main_key(&self) -> &'static str {
+        const MAIN: [&str; 17] = [
+            "building",
+            "building:part",
+            "highway",
+            "area:highway",
+            "railway",
+            "barrier",
+            "natural",
+            "landuse",
+            "landcover",
+            "leisure",
+            "amenity",
+            "man_made",
+            "waterway",
+            "power",
+            "public_transport",
+            "place",
+            "indoor",
+        ];
+        let tagged = |key: &&&str| self.has(key);
+        MAIN.iter().find(tagged).copied().unwrap_or("")
+    }
+}
+
+/// A node's place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RawNode {
+    pub(super) id: i64,
+    pub(super) lat_deg: f64,
+    pub(super) lon_deg: f64,
+}
+
+/// A node with tags.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RawThing {
+    pub(super) node: RawNode,
+    pub(super) tags: Tags,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct RawWay {
+    pub(super) id: i64,
+    pub(super) nodes: Vec<i64>,
+    pub(super) tags: Tags,
+}
+
+impl RawWay {
+    /// Whether it ends where it begins.
+    pub(super) fn is_closed(&self) -> bool {
+        self.nodes.len() > 3 && self.nodes.first() == self.nodes.last()
+    }
+}
+
+/// A relation with its member ways; other members shape no area.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct RawRelation {
+    pub(super) id: i64,
+    pub(super) ways: Vec<i64>,
+    pub(super) tags: Tags,
+}
+
+/// A file's content.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Raw {
+    /// Sorted by id after [`Raw::sorted`].
+    pub(super) nodes: Vec<RawNode>,
+    pub(super) things: Vec<RawThing>,
+    /// Sorted by id after [`Raw::sorted`].
+    pub(super) ways: Vec<RawWay>,
+    /// Multipolygons only.
+    pub(super) multipolygons: Vec<RawRelation>,
+}
+
+impl Raw {
+    /// Adds a node, or notes why it is not one.
+    pub(super) fn add_node(&mut self, node: RawNode, tags: Tags, report: &Report) {
+        let (lat_deg, lon_deg) = (node.lat_deg, node.lon_deg);
+        if !(lat_deg.abs() <= 90.0 && lon_deg.abs() <= 180.0) {
+            let example = format!("node {} at latitude {lat_deg}, longitude {lon_deg}", node.id);
+            report.note(Outcome::Dropped, "osm: node that is nowhere on earth", example);
+            return;
+        }
+        self.nodes.push(node);
+        if !tags.is_empty() {
+            self.things.push(RawThing { node, tags });
+        }
+    }
+
+    /// Adds a relation where it shapes an area.
+    pub(super) fn add_relation(&mut self, relation: RawRelation) {
+        if relation.tags.get("type") == "multipolygon" {
+            self.multipolygons.push(relation);
+        }
+    }
+
+    /// Everything in the order of ids; of those with the same id the first.
+    pub(super) fn sorted(mut self) -> Self {
+        self.nodes.sort_by_key(|n| n.id);
+        self.nodes.dedup_by_key(|n| n.id);
+        self.things.sort_by_key(|t| t.node.id);
+        self.things.dedup_by_key(|t| t.node.id);
+        self.ways.sort_by_key(|w| w.id);
+        self.ways.dedup_by_key(|w| w.id);
+        self.multipolygons.sort_by_key(|r| r.id);
+        self.multipolygons.dedup_by_key(|r| r.id);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_can_be_searched() {
+        assert!(KEYS.is_sorted());
+    }
+}

@@ -1,0 +1,389 @@
+//! OpenStreetMap extracts, made up, damaged and real.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+use proptest::prelude::*;
+use trove_model::{Bounds, FurnitureKind, LandKind, MapProjection, Outcome, Report, RoadKind, RoofShape, StreetMap};
+use trove_read::{ReadError, osm};
+
+const ORIGIN: MapProjection = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
+
+/// Degrees of a metre at the origin.
+const METRE_DEG: f64 = 360.0 / (std::f64::consts::TAU * 6_378_137.0);
+
+/// Nodes by their ids and places in metres.
+fn nodes(places: &[(i64, f64, f64)]) -> String {
+    let node =
+        |(id, x, y): &(i64, f64, f64)| format!("<node id='{id}' lat='{}' lon='{}'/>\n", y * METRE_DEG, x * METRE_DEG);
+    places.iter().map(node).collect()
+}
+
+fn element(head: &str, children: &str, tags: &str) -> String {
+    let name = head.split(' ').next().unwrap();
+    let tag = |tag: &str| tag.split_once('=').map(|(k, v)| format!("<tag k='{k}' v='{v}'/>")).unwrap();
+    format!("<{head}>{children}{}</{name}>\n", tags.split('|').filter(|t| !t.is_empty()).map(tag).collect::<String>())
+}
+
+fn way(id: i64, nodes: &[i64], tags: &str) -> String {
+    let nodes: String = nodes.iter().map(|n| format!("<nd ref='{n}'/>")).collect();
+    element(&format!("way id='{id}'"), &nodes, tags)
+}
+
+fn multipolygon(id: i64, members: &[i64], tags: &str) -> String {
+    let members: String = members.iter().map(|w| format!("<member type='way' ref='{w}' role='outer'/>")).collect();
+    element(&format!("relation id='{id}'"), &members, &format!("type=multipolygon|{tags}"))
+}
+
+/// Nodes 1 to 4 of a square of 10 m, 5 to 8 of one of 2 m in its middle.
+fn squares() -> String {
+    let corners = |first: i64, low: f64, high: f64| {
+        [(first, low, low), (first + 1, high, low), (first + 2, high, high), (first + 3, low, high)]
+    };
+    nodes(&corners(1, 0.0, 10.0)) + &nodes(&corners(5, 4.0, 6.0))
+}
+
+fn file(dir: &tempfile::TempDir, name: &str, bytes: &[u8]) -> PathBuf {
+    let path = dir.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path
+}
+
+fn read_bytes(bytes: &[u8]) -> (Result<StreetMap, ReadError>, Report) {
+    let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
+    let path = file(&dir, "map.osm", bytes);
+    let area = Bounds::square(DVec2::ZERO, 2000.0);
+    (osm::read(&path, &ORIGIN, area, &report), report)
+}
+
+fn read(content: &str) -> (StreetMap, Report) {
+    let (map, report) = read_bytes(format!("<?xml version='1.0'?>\n<osm version='0.6'>\n{content}</osm>\n").as_bytes());
+    (map.unwrap(), report)
+}
+
+fn noted(report: &Report, outcome: Outcome, what: &str) -> bool {
+    report.entries().iter().any(|e| e.outcome == outcome && e.what.contains(what))
+}
+
+#[test]
+fn a_building_has_what_its_tags_say() {
+    let tags = "building=apartments|height=40&apos;|building:levels=3,5|roof:shape=half-hipped|roof:height=2 m\
+                |building:colour=#FFFFFF|roof:colour=Grey|building:material=brick|min_height=3|name=A &amp; B";
+    let (map, report) = read(&(squares() + &way(9, &[4, 3, 2, 1, 4], tags)));
+    let building = &map.buildings[0];
+    assert_eq!((building.id, building.kind.as_str(), building.part), (9, "apartments", false));
+    assert!((building.height_m.unwrap() - 12.192).abs() < 1e-9);
+    assert_eq!((building.levels, building.roof_height_m, building.min_height_m), (Some(3.5), Some(2.0), 3.0));
+    assert_eq!(building.roof, Some(RoofShape::HalfHipped));
+    assert_eq!(building.color, Some(glam::Vec3::ONE));
+    assert!((building.roof_color.unwrap().x - 0.2159).abs() < 1e-3);
+    assert_eq!((building.material.as_str(), building.name.as_str()), ("brick", "A & B"));
+    assert!((building.footprint.area_m2() - 100.0).abs() < 1e-6);
+    assert_eq!(report.entries(), []);
+    assert_eq!(map.licence, "© OpenStreetMap contributors, ODbL 1.0");
+}
+
+#[test]
+fn a_road_has_what_its_tags_say() {
+    let content = squares()
+        + &way(1, &[1, 2, 3], "highway=primary|lanes=4|width=12.5|sidewalk=left|oneway=-1|bridge=yes|surface=asphalt")
+        + &way(2, &[1, 2, 3, 4, 1], "highway=residential|junction=roundabout|sidewalk:both=separate")
+        + &way(3, &[1, 3], "highway=footway|footway=crossing|lanes=many");
+    let (map, report) = read(&content);
+    let road = &map.roads[0];
+    assert_eq!((road.kind, road.lanes, road.width_m), (RoadKind::Primary, Some(4), Some(12.5)));
+    assert!(road.oneway && road.bridge && road.layer == 1 && road.surface == "asphalt");
+    assert!((road.centreline[0] - DVec2::splat(10.0)).length() < 1e-6, "oneway=-1 runs the other way");
+    assert_eq!((road.sidewalk.left, road.sidewalk.right), (Some(false), Some(true)));
+    assert!(map.roads[1].oneway && map.roads[1].centreline.len() == 5);
+    assert_eq!(map.roads[1].sidewalk.left, Some(false));
+    assert_eq!(map.roads[2].kind, RoadKind::Crossing);
+    assert!(noted(&report, Outcome::Dropped, "lanes that cannot be used"));
+}
+
+#[test]
+fn multipolygons_have_holes_whatever_their_ways_order_direction_and_style() {
+    let hole = way(12, &[5, 8, 7, 6, 5], "natural=water");
+    let pieces = way(10, &[3, 2, 1], "") + &way(11, &[3, 4, 1], "");
+    for content in [
+        squares() + &pieces + &hole + &multipolygon(1, &[12, 11, 10], "building=yes"),
+        // Old style: the outer way carries the tags.
+        squares() + &way(10, &[1, 2, 3, 4, 1], "building=yes") + &hole + &multipolygon(1, &[10, 12], ""),
+        // Both: the outer way's tags must not fill the hole.
+        squares() + &way(10, &[1, 2, 3, 4, 1], "building=yes") + &hole + &multipolygon(1, &[10, 12], "building=yes"),
+    ] {
+        let (map, _) = read(&content);
+        let areas: Vec<_> = map.buildings.iter().map(|b| (b.id, b.footprint.area_m2().round())).collect();
+        assert_eq!(areas, [(-1, 96.0)], "{content}");
+        assert_eq!((map.land.len(), map.land[0].kind, map.land[0].id), (1, LandKind::Water, 12), "{content}");
+    }
+}
+
+#[test]
+fn broken_rings_are_reported_and_the_closed_ones_used() {
+    let content = squares()
+        + &way(10, &[1, 2, 3, 4, 1], "")
+        + &way(11, &[5, 6, 7], "")
+        + &multipolygon(1, &[10, 11, 99], "landuse=grass");
+    let (map, report) = read(&content);
+    assert_eq!(map.land.len(), 1);
+    assert!(noted(&report, Outcome::Warned, "rings do not all close"));
+    assert!(noted(&report, Outcome::Warned, "ways that are not in the file"));
+}
+
+#[test]
+fn broken_ways_are_reported_and_the_rest_is_used() {
+    let content = squares()
+        + "<node id='20' lat='95' lon='0'/><node id='21' lat='nan' lon='0'/><node id='22'/><node lat='1' lon='1'/>"
+        + &way(1, &[1, 2, 777, 3, 4], "highway=service")
+        + &way(2, &[1], "highway=service")
+        + &way(3, &[777, 778], "highway=service")
+        + &way(4, &[1, 2, 2, 3], "highway=service")
+        + &way(5, &[1, 3, 2, 4, 1], "building=yes")
+        + &way(6, &[1, 2, 1], "building=yes")
+        + &way(7, &[1, 2, 3], "railway=rail");
+    let (map, report) = read(&content);
+    assert_eq!(map.roads.iter().map(|r| (r.id, r.centreline.len())).collect::<Vec<_>>(), [(1, 2), (1, 2), (4, 3)]);
+    assert_eq!(map.buildings.iter().map(|b| b.footprint.area_m2().round()).collect::<Vec<_>>(), [25.0, 25.0]);
+    for what in [
+        "nowhere on earth",
+        "node without coordinates",
+        "without a number for its id",
+        "road of a single place",
+        "way without nodes in the file",
+        "railway that is nothing of ours",
+        "outline does not close",
+    ] {
+        assert!(noted(&report, Outcome::Dropped, what), "{what}: {:?}", report.entries());
+    }
+    assert!(noted(&report, Outcome::Warned, "nodes that are not in the file"));
+    assert!(noted(&report, Outcome::Warned, "same place twice"));
+    assert!(noted(&report, Outcome::Substituted, "crosses itself"));
+}
+
+#[test]
+fn furniture_stands_where_its_node_is_and_faces_the_traffic() {
+    let thing = |id: i64, x: f64, tags: &str| {
+        element(&format!("node id='{id}' lat='{}' lon='{}'", 5.0 * METRE_DEG, x * METRE_DEG), "", tags)
+    };
+    let content = thing(1, 0.0, "highway=street_lamp|direction=E")
+        + &thing(2, 10.0, "highway=stop|direction=forward")
+        + &thing(3, 20.0, "natural=tree")
+        + &thing(4, 9000.0, "amenity=bench")
+        + &way(1, &[1, 2, 3], "highway=residential");
+    let (map, _) = read(&content);
+    let degrees = |rad: Option<f64>| rad.map(|rad| rad.to_degrees().round());
+    let found: Vec<_> = map.furniture.iter().map(|f| (f.kind, f.position.x.round(), degrees(f.heading_rad))).collect();
+    let expected = [
+        (FurnitureKind::StreetLamp, 0.0, Some(0.0)),
+        (FurnitureKind::StopSign, 10.0, Some(180.0)),
+        (FurnitureKind::Tree, 20.0, None),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
+    let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
+    let path = file(&dir, "map.osm", format!("<osm>{}</osm>", squares()).as_bytes());
+    let boston = MapProjection { origin_lat_deg: 42.3368, origin_lon_deg: -71.0579, anchor_m: DVec2::ZERO };
+    let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), &report).unwrap_err().to_string();
+    assert!(error.contains("42.33") && error.contains("latitude 0.0000°") && error.contains("km away"), "{error}");
+    let extent = osm::extent(&path).unwrap();
+    assert!((extent.bounds(&ORIGIN).size_m() - DVec2::splat(10.0)).length() < 1e-6);
+}
+
+#[test]
+fn files_that_are_no_extract_are_named_with_their_place() {
+    let refused = |bytes: &[u8]| read_bytes(bytes).0.unwrap_err().to_string();
+    let check = |bytes: &[u8], parts: &[&str]| {
+        let error = refused(bytes);
+        assert!(parts.iter().all(|part| error.contains(part)), "{error}: expected {parts:?}");
+    };
+    check(b"", &["map.osm", "</osm>"]);
+    check(b"<html>\n<body>busy</body></html>", &["<osm>", "<html>", "line 1"]);
+    check(b"<osm>\n<node id='1' lat='1' lon='1'/>\n<way id='2'>\n<nd ref='1'/>\n", &["line 5", "cut off"]);
+    check(b"<osm>\n<node id='1' lat='1 lon='1'/>\n</osm>", &["line", "well-formed"]);
+    check(b"<osm>\n</way>\n</osm>", &["line 2", "well-formed"]);
+    check(b"\x1f\x8b\x08\x00", &["gzip", "unpack"]);
+    check(b"<osm></osm>", &["without nodes", "none"].map(|_| "none"));
+    let whole = pbf();
+    check(&whole[..whole.len() - 3], &["byte", "cut off"]);
+    check(&whole[..2 + whole.len() / 2], &["byte"]);
+}
+
+/// A block with four nodes in dense form and a building of them, unpacked, as the format's specification lays it out.
+fn pbf() -> Vec<u8> {
+    fn varint(mut value: u64) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        while value >= 0x80 {
+            bytes.push(value as u8 | 0x80);
+            value >>= 7;
+        }
+        bytes.push(value as u8);
+        bytes
+    }
+    fn bytes(number: u64, content: &[u8]) -> Vec<u8> {
+        [varint(number << 3 | 2), varint(content.len() as u64), content.to_vec()].concat()
+    }
+    fn packed(number: u64, values: &[u64]) -> Vec<u8> {
+        bytes(number, &values.iter().flat_map(|&v| varint(v)).collect::<Vec<_>>())
+    }
+    fn deltas(number: u64, values: &[i64]) -> Vec<u8> {
+        let mut last = 0;
+        let zigzag = |&v: &i64| {
+            let delta = v - std::mem::replace(&mut last, v);
+            (delta << 1 ^ delta >> 63) as u64
+        };
+        packed(number, &values.iter().map(zigzag).collect::<Vec<_>>())
+    }
+    fn blob(kind: &str, content: &[u8]) -> Vec<u8> {
+        let blob = bytes(1, content);
+        let header = [bytes(1, kind.as_bytes()), varint(3 << 3), varint(blob.len() as u64)].concat();
+        [(header.len() as u32).to_be_bytes().to_vec(), header, blob].concat()
+    }
+    let strings = ["", "building", "yes", "natural", "tree"].map(|s| bytes(1, s.as_bytes())).concat();
+    let ten_m = (10.0 * METRE_DEG * 1e7).round() as i64;
+    let dense = [
+        deltas(1, &[1, 2, 3, 4]),
+        deltas(8, &[0, 0, ten_m, ten_m]),
+        deltas(9, &[0, ten_m, ten_m, 0]),
+        packed(10, &[3, 4, 0, 0, 0, 0]),
+    ];
+    let way = [varint(1 << 3), varint(9), packed(2, &[1]), packed(3, &[2]), deltas(8, &[1, 2, 3, 4, 1])];
+    let group = [bytes(2, &dense.concat()), bytes(3, &way.concat())].concat();
+    let block = [bytes(1, &strings), bytes(2, &group)].concat();
+    let header = [bytes(4, b"OsmSchema-V0.6"), bytes(4, b"DenseNodes")].concat();
+    [blob("OSMHeader", &header), blob("OSMData", &block)].concat()
+}
+
+#[test]
+fn pbf_and_xml_of_the_same_place_are_the_same() {
+    let (map, report) = read_bytes(&pbf());
+    let map = map.unwrap();
+    assert_eq!((map.buildings[0].id, map.furniture[0].kind), (9, FurnitureKind::Tree));
+    assert!((map.buildings[0].footprint.area_m2() - 100.0).abs() < 0.2);
+    assert_eq!(report.entries(), []);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+
+    #[test]
+    fn damaged_bytes_never_panic(
+        xml in any::<bool>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        cut in prop::option::of(any::<prop::sample::Index>()),
+    ) {
+        let mut bytes = if xml {
+            let content = squares() + &way(10, &[1, 2, 3, 4, 1], "building=yes|height=4") + &way(11, &[5, 6, 7, 8, 5], "")
+                + &multipolygon(1, &[10, 11], "natural=water");
+            format!("<osm>{content}</osm>").into_bytes()
+        } else {
+            pbf()
+        };
+        for (index, byte) in damage {
+            let i = index.index(bytes.len());
+            bytes[i] = byte;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        let _ = read_bytes(&bytes);
+    }
+
+    #[test]
+    fn any_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200), as_pbf in any::<bool>()) {
+        let head = if as_pbf { &pbf()[..17] } else { b"<osm>" };
+        let _ = read_bytes(&[head, &bytes].concat());
+    }
+}
+
+/// The folder of real extracts; `None`, and a word about it, where it is not there.
+fn real(name: &str) -> Option<PathBuf> {
+    let root = std::env::var_os("TROVE_TEST_DATA");
+    let path = root.map(|root| Path::new(&root).join("osm").join(name)).filter(|path| path.exists());
+    if path.is_none() {
+        eprintln!("skipped: TROVE_TEST_DATA has no osm/{name}");
+    }
+    path
+}
+
+/// Everything of a real extract.
+fn read_real(path: &Path) -> (StreetMap, Report) {
+    let extent = osm::extent(path).unwrap();
+    let projection = MapProjection {
+        origin_lat_deg: (extent.min_lat_deg + extent.max_lat_deg) / 2.0,
+        origin_lon_deg: (extent.min_lon_deg + extent.max_lon_deg) / 2.0,
+        anchor_m: DVec2::ZERO,
+    };
+    let report = Report::default();
+    let map = osm::read(path, &projection, extent.bounds(&projection).grown(1.0), &report).unwrap();
+    (map, report)
+}
+
+#[test]
+fn real_places_are_read_with_every_way_used_or_reported() {
+    let check = |name: &str, roads: usize, buildings: usize, land: usize, furniture: usize| {
+        let Some(path) = real(name) else { return };
+        let (map, report) = read_real(&path);
+        let found = (map.roads.len(), map.buildings.len(), map.land.len(), map.furniture.len());
+        let measured = |what: &str| report.measurements().iter().find(|m| m.name == what).unwrap().value;
+        let reported: u64 = report.entries().iter().filter(|e| e.outcome == Outcome::Dropped).map(|e| e.count).sum();
+        let accounted = (measured("osm.ways_used") + reported as f64) / measured("osm.ways_in_area");
+        assert!(accounted >= 0.98, "{name}: {accounted} of the ways are accounted for");
+        assert_eq!(found, (roads, buildings, land, furniture), "{name}: {:#?}", report.entries());
+        for polygon in map.buildings.iter().map(|b| &b.footprint).chain(map.land.iter().map(|l| &l.polygon)) {
+            assert!(polygon.area_m2() > 0.0 && polygon.rings().all(|r| r.len() > 2 && r.iter().all(|p| p.is_finite())));
+        }
+    };
+    check("boston-seaport.osm", 1780, 936, 0, 0);
+    check("singapore-onenorth.osm", 1537, 0, 0, 0);
+    check("neukolln.osm", 210, 210, 83, 363);
+    check("taipei.osm", 49, 63, 5, 162);
+    check("monaco-latest.osm.pbf", 2330, 1218, 221, 1244);
+}
+
+#[test]
+fn odd_multipolygons_and_outlines_are_read() {
+    let check = |name: &str, expect: &[(&str, i64)]| {
+        let Some(path) = real(&format!("edge-cases/{name}")) else { return };
+        let (map, _) = read_real(&path);
+        let area = |kind: &str, polygon: &trove_model::Polygon| {
+            (format!("{kind} with {} holes", polygon.holes.len()), polygon.area_m2().round() as i64)
+        };
+        let buildings = map.buildings.iter().map(|b| area("building", &b.footprint));
+        let land = map.land.iter().map(|l| area(&format!("{:?}", l.kind), &l.polygon));
+        let roads = map.roads.iter().map(|r| (format!("{:?} vertices", r.kind), r.centreline.len() as i64));
+        let found: Vec<(String, i64)> = buildings.chain(land).chain(roads).collect();
+        let expect: Vec<(String, i64)> = expect.iter().map(|(what, n)| ((*what).to_owned(), *n)).collect();
+        assert_eq!(found, expect, "{name}");
+    };
+    check("mp_two_holes.osm", &[("Paved with 2 holes", 213)]);
+    check("mp_two_holes_advanced.osm", &[("Paved with 2 holes", 213)]);
+    check("mp_two_holes_advanced2.osm", &[("Paved with 2 holes", 213)]);
+    check("mp_two_holes_outer_tagged.osm", &[("Paved with 2 holes", 213)]);
+    check("mp_two_holes_touching_inners.osm", &[("Paved with 2 holes", 213)]);
+    check("mp_broken.osm", &[("Paved with 1 holes", 269)]);
+    check("mp_two_outer_roof.osm", &[("building with 1 holes", 56_782), ("building with 2 holes", 60_331)]);
+    check(
+        "self_intersection.osm",
+        &[("building with 0 holes", 11), ("building with 0 holes", 13), ("building with 0 holes", 2662)],
+    );
+    check("simpleTest01.osm", &[("building with 1 holes", 1486), ("Tertiary vertices", 3)]);
+    check("simpleTest01.osm.pbf", &[("building with 1 holes", 1486), ("Tertiary vertices", 3)]);
+    check("issue-203.osm", &[555, 185, 201, 168, 81].map(|area| ("building with 0 holes", area)));
+    check("josmTest01.osm", &[("Footway vertices", 4)]);
+    check("validFile.osm", &[("Residential vertices", 3)]);
+    for nothing_of_ours in [
+        "coastline_big_island.osm",
+        "coastline_islands.osm",
+        "coastline_islands_and_coast.osm",
+        "coastline_multiple_coasts.osm",
+        "josm_emoji.osm",
+        "sameCoordNodes.osm",
+    ] {
+        check(nothing_of_ours, &[]);
+    }
+}
