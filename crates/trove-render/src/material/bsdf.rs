@@ -186,3 +186,101 @@ fn upright(normal: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
     let lifted = (mirrored + geometric * (LEAST - height).max(0.0)).normalize_or(geometric);
     (wo + lifted).normalize_or(geometric)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+    use trove_model::Seed;
+
+    use super::*;
+
+    /// A surface that faces up, seen from an angle with cosine `cos`.
+    fn bsdf(cos: f32, p: &Parameters) -> Bsdf {
+        let surface = Surface {
+            point: Vec3::ZERO,
+            wo: Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos),
+            geometric: Vec3::Z,
+            shading: Vec3::Z,
+            is_front: true,
+            uv: Vec2::ZERO,
+            uv_axes: None,
+        };
+        Bsdf::new(&surface, Vec3::Z, p)
+    }
+
+    fn white(alpha: f32) -> Parameters {
+        Parameters {
+            base_color: Vec3::ONE,
+            alpha,
+            metalness: 0.0,
+            f0: 0.04,
+            coat: 0.0,
+            translucency: 0.0,
+            transmission: 0.0,
+            tint: Vec3::ONE,
+        }
+    }
+
+    fn all_sorts() -> Vec<Parameters> {
+        let mut all = Vec::new();
+        for alpha in [ggx::ALPHA_MIN, 0.01, 0.1, 0.4, 1.0] {
+            all.push(white(alpha));
+            all.push(Parameters { metalness: 1.0, ..white(alpha) });
+            all.push(Parameters { coat: 1.0, ..white(alpha) });
+            all.push(Parameters { translucency: 0.5, ..white(alpha) });
+            all.push(Parameters { transmission: 1.0, f0: 0.077, ..white(alpha) });
+        }
+        all
+    }
+
+    #[test]
+    fn white_surfaces_give_back_what_they_get() {
+        let n = 64;
+        for p in all_sorts() {
+            for cos in [0.2, 0.5, 0.9, 1.0] {
+                let bsdf = bsdf(cos, &p);
+                let mut random = Seed(1).random();
+                let mut sum = 0.0;
+                for k in 0..n * n {
+                    let u =
+                        [random.unit() as f32, ((k % n) as f32 + 0.5) / n as f32, ((k / n) as f32 + 0.5) / n as f32];
+                    sum += bsdf.sample(u).map_or(0.0, |s| s.weight.x);
+                }
+                let albedo = sum / (n * n) as f32;
+                assert!((0.93..1.02).contains(&albedo), "{albedo} at {cos} of α {} coat {}", p.alpha, p.coat);
+            }
+        }
+    }
+
+    #[test]
+    fn directions_are_drawn_with_the_density_that_is_claimed() {
+        let bsdf = bsdf(0.7, &Parameters { translucency: 0.3, ..white(0.3) });
+        let (side, draws) = (16usize, 100_000);
+        let bin = |d: Vec3| {
+            let azimuth = (d.y.atan2(d.x) / std::f32::consts::TAU + 0.5).clamp(0.0, 0.999_999);
+            let z = (d.z * 0.5 + 0.5).clamp(0.0, 0.999_999);
+            (z * side as f32) as usize * side + (azimuth * side as f32) as usize
+        };
+        let mut expected = vec![0.0f64; side * side];
+        let (rows, columns) = (1600, 1600);
+        for i in 0..rows * columns {
+            let z = ((i / columns) as f32 + 0.5) / rows as f32 * 2.0 - 1.0;
+            let (y, x) = (((i % columns) as f32 + 0.5) / columns as f32 * std::f32::consts::TAU).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            let d = Vec3::new(r * x, r * y, z);
+            let solid_angle = 4.0 * std::f64::consts::PI / f64::from(rows * columns);
+            expected[bin(d)] += f64::from(bsdf.eval(d).1) * solid_angle * f64::from(draws);
+        }
+        let mut random = Seed(2).random();
+        let mut drawn = vec![0.0f64; side * side];
+        for _ in 0..draws {
+            let u = [random.unit() as f32, random.unit() as f32, random.unit() as f32];
+            if let Some(sample) = bsdf.sample(u) {
+                drawn[bin(sample.wi)] += 1.0;
+            }
+        }
+        let bins = expected.iter().zip(&drawn).filter(|(e, _)| **e > 5.0);
+        let chi2: f64 = bins.map(|(e, n)| (n - e).powi(2) / e).sum();
+        assert!(chi2 < 330.5, "χ² = {chi2}"); // 99.9 % of 255 degrees of freedom
+    }
+}
