@@ -9,6 +9,8 @@ mod wheel;
 
 use trove_model::Asset;
 
+pub(crate) use wheel::upright;
+
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
     cars::assets()
