@@ -1,16 +1,33 @@
-//! Buildings from their footprints.
+//! Buildings from their footprints: extruded with a facade, or replaced by an asset where it fits.
 
-use trove_model::{AssetLibrary, Bounds, HeightField, Polygon, Report, Seed, StreetMap};
+mod dress;
+mod extrude;
+mod rectangle;
+mod replace;
+mod roof;
+mod shell;
+mod volumes;
+mod walls;
 
+use std::sync::Arc;
+
+use glam::DAffine3;
+use rayon::prelude::*;
+use trove_model::{
+    AssetLibrary, Bounds, Class, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Seed, Slot, StreetMap,
+};
+
+use crate::palette::Palette;
 use crate::piece::Piece;
-use crate::roads::RoadSurfaces;
+use crate::roads::{KERB_M, RoadSurfaces};
+use volumes::House;
 
 /// The buildings of a place.
 #[derive(Clone, Debug)]
 pub(crate) struct BuiltBuildings {
-    /// One or more pieces a building, each an object of its own.
+    /// One a building, each an object of its own.
     pub pieces: Vec<Piece>,
-    /// Where they stand.
+    /// Where they stand; parts of one building may overlap.
     pub footprints: Vec<Polygon>,
 }
 
@@ -24,9 +41,65 @@ pub(crate) fn buildings(
     seed: Seed,
     report: &Report,
 ) -> BuiltBuildings {
-    let _ = (keep_clear, ground, library, seed, report);
-    let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
-    let footprints =
-        map.map(|m| m.buildings.iter().map(|b| b.footprint.clone()).filter(near).collect()).unwrap_or_default();
-    BuiltBuildings { pieces: Vec::new(), footprints }
+    let houses = map.map(|m| volumes::houses(m, keep_clear, bounds, seed, report)).unwrap_or_default();
+    let palette = Palette { library, seed, report };
+    let build = |house: &House<'_>| {
+        let mut random = seed.child("building").nth(house.building.id as u64).random();
+        replaced(house, keep_clear, ground, library, &mut random, report)
+            .unwrap_or_else(|| extruded(house, ground, &palette, &mut random, report))
+    };
+    let pieces: Vec<Piece> = houses.par_iter().map(build).filter(|p| !p.mesh.triangles.is_empty()).collect();
+    report.measure("buildings.built", pieces.len() as f64);
+    report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| !p.asset.is_empty()).count() as f64);
+    let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).collect();
+    BuiltBuildings { pieces, footprints }
+}
+
+fn extruded(
+    house: &House<'_>,
+    ground: &HeightField,
+    palette: &Palette<'_>,
+    random: &mut Random,
+    report: &Report,
+) -> Piece {
+    let height_m = house.volumes.iter().map(|v| v.top_m).fold(0.0, f64::max);
+    let dress = dress::dress(house.building, &house.building.kind, height_m, palette, random);
+    Piece {
+        mesh: Arc::new(extrude::extrude(house, &dress, ground, random, report)),
+        world_from_mesh: DAffine3::IDENTITY,
+        class: Class::Building,
+        materials: dress.materials,
+        kind: Some(Kind::Building),
+        name: volumes::name(house.building),
+        asset: String::new(),
+    }
+}
+
+fn replaced(
+    house: &House<'_>,
+    streets: &RoadSurfaces,
+    ground: &HeightField,
+    library: &AssetLibrary,
+    random: &mut Random,
+    report: &Report,
+) -> Option<Piece> {
+    let corners = &house.volumes.first()?.footprint.exterior;
+    let floor_m = corners.iter().map(|&p| ground.height_m(p)).fold(f64::INFINITY, f64::min) + KERB_M;
+    let found = replace::replacement(house, library, floor_m, streets, random)?;
+    let name = volumes::name(house.building);
+    report.note(Outcome::Substituted, "rectangular building, by an asset", format_args!("{name}: {}", found.asset.id));
+    Some(Piece {
+        mesh: Arc::clone(&found.asset.mesh),
+        world_from_mesh: found.world_from_mesh,
+        class: Class::Building,
+        materials: found.asset.slots.iter().map(|slot| painted(slot, random)).collect(),
+        kind: Some(Kind::Building),
+        name,
+        asset: found.asset.id.clone(),
+    })
+}
+
+fn painted(slot: &Slot, random: &mut Random) -> Material {
+    let base_color = random.pick(&slot.paints).copied().unwrap_or(slot.material.base_color);
+    Material { base_color, ..slot.material.clone() }
 }

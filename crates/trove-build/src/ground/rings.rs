@@ -6,7 +6,7 @@
 use glam::DVec2;
 use trove_model::Polygon;
 
-pub(super) type Ring = Vec<DVec2>;
+pub(crate) type Ring = Vec<DVec2>;
 
 /// A directed line: points with `normal · p < offset` lie on its left hand side, all others on its right.
 #[derive(Clone, Copy, Debug)]
@@ -126,7 +126,7 @@ fn joined(chains: Vec<Chain>) -> Vec<Ring> {
 }
 
 /// Rings put together to polygons: every inner ring goes to the smallest outer one around it.
-pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
+pub(crate) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
     let (outer, inner): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|r| signed_area(r) > 0.0);
     let mut polygons: Vec<Polygon> = outer.into_iter().map(Polygon::simple).collect();
     for hole in inner {

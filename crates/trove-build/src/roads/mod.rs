@@ -15,6 +15,7 @@ use trove_model::{
 use crate::ground::Drape;
 use crate::palette::Palette;
 use crate::piece::Piece;
+use crate::plane;
 use crate::plane_raster::PlaneRaster;
 
 /// Height of a kerb: sidewalks and land lie this much above the carriageway, metres.
@@ -62,6 +63,15 @@ impl RoadSurfaces {
             3 => Footing::Water,
             _ => Footing::Land,
         }
+    }
+
+    /// The carriageway around a footprint, with half a metre for the kerb.
+    pub(crate) fn carriageway_near(&self, footprint: &Polygon) -> Vec<Polygon> {
+        let Some(bounds) = footprint.bounds() else { return Vec::new() };
+        let frame = [plane::rectangle(bounds.grown(2.0))];
+        let near = |p: &&Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
+        let road: Vec<Polygon> = self.carriageway.iter().filter(near).cloned().collect();
+        plane::grown(&plane::intersection(&road, &frame), 0.5)
     }
 
     /// How much the surface lies above the height field at a point: 0 on the carriageway, [`KERB_M`] elsewhere.

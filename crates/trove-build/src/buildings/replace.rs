@@ -1,0 +1,104 @@
+//! Building assets in place of plain rectangular buildings.
+
+use glam::{DAffine3, DQuat, DVec2, DVec3};
+use trove_model::{Asset, AssetLibrary, Kind, Random};
+
+use super::rectangle::{Base, base};
+use super::volumes::House;
+use crate::roads::{Footing, RoadSurfaces};
+
+/// Of the buildings that could be replaced so many are; the rest keeps streets from repeating few models.
+const SHARE: f64 = 0.75;
+/// A footprint that fills less of its box is no rectangle.
+const LEAST_FILLED: f64 = 0.88;
+/// Higher buildings are landmarks, and no model is meant for them.
+const HIGHEST_M: f64 = 25.0;
+/// An asset is stretched by no more than this against its own proportions.
+const STRETCH: f64 = 1.25;
+/// Windows and doors of an asset that is scaled beyond this look wrong.
+const SCALE: f64 = 1.5;
+
+/// An asset and where it stands.
+pub(super) struct Replacement<'a> {
+    pub asset: &'a Asset,
+    pub world_from_mesh: DAffine3,
+}
+
+/// The asset that fits a building best by 0.8 · error of aspect + 0.2 · error of volume, drawn for [`SHARE`] of the
+/// rectangular ones, its front to the street; `None` for all others, for those with parts, and for those whose look
+/// the map describes.
+pub(super) fn replacement<'a>(
+    house: &House<'_>,
+    library: &'a AssetLibrary,
+    floor_m: f64,
+    streets: &RoadSurfaces,
+    random: &mut Random,
+) -> Option<Replacement<'a>> {
+    // Drawn first, so that the draw does not depend on the library.
+    let drawn = random.chance(SHARE);
+    let [volume] = house.volumes.as_slice() else { return None };
+    let building = volume.building;
+    let described = building.part
+        || volume.bottom_m > 0.0
+        || building.roof.is_some()
+        || !building.material.is_empty()
+        || building.color.is_some();
+    if !drawn || described || volume.top_m > HIGHEST_M || !volume.footprint.holes.is_empty() {
+        return None;
+    }
+    let base = base(&volume.footprint).filter(|b| b.filled >= LEAST_FILLED)?;
+    // The front is the side, or of two like sides the one, that is nearest to a carriageway.
+    let mut sides = [base.axis, base.axis.perp(), -base.axis, -base.axis.perp()];
+    sides.sort_by(|a, b| street_distance_m(&base, *a, streets).total_cmp(&street_distance_m(&base, *b, streets)));
+    let candidate = |asset: &'a Asset, front: DVec2| {
+        let length_m =
+            if front.dot(base.axis).abs() > 0.5 { base.size_m } else { DVec2::new(base.size_m.y, base.size_m.x) };
+        let size_m = length_m.extend(volume.top_m);
+        misfit(asset.size_m, size_m).map(|misfit| (misfit, asset, front, size_m))
+    };
+    let best = |front: DVec2| {
+        let fitting = library.of_kind(Kind::Building).filter_map(|a| candidate(a, front));
+        fitting.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (_, asset, front, size_m) = sides.into_iter().find_map(best)?;
+    let world_from_mesh = DAffine3::from_scale_rotation_translation(
+        size_m / asset.size_m,
+        DQuat::from_rotation_z(front.y.atan2(front.x)),
+        base.centre.extend(floor_m),
+    );
+    Some(Replacement { asset, world_from_mesh })
+}
+
+/// How badly an asset fits a box; `None` where it would be stretched or scaled too much.
+fn misfit(asset_m: DVec3, box_m: DVec3) -> Option<f64> {
+    let scale = box_m / asset_m;
+    let mean = scale.element_product().cbrt();
+    let stretched = (scale / mean).max(mean / scale).max_element();
+    if !(mean.is_finite() && stretched <= STRETCH && (1.0 / SCALE..=SCALE).contains(&mean)) {
+        return None;
+    }
+    let volume = asset_m.element_product() / box_m.element_product();
+    Some(0.8 * (stretched - 1.0) + 0.2 * (1.0 - volume.min(1.0 / volume)))
+}
+
+/// From the middle of a base's side to the first carriageway straight ahead, metres.
+fn street_distance_m(base: &Base, side: DVec2, streets: &RoadSurfaces) -> f64 {
+    let half_m = if side.dot(base.axis).abs() > 0.5 { base.size_m.x } else { base.size_m.y } / 2.0;
+    let ahead = |i: &u32| streets.footing(base.centre + side * (half_m + f64::from(*i))) == Footing::Carriageway;
+    (0..60).find(ahead).map_or(f64::INFINITY, f64::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_asset_is_never_stretched_beyond_a_quarter() {
+        let asset = DVec3::new(10.0, 20.0, 12.0);
+        assert_eq!(misfit(asset, asset), Some(0.0));
+        assert!(misfit(asset, asset * 1.2).is_some());
+        assert!(misfit(asset, asset * 2.0).is_none());
+        assert!(misfit(asset, DVec3::new(10.0, 30.0, 12.0)).is_none());
+        assert!(misfit(asset, DVec3::new(10.0, f64::NAN, 12.0)).is_none());
+    }
+}
