@@ -111,7 +111,7 @@ impl BicyclePlan {
                     arc.iter().map(|p| axle + (*p - axle) * drop + Vec3::Y * y).collect::<Vec<_>>()
                 };
                 let guard = Shape::sheet(&[row(-0.03, 0.95), row(-0.018, 1.0), row(0.018, 1.0), row(0.03, 0.95)]);
-                shapes.push(guard.clone().and(guard.inside_out()).slot(parts.paint));
+                shapes.push(guard.inside_out().plate(0.002).slot(parts.paint));
             }
             let basket = Shape::rounded_block(vec3(0.26, 0.34, 0.22), 0.02).moved(head_high + vec3(0.2, 0.0, 0.06));
             shapes.push(basket.slot(parts.black));

@@ -95,7 +95,7 @@ impl Motorcycle {
             let arc: Vec<Vec3> = points.map(|a: f32| vec3(a.cos(), 0.0, a.sin()) * (r + 0.025)).collect();
             let row = |y: f32, scale: f32| arc.iter().map(|p| axle + *p * scale + Vec3::Y * y).collect::<Vec<_>>();
             let guard = Shape::sheet(&[row(-0.075, 0.88), row(-0.05, 1.0), row(0.05, 1.0), row(0.075, 0.88)]);
-            guard.clone().and(guard.inside_out())
+            guard.inside_out().plate(0.004)
         };
         shapes.push(arc(front, 0.7, 2.9).slot(parts.paint));
         shapes.push(arc(rear, 1.6, 3.3).slot(parts.black));

@@ -79,7 +79,7 @@ impl Parts {
             .collect();
         let tyre = crate::vehicles::upright(Shape::lathe(&torus, 32)).slot(self.rubber);
         let rim = [(-0.7, 1.55), (0.7, 1.55), (0.7, 2.0), (-0.7, 2.0), (-0.7, 1.55)];
-        let rim: Vec<Vec2> = rim.iter().rev().map(|&(y, d)| vec2(radius_m - tyre_m * d, y * tyre_m)).collect();
+        let rim: Vec<Vec2> = rim.iter().map(|&(y, d)| vec2(radius_m - tyre_m * d, y * tyre_m)).collect();
         let rim = crate::vehicles::upright(Shape::lathe(&rim, 32));
         let spokes = (0..6).map(|i| {
             let (from, to) = (on_circle(i as f32 / 6.0, 0.03, 0.0), on_circle((i as f32 + 0.2) / 6.0, radius_m - tyre_m * 1.8, 0.0));

@@ -183,6 +183,13 @@ impl Shape {
         self.smooth(SMOOTH_RAD)
     }
 
+    /// An open surface made into a plate, its other side `thickness_m` behind it.
+    pub(crate) fn plate(self, thickness_m: f32) -> Self {
+        let mut back = self.clone().inside_out();
+        back.positions.iter_mut().zip(&back.normals).for_each(|(p, n)| *p += *n * thickness_m);
+        self.and(back)
+    }
+
     /// Seen from the other side.
     pub(crate) fn inside_out(mut self) -> Self {
         self.normals.iter_mut().for_each(|n| *n = -*n);

@@ -5,6 +5,8 @@ mod car;
 mod cars;
 mod extras;
 mod palette;
+mod truck;
+mod trucks;
 mod wheel;
 
 use trove_model::Asset;
@@ -13,5 +15,6 @@ pub(crate) use wheel::upright;
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
-    cars::assets()
+    let families: [fn() -> Vec<Asset>; 2] = [cars::assets, trucks::assets];
+    families.iter().flat_map(|family| family()).collect()
 }

@@ -22,6 +22,8 @@ pub(crate) struct Palette {
     pub(crate) seam: u16,
     /// A second paint (liveries, canvas, box bodies).
     pub(crate) second: u16,
+    /// Cartons.
+    pub(crate) cargo: u16,
 }
 
 /// What one draws from for passenger cars: about a third white, a fifth black, a third grey or silver, some blue and
@@ -102,6 +104,7 @@ impl Palette {
             amber: slot(lens("amber lens", vec3(0.6, 0.2, 0.01))),
             interior: slot(Material::plain("interior", vec3(0.035, 0.035, 0.037), 0.8)),
             plate: slot(Material::plain("number plate", vec3(0.72, 0.72, 0.7), 0.45)),
+            cargo: slot(Material::plain("cardboard", vec3(0.36, 0.25, 0.15), 0.85)),
             seam: slot(Material::plain("seam", Vec3::splat(0.006), 0.9)),
             paint: model.slot(paint_of("paint", paints), paints),
             second: model.slot(paint_of("second paint", second), second),
