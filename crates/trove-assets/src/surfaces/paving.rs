@@ -125,7 +125,7 @@ pub(super) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32) -
     Canvas::new([512, 512], size_m, |p| {
         let mut texel = cement.at(p);
         if joint_m > 0.0 {
-            lay(&mut texel, &running(p, area, area, false), joint_m, Vec3::splat(0.09), 0.0, seed);
+            lay(&mut texel, &running(p + area * 0.37, area, area, false), joint_m, Vec3::splat(0.09), 0.0, seed);
         }
         texel
     })

@@ -1,0 +1,154 @@
+//! Street lamps and utility poles; a lamp's arm reaches along x.
+
+use glam::{Quat, Vec3, vec2, vec3};
+use trove_model::{Asset, Class, Kind, Material};
+
+use super::finish::{bar, concrete, galvanised, glass, painted, post, rubber, timber};
+use crate::shape::{Model, Shape};
+
+pub(super) fn assets() -> Vec<Asset> {
+    vec![curved(), straight(), historic(), wooden_pole(), concrete_pole()]
+}
+
+fn lamp(model: Model, id: &str) -> Asset {
+    model.asset(id, Kind::StreetLamp, Class::TrafficSign)
+}
+
+fn lens() -> Material {
+    Material::plain("lamp lens", vec3(0.62, 0.62, 0.58), 0.15)
+}
+
+/// A straight pole with a bow beside it that swings out into the arm.
+fn curved() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    let head = model.slot(painted(Vec3::splat(0.25)), &[]);
+    let lens = model.slot(lens(), &[]);
+    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.1), (Vec3::Z * 8.0, 0.065), (Vec3::Z * 8.3, 0.0)], 14));
+    model.add(steel, bar(vec3(0.0, 0.0, 0.02), vec3(0.36, 0.36, 0.04)));
+    model.add(steel, bar(vec3(0.1, 0.0, 0.8), vec3(0.02, 0.12, 0.5)));
+    // The bow leaves the pole, bends away behind it and comes over the top.
+    let path: Vec<Vec3> = (0..=18)
+        .map(|i| {
+            let t = i as f32 / 18.0;
+            let angle = -0.35 + t * 2.55;
+            vec3(1.0 - 1.75 * angle.cos() + 0.55 * t * t, 0.0, 6.3 + 2.1 * angle.sin() + 0.45 * t)
+        })
+        .collect();
+    let start = path[0];
+    model.add(steel, Shape::tube(&path, 0.038, 10));
+    model.add(steel, Shape::tube(&[vec3(0.0, 0.0, start.z - 0.9), start], 0.035, 10));
+    let end = path[path.len() - 1];
+    let tilt = Quat::from_rotation_y(0.12);
+    model.add(head, Shape::ellipsoid(vec3(0.42, 0.15, 0.09), 20).moved(vec3(0.36, 0.0, 0.0)).turned(tilt).moved(end));
+    model.add(lens, Shape::ellipsoid(vec3(0.26, 0.12, 0.07), 16).moved(vec3(0.42, 0.0, -0.04)).turned(tilt).moved(end));
+    lamp(model, "lamp/curved")
+}
+
+/// A slim modern lamp with a flat head.
+fn straight() -> Asset {
+    let mut model = Model::default();
+    let grey = vec3(0.12, 0.125, 0.13);
+    let paint = model.slot(painted(grey), &[grey, Vec3::splat(0.3), Vec3::splat(0.04)]);
+    let lens = model.slot(lens(), &[]);
+    model.add(paint, Shape::tapered_tube(&[(Vec3::ZERO, 0.085), (Vec3::Z * 8.0, 0.05)], 14));
+    model.add(paint, bar(vec3(0.0, 0.0, 0.015), vec3(0.32, 0.32, 0.03)));
+    model.add(paint, Shape::tapered_tube(&[(vec3(0.0, 0.0, 7.95), 0.035), (vec3(1.4, 0.0, 8.15), 0.03)], 10));
+    let turn = Quat::from_rotation_y(-0.12);
+    model.add(paint, bar(Vec3::ZERO, vec3(0.66, 0.26, 0.07)).turned(turn).moved(vec3(1.65, 0.0, 8.18)));
+    model.add(lens, bar(vec3(0.04, 0.0, -0.034), vec3(0.46, 0.2, 0.012)).turned(turn).moved(vec3(1.65, 0.0, 8.18)));
+    lamp(model, "lamp/straight")
+}
+
+/// A cast-iron post with a lantern.
+fn historic() -> Asset {
+    let mut model = Model::default();
+    let iron = model.slot(painted(vec3(0.018, 0.025, 0.02)), &[]);
+    let pane = model.slot(glass(), &[]);
+    let bulb = model.slot(lens(), &[]);
+    let profile = [
+        (0.0, 0.0),
+        (0.19, 0.0),
+        (0.19, 0.18),
+        (0.15, 0.22),
+        (0.13, 0.75),
+        (0.15, 0.8),
+        (0.09, 0.9),
+        (0.065, 1.1),
+        (0.05, 2.9),
+        (0.08, 2.95),
+        (0.05, 3.02),
+        (0.045, 3.3),
+        (0.1, 3.38),
+        (0.0, 3.4),
+    ];
+    model.add(iron, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 20));
+    model.add(iron, Shape::tube(&[vec3(-0.3, 0.0, 2.95), vec3(0.3, 0.0, 2.95)], 0.018, 8));
+    for x in [-0.3, 0.3] {
+        model.add(iron, Shape::ellipsoid(Vec3::splat(0.032), 10).moved(vec3(x, 0.0, 2.95)));
+    }
+    // Four sloping panes between bars, a roof with a finial.
+    let corner = |k: usize, z: f32| {
+        let half = if z > 3.6 { 0.2 } else { 0.12 };
+        let (x, y) = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)][k % 4];
+        vec3(x * half, y * half, z)
+    };
+    for k in 0..4 {
+        let (a, b) = (corner(k, 3.4), corner(k, 3.9));
+        model.add(iron, Shape::tube(&[a, b], 0.014, 6));
+        model.add(iron, Shape::tube(&[b, corner(k + 1, 3.9)], 0.014, 6));
+        model.add(iron, Shape::tube(&[a, corner(k + 1, 3.4)], 0.014, 6));
+        let rows = [vec![a, corner(k + 1, 3.4)], vec![b, corner(k + 1, 3.9)]];
+        model.add(pane, Shape::sheet(&rows));
+    }
+    let roof =
+        [(0.29, 3.9), (0.29, 3.92), (0.14, 4.08), (0.1, 4.1), (0.1, 4.16), (0.03, 4.22), (0.03, 4.3), (0.0, 4.36)];
+    model.add(iron, Shape::lathe(&roof.map(|(r, z)| vec2(r, z)), 16));
+    model.add(bulb, Shape::ellipsoid(vec3(0.06, 0.06, 0.11), 14).moved(vec3(0.0, 0.0, 3.62)));
+    lamp(model, "lamp/historic")
+}
+
+fn pole(model: Model, id: &str) -> Asset {
+    model.asset(id, Kind::UtilityPole, Class::TrafficSign)
+}
+
+/// A timber pole with cross arms, insulators and a transformer.
+fn wooden_pole() -> Asset {
+    let mut model = Model::default();
+    let wood = model.slot(timber(), &[]);
+    let steel = model.slot(galvanised(), &[]);
+    let clay = model.slot(painted(vec3(0.14, 0.06, 0.035)), &[]);
+    model.add(wood, Shape::tapered_tube(&[(Vec3::ZERO, 0.16), (Vec3::Z * 10.0, 0.1)], 14));
+    for z in [9.6, 8.7] {
+        model.add(wood, bar(vec3(0.12, 0.0, z), vec3(0.1, 2.3, 0.12)));
+        for y in [-1.05, -0.6, 0.6, 1.05] {
+            let insulator = [(0.0, 0.0), (0.03, 0.0), (0.05, 0.05), (0.03, 0.09), (0.045, 0.12), (0.0, 0.16)];
+            let shape = Shape::lathe(&insulator.map(|(r, z)| vec2(r, z)), 10);
+            model.add(clay, shape.moved(vec3(0.12, y, z + 0.06)));
+        }
+        for y in [-0.55, 0.55] {
+            model.add(steel, Shape::tube(&[vec3(0.15, y, z - 0.06), vec3(0.14, 0.0, z - 0.55)], 0.014, 6));
+        }
+    }
+    model.add(steel, post(vec3(-0.34, 0.0, 7.2), 0.22, 0.8, 18));
+    model.add(steel, bar(vec3(-0.14, 0.0, 7.6), vec3(0.1, 0.14, 0.5)));
+    pole(model, "utility-pole/timber")
+}
+
+/// A concrete pole with a cable clamp and a box.
+fn concrete_pole() -> Asset {
+    let mut model = Model::default();
+    let body = model.slot(concrete(), &[]);
+    let steel = model.slot(galvanised(), &[]);
+    let black = model.slot(rubber(), &[]);
+    model.add(body, Shape::tapered_tube(&[(Vec3::ZERO, 0.17), (Vec3::Z * 9.0, 0.1)], 16));
+    for z in [8.3, 8.7] {
+        model.add(steel, post(vec3(0.0, 0.0, z), 0.125, 0.05, 16));
+        for y in [-0.2, 0.2] {
+            model.add(black, Shape::ellipsoid(vec3(0.04, 0.09, 0.04), 10).moved(vec3(0.0, y, z)));
+        }
+    }
+    model.add(steel, bar(vec3(0.24, 0.0, 2.2), vec3(0.2, 0.34, 0.5)));
+    model.add(steel, Shape::tube(&[vec3(0.2, 0.0, 2.4), vec3(0.14, 0.0, 8.3)], 0.02, 6));
+    pole(model, "utility-pole/concrete")
+}
