@@ -66,11 +66,10 @@ pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
     }
     let accessors = geometry.finish();
     let half_turn = std::f64::consts::FRAC_1_SQRT_2;
-    nodes[0] = json!({
-        "name": "world (x east, y north, z up)",
-        "rotation": [-half_turn, 0.0, 0.0, half_turn],
-        "children": (1..nodes.len()).collect::<Vec<_>>(),
-    });
+    nodes[0] = json!({ "name": "world (x east, y north, z up)", "rotation": [-half_turn, 0.0, 0.0, half_turn] });
+    if nodes.len() > 1 {
+        nodes[0]["children"] = (1..nodes.len()).collect();
+    }
 
     let stats = GlbStats {
         meshes: meshes.len(),
