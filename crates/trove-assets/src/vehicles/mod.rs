@@ -1,9 +1,11 @@
 //! Cars, lorries, buses and machines.
 
 mod body;
+mod bus;
 mod car;
 mod cars;
 mod extras;
+mod machine;
 mod palette;
 mod truck;
 mod trucks;
@@ -15,6 +17,6 @@ pub(crate) use wheel::upright;
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
-    let families: [fn() -> Vec<Asset>; 2] = [cars::assets, trucks::assets];
+    let families: [fn() -> Vec<Asset>; 4] = [cars::assets, trucks::assets, bus::assets, machine::assets];
     families.iter().flat_map(|family| family()).collect()
 }
