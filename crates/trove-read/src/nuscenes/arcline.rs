@@ -46,7 +46,7 @@ impl Arcline {
                 'S' => 0.0,
                 _ => return None,
             };
-            if !(curvature.abs() < 1e3) || !(0.0..LONGEST_M).contains(&length_m) {
+            if curvature.abs() > 1e3 || !(0.0..LONGEST_M).contains(&length_m) {
                 return None;
             }
             let steps = if curvature == 0.0 { 1 } else { (length_m / STEP_M).ceil().max(1.0) as usize };

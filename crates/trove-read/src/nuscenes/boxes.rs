@@ -70,7 +70,7 @@ fn object(tables: &Tables, annotation: &AnnotationRecord, anchor_m: DVec2) -> Re
     let kind = kind_of_category(category).ok_or_else(|| format!("unknown category '{category}'"))?;
     let [width, length, height] = annotation.size;
     let size_m = DVec3::new(length, width, height);
-    if !(size_m.min_element() > 0.0) {
+    if size_m.min_element() <= 0.0 {
         return Err("box of zero or negative size".to_owned());
     }
     if size_m.max_element() > LONGEST_BOX_M {

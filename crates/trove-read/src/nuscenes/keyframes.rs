@@ -16,6 +16,9 @@ pub(super) fn in_order<'a>(tables: &'a Tables, scene: usize, report: &Report) ->
     }
     let chain = chain(tables, record);
     if chain.len() == tokens.len() && chain.is_sorted_by_key(|s| s.timestamp) {
+        if let Some(last) = chain.last().filter(|s| !s.next.is_empty()) {
+            report.note(Outcome::Warned, "nuScenes keyframe chain that goes on after its scene", &last.token);
+        }
         return chain;
     }
     report.note(Outcome::Substituted, "broken nuScenes keyframe chain by the order of time", &record.name);

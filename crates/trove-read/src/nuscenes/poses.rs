@@ -13,7 +13,8 @@ pub(super) fn pose<Dst: Frame, Src: Frame>(translation: [f64; 3], wxyz: [f64; 4]
     let [w, x, y, z] = wxyz;
     let (rotation, translation) = (DQuat::from_xyzw(x, y, z, w), DVec3::from_array(translation));
     let is_unit_enough = (0.9..1.1).contains(&rotation.length());
-    (is_unit_enough && translation.abs().max_element() < FARTHEST_M).then(|| Pose::new(rotation, translation))
+    (is_unit_enough && translation.abs().cmplt(DVec3::splat(FARTHEST_M)).all())
+        .then(|| Pose::new(rotation, translation))
 }
 
 /// A lens from an image's size and its 3 × 3 camera matrix; the error says what is wrong with them.
