@@ -3,11 +3,16 @@
 //! What goes in: the model's nouns. What comes out: the virtual scene of every keyframe and the cameras in it. This
 //! crate must not know files, datasets' formats or the renderer.
 
+mod agreement;
 mod assembly;
 mod buildings;
+mod clearance;
+mod distance_field;
 mod driving_side;
 mod error;
+mod furniture;
 mod ground;
+mod kerbs;
 mod light;
 mod moments;
 mod palette;
@@ -17,12 +22,16 @@ mod plane;
 mod plane_raster;
 mod roads;
 mod scenery;
+mod segments;
 mod site;
 mod stock;
+mod surroundings;
 #[cfg(test)]
 mod testing;
+mod vegetation;
 mod views;
 
+pub use agreement::{Agreement, agreement};
 pub use error::BuildError;
 pub use light::LightChoice;
 pub use site::{BuildSettings, Site, area, build};

@@ -1,16 +1,26 @@
 //! The static place of one drive, and the scene of each of its moments.
 
+use std::collections::BTreeSet;
+
+use glam::DVec3;
 use trove_model::{
-    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Polygon, Provenance, Report,
-    Scene, SceneObject, Seed, StreetMap,
+    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Outcome, Polygon, Provenance,
+    Report, Scene, SceneObject, Seed, StreetMap,
 };
 
+use crate::agreement::agreement;
 use crate::assembly::{Actor, Assembly};
+use crate::clearance::Clearance;
 use crate::error::BuildError;
+use crate::furniture::furniture;
+use crate::kerbs::Kerbs;
 use crate::light::{LightChoice, light};
 use crate::moments::{next, previous};
 use crate::placement::{Stand, cast};
+use crate::scenery::Scenery;
 use crate::stock::Stock;
+use crate::surroundings::Surroundings;
+use crate::vegetation::vegetation;
 use crate::{buildings, ground, roads};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
@@ -19,6 +29,9 @@ const MIN_SIDE_M: f64 = 600.0;
 const LIDAR_REACH_M: f64 = 100.0;
 /// Added around everything seen, metres.
 const MARGIN_M: f64 = 60.0;
+
+/// Ids are written as 16-bit numbers.
+const MAX_ID: u32 = u16::MAX as u32;
 
 /// What decides how a place is built.
 #[derive(Clone, Debug)]
@@ -66,6 +79,9 @@ pub fn build(
 ) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
     let seed = settings.seed;
+    if let Some(map) = map {
+        agreement(drive, map).report(drive, report);
+    }
 
     // What lies and stands for good.
     let ground = ground::height_field(drive, bounds, report);
@@ -76,12 +92,24 @@ pub fn build(
     let stand = Stand { ground: &ground, surfaces: &surfaces };
     let roles = cast(drive, library, &stand, settings.top_k, seed.child("cast"), report);
 
+    // What is made up keeps clear of everything recorded; poles come before plants.
+    let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
+    let kerbs = Kerbs::new(drive, map, &surfaces, bounds);
+    let around = Surroundings { drive, map, bounds, kerbs: &kerbs, stand };
+    let furniture = furniture(&around, library, &mut clearance, seed.child("furniture"), report);
+    let mut plants = vegetation(&around, library, &mut clearance, seed.child("vegetation"), report);
+
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
     let mut assembly = Assembly::default();
     let actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
     let mut next_id = actors.len() as u32 + 1;
     for piece in surfaces.pieces.iter().chain(&buildings.pieces) {
         assembly.piece(piece, &mut next_id);
+    }
+    let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
+    drop_farthest(&mut plants, drive, left.saturating_sub(furniture.len()), report);
+    for scenery in plants.iter().chain(&furniture) {
+        assembly.scenery(scenery, &mut next_id);
     }
     Ok(Site {
         light: light(drive, bounds, &settings.light, seed.child("light")),
@@ -92,6 +120,24 @@ pub fn build(
         actors,
         footprints: buildings.footprints,
     })
+}
+
+/// Keeps the `most` plants that are nearest to the driven path, in their order.
+fn drop_farthest(plants: &mut Vec<Scenery>, drive: &Drive, most: usize, report: &Report) {
+    if plants.len() <= most {
+        return;
+    }
+    let path: Vec<DVec3> = drive.keyframes.iter().map(|k| k.world_from_ego.translation).collect();
+    let distance_m = |s: &Scenery| path.iter().map(|p| p.distance(s.foot_world)).fold(f64::INFINITY, f64::min);
+    let distances_m: Vec<f64> = plants.iter().map(distance_m).collect();
+    let mut order: Vec<usize> = (0..plants.len()).collect();
+    order.sort_by(|&a, &b| distances_m[a].total_cmp(&distances_m[b]).then(a.cmp(&b)));
+    let kept: BTreeSet<usize> = order[..most].iter().copied().collect();
+    for _ in most..plants.len() {
+        report.note(Outcome::Dropped, "plant beyond the 65,535 objects that can be numbered", &drive.id);
+    }
+    let mut index = 0..;
+    plants.retain(|_| index.next().is_some_and(|i| kept.contains(&i)));
 }
 
 /// The area of a drive that has one.
@@ -199,7 +245,6 @@ mod tests {
     use super::*;
     use crate::testing;
     use crate::views::{ViewSettings, shots};
-    use glam::DVec3;
 
     fn settings(seed: u64) -> BuildSettings {
         BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::CaptureTime }
@@ -238,6 +283,30 @@ mod tests {
         let ahead = &scenes[3].instances[1];
         let moved = ahead.world_from_mesh_next.unwrap().translation - ahead.world_from_mesh.translation;
         assert!((moved - DVec3::new(5.0, 0.0, 0.0)).length() < 1e-2, "{moved}");
+    }
+
+    #[test]
+    fn plants_and_furniture_stand_off_the_road_and_clear_of_everything_recorded() {
+        let (drive, site) = (testing::drive(), site(2));
+        let bounds = area(&drive).unwrap();
+        let surfaces = testing::surfaces(&drive, &HeightField::flat(bounds, 0.0));
+        let scenery: Vec<&Instance> =
+            site.fixed.iter().filter(|i| i.object.as_ref().is_some_and(|o| o.kind != Kind::Building)).collect();
+        let kinds: BTreeSet<Kind> = scenery.iter().filter_map(|i| Some(i.object.as_ref()?.kind)).collect();
+        let expected = [Kind::Tree, Kind::Bush, Kind::StreetLamp, Kind::TrafficSign, Kind::Bench];
+        assert!(expected.iter().all(|k| kinds.contains(k)), "{kinds:?}");
+        for instance in scenery {
+            let object = instance.object.as_ref().unwrap();
+            if matches!(object.kind, Kind::Tree | Kind::Bush) {
+                let foot = instance.world_from_mesh.translation.truncate();
+                assert_ne!(surfaces.footing(foot), crate::roads::Footing::Carriageway, "{object:?}");
+            }
+            for annotated in drive.keyframes.iter().flat_map(|k| &k.boxes) {
+                let foot = instance.world_from_mesh.translation.truncate();
+                let centre = annotated.cuboid.world_from_body.translation;
+                assert!(!annotated.cuboid.grown(0.3).contains(foot.extend(centre.z)), "{object:?}");
+            }
+        }
     }
 
     #[test]

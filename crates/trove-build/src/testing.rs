@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Camera, Cuboid, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane, LaneMap,
-    Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Seed, Slot, Track,
+    Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed,
+    SidewalkSides, Slot, StreetMap, Track,
 };
 
 use crate::roads::{self, RoadSurfaces};
@@ -153,4 +154,23 @@ pub(crate) fn drive() -> Drive {
         lane_map: Some(street()),
         licence: "test".into(),
     }
+}
+
+/// A map of one road.
+pub(crate) fn map_with_road(ends: [[f64; 2]; 2]) -> StreetMap {
+    let road = Road {
+        id: 1,
+        kind: RoadKind::Residential,
+        centreline: ends.map(DVec2::from_array).to_vec(),
+        lanes: None,
+        width_m: None,
+        oneway: false,
+        sidewalk: SidewalkSides::default(),
+        layer: 0,
+        bridge: false,
+        tunnel: false,
+        surface: String::new(),
+        name: String::new(),
+    };
+    StreetMap { roads: vec![road], ..StreetMap::default() }
 }

@@ -1,0 +1,97 @@
+//! Finds the nearest of many line segments.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+/// Segments in square buckets.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SegmentIndex {
+    segments: Vec<[DVec2; 2]>,
+    // Only ever looked up, so the order inside does not reach a result.
+    buckets: HashMap<[i64; 2], Vec<usize>>,
+}
+
+/// The nearest segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// From the point to the segment, metres.
+    pub distance_m: f64,
+    /// The nearest position on it.
+    pub position: DVec2,
+    /// Its direction, unit; zero for a segment without length.
+    pub along: DVec2,
+}
+
+/// Side of a bucket, metres.
+const BUCKET_M: f64 = 20.0;
+
+impl SegmentIndex {
+    /// All segments of some lines.
+    pub(crate) fn new<'a>(lines: impl IntoIterator<Item = &'a [DVec2]>) -> Self {
+        let mut index = Self::default();
+        for pair in lines.into_iter().flat_map(|line| line.windows(2)) {
+            let [a, b] = [pair[0], pair[1]];
+            let (low, high) = (bucket(a.min(b)), bucket(a.max(b)));
+            for x in low[0]..=high[0] {
+                for y in low[1]..=high[1] {
+                    index.buckets.entry([x, y]).or_default().push(index.segments.len());
+                }
+            }
+            index.segments.push([a, b]);
+        }
+        index
+    }
+
+    /// The nearest segment within `reach_m`; of equally near ones the first given.
+    pub(crate) fn nearest(&self, p: DVec2, reach_m: f64) -> Option<Nearest> {
+        let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
+        let mut best: Option<(f64, usize)> = None;
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for &i in self.buckets.get(&[x, y]).into_iter().flatten() {
+                    let distance_m = self.on(i, p).distance(p);
+                    let nearer = best.is_none_or(|(d, j)| distance_m < d || (distance_m == d && i < j));
+                    if distance_m <= reach_m && nearer {
+                        best = Some((distance_m, i));
+                    }
+                }
+            }
+        }
+        let (distance_m, i) = best?;
+        let [a, b] = self.segments[i];
+        Some(Nearest { distance_m, position: self.on(i, p), along: (b - a).normalize_or_zero() })
+    }
+
+    /// The position on a segment that is nearest to a point.
+    fn on(&self, segment: usize, p: DVec2) -> DVec2 {
+        let [a, b] = self.segments[segment];
+        let ab = b - a;
+        let length2 = ab.length_squared();
+        let t = if length2 > 0.0 { ((p - a).dot(ab) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        a + ab * t
+    }
+}
+
+fn bucket(p: DVec2) -> [i64; 2] {
+    let cell = (p / BUCKET_M).floor();
+    [cell.x as i64, cell.y as i64]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_segment_is_found_across_buckets_and_not_beyond_reach() {
+        let lines = [
+            vec![DVec2::new(-100.0, 0.0), DVec2::new(100.0, 0.0)],
+            vec![DVec2::new(50.0, 30.0), DVec2::new(50.0, 90.0)],
+        ];
+        let index = SegmentIndex::new(lines.iter().map(Vec::as_slice));
+        let near = index.nearest(DVec2::new(47.0, 28.0), 40.0).unwrap();
+        assert_eq!((near.position, near.along), (DVec2::new(50.0, 30.0), DVec2::Y));
+        assert_eq!(index.nearest(DVec2::new(0.0, 12.0), 40.0).unwrap().distance_m, 12.0);
+        assert_eq!(index.nearest(DVec2::new(0.0, 50.0), 40.0), None);
+    }
+}

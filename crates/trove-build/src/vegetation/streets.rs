@@ -1,0 +1,90 @@
+//! Trees and hedges along streets, where no one says what grows there.
+
+use glam::DVec2;
+use trove_model::{Kind, Seed};
+
+use super::Wish;
+use crate::clearance::Clearance;
+use crate::kerbs::{KERB_STEP_M, KerbPoint};
+use crate::surroundings::Surroundings;
+
+/// Streets are planted by such stretches, metres: beyond, another street's habits begin.
+const STRETCH_M: f64 = 120.0;
+/// Share of the stretches with trees, and of those with a hedge.
+const TREE_SHARE: f64 = 0.5;
+const HEDGE_SHARE: f64 = 0.2;
+/// Trees of a row are this far apart, metres.
+const TREE_SPACING_M: [f64; 2] = [8.0, 12.0];
+/// Bushes of a hedge are this far apart, metres.
+const HEDGE_STEP_M: f64 = 0.8;
+/// Hedges are this long, metres, with gaps of as much.
+const HEDGE_RUN_M: f64 = 14.0;
+/// Rows of trees stand this far from the kerb, metres.
+const TREE_OFF_KERB_M: f64 = 1.1;
+/// Land begins within this of the kerb, or there is no hedge, metres.
+const LAND_REACH_M: f64 = 7.0;
+
+/// Trees behind the kerb, hedges where the sidewalk ends.
+pub(super) fn wishes(around: &Surroundings, clearance: &Clearance, seed: Seed) -> Vec<Wish> {
+    let mut wishes = Vec::new();
+    for (i, run) in around.kerbs.runs.iter().enumerate() {
+        let stretch_points = (STRETCH_M / KERB_STEP_M) as usize;
+        for (j, stretch) in run.chunks(stretch_points).enumerate() {
+            let seed = seed.nth(i as u64).nth(j as u64);
+            let mut random = seed.random();
+            let (trees, hedge) = (random.chance(TREE_SHARE), random.chance(HEDGE_SHARE));
+            let height_m = random.range(5.5, 9.5);
+            if trees {
+                row_of_trees(stretch, height_m, seed, &mut wishes);
+            }
+            if hedge {
+                hedges(stretch, clearance, seed, &mut wishes);
+            }
+        }
+    }
+    wishes
+}
+
+fn row_of_trees(stretch: &[KerbPoint], height_m: f64, seed: Seed, wishes: &mut Vec<Wish>) {
+    let mut random = seed.child("trees").random();
+    let spacing_m = random.range(TREE_SPACING_M[0], TREE_SPACING_M[1]);
+    let mut at_m = random.range(0.0, spacing_m);
+    while let Some(kerb) = stretch.get((at_m / KERB_STEP_M) as usize) {
+        let position = kerb.position + kerb.outward * TREE_OFF_KERB_M;
+        let height_m = height_m * random.range(0.85, 1.15);
+        wishes.push(Wish { kind: Kind::Tree, position, height_m, group: seed.0, radius_m: Some(2.2) });
+        at_m += spacing_m * random.range(0.92, 1.08);
+    }
+}
+
+fn hedges(stretch: &[KerbPoint], clearance: &Clearance, seed: Seed, wishes: &mut Vec<Wish>) {
+    let mut random = seed.child("hedge").random();
+    let height_m = random.range(0.7, 1.3);
+    let phase_m = random.range(0.0, HEDGE_RUN_M);
+    let count = (stretch.len() as f64 * KERB_STEP_M / HEDGE_STEP_M) as usize;
+    for i in 0..count {
+        let at_m = i as f64 * HEDGE_STEP_M;
+        let kerb = &stretch[((at_m / KERB_STEP_M) as usize).min(stretch.len() - 1)];
+        if ((at_m + phase_m) / HEDGE_RUN_M).rem_euclid(2.0) < 1.0 {
+            continue;
+        }
+        let along = kerb.outward.perp() * (at_m - (at_m / KERB_STEP_M).floor() * KERB_STEP_M);
+        if let Some(position) = land_behind(kerb.position + along, kerb.outward, clearance) {
+            let height_m = height_m * random.range(0.92, 1.08);
+            wishes.push(Wish {
+                kind: Kind::Bush,
+                position,
+                height_m,
+                group: seed.0,
+                radius_m: Some(HEDGE_STEP_M * 0.4),
+            });
+        }
+    }
+}
+
+/// A little behind where the sidewalk gives way to open land.
+fn land_behind(kerb: DVec2, outward: DVec2, clearance: &Clearance) -> Option<DVec2> {
+    let steps = (LAND_REACH_M / 0.5) as usize;
+    let at = |i: usize| kerb + outward * (1.0 + 0.5 * i as f64);
+    (0..steps).map(at).find(|&p| clearance.is_land(p)).map(|p| p + outward * 0.7)
+}
