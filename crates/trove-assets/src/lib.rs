@@ -10,6 +10,8 @@ mod plants;
 mod shape;
 mod street;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 mod vehicles;
 
 use rayon::prelude::*;

@@ -32,7 +32,8 @@ impl BicyclePlan {
     }
 
     fn pedal(&self, side: f32) -> Vec3 {
-        self.bracket() + vec3(0.05 * side, 0.12 * side, -0.162 * side).normalize() * Self::CRANK_M * vec3(1.0, 0.0, 1.0)
+        self.bracket()
+            + vec3(0.05 * side, 0.12 * side, -0.162 * side).normalize() * Self::CRANK_M * vec3(1.0, 0.0, 1.0)
             + Vec3::Y * 0.13 * side
     }
 
@@ -61,7 +62,8 @@ impl BicyclePlan {
             tube(bracket, seat, 0.017),
             tube(head_low - (head_high - head_low) * 0.1, head_high, 0.021),
         ];
-        let top = if self.city { (bracket.lerp(seat, 0.45), head_low + vec3(0.0, 0.0, 0.03)) } else { (seat, head_high) };
+        let top =
+            if self.city { (bracket.lerp(seat, 0.45), head_low + vec3(0.0, 0.0, 0.03)) } else { (seat, head_high) };
         frame.push(tube(top.0, top.1, 0.016));
         let mut metal = vec![tube(seat, saddle, 0.014)];
         for side in [1.0, -1.0] {
@@ -107,9 +109,8 @@ impl BicyclePlan {
                     .map(|i| from + (to - from) * i as f32 / 12.0)
                     .map(|a: f32| axle + vec3(a.cos(), 0.0, a.sin()) * (r + 0.03))
                     .collect();
-                let row = |y: f32, drop: f32| {
-                    arc.iter().map(|p| axle + (*p - axle) * drop + Vec3::Y * y).collect::<Vec<_>>()
-                };
+                let row =
+                    |y: f32, drop: f32| arc.iter().map(|p| axle + (*p - axle) * drop + Vec3::Y * y).collect::<Vec<_>>();
                 let guard = Shape::sheet(&[row(-0.03, 0.95), row(-0.018, 1.0), row(0.018, 1.0), row(0.03, 0.95)]);
                 shapes.push(guard.inside_out().plate(0.002).slot(parts.paint));
             }

@@ -80,8 +80,15 @@ impl Motorcycle {
             let y = Vec3::Y * side * (tyre + 0.04);
             steel.push(Shape::tube(&[front + y, head + y * 0.8], 0.024, 10));
             let end = grip * vec3(1.0, side, 1.0);
-            steel.push(Shape::tube(&[head, head + vec3(0.0, 0.12 * side, 0.07), end + vec3(0.05, -0.1 * side, 0.0)], 0.012, 8));
-            shapes.push(Shape::capsule(end + vec3(0.03, -0.07 * side, 0.0), end - vec3(0.01, -0.02 * side, 0.0), 0.018, 8).slot(parts.black));
+            steel.push(Shape::tube(
+                &[head, head + vec3(0.0, 0.12 * side, 0.07), end + vec3(0.05, -0.1 * side, 0.0)],
+                0.012,
+                8,
+            ));
+            shapes.push(
+                Shape::capsule(end + vec3(0.03, -0.07 * side, 0.0), end - vec3(0.01, -0.02 * side, 0.0), 0.018, 8)
+                    .slot(parts.black),
+            );
             let stalk = head + vec3(-0.02, 0.26 * side, 0.1);
             let glass = stalk + vec3(-0.04, 0.1 * side, 0.17);
             steel.push(Shape::tube(&[stalk, glass], 0.006, 6));
@@ -101,7 +108,12 @@ impl Motorcycle {
         shapes.push(arc(rear, 1.6, 3.3).slot(parts.black));
         let plate = Shape::rounded_block(vec3(0.01, 0.2, 0.14), 0.004).turned(Quat::from_rotation_y(0.35));
         shapes.push(plate.moved(vec3(-0.33, 0.0, 0.56)).slot(parts.plate));
-        let exhaust = [(vec3(0.55, -0.14, 0.3), 0.025), (vec3(0.25, -0.17, 0.28), 0.03), (vec3(0.2, -0.18, 0.3), 0.055), (vec3(-0.28, -0.19, 0.42), 0.06)];
+        let exhaust = [
+            (vec3(0.55, -0.14, 0.3), 0.025),
+            (vec3(0.25, -0.17, 0.28), 0.03),
+            (vec3(0.2, -0.18, 0.3), 0.055),
+            (vec3(-0.28, -0.19, 0.42), 0.06),
+        ];
         steel.push(Shape::tapered_tube(&exhaust, 14));
         shapes.push(Shape::join(steel).slot(parts.steel));
         Shape::join(shapes)
@@ -139,7 +151,8 @@ impl Motorcycle {
             ]);
         }
         let tank = blend(vec![
-            limb(seat + vec3(0.24, 0.0, 0.06), vec3(head.x - 0.18, 0.0, seat.z + 0.14), 0.09, 0.115).wide(Vec3::Y, 1.35),
+            limb(seat + vec3(0.24, 0.0, 0.06), vec3(head.x - 0.18, 0.0, seat.z + 0.14), 0.09, 0.115)
+                .wide(Vec3::Y, 1.35),
             limb(seat + vec3(-0.25, 0.0, -0.04), seat + vec3(-0.68, 0.0, 0.04), 0.07, 0.04).wide(Vec3::Y, 1.5),
             limb(seat + vec3(0.1, 0.0, -0.08), seat + vec3(-0.25, 0.0, -0.05), 0.06, 0.06).wide(Vec3::Y, 1.6),
         ]);
@@ -149,11 +162,17 @@ impl Motorcycle {
         ]);
         let engine = [
             Shape::rounded_block(vec3(0.42, 0.34, 0.24), 0.05).moved(vec3(0.62, 0.0, 0.34)),
-            Shape::rounded_block(vec3(0.24, 0.3, 0.3), 0.03).turned(Quat::from_rotation_y(0.4)).moved(vec3(0.78, 0.0, 0.55)),
+            Shape::rounded_block(vec3(0.24, 0.3, 0.3), 0.03)
+                .turned(Quat::from_rotation_y(0.4))
+                .moved(vec3(0.78, 0.0, 0.55)),
             crate::vehicles::upright(Shape::cylinder(0.12, 0.4, 20)).moved(vec3(0.55, -0.2, 0.36)),
         ];
         let frame = [
-            Shape::tube(&[vec3(0.0, 0.1, 0.31), vec3(0.4, 0.12, 0.42), vec3(0.48, 0.13, 0.7), head + vec3(0.0, 0.05, -0.15)], 0.03, 8),
+            Shape::tube(
+                &[vec3(0.0, 0.1, 0.31), vec3(0.4, 0.12, 0.42), vec3(0.48, 0.13, 0.7), head + vec3(0.0, 0.05, -0.15)],
+                0.03,
+                8,
+            ),
             Shape::tube(&[vec3(0.45, 0.12, 0.35), vec3(0.95, 0.1, 0.4), head + vec3(0.02, 0.04, -0.2)], 0.02, 8),
         ];
         let mut shapes = vec![

@@ -82,7 +82,8 @@ impl Parts {
         let rim: Vec<Vec2> = rim.iter().map(|&(y, d)| vec2(radius_m - tyre_m * d, y * tyre_m)).collect();
         let rim = crate::vehicles::upright(Shape::lathe(&rim, 32));
         let spokes = (0..6).map(|i| {
-            let (from, to) = (on_circle(i as f32 / 6.0, 0.03, 0.0), on_circle((i as f32 + 0.2) / 6.0, radius_m - tyre_m * 1.8, 0.0));
+            let (from, to) =
+                (on_circle(i as f32 / 6.0, 0.03, 0.0), on_circle((i as f32 + 0.2) / 6.0, radius_m - tyre_m * 1.8, 0.0));
             Shape::tapered_tube(&[(from, 0.018), (to, 0.012)], 6)
         });
         let hub = Shape::tube(&[Vec3::Y * -0.07, Vec3::Y * 0.07], 0.035, 12);

@@ -38,10 +38,38 @@ pub(crate) fn assets() -> Vec<Asset> {
         young("person/child-walking", child, Pose::walking(&child, 0.36, true), shorts),
         young("person/child-standing", teen, Pose::standing(&teen), long),
         person("person/child-schoolbag", Kind::Child, teen, Pose::walking(&teen, 0.34, false), casual, Extra::Backpack),
-        person("person/worker-standing", Kind::ConstructionWorker, man, Pose::standing(&man), jacket, Extra::HighVisibility),
-        person("person/worker-walking", Kind::ConstructionWorker, stout, Pose::walking(&stout, 0.36, true), jacket, Extra::HighVisibility),
-        person("person/police-officer", Kind::PoliceOfficer, tall, Pose::standing(&tall), Outfit { hem: 0.0, ..jacket }, Extra::Police),
-        person("person/police-officer-walking", Kind::PoliceOfficer, woman, Pose::walking(&woman, 0.36, true), Outfit { hair: Hair::Tail, hem: 0.0, ..jacket }, Extra::Police),
+        person(
+            "person/worker-standing",
+            Kind::ConstructionWorker,
+            man,
+            Pose::standing(&man),
+            jacket,
+            Extra::HighVisibility,
+        ),
+        person(
+            "person/worker-walking",
+            Kind::ConstructionWorker,
+            stout,
+            Pose::walking(&stout, 0.36, true),
+            jacket,
+            Extra::HighVisibility,
+        ),
+        person(
+            "person/police-officer",
+            Kind::PoliceOfficer,
+            tall,
+            Pose::standing(&tall),
+            Outfit { hem: 0.0, ..jacket },
+            Extra::Police,
+        ),
+        person(
+            "person/police-officer-walking",
+            Kind::PoliceOfficer,
+            woman,
+            Pose::walking(&woman, 0.36, true),
+            Outfit { hair: Hair::Tail, hem: 0.0, ..jacket },
+            Extra::Police,
+        ),
     ]
 }
 
@@ -73,23 +101,33 @@ fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extr
     match extra {
         Extra::None => {}
         Extra::Backpack => {
-            let paints = [vec3(0.015, 0.015, 0.017), vec3(0.02, 0.035, 0.09), vec3(0.25, 0.03, 0.03), vec3(0.06, 0.08, 0.05)];
+            let paints =
+                [vec3(0.015, 0.015, 0.017), vec3(0.02, 0.035, 0.09), vec3(0.25, 0.03, 0.03), vec3(0.06, 0.08, 0.05)];
             let cloth = model.slot(Material::plain("backpack", paints[0], 0.8), &paints);
             let bag = Shape::rounded_block(vec3(0.095, 0.165, 0.26) * h, 0.035 * h);
             model.add(cloth, bag.turned(figure.trunk()).moved(figure.at_trunk(-0.125, 0.0, 0.17)));
             let pocket = Shape::rounded_block(vec3(0.03, 0.12, 0.11) * h, 0.012 * h);
             model.add(cloth, pocket.turned(figure.trunk()).moved(figure.at_trunk(-0.18, 0.0, 0.11)));
             for side in [1.0, -1.0] {
-                let strap = [(-0.09, 0.075, 0.29), (-0.01, 0.075, 0.325), (0.05, 0.074, 0.29), (0.078, 0.08, 0.23), (0.05, 0.1, 0.14), (-0.07, 0.09, 0.09)];
+                let strap = [
+                    (-0.09, 0.075, 0.29),
+                    (-0.01, 0.075, 0.325),
+                    (0.05, 0.074, 0.29),
+                    (0.078, 0.08, 0.23),
+                    (0.05, 0.1, 0.14),
+                    (-0.07, 0.09, 0.09),
+                ];
                 let path: Vec<Vec3> = strap.iter().map(|&(x, y, z)| figure.at_trunk(x, side * y, z)).collect();
                 model.add(cloth, Shape::tube(&path, 0.011 * h, 6));
             }
         }
         Extra::ShoulderBag => {
-            let paints = [vec3(0.02, 0.015, 0.012), vec3(0.2, 0.09, 0.035), vec3(0.4, 0.32, 0.24), vec3(0.015, 0.015, 0.017)];
+            let paints =
+                [vec3(0.02, 0.015, 0.012), vec3(0.2, 0.09, 0.035), vec3(0.4, 0.32, 0.24), vec3(0.015, 0.015, 0.017)];
             let leather = model.slot(Material::plain("bag", paints[0], 0.5), &paints);
             let side = body.shoulder + 0.075;
-            let bag = Shape::rounded_block(vec3(0.17, 0.05, 0.13) * h, 0.02 * h).moved(figure.at_trunk(-0.01, side, 0.0));
+            let bag =
+                Shape::rounded_block(vec3(0.17, 0.05, 0.13) * h, 0.02 * h).moved(figure.at_trunk(-0.01, side, 0.0));
             model.add(leather, bag);
             let strap = [(0.05, side, 0.05), (0.02, side * 0.8, 0.31), (-0.02, side * 0.8, 0.315), (-0.07, side, 0.05)];
             let path: Vec<Vec3> = strap.iter().map(|&(x, y, z)| figure.at_trunk(x, y, z)).collect();
@@ -105,22 +143,38 @@ fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extr
                 let band = Prism::between(figure.at_trunk(-1.0, -1.0, low), figure.at_trunk(1.0, 1.0, high));
                 model.mark(&band, slots.top, silver);
             }
-            let brace = |z: [f32; 2]| [vec2(0.045 * h, z[0]), vec2(0.065 * h, z[0]), vec2(0.065 * h, z[1]), vec2(0.045 * h, z[1])];
+            let brace = |z: [f32; 2]| {
+                [vec2(0.045 * h, z[0]), vec2(0.065 * h, z[0]), vec2(0.065 * h, z[1]), vec2(0.045 * h, z[1])]
+            };
             let heights = [figure.at_trunk(0.0, 0.0, 0.215).z, figure.at_trunk(0.0, 0.0, 0.4).z];
             model.mark_both(&Prism::front(&brace(heights), -1.0..=1.0), slots.top, silver);
             model.add_marked(helmet(&figure, yellow));
         }
         Extra::Police => {
             let cap = Shape::lathe(
-                &[vec2(0.098, 0.0), vec2(0.1, 0.035), vec2(0.135, 0.06), vec2(0.125, 0.075), vec2(0.06, 0.085), vec2(0.0, 0.085)],
+                &[
+                    vec2(0.098, 0.0),
+                    vec2(0.1, 0.035),
+                    vec2(0.135, 0.06),
+                    vec2(0.125, 0.075),
+                    vec2(0.06, 0.085),
+                    vec2(0.0, 0.085),
+                ],
                 20,
             );
             let visor = Shape::ellipsoid(vec3(0.09, 0.085, 0.012), 16).moved(vec3(0.06, 0.0, 0.0));
-            let cap = Shape::join([cap, visor]).turned(Quat::from_rotation_y(0.1)).moved(figure.head + vec3(0.0, 0.0, 0.07));
+            let cap =
+                Shape::join([cap, visor]).turned(Quat::from_rotation_y(0.1)).moved(figure.head + vec3(0.0, 0.0, 0.07));
             model.add(slots.dark, cap);
             let metal = model.slot(Material { metalness: 1.0, ..Material::plain("badge", Vec3::splat(0.6), 0.3) }, &[]);
-            model.add(metal, Shape::rounded_block(vec3(0.01, 0.04, 0.05), 0.004).moved(figure.at_trunk(0.078, 0.045, 0.24)));
-            model.add(metal, Shape::rounded_block(vec3(0.012, 0.03, 0.035), 0.004).moved(figure.head + vec3(0.1, 0.0, 0.1)));
+            model.add(
+                metal,
+                Shape::rounded_block(vec3(0.01, 0.04, 0.05), 0.004).moved(figure.at_trunk(0.078, 0.045, 0.24)),
+            );
+            model.add(
+                metal,
+                Shape::rounded_block(vec3(0.012, 0.03, 0.035), 0.004).moved(figure.head + vec3(0.1, 0.0, 0.1)),
+            );
             let belt = Prism::between(figure.at_trunk(-1.0, -1.0, 0.03), figure.at_trunk(1.0, 1.0, 0.055));
             model.mark(&belt, slots.top, slots.dark);
             let holster = Shape::rounded_block(vec3(0.06, 0.05, 0.15), 0.02);
@@ -132,7 +186,8 @@ fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extr
 
 /// A hard hat.
 fn helmet(figure: &Figure, slot: u16) -> Shape {
-    let shell = [vec2(0.14, 0.0), vec2(0.128, 0.012), vec2(0.122, 0.05), vec2(0.1, 0.1), vec2(0.055, 0.128), vec2(0.0, 0.136)];
+    let shell =
+        [vec2(0.14, 0.0), vec2(0.128, 0.012), vec2(0.122, 0.05), vec2(0.1, 0.1), vec2(0.055, 0.128), vec2(0.0, 0.136)];
     let shell = Shape::lathe(&shell, 20).scaled(vec3(1.08, 0.92, 1.0));
     let rim = Shape::lathe(&[vec2(0.0, 0.0), vec2(0.14, 0.0)], 20).scaled(vec3(1.08, 0.92, 1.0)).inside_out();
     let peak = Shape::ellipsoid(vec3(0.08, 0.08, 0.01), 14).moved(vec3(0.1, 0.0, 0.003));

@@ -11,7 +11,13 @@ pub(crate) fn assets() -> Vec<Asset> {
 }
 
 fn dog(id: &str, scale: f32) -> Asset {
-    let coats = [vec3(0.25, 0.13, 0.06), vec3(0.015, 0.013, 0.012), vec3(0.5, 0.42, 0.3), vec3(0.3, 0.29, 0.28), vec3(0.12, 0.06, 0.03)];
+    let coats = [
+        vec3(0.25, 0.13, 0.06),
+        vec3(0.015, 0.013, 0.012),
+        vec3(0.5, 0.42, 0.3),
+        vec3(0.3, 0.29, 0.28),
+        vec3(0.12, 0.06, 0.03),
+    ];
     let mut model = Model::default();
     let coat = model.slot(Material::plain("coat", coats[0], 0.9), &coats);
     let dark = model.slot(Material::plain("nose", Vec3::splat(0.012), 0.4), &[]);

@@ -6,8 +6,8 @@ use super::wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 use crate::shape::{Blend, Limb, Shape};
 
 /// Edge of the cells that clothes, and heads and hands, are made of.
-const CLOTH_CELL_M: f32 = 0.03;
-const SKIN_CELL_M: f32 = 0.017;
+const CLOTH_CELL_M: f32 = 0.037;
+const SKIN_CELL_M: f32 = 0.0235;
 
 /// Measures of a body; what they are shares of is its height.
 #[derive(Clone, Copy, Debug)]
@@ -27,13 +27,13 @@ pub(crate) struct Physique {
 impl Physique {
     /// A grown man.
     pub(crate) const MAN: Self =
-        Self { height_m: 1.77, shoulder: 0.108, hip: 0.05, girth: 1.08, head: 1.0, bust: false };
+        Self { height_m: 1.77, shoulder: 0.104, hip: 0.05, girth: 1.08, head: 1.0, bust: false };
     /// A grown woman.
     pub(crate) const WOMAN: Self =
-        Self { height_m: 1.65, shoulder: 0.096, hip: 0.054, girth: 0.98, head: 0.97, bust: true };
+        Self { height_m: 1.65, shoulder: 0.092, hip: 0.054, girth: 0.98, head: 0.97, bust: true };
     /// A child of about eight.
     pub(crate) const CHILD: Self =
-        Self { height_m: 1.3, shoulder: 0.1, hip: 0.05, girth: 1.0, head: 0.93, bust: false };
+        Self { height_m: 1.3, shoulder: 0.095, hip: 0.05, girth: 1.0, head: 0.93, bust: false };
 }
 
 /// Where the joints that matter are, metres; index 0 is left. The body faces +x.
@@ -179,7 +179,12 @@ impl Figure {
             Limb::new(self.neck - vec3(0.0, 0.0, 0.03), at(-0.012, 0.0, -0.03), self.radius(0.033), self.radius(0.03)),
         ];
         for side in SIDES {
-            head.push(Limb::new(at(-0.005, side * 0.079, 0.022), at(-0.004, side * 0.077, -0.018), 0.01 * k, 0.007 * k));
+            head.push(Limb::new(
+                at(-0.005, side * 0.079, 0.022),
+                at(-0.004, side * 0.077, -0.018),
+                0.01 * k,
+                0.007 * k,
+            ));
         }
         let mut parts = vec![Blend::new(head, 0.022).surface(SKIN_CELL_M)];
         for i in 0..2 {
@@ -193,16 +198,22 @@ impl Figure {
                 Sleeve::Short | Sleeve::None => elbow,
             };
             let mut arm = vec![
-                Limb::new(from, wrist, self.radius(if outfit.sleeve == Sleeve::Long { 0.0155 } else { 0.025 }), self.radius(0.0155)),
+                Limb::new(
+                    from,
+                    wrist,
+                    self.radius(if outfit.sleeve == Sleeve::Long { 0.0155 } else { 0.025 }),
+                    self.radius(0.0155),
+                ),
                 Limb::new(wrist, palm, self.radius(0.014), self.radius(0.019)).wide(Vec3::X, 1.3),
                 Limb::new(palm, tips, self.radius(0.017), self.radius(0.011)).wide(Vec3::X, 1.3),
                 Limb::new(palm, thumb, self.radius(0.009), self.radius(0.007)),
             ];
             if outfit.sleeve != Sleeve::Long {
-                let start = if outfit.sleeve == Sleeve::None { self.shoulders[i] } else { self.shoulders[i].lerp(elbow, 0.4) };
+                let start =
+                    if outfit.sleeve == Sleeve::None { self.shoulders[i] } else { self.shoulders[i].lerp(elbow, 0.4) };
                 arm.push(Limb::new(start, elbow, self.radius(0.027), self.radius(0.025)));
             }
-            parts.push(Blend::new(arm, 0.015).surface(SKIN_CELL_M));
+            parts.push(Blend::new(arm, 0.015).surface(SKIN_CELL_M * 0.95));
         }
         if outfit.leg == Leg::Shorts {
             parts.push(self.legs(0.0, 0.35, 0.9));
@@ -245,9 +256,16 @@ impl Figure {
         match hair {
             Hair::Short => {}
             Hair::Long => {
-                limbs.push(Limb::new(at(-0.05, 0.0, 0.0), at(-0.075, 0.0, -0.19), 0.07 * k, 0.045 * k).wide(Vec3::Y, 1.25));
+                limbs.push(
+                    Limb::new(at(-0.05, 0.0, 0.0), at(-0.075, 0.0, -0.19), 0.07 * k, 0.045 * k).wide(Vec3::Y, 1.25),
+                );
                 for side in SIDES {
-                    limbs.push(Limb::new(at(-0.01, side * 0.07, 0.02), at(-0.03, side * 0.075, -0.11), 0.022 * k, 0.025 * k));
+                    limbs.push(Limb::new(
+                        at(-0.01, side * 0.07, 0.02),
+                        at(-0.03, side * 0.075, -0.11),
+                        0.022 * k,
+                        0.025 * k,
+                    ));
                 }
             }
             Hair::Bun => {
@@ -258,7 +276,7 @@ impl Figure {
                 limbs.push(Limb::new(at(-0.14, 0.0, -0.03), at(-0.13, 0.0, -0.14), 0.028 * k, 0.012 * k));
             }
         }
-        Blend::new(limbs, 0.03).surface(SKIN_CELL_M * 1.1)
+        Blend::new(limbs, 0.03).surface(SKIN_CELL_M * 1.2)
     }
 
     fn top(&self, outfit: &Outfit) -> Shape {
@@ -270,11 +288,18 @@ impl Figure {
         let shoulder = self.body.shoulder;
         let hip = if self.body.bust { 1.62 } else { 1.5 };
         let mut limbs = vec![
-            Limb::new(at(0.0, 0.0, 0.11), at(-0.006, 0.0, hem), r(0.058), r(0.063)).wide(wide, hip).blunt(),
+            Limb::new(at(0.0, 0.0, 0.11), at(-0.008, 0.0, hem), r(0.058), r(0.066)).wide(wide, hip).blunt(),
             Limb::new(at(0.0, 0.0, 0.1), at(0.004, 0.0, 0.22), r(0.056), r(0.064)).wide(wide, 1.48),
             Limb::new(at(-0.006, 0.0, 0.22), at(-0.01, 0.0, 0.272), r(0.062), r(0.04)).wide(wide, 1.6),
             Limb::new(at(-0.006, 0.0, 0.27), self.neck, r(0.045), self.radius(0.034) + 0.004),
         ];
+        if outfit.leg != Leg::Skirt {
+            // The hem falls over the thighs.
+            for i in 0..2 {
+                let (hip, knee) = (self.hips[i] - vec3(self.m(0.012), 0.0, 0.0), self.knees[i]);
+                limbs.push(Limb::new(hip, hip.lerp(knee, 0.12 + outfit.hem * 2.5), r(0.057), r(0.055)).blunt());
+            }
+        }
         if self.body.bust {
             for side in SIDES {
                 limbs.push(Limb::new(at(0.035, side * 0.04, 0.215), at(0.045, side * 0.038, 0.2), r(0.032), r(0.03)));
@@ -282,19 +307,20 @@ impl Figure {
         }
         for (i, side) in SIDES.into_iter().enumerate() {
             let (shoulder_m, elbow, wrist) = (self.shoulders[i], self.elbows[i], self.pose.wrists[i]);
-            limbs.push(Limb::new(at(-0.006, side * shoulder * 0.5, 0.292), shoulder_m, r(0.034), r(0.033)));
+            limbs.push(Limb::new(at(-0.006, side * shoulder * 0.5, 0.28), shoulder_m, r(0.034), r(0.03)));
+            limbs.push(Limb::new(at(-0.01, side * 0.026, 0.315), shoulder_m, r(0.022), r(0.024)));
             match outfit.sleeve {
                 Sleeve::None => {}
                 Sleeve::Short => {
-                    limbs.push(Limb::new(shoulder_m, shoulder_m.lerp(elbow, 0.68), r(0.032), r(0.034)).blunt());
+                    limbs.push(Limb::new(shoulder_m, shoulder_m.lerp(elbow, 0.68), r(0.03), r(0.033)).blunt());
                 }
                 Sleeve::Long => {
-                    limbs.push(Limb::new(shoulder_m, elbow, r(0.032), r(0.027)));
-                    limbs.push(Limb::new(elbow, wrist, r(0.027), r(0.0195)).blunt());
+                    limbs.push(Limb::new(shoulder_m, elbow, r(0.03), r(0.026)));
+                    limbs.push(Limb::new(elbow, wrist, r(0.026), r(0.0195)).blunt());
                 }
             }
         }
-        Blend::new(limbs, 0.035).surface(CLOTH_CELL_M * 0.9)
+        Blend::new(limbs, 0.035).surface(CLOTH_CELL_M * 0.95)
     }
 
     fn bottom(&self, outfit: &Outfit) -> Shape {
@@ -307,7 +333,9 @@ impl Figure {
             let knees = (self.knees[0] + self.knees[1]) / 2.0;
             let hem = at(0.0, 0.0, 0.0).lerp(knees, 1.02);
             let spread = (self.knees[0] - self.knees[1]).length() / 2.0;
-            limbs.push(Limb::new(at(-0.01, 0.0, 0.02), hem, r(0.058), r(0.06) + spread * 0.5).wide(Vec3::Y, 1.4).blunt());
+            limbs.push(
+                Limb::new(at(-0.01, 0.0, 0.02), hem, r(0.058), r(0.06) + spread * 0.5).wide(Vec3::Y, 1.4).blunt(),
+            );
             return Blend::new(limbs, 0.05).surface(CLOTH_CELL_M);
         }
         for i in 0..2 {
@@ -332,13 +360,14 @@ impl Figure {
             let (m, out) = (|s: f32| self.m(s), SIDES[i] * 0.12);
             let limbs = vec![
                 Limb::new(vec3(m(-0.018), 0.0, m(-0.022)), vec3(m(0.05), 0.0, m(-0.026)), m(0.024), m(0.022)),
-                Limb::new(vec3(m(0.05), 0.0, m(-0.026)), vec3(m(0.1), 0.0, m(-0.031)), m(0.025), m(0.016)).wide(Vec3::Y, 1.15),
+                Limb::new(vec3(m(0.05), 0.0, m(-0.026)), vec3(m(0.1), 0.0, m(-0.031)), m(0.025), m(0.016))
+                    .wide(Vec3::Y, 1.15),
                 Limb::new(vec3(0.0, 0.0, m(0.012)), vec3(m(0.02), 0.0, m(-0.02)), m(0.023), m(0.024)),
             ];
             let mut shoe = Blend::new(limbs, 0.02);
             shoe.floor_m = m(-0.044);
             let turn = Quat::from_rotation_z(out) * Quat::from_rotation_y(self.pose.toes_rad[i]);
-            shoe.surface(0.02).turned(turn).moved(self.pose.ankles[i])
+            shoe.surface(0.028).turned(turn).moved(self.pose.ankles[i])
         });
         Shape::join(shoes)
     }

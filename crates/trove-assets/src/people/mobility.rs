@@ -35,10 +35,8 @@ fn start(body: Physique, pose: Pose, outfit: &Outfit) -> (Model, Metal, Figure) 
 }
 
 fn ring(radius_m: f32, thick_m: f32) -> Shape {
-    let path: Vec<Vec3> = (0..=28)
-        .map(|i| TAU * i as f32 / 28.0)
-        .map(|a| vec3(a.cos(), 0.0, a.sin()) * (radius_m - thick_m))
-        .collect();
+    let path: Vec<Vec3> =
+        (0..=28).map(|i| TAU * i as f32 / 28.0).map(|a| vec3(a.cos(), 0.0, a.sin()) * (radius_m - thick_m)).collect();
     Shape::tube(&path, thick_m, 8)
 }
 
@@ -64,7 +62,10 @@ fn kick_scooter() -> Asset {
     let stem = [vec3(0.62, 0.0, 0.12), vec3(0.52, 0.0, 1.14)];
     model.add(metal.steel, Shape::tube(&stem, 0.024, 10));
     model.add(metal.steel, Shape::tube(&[vec3(0.42, 0.0, deck - 0.02), vec3(0.6, 0.0, 0.3)], 0.026, 10));
-    model.add(metal.black, Shape::tube(&[vec3(0.49, -0.27, 1.13), vec3(0.52, 0.0, 1.14), vec3(0.49, 0.27, 1.13)], 0.016, 8));
+    model.add(
+        metal.black,
+        Shape::tube(&[vec3(0.49, -0.27, 1.13), vec3(0.52, 0.0, 1.14), vec3(0.49, 0.27, 1.13)], 0.016, 8),
+    );
     for x in [-0.42, 0.64] {
         model.add(metal.black, ring(0.11, 0.028).and(roller(0.07, 0.04)).moved(vec3(x, 0.0, 0.11)));
     }
@@ -134,7 +135,7 @@ fn stroller() -> Asset {
                 .collect()
         })
         .collect();
-    model.add(metal.cloth, Shape::sheet(&hood).plate(0.012));
+    model.add(metal.cloth, Shape::sheet(&hood).inside_out().plate(0.012));
     model.add(metal.black, Shape::rounded_block(vec3(0.5, 0.4, 0.14), 0.05).moved(vec3(0.88, 0.0, 0.26)));
     model.asset("person/stroller", Kind::Stroller, Kind::Stroller.class())
 }
@@ -163,9 +164,22 @@ fn wheelchair() -> Asset {
         model.add(metal.steel, ring(0.27, 0.009).moved(big + Vec3::Y * 0.03 * side));
         model.add(metal.steel, Shape::join(spokes).and(roller(0.03, 0.06)).moved(big));
         model.add(metal.black, roller(0.07, 0.025).moved(vec3(0.42, y * 0.9, 0.07)));
-        let frame = [vec3(-0.24, y, 0.98), vec3(-0.16, y, 0.9), vec3(-0.12, y, 0.5), vec3(0.36, y, 0.5), vec3(0.52, y * 0.8, 0.14)];
+        let frame = [
+            vec3(-0.24, y, 0.98),
+            vec3(-0.16, y, 0.9),
+            vec3(-0.12, y, 0.5),
+            vec3(0.36, y, 0.5),
+            vec3(0.52, y * 0.8, 0.14),
+        ];
         model.add(metal.steel, Shape::tube(&frame, 0.013, 8));
-        model.add(metal.steel, Shape::tube(&[vec3(-0.12, y, 0.5), vec3(0.0, y, 0.31), vec3(0.42, y * 0.9, 0.14), vec3(0.42, y * 0.9, 0.07)], 0.012, 8));
+        model.add(
+            metal.steel,
+            Shape::tube(
+                &[vec3(-0.12, y, 0.5), vec3(0.0, y, 0.31), vec3(0.42, y * 0.9, 0.14), vec3(0.42, y * 0.9, 0.07)],
+                0.012,
+                8,
+            ),
+        );
         model.add(metal.black, Shape::rounded_block(vec3(0.3, 0.05, 0.03), 0.012).moved(vec3(0.06, y, 0.7)));
         model.add(metal.black, Shape::rounded_block(vec3(0.16, 0.14, 0.015), 0.005).moved(vec3(0.6, 0.1 * side, 0.11)));
         model.add(metal.black, Shape::capsule(vec3(-0.24, y, 0.98), vec3(-0.33, y, 0.97), 0.015, 8));

@@ -105,8 +105,13 @@ const BOTTOMS: [Vec3; 9] = [
     vec3(0.2, 0.2, 0.2),
     vec3(0.05, 0.05, 0.035),
 ];
-const SHOES: [Vec3; 5] =
-    [vec3(0.01, 0.01, 0.011), vec3(0.015, 0.014, 0.014), vec3(0.62, 0.62, 0.6), vec3(0.08, 0.04, 0.02), vec3(0.2, 0.2, 0.21)];
+const SHOES: [Vec3; 5] = [
+    vec3(0.01, 0.01, 0.011),
+    vec3(0.015, 0.014, 0.014),
+    vec3(0.62, 0.62, 0.6),
+    vec3(0.08, 0.04, 0.02),
+    vec3(0.2, 0.2, 0.21),
+];
 
 impl Wardrobe {
     /// Adds the slots to a model, tops and bottoms in the colours given or in everyone's.

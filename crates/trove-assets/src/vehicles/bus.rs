@@ -19,8 +19,13 @@ const CITY: [Vec3; 7] = [
     vec3(0.02, 0.08, 0.3),
     vec3(0.65, 0.42, 0.02),
 ];
-const COACH: [Vec3; 5] =
-    [vec3(0.74, 0.74, 0.72), vec3(0.74, 0.74, 0.72), vec3(0.4, 0.41, 0.42), vec3(0.03, 0.06, 0.2), vec3(0.3, 0.02, 0.03)];
+const COACH: [Vec3; 5] = [
+    vec3(0.74, 0.74, 0.72),
+    vec3(0.74, 0.74, 0.72),
+    vec3(0.4, 0.41, 0.42),
+    vec3(0.03, 0.06, 0.2),
+    vec3(0.3, 0.02, 0.03),
+];
 
 /// Every bus.
 pub(crate) fn assets() -> Vec<Asset> {
@@ -43,7 +48,8 @@ pub(crate) fn assets() -> Vec<Asset> {
         front_low_m: 1.15,
         ..city
     };
-    let midi = BusPlan { length_m: 8.2, width_m: 2.35, height_m: 3.0, axles_m: &[2.2, 6.1], doors_m: &[(0.7, 1.1)], ..city };
+    let midi =
+        BusPlan { length_m: 8.2, width_m: 2.35, height_m: 3.0, axles_m: &[2.2, 6.1], doors_m: &[(0.7, 1.1)], ..city };
     let double = BusPlan {
         length_m: 11.0,
         height_m: 4.35,
@@ -229,7 +235,8 @@ impl BusPlan {
                 angles.map(|a| vec3(-axle + a.cos() * radius, y, WHEEL_M + a.sin() * radius)).collect()
             };
             let well = Shape::sheet(&[row(half - 0.62), row(half - 0.004)]);
-            let wall = Shape::block(vec3(radius * 2.0, 0.02, radius * 1.6)).moved(vec3(-axle, half - 0.63, WHEEL_M + 0.12));
+            let wall =
+                Shape::block(vec3(radius * 2.0, 0.02, radius * 1.6)).moved(vec3(-axle, half - 0.63, WHEEL_M + 0.12));
             parts.push(well.and(wall).slot(palette.seam).both_sides());
             let rim = if i == 0 { Rim::Steel } else { Rim::DeepSteel };
             let tyre = wheel(palette, WHEEL_M, 0.28, rim).moved(vec3(-axle, half - 0.19, WHEEL_M));
@@ -252,7 +259,11 @@ impl BusPlan {
             while s < to - 0.5 {
                 for y in [half - 0.45, -half + 0.45] {
                     parts.push(Shape::rounded_block(vec3(0.12, 0.86, 0.72), 0.05).moved(vec3(-s, y, low + 0.12)));
-                    parts.push(Shape::rounded_block(vec3(0.42, 0.86, 0.12), 0.04).moved(vec3(-s + 0.25, y, low - 0.12)));
+                    parts.push(Shape::rounded_block(vec3(0.42, 0.86, 0.12), 0.04).moved(vec3(
+                        -s + 0.25,
+                        y,
+                        low - 0.12,
+                    )));
                 }
                 let pole = Shape::tube(&[vec3(-s, half - 0.9, floor), vec3(-s, half - 0.9, high + 0.1)], 0.018, 6);
                 bars.push(pole);
@@ -261,7 +272,11 @@ impl BusPlan {
         }
         let low = self.decks[0].0;
         let seat = if self.doors_left { -0.6 } else { 0.6 };
-        parts.push(Shape::rounded_block(vec3(0.35, half * 1.9, 0.25), 0.08).moved(vec3(-0.5, 0.0, self.front_low_m - 0.12)));
+        parts.push(Shape::rounded_block(vec3(0.35, half * 1.9, 0.25), 0.08).moved(vec3(
+            -0.5,
+            0.0,
+            self.front_low_m - 0.12,
+        )));
         parts.push(Shape::rounded_block(vec3(0.14, 0.5, 0.9), 0.05).moved(vec3(-1.5, seat, low + 0.1)));
         let ring: Vec<Vec3> = (0..=16).map(|i| Vec2::from_angle(TAU * i as f32 / 16.0).extend(0.0) * 0.23).collect();
         let steering = Shape::tube(&ring, 0.016, 6).turned(Quat::from_rotation_y(-0.5));
@@ -274,8 +289,11 @@ impl BusPlan {
         let (half, top) = (self.width_m / 2.0, self.height_m - 0.18);
         let z = self.decks[0].1;
         let arm = [vec3(-0.35, half - 0.12, z), vec3(-0.1, half + 0.05, z + 0.05), vec3(-0.02, half + 0.1, z - 0.15)];
-        let mirror = Shape::tube(&arm, 0.02, 6)
-            .and(Shape::rounded_block(vec3(0.1, 0.2, 0.38), 0.04).moved(vec3(-0.02, half + 0.1, z - 0.32)));
+        let mirror = Shape::tube(&arm, 0.02, 6).and(Shape::rounded_block(vec3(0.1, 0.2, 0.38), 0.04).moved(vec3(
+            -0.02,
+            half + 0.1,
+            z - 0.32,
+        )));
         let mut parts = vec![mirror.both_sides().slot(palette.trim)];
         let box_at = |s: f32, length: f32| {
             Shape::rounded_block(vec3(length, 1.7, 0.24), 0.07).moved(vec3(-s, 0.0, top + 0.06)).slot(palette.paint)
@@ -286,7 +304,11 @@ impl BusPlan {
         }
         let wiper = |y: f32| {
             let low = self.front_low_m;
-            Shape::tube(&[vec3(-0.0, y, low - 0.02), vec3(-0.03, y + 0.1, low + 0.5), vec3(-0.04, y + 0.12, low + 0.85)], 0.012, 5)
+            Shape::tube(
+                &[vec3(-0.0, y, low - 0.02), vec3(-0.03, y + 0.1, low + 0.5), vec3(-0.04, y + 0.12, low + 0.85)],
+                0.012,
+                5,
+            )
         };
         parts.push(wiper(0.25).and(wiper(-0.75)).slot(palette.trim));
         Shape::join(parts)

@@ -144,9 +144,19 @@ impl CarPlan {
         ];
         skin = skin.mark_both(&front(&fog), palette.trim);
         let tail_lamp = if self.tall_tail_lamps {
-            [vec2(half * 0.8, tail - 0.2), vec2(half, tail - 0.2), vec2(half, tail + 0.3), vec2(half * 0.84, tail + 0.3)]
+            [
+                vec2(half * 0.8, tail - 0.2),
+                vec2(half, tail - 0.2),
+                vec2(half, tail + 0.3),
+                vec2(half * 0.84, tail + 0.3),
+            ]
         } else {
-            [vec2(half * 0.5, tail - 0.2), vec2(half, tail - 0.21), vec2(half, tail - 0.06), vec2(half * 0.5, tail - 0.08)]
+            [
+                vec2(half * 0.5, tail - 0.2),
+                vec2(half, tail - 0.21),
+                vec2(half, tail - 0.06),
+                vec2(half * 0.5, tail - 0.08),
+            ]
         };
         skin = skin.mark_both(&back(&tail_lamp), palette.red);
         let blinker = rect(1.0, tail - 0.15, tail - 0.11).map(|q| vec2(half * 0.86 + q.x * half * 0.1, q.y));
@@ -267,8 +277,7 @@ impl CarPlan {
         let arm = Shape::rounded_block(vec3(0.07, 0.12, 0.04), 0.015).moved(vec3(-s, y + 0.03, z - 0.02));
         let shell = Shape::rounded_block(vec3(0.11, 0.2, 0.14), 0.045).moved(vec3(-s, y + 0.13, z + 0.04));
         let pane = Shape::block(vec3(0.004, 0.16, 0.1)).moved(vec3(-s - 0.055, y + 0.13, z + 0.04));
-        let mut parts =
-            vec![arm.slot(palette.trim), shell.slot(palette.paint), pane.slot(palette.chrome)];
+        let mut parts = vec![arm.slot(palette.trim), shell.slot(palette.paint), pane.slot(palette.chrome)];
         let mut ends: Vec<f32> = self.pillars_m.clone();
         ends.truncate(2);
         for s in ends {

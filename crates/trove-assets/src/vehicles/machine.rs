@@ -51,7 +51,8 @@ fn cab(palette: &Palette, size: Vec3, at: Vec3) -> Shape {
             .map(|(x, y)| vec3(x, y, z))
             .to_vec()
     };
-    let shell = Shape::loft(&[ring(-half.z, 0.0), ring(-half.z * 0.1, 0.0), ring(half.z * 0.88, 0.09), ring(half.z, 0.16)]);
+    let shell =
+        Shape::loft(&[ring(-half.z, 0.0), ring(-half.z * 0.1, 0.0), ring(half.z * 0.88, 0.09), ring(half.z, 0.16)]);
     let mut shell = shell.slot(palette.paint);
     let pane = |h: f32| {
         let (low, high) = (-half.z * 0.35, half.z * 0.78);
@@ -60,7 +61,11 @@ fn cab(palette: &Palette, size: Vec3, at: Vec3) -> Shape {
     shell = shell.mark_both(&Prism::side(&pane(half.x), 0.1..=2.0), palette.glass);
     shell = shell.mark(&Prism::front(&pane(half.y), 0.1..=2.0), palette.glass);
     shell = shell.mark(&Prism::front(&pane(half.y), -2.0..=-0.1), palette.glass);
-    let seat = block([0.5, 0.5, 0.15], [-0.05, 0.0, -half.z * 0.45], 0.05).and(block([0.14, 0.5, 0.7], [-0.3, 0.0, -half.z * 0.1], 0.05));
+    let seat = block([0.5, 0.5, 0.15], [-0.05, 0.0, -half.z * 0.45], 0.05).and(block(
+        [0.14, 0.5, 0.7],
+        [-0.3, 0.0, -half.z * 0.1],
+        0.05,
+    ));
     let roof = block([size.x * 0.9, size.y * 0.9, 0.06], [0.0, 0.0, half.z + 0.02], 0.02);
     let beacon = Shape::cylinder(0.07, 0.14, 12).moved(vec3(-half.x * 0.5, half.y * 0.4, half.z + 0.04));
     Shape::join([shell, seat.slot(palette.interior), roof.slot(palette.trim), beacon.slot(palette.amber)]).moved(at)
@@ -80,9 +85,7 @@ fn beam(points: &[(f32, f32, f32)], y: f32, width_m: f32) -> Shape {
             [(up, w), (up, -w), (-up, -w), (-up, w)].map(|(u, dy)| vec3(x + u.x, y + dy, z + u.y)).to_vec()
         })
         .collect();
-    let shape = Shape::loft(&rings).smooth(0.3);
-    let flipped = points.len() > 1;
-    if flipped { shape.inside_out() } else { shape }
+    Shape::loft(&rings).smooth(0.3)
 }
 
 fn cylinder_between(palette: &Palette, from: Vec3, to: Vec3, radius_m: f32) -> Shape {
@@ -101,7 +104,9 @@ fn excavator(palette: &Palette) -> Shape {
             vec2(a.cos() * r + if a.cos() < 0.0 { -reach } else { reach }, a.sin() * r + r)
         })
         .collect();
-    let track = upright(Shape::extruded(&outline[..24].iter().rev().map(|p| vec2(p.x, -p.y)).rev().collect::<Vec<_>>(), 0.5));
+    // Put upright, what was y runs down.
+    let outline: Vec<Vec2> = outline[..24].iter().map(|p| vec2(p.x, -p.y)).collect();
+    let track = upright(Shape::extruded(&counter_clockwise(outline), 0.5));
     let track = track.moved(vec3(0.0, 0.75, 0.0));
     let mut undercarriage = vec![track];
     let length = 2.0 * reach;
@@ -112,9 +117,8 @@ fn excavator(palette: &Palette) -> Shape {
         }
     }
     parts.push(Shape::join(undercarriage).both_sides().slot(palette.rubber));
-    let rollers = (0..6).map(|i| {
-        upright(Shape::cylinder(0.14, 0.06, 14)).moved(vec3(-1.1 + 0.44 * i as f32, 1.22, 0.2))
-    });
+    let rollers =
+        (0..6).map(|i| upright(Shape::cylinder(0.14, 0.06, 14)).moved(vec3(-1.1 + 0.44 * i as f32, 1.22, 0.2)));
     parts.push(Shape::join(rollers).both_sides().slot(palette.rim));
     parts.push(block([2.2, 1.5, 0.35], [0.0, 0.0, 0.55], 0.08).slot(palette.trim));
     parts.push(Shape::cylinder(0.65, 0.2, 24).moved(vec3(0.0, 0.0, 0.72)).slot(palette.trim));
@@ -123,7 +127,8 @@ fn excavator(palette: &Palette) -> Shape {
     parts.push(block([1.5, 2.4, 0.85], [-1.1, 0.0, 1.55], 0.14).slot(palette.paint));
     parts.push(block([0.7, 2.44, 0.95], [-1.85, 0.0, 1.45], 0.24).slot(palette.trim));
     for k in 0..5 {
-        parts.push(block([0.9, 0.02, 0.04], [-1.05, 1.2, 1.35 + 0.1 * k as f32], 0.005).both_sides().slot(palette.seam));
+        parts
+            .push(block([0.9, 0.02, 0.04], [-1.05, 1.2, 1.35 + 0.1 * k as f32], 0.005).both_sides().slot(palette.seam));
     }
     parts.push(Shape::tube(&[vec3(-1.3, -0.5, 1.9), vec3(-1.3, -0.5, 2.3)], 0.06, 10).slot(palette.trim));
     parts.push(cab(palette, vec3(1.5, 0.95, 1.65), vec3(0.25, 0.72, 1.95)));
@@ -136,12 +141,25 @@ fn excavator(palette: &Palette) -> Shape {
     parts.push(cylinder_between(palette, vec3(1.0, -0.1, 1.2), vec3(1.85, -0.1, 2.6), 0.09));
     parts.push(cylinder_between(palette, vec3(1.9, -0.1, 3.35), vec3(3.55, -0.1, 3.15), 0.08));
     parts.push(cylinder_between(palette, vec3(4.15, -0.1, 2.4), vec3(3.75, -0.1, 1.1), 0.07));
-    let bucket: Vec<Vec2> = [(3.55, 1.0), (3.2, 0.95), (2.75, 0.62), (2.7, 0.25), (2.95, 0.02), (3.35, 0.0), (3.45, 0.1), (3.0, 0.15), (2.85, 0.35), (2.95, 0.6), (3.3, 0.82)]
-        .map(|(x, z)| vec2(x, -z))
-        .to_vec();
+    let bucket: Vec<Vec2> = [
+        (3.55, 1.0),
+        (3.2, 0.95),
+        (2.75, 0.62),
+        (2.7, 0.25),
+        (2.95, 0.02),
+        (3.35, 0.0),
+        (3.45, 0.1),
+        (3.0, 0.15),
+        (2.85, 0.35),
+        (2.95, 0.6),
+        (3.3, 0.82),
+    ]
+    .map(|(x, z)| vec2(x, -z))
+    .to_vec();
     let bucket = upright(Shape::extruded(&counter_clockwise(bucket), 1.0)).moved(vec3(0.0, -0.6, 0.0));
     parts.push(bucket.slot(palette.trim));
-    let cheek: Vec<Vec2> = [(3.5, 1.0), (2.75, 0.62), (2.7, 0.25), (2.95, 0.02), (3.4, 0.02)].map(|(x, z)| vec2(x, -z)).to_vec();
+    let cheek: Vec<Vec2> =
+        [(3.5, 1.0), (2.75, 0.62), (2.7, 0.25), (2.95, 0.02), (3.4, 0.02)].map(|(x, z)| vec2(x, -z)).to_vec();
     for y in [-0.6, 0.37] {
         let side = upright(Shape::extruded(&counter_clockwise(cheek.clone()), 0.03)).moved(vec3(0.0, y, 0.0));
         parts.push(side.slot(palette.trim));
@@ -201,14 +219,20 @@ fn wheel_loader(palette: &Palette) -> Shape {
         }
     }
     parts.push(cylinder_between(palette, vec3(1.0, 0.0, 1.75), vec3(2.75, 0.0, 1.1), 0.08));
-    let bucket: Vec<Vec2> = [(2.75, 1.25), (2.7, 0.5), (2.95, 0.12), (3.75, 0.05), (3.8, 0.1), (3.05, 0.2), (2.82, 0.55), (2.85, 1.2)]
-        .map(|(x, z)| vec2(x, -z))
-        .to_vec();
-    let cheek: Vec<Vec2> = [(2.75, 1.25), (2.7, 0.5), (2.95, 0.12), (3.75, 0.05), (3.1, 1.15)].map(|(x, z)| vec2(x, -z)).to_vec();
+    let bucket: Vec<Vec2> =
+        [(2.75, 1.25), (2.7, 0.5), (2.95, 0.12), (3.75, 0.05), (3.8, 0.1), (3.05, 0.2), (2.82, 0.55), (2.85, 1.2)]
+            .map(|(x, z)| vec2(x, -z))
+            .to_vec();
+    let cheek: Vec<Vec2> =
+        [(2.75, 1.25), (2.7, 0.5), (2.95, 0.12), (3.75, 0.05), (3.1, 1.15)].map(|(x, z)| vec2(x, -z)).to_vec();
     let bucket = upright(Shape::extruded(&counter_clockwise(bucket), 2.5)).moved(vec3(0.0, -1.25, 0.0));
     parts.push(bucket.slot(palette.rim));
     for y in [-1.27, 1.24] {
-        parts.push(upright(Shape::extruded(&counter_clockwise(cheek.clone()), 0.03)).moved(vec3(0.0, y, 0.0)).slot(palette.rim));
+        parts.push(
+            upright(Shape::extruded(&counter_clockwise(cheek.clone()), 0.03))
+                .moved(vec3(0.0, y, 0.0))
+                .slot(palette.rim),
+        );
     }
     parts.push(Shape::tube(&[vec3(-1.6, 0.4, 1.9), vec3(-1.6, 0.4, 2.45)], 0.06, 10).slot(palette.trim));
     Shape::join(parts)

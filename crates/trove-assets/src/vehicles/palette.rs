@@ -95,7 +95,10 @@ impl Palette {
         let mut slot = |material| model.slot(material, &[]);
         Self {
             trim: slot(Material::plain("black plastic", Vec3::splat(0.022), 0.55)),
-            glass: slot(Material { transmission: 0.92, ..Material::plain("tinted glass", vec3(0.42, 0.47, 0.46), 0.02) }),
+            glass: slot(Material {
+                transmission: 0.92,
+                ..Material::plain("tinted glass", vec3(0.42, 0.47, 0.46), 0.02)
+            }),
             rubber: slot(Material::plain("tyre", Vec3::splat(0.024), 0.85)),
             rim: slot(metal("alloy", 0.55, 0.32)),
             chrome: slot(metal("chrome", 0.7, 0.12)),

@@ -43,13 +43,8 @@ pub(crate) struct TruckPlan {
 impl TruckPlan {
     pub(crate) fn build(&self, palette: &Palette) -> Shape {
         let gap = self.cab_length_m + 0.12;
-        let bed = Bed {
-            from: gap,
-            to: self.length_m,
-            half: self.width_m / 2.0,
-            deck: self.deck_m,
-            top: self.load_height_m,
-        };
+        let bed =
+            Bed { from: gap, to: self.length_m, half: self.width_m / 2.0, deck: self.deck_m, top: self.load_height_m };
         let load = match self.load {
             Load::Box => bed.closed(palette),
             Load::Canvas => bed.canvas(palette),
@@ -123,22 +118,36 @@ impl TruckPlan {
         let mut parts = vec![cab, self.guard(self.front_axle_m, half, palette)];
         let mut side = Vec::new();
         let mirror = Shape::rounded_block(vec3(0.1, 0.2, 0.36), 0.04).moved(vec3(-0.16, half + 0.16, belt + 0.42));
-        let arm = Shape::tube(&[vec3(-0.25, half - 0.05, top - 0.2), vec3(-0.16, half + 0.14, top - 0.25), vec3(-0.16, half + 0.16, belt + 0.5)], 0.014, 6);
+        let arm = Shape::tube(
+            &[
+                vec3(-0.25, half - 0.05, top - 0.2),
+                vec3(-0.16, half + 0.14, top - 0.25),
+                vec3(-0.16, half + 0.16, belt + 0.5),
+            ],
+            0.014,
+            6,
+        );
         side.push(mirror.and(arm).slot(palette.trim));
-        let handle = Shape::rounded_block(vec3(0.18, 0.03, 0.035), 0.01).moved(vec3(-length + 0.5, half + 0.01, belt - 0.12));
+        let handle =
+            Shape::rounded_block(vec3(0.18, 0.03, 0.035), 0.01).moved(vec3(-length + 0.5, half + 0.01, belt - 0.12));
         side.push(handle.slot(palette.trim));
-        let step = Shape::rounded_block(vec3(0.4, 0.14, 0.06), 0.02).moved(vec3(-nose - 0.5, half - 0.08, floor - 0.08));
+        let step =
+            Shape::rounded_block(vec3(0.4, 0.14, 0.06), 0.02).moved(vec3(-nose - 0.5, half - 0.08, floor - 0.08));
         side.push(step.slot(palette.trim));
         parts.push(Shape::join(side).both_sides());
         // Inside: dashboard, seats, rear wall.
         let dash = Shape::rounded_block(vec3(0.4, half * 1.9, 0.2), 0.06).moved(vec3(-nose - 0.35, 0.0, belt - 0.1));
         let seat = |y: f32| {
             let x = -length + 0.55;
-            Shape::rounded_block(vec3(0.16, 0.5, 0.75), 0.06).moved(vec3(x, y, belt + 0.05)).and(
-                Shape::rounded_block(vec3(0.5, 0.5, 0.16), 0.06).moved(vec3(x + 0.2, y, belt - 0.25)),
-            )
+            Shape::rounded_block(vec3(0.16, 0.5, 0.75), 0.06)
+                .moved(vec3(x, y, belt + 0.05))
+                .and(Shape::rounded_block(vec3(0.5, 0.5, 0.16), 0.06).moved(vec3(x + 0.2, y, belt - 0.25)))
         };
-        let wall = Shape::block(vec3(0.02, half * 1.94, top - floor - 0.3)).moved(vec3(-length + 0.06, 0.0, (top + floor) / 2.0 - 0.1));
+        let wall = Shape::block(vec3(0.02, half * 1.94, top - floor - 0.3)).moved(vec3(
+            -length + 0.06,
+            0.0,
+            (top + floor) / 2.0 - 0.1,
+        ));
         parts.push(Shape::join([dash, seat(half * 0.55), seat(-half * 0.55), wall]).slot(palette.interior));
         Shape::join(parts)
     }
@@ -180,7 +189,8 @@ impl TruckPlan {
             let boxes = Shape::rounded_block(vec3((room * 0.5).min(0.9), 0.45, 0.5), 0.03);
             parts.push(boxes.moved(vec3(x, -half + 0.3, self.deck_m - 0.42)).slot(palette.trim));
             for z in [0.45, 0.75] {
-                let rail = Shape::block(vec3(room, 0.03, 0.09)).moved(vec3(-(back - r - 0.25 - room / 2.0), half - 0.04, z));
+                let rail =
+                    Shape::block(vec3(room, 0.03, 0.09)).moved(vec3(-(back - r - 0.25 - room / 2.0), half - 0.04, z));
                 parts.push(rail.both_sides().slot(palette.rim));
             }
         }
@@ -191,7 +201,8 @@ impl TruckPlan {
 
 /// A pair of twin wheels.
 fn twin(palette: &Palette, radius_m: f32, width_m: f32, axle: f32, half: f32) -> Shape {
-    let outer = wheel(palette, radius_m, width_m, Rim::DeepSteel).moved(vec3(-axle, half - width_m / 2.0 - 0.02, radius_m));
+    let outer =
+        wheel(palette, radius_m, width_m, Rim::DeepSteel).moved(vec3(-axle, half - width_m / 2.0 - 0.02, radius_m));
     let inner = upright(Shape::cylinder(radius_m, width_m, 24));
     let inner = inner.moved(vec3(-axle, half - width_m * 2.1 - 0.02, radius_m)).slot(palette.rubber);
     outer.and(inner).both_sides()
@@ -207,7 +218,8 @@ fn rear_bar(palette: &Palette, length_m: f32, half: f32, deck: f32) -> Shape {
         bar = bar.mark(&Prism::front(&stripe, -length_m - 0.1..=-length_m + 0.1), palette.seam);
     }
     let mut parts = vec![bar];
-    let lamp = |y: f32, w: f32| Shape::rounded_block(vec3(0.05, w, 0.12), 0.015).moved(vec3(-length_m + 0.12, y, z + 0.2));
+    let lamp =
+        |y: f32, w: f32| Shape::rounded_block(vec3(0.05, w, 0.12), 0.015).moved(vec3(-length_m + 0.12, y, z + 0.2));
     for side in [1.0, -1.0] {
         parts.push(lamp(side * (half - 0.14), 0.22).slot(palette.red));
         parts.push(lamp(side * (half - 0.31), 0.12).slot(palette.amber));
@@ -266,7 +278,8 @@ impl Bed {
         }
         let mut parts = vec![shell, self.floor(palette)];
         for y in [-0.5, -0.16, 0.16, 0.5] {
-            let rod = Shape::tube(&[vec3(-self.to - 0.02, y, low + 0.04), vec3(-self.to - 0.02, y, high - 0.05)], 0.016, 6);
+            let rod =
+                Shape::tube(&[vec3(-self.to - 0.02, y, low + 0.04), vec3(-self.to - 0.02, y, high - 0.05)], 0.016, 6);
             let latch = Shape::block(vec3(0.03, 0.16, 0.03)).moved(vec3(-self.to - 0.03, y, low + 0.5));
             parts.push(rod.and(latch).slot(palette.rim));
         }
@@ -292,7 +305,9 @@ impl Bed {
             for i in 0..=bays {
                 let x = -self.from - 0.06 - (self.to - self.from - 0.12) * i as f32 / bays as f32;
                 let post = Shape::block(vec3(0.08, 0.06, self.top - self.deck - 0.1));
-                parts.push(post.moved(vec3(x, side * (self.half - 0.05), (self.top + self.deck) / 2.0)).slot(palette.rim));
+                parts.push(
+                    post.moved(vec3(x, side * (self.half - 0.05), (self.top + self.deck) / 2.0)).slot(palette.rim),
+                );
             }
         }
         let wall = Shape::block(vec3(0.06, self.half * 1.96, self.top - self.deck - 0.1));
@@ -306,14 +321,21 @@ impl Bed {
     fn tail_lift(&self, palette: &Palette) -> Shape {
         let (low, high) = (self.deck - 0.02, self.deck + 1.55_f32.min(self.top - self.deck - 0.5));
         let x = -self.to - 0.07;
-        let panel = Shape::rounded_block(vec3(0.07, self.half * 1.98, high - low), 0.02).moved(vec3(x, 0.0, (low + high) / 2.0));
+        let panel = Shape::rounded_block(vec3(0.07, self.half * 1.98, high - low), 0.02).moved(vec3(
+            x,
+            0.0,
+            (low + high) / 2.0,
+        ));
         let mut panel = panel.slot(palette.rim);
         let back = |polygon: &[Vec2]| Prism::front(polygon, x - 0.2..=x);
         for side in [1.0, -1.0] {
             for k in 0..5 {
                 let (y, z) = (side * self.half * 0.62, low + 0.15 + 0.16 * k as f32);
                 let slot = if k % 2 == 0 { palette.amber } else { palette.plate };
-                panel = panel.mark(&back(&[vec2(y - 0.07, z), vec2(y + 0.07, z), vec2(y + 0.07, z + 0.16), vec2(y - 0.07, z + 0.16)]), slot);
+                panel = panel.mark(
+                    &back(&[vec2(y - 0.07, z), vec2(y + 0.07, z), vec2(y + 0.07, z + 0.16), vec2(y - 0.07, z + 0.16)]),
+                    slot,
+                );
             }
         }
         let mut parts = vec![panel];
@@ -333,17 +355,28 @@ impl Bed {
             let (a, b, h) = (-self.from - inset, -self.to + inset * 0.5, self.half - inset);
             vec![vec3(a, -h, z), vec3(a, h, z), vec3(b, h, z), vec3(b, -h, z)]
         };
-        let shell = Shape::loft(&[ring(low, 0.22), ring(low + 0.25, 0.05), ring(high, 0.0), ring(high, 0.07), ring(high - 0.3, 0.09)]);
+        let shell = Shape::loft(&[
+            ring(low, 0.22),
+            ring(low + 0.25, 0.05),
+            ring(high, 0.0),
+            ring(high, 0.07),
+            ring(high - 0.3, 0.09),
+        ]);
         let mut parts = vec![shell.smooth(0.2).slot(palette.second)];
         let ribs = ((self.to - self.from) / 0.7) as usize;
         for i in 0..=ribs {
             let x = -self.from - 0.1 - (self.to - self.from - 0.2) * i as f32 / ribs as f32;
-            let rib = Shape::block(vec3(0.09, 0.07, high - low - 0.15)).moved(vec3(x, self.half - 0.01, (low + high) / 2.0 + 0.05));
+            let rib = Shape::block(vec3(0.09, 0.07, high - low - 0.15)).moved(vec3(
+                x,
+                self.half - 0.01,
+                (low + high) / 2.0 + 0.05,
+            ));
             parts.push(rib.both_sides().slot(palette.second));
         }
         let heap = Shape::ellipsoid(vec3((self.to - self.from) * 0.46, self.half * 0.86, 0.55), 24);
         parts.push(heap.moved(vec3(-(self.from + self.to) / 2.0, 0.0, high - 0.28)).slot(palette.interior));
-        let guard = Shape::rounded_block(vec3(0.7, self.half * 1.8, 0.06), 0.02).moved(vec3(-self.from + 0.3, 0.0, high + 0.1));
+        let guard =
+            Shape::rounded_block(vec3(0.7, self.half * 1.8, 0.06), 0.02).moved(vec3(-self.from + 0.3, 0.0, high + 0.1));
         parts.push(guard.slot(palette.second));
         parts.push(self.floor(palette));
         Shape::join(parts)
@@ -353,14 +386,24 @@ impl Bed {
     pub(crate) fn flatbed(&self, palette: &Palette) -> Shape {
         let front = Shape::block(vec3(0.06, self.half * 1.96, 1.1));
         let front = front.moved(vec3(-self.from - 0.03, 0.0, self.deck + 0.6)).slot(palette.rim);
-        Shape::join([self.floor(palette), self.sides(0.42, palette, palette.rim), front, self.goods(0.5, self.top - self.deck, palette)])
+        Shape::join([
+            self.floor(palette),
+            self.sides(0.42, palette, palette.rim),
+            front,
+            self.goods(0.5, self.top - self.deck, palette),
+        ])
     }
 
     fn sides(&self, height_m: f32, palette: &Palette, slot: u16) -> Shape {
         let z = self.deck + 0.1 + height_m / 2.0;
         let length = self.to - self.from;
-        let long = Shape::rounded_block(vec3(length, 0.04, height_m), 0.012).moved(vec3(-(self.from + self.to) / 2.0, self.half - 0.02, z));
-        let back = Shape::rounded_block(vec3(0.04, self.half * 1.96, height_m), 0.012).moved(vec3(-self.to + 0.02, 0.0, z));
+        let long = Shape::rounded_block(vec3(length, 0.04, height_m), 0.012).moved(vec3(
+            -(self.from + self.to) / 2.0,
+            self.half - 0.02,
+            z,
+        ));
+        let back =
+            Shape::rounded_block(vec3(0.04, self.half * 1.96, height_m), 0.012).moved(vec3(-self.to + 0.02, 0.0, z));
         let mut parts = vec![long.both_sides().slot(slot), back.slot(slot)];
         for i in 0..=4 {
             let x = -self.from - 0.06 - (length - 0.12) * i as f32 / 4.0;
@@ -391,9 +434,11 @@ impl Bed {
     /// Coupling plate, catwalk, hoses and guards of a tractor.
     fn fifth_wheel(&self, palette: &Palette) -> Shape {
         let x = -self.to + 1.35;
-        let plate = Shape::cylinder(0.46, 0.06, 20).turned(Quat::from_rotation_y(-0.05)).moved(vec3(x, 0.0, self.deck + 0.1));
+        let plate =
+            Shape::cylinder(0.46, 0.06, 20).turned(Quat::from_rotation_y(-0.05)).moved(vec3(x, 0.0, self.deck + 0.1));
         let walk = Shape::block(vec3(0.9, 0.9, 0.03)).moved(vec3(-self.from - 0.5, 0.0, self.deck));
-        let stack = Shape::tube(&[vec3(-self.from + 0.02, 0.7, self.deck), vec3(-self.from + 0.02, 0.7, self.top)], 0.07, 12);
+        let stack =
+            Shape::tube(&[vec3(-self.from + 0.02, 0.7, self.deck), vec3(-self.from + 0.02, 0.7, self.top)], 0.07, 12);
         Shape::join([plate.slot(palette.trim), walk.slot(palette.rim), stack.slot(palette.chrome)])
     }
 }

@@ -41,15 +41,34 @@ pub(crate) fn assets() -> Vec<Asset> {
     let truck = |id: &str, plan: TruckPlan, second: &[Vec3]| finish(id, Kind::Truck, second, |p| plan.build(p));
     vec![
         truck("truck/box", heavy, &BOXES),
-        truck("truck/box-long", TruckPlan { length_m: 10.6, load_height_m: 3.7, rear_axles_m: &[7.2, 8.5], ..heavy }, &BOXES),
-        truck("truck/canvas", TruckPlan { load: Load::Canvas, length_m: 9.3, rear_axles_m: &[6.6], load_height_m: 3.55, ..heavy }, &CANVAS),
+        truck(
+            "truck/box-long",
+            TruckPlan { length_m: 10.6, load_height_m: 3.7, rear_axles_m: &[7.2, 8.5], ..heavy },
+            &BOXES,
+        ),
+        truck(
+            "truck/canvas",
+            TruckPlan { load: Load::Canvas, length_m: 9.3, rear_axles_m: &[6.6], load_height_m: 3.55, ..heavy },
+            &CANVAS,
+        ),
         truck(
             "truck/tipper",
-            TruckPlan { load: Load::Tipper, length_m: 8.0, load_height_m: 2.6, deck_m: 1.1, rear_axles_m: &[5.3, 6.65], ..heavy },
+            TruckPlan {
+                load: Load::Tipper,
+                length_m: 8.0,
+                load_height_m: 2.6,
+                deck_m: 1.1,
+                rear_axles_m: &[5.3, 6.65],
+                ..heavy
+            },
             &TIPPERS,
         ),
         truck("truck/delivery", light, &BOXES),
-        truck("truck/flatbed-light", TruckPlan { load: Load::Flatbed, length_m: 5.4, load_height_m: 2.0, rear_axles_m: &[3.95], ..light }, &BOXES),
+        truck(
+            "truck/flatbed-light",
+            TruckPlan { load: Load::Flatbed, length_m: 5.4, load_height_m: 2.0, rear_axles_m: &[3.95], ..light },
+            &BOXES,
+        ),
         truck(
             "truck/tractor",
             TruckPlan {

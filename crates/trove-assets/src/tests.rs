@@ -1,0 +1,81 @@
+//! What holds for every asset.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use trove_model::Kind;
+
+use crate::library;
+
+#[test]
+fn every_asset_is_sound_and_stands_centred_on_the_ground() {
+    let library = library();
+    let mut ids = BTreeSet::new();
+    for asset in &library.assets {
+        let (id, mesh) = (&asset.id, &asset.mesh);
+        assert!(ids.insert(id.clone()), "{id} is there twice");
+        assert_eq!(mesh.defect(), None, "{id}");
+        assert_eq!(mesh.slot_count(), asset.slots.len(), "{id}");
+        let (low, high) = mesh.bounds().unwrap();
+        assert!(low.z.abs() < 1e-6, "{id} stands at {}", low.z);
+        let middle = (low + high) / 2.0;
+        assert!(middle.truncate().length() < 1e-5, "{id} is off by {middle}");
+        assert_eq!(asset.size_m, high.as_dvec3() - low.as_dvec3(), "{id}");
+        assert!(mesh.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-3), "{id} has normals that are not unit");
+        assert_eq!(asset.licence, crate::LICENCE, "{id}");
+    }
+    assert!(library.assets.is_sorted_by(|a, b| a.id < b.id));
+}
+
+#[test]
+fn everything_that_moves_has_models_within_its_budget() {
+    let library = library();
+    let mut count: BTreeMap<Kind, usize> = BTreeMap::new();
+    for asset in &library.assets {
+        *count.entry(asset.kind).or_default() += 1;
+    }
+    #[rustfmt::skip]
+    let wanted = [
+        (Kind::Car, 13), (Kind::PoliceCar, 1), (Kind::Ambulance, 1), (Kind::Truck, 5), (Kind::Trailer, 1),
+        (Kind::ConstructionVehicle, 3), (Kind::Bus, 3), (Kind::ArticulatedBus, 1), (Kind::Motorcycle, 2),
+        (Kind::MotorcycleWithRider, 2), (Kind::Bicycle, 2), (Kind::BicycleWithRider, 2), (Kind::Adult, 8),
+        (Kind::Child, 2), (Kind::ConstructionWorker, 2), (Kind::PoliceOfficer, 1), (Kind::PersonalMobility, 2),
+        (Kind::Stroller, 1), (Kind::Wheelchair, 1), (Kind::Animal, 1),
+    ];
+    for (kind, least) in wanted {
+        let found = count.get(&kind).copied().unwrap_or(0);
+        assert!(found >= least, "{found} of {least} models of {kind:?}");
+        for asset in library.of_kind(kind) {
+            let triangles = asset.mesh.triangles.len();
+            let most = if matches!(kind, Kind::Adult | Kind::Child) { 9_000 } else { 25_000 };
+            assert!(triangles <= most, "{} has {triangles} triangles", asset.id);
+        }
+    }
+}
+
+#[test]
+fn sizes_are_those_of_real_ones() {
+    // Shortest and longest, narrowest and widest, lowest and highest; mirrors included.
+    let ranges = |kind: Kind| match kind {
+        Kind::Car | Kind::PoliceCar => Some([(3.5, 5.6), (1.6, 2.4), (1.35, 2.5)]),
+        Kind::Truck => Some([(5.0, 12.0), (1.9, 3.0), (1.8, 4.0)]),
+        Kind::Bus => Some([(6.9, 13.5), (2.3, 3.2), (2.6, 4.5)]),
+        Kind::Adult => Some([(0.3, 1.2), (0.4, 0.95), (1.5, 2.0)]),
+        Kind::Bicycle => Some([(1.55, 1.9), (0.4, 0.75), (0.95, 1.25)]),
+        Kind::BicycleWithRider => Some([(1.55, 1.9), (0.4, 0.8), (1.5, 2.0)]),
+        _ => None,
+    };
+    for asset in &library().assets {
+        let Some(ranges) = ranges(asset.kind) else { continue };
+        for ((low, high), size) in ranges.into_iter().zip(asset.size_m.to_array()) {
+            assert!((low..=high).contains(&size), "{} measures {}", asset.id, asset.size_m);
+        }
+    }
+}
+
+#[test]
+fn the_library_is_the_same_every_time() {
+    let (a, b) = (library(), library());
+    for (a, b) in a.assets.iter().zip(&b.assets) {
+        assert_eq!((&a.id, &a.mesh), (&b.id, &b.mesh));
+    }
+}
