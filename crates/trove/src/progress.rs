@@ -73,12 +73,12 @@ impl Progress {
         }
     }
 
-    /// There are `total` frames after all, `kept` of them done before this run.
-    pub(crate) fn expect(&self, total: usize) {
+    /// A scene that was thought to have `hint` frames has `count`.
+    pub(crate) fn correct(&self, hint: usize, count: usize) {
         if let Ok(mut state) = self.state.lock() {
-            state.total = total as u64;
+            state.total = (state.total + count as u64).saturating_sub(hint as u64);
             if let Some(bar) = &self.bar {
-                bar.set_length(total as u64 * STEPS);
+                bar.set_length(state.total * STEPS);
             }
         }
     }

@@ -26,7 +26,11 @@ impl<'a> Sources<'a> {
             Some(section) => Some(open_dataset(section, &recipe.at(&section.root), report)?),
             None => None,
         };
-        let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?.map(Arc::new);
+        let environment = recipe
+            .environment_file()
+            .map(|file| environment::read(&file))
+            .transpose()?
+            .map(Arc::new);
         Ok(Self { recipe, dataset, environment })
     }
 
@@ -64,7 +68,8 @@ impl<'a> Sources<'a> {
             report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
             return Ok((drive, None));
         };
-        let map = read_map(&self.recipe.at(path), &drive, report)?;
+        let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
+        let map = osm::read(&self.recipe.at(path), &drive.projection, area, report)?;
         Ok((drive, Some(map)))
     }
 }
@@ -85,27 +90,4 @@ pub(crate) fn open_dataset(section: &DriveSection, root: &Path, report: &Report)
     };
     let cache = cache::folder();
     Ok(NuScenes::open(root, &version, cache.as_deref(), report)?)
-}
-
-/// The part of an extract that lies around a drive; an extract of another place is an error.
-fn read_map(path: &Path, drive: &Drive, report: &Report) -> Result<StreetMap> {
-    let area = trove_build::area(drive).context("the drive is empty")?;
-    let extent = osm::extent(path)?;
-    let corners = [area.min, area.max].map(|corner| drive.projection.geo_from_world(corner));
-    ensure!(
-        extent.overlaps(corners[0], corners[1]),
-        "{}: expected a map of {} (latitude {:.4} to {:.4}, longitude {:.4} to {:.4}), found one of latitude {:.4} to \
-         {:.4}, longitude {:.4} to {:.4}; name the extract of that place in map.osm",
-        path.display(),
-        if drive.place.is_empty() { &drive.id } else { &drive.place },
-        corners[0].0,
-        corners[1].0,
-        corners[0].1,
-        corners[1].1,
-        extent.min_lat_deg,
-        extent.max_lat_deg,
-        extent.min_lon_deg,
-        extent.max_lon_deg,
-    );
-    Ok(osm::read(path, &drive.projection, area, report)?)
 }

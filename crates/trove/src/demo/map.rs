@@ -183,16 +183,15 @@ fn park(file: &mut OsmFile) {
 
 fn furniture(file: &mut OsmFile) {
     let mut random = Seed(1).child("demo furniture").random();
-    let along =
-        |file: &mut OsmFile, step_m: f64, first_m: f64, y: f64, tags: &[(&str, &str)], random: &mut Random| {
-            let mut x = first_m;
-            while x < 180.0 {
-                for sign in [-1.0, 1.0] {
-                    file.node(DVec2::new(sign * x + random.range(-0.5, 0.5), y), tags);
-                }
-                x += step_m;
+    let along = |file: &mut OsmFile, step_m: f64, first_m: f64, y: f64, tags: &[(&str, &str)], random: &mut Random| {
+        let mut x = first_m;
+        while x < 180.0 {
+            for sign in [-1.0, 1.0] {
+                file.node(DVec2::new(sign * x + random.range(-0.5, 0.5), y), tags);
             }
-        };
+            x += step_m;
+        }
+    };
     let kerbside = MAIN_HALF_M + 0.9;
     for side in [-1.0, 1.0] {
         along(file, 28.0, 22.0, side * kerbside, &[("highway", "street_lamp")], &mut random);

@@ -60,25 +60,26 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
     let output = OutputFolder::open(out, &identity)?;
-    let frames_hint = frames_hint(recipe, &scenes);
+    let hints: Vec<usize> = scenes.iter().map(|(_, keyframes)| frames_hint(recipe, *keyframes)).collect();
+    let planned = hints.iter().sum::<usize>() * recipe.variations.count as usize;
     let mut run = Run {
         recipe,
         renderer,
         sources,
         library: trove_assets::library(),
         output,
-        progress: Progress::new(frames_hint),
+        progress: Progress::new(planned),
         report,
         rows: Vec::new(),
         sites: Vec::new(),
         rendered: 0,
     };
-    for (scene, _) in &scenes {
-        if let Err(stop) = run.scene(scene) {
+    for ((scene, _), hint) in scenes.iter().zip(hints) {
+        if let Err(stop) = run.scene(scene, hint) {
             run.progress.finish();
             return match stop {
                 Stop::Interrupted => {
-                    let frames = frames_hint.max(run.rows.len());
+                    let frames = planned.max(run.rows.len());
                     Ok(Summary { frames, rendered: run.rendered, interrupted: true })
                 }
                 Stop::Failed(error) => Err(error),
@@ -101,14 +102,14 @@ fn identity(recipe: &Recipe, renderer: &Renderer) -> Result<Value> {
     }))
 }
 
-fn frames_hint(recipe: &Recipe, scenes: &[(String, usize)]) -> usize {
+/// Frames of one variation of a scene with so many keyframes, before its drive has been read.
+fn frames_hint(recipe: &Recipe, keyframes: usize) -> usize {
     let cameras = recipe.camera_names().map_or(CAMERAS_HINT, |names| names.len());
-    let views = cameras * (1 + recipe.views.other_vehicles);
-    let chosen = |&(_, count): &(String, usize)| match &recipe.drive {
-        Some(drive) => drive.keyframes.of(count).map_or(0, |keyframes| keyframes.len()),
-        None => count,
+    let chosen = match &recipe.drive {
+        Some(drive) => drive.keyframes.of(keyframes).map_or(0, |chosen| chosen.len()),
+        None => keyframes,
     };
-    scenes.iter().map(chosen).sum::<usize>() * views * recipe.variations.count as usize
+    chosen * cameras * (1 + recipe.views.other_vehicles)
 }
 
 /// Why a run ends early.
@@ -147,7 +148,7 @@ struct Built {
 
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
-    fn scene(&mut self, scene: &str) -> Result<(), Stop> {
+    fn scene(&mut self, scene: &str, frames_hint: usize) -> Result<(), Stop> {
         for variation in 0..self.recipe.variations.count {
             let folder = self.output.root().join(scene).join(format!("v{variation:02}"));
             let known = SiteFile::read(&folder);
@@ -165,6 +166,7 @@ impl Run<'_> {
                             (file, Some(built))
                         }
                         Err(error) => {
+                            self.progress.correct(frames_hint, 0);
                             self.progress.say(&format!("{scene} is passed over: {error:#}"));
                             self.report.note(Outcome::Dropped, "scene", format!("{scene}: {error:#}"));
                             continue;
@@ -172,6 +174,7 @@ impl Run<'_> {
                     }
                 }
             };
+            self.progress.correct(frames_hint, file.frames.len());
             self.frames(scene, variation, &file, built.as_ref())?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
         }
