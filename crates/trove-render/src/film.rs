@@ -19,8 +19,8 @@ const TRIM: [f64; 2] = [0.05, 0.05];
 /// Exposed radiance of a grey card, and the encoded grey that it becomes (118 of 255).
 const GREY: [f32; 2] = [0.18, 0.463];
 
-/// Steepness of the tone curve: at middle grey a little more contrast than the bare sRGB encoding, which is 0.81.
-const CONTRAST: f32 = 0.92;
+/// Steepness of the tone curve; the bare sRGB encoding has 0.81 at middle grey.
+const CONTRAST: f32 = 0.82;
 
 /// Exposed radiance that just becomes white: five and a half stops above the grey card.
 const WHITE: f32 = 8.0;

@@ -5,8 +5,10 @@
 //! sun's disk counts both; a point on an emitter has its own.
 
 mod cdf;
+mod clouds;
 mod dome;
 mod emitters;
+mod noise;
 mod sky;
 mod sun;
 

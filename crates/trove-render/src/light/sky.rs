@@ -1,14 +1,20 @@
 //! The sky by day and by night, as a picture, and the sun in it.
 
+use std::f32::consts::PI;
+
 use glam::Vec3;
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use rayon::prelude::*;
 use trove_model::{EnvironmentMap, PhysicalSky};
 
+use super::clouds::Clouds;
 use super::{dome, sun};
 
 /// Columns of the picture, and twice its rows.
-const WIDTH: usize = 1024;
+const WIDTH: usize = 2560;
+
+/// The same for the clear sky that only has to be summed.
+const COARSE_WIDTH: usize = 128;
 
 /// Mean irradiance above the atmosphere in the scale of [`trove_model::Light`]: under a clear midday sun (60° high,
 /// turbidity 3) sun and sky together give a white diffuse surface a radiance of 1.
@@ -39,25 +45,36 @@ pub(super) struct BakedSky {
 pub(super) fn bake(sky: &PhysicalSky) -> BakedSky {
     let air = Air::new(sky);
     let (width, height) = (WIDTH, WIDTH / 2);
-    let mut rgb = vec![[0.0; 3]; width * height];
-    rgb[..width * height / 2].par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, texel) in row.iter_mut().enumerate() {
-            *texel = air.radiance(dome::direction_of(x, y, width, height)).to_array();
-        }
+    // The clear sky, coarsely, lights the clouds and the ground below them.
+    let coarse = upper_half(COARSE_WIDTH, |direction| air.radiance(direction));
+    let from_clear_sky = irradiance_from_above(&coarse, COARSE_WIDTH);
+    let clouds =
+        Clouds::new(sky, air.sun_irradiance, from_clear_sky / PI, air.ground(air.sun_irradiance, from_clear_sky));
+    let sun_irradiance = air.sun_irradiance * Clouds::sun_share(sky.cloud_cover);
+
+    let mut rgb = upper_half(width, |direction| {
+        let clear = air.radiance(direction);
+        clouds.as_ref().map_or(clear, |clouds| clouds.before(clear, direction))
     });
-    let ground = air.ground(irradiance_from_above(&rgb, width, height));
-    rgb[width * height / 2..].fill(ground.to_array());
+    let ground = air.ground(sun_irradiance, irradiance_from_above(&rgb, width));
+    rgb.resize(width * height, ground.to_array());
     let map = EnvironmentMap { name: "sky".into(), width: width as u32, height: height as u32, rgb };
-    BakedSky { map, to_sun: air.to_sun, sun_irradiance: air.sun_irradiance }
+    BakedSky { map, to_sun: air.to_sun, sun_irradiance }
+}
+
+/// The upper half of a picture, `width` texels wide.
+fn upper_half(width: usize, radiance: impl Fn(Vec3) -> Vec3 + Sync) -> Vec<[f32; 3]> {
+    let texel = |i: usize| radiance(dome::direction_of(i % width, i / width, width, width / 2)).to_array();
+    (0..width * width / 4).into_par_iter().map(texel).collect()
 }
 
 /// Irradiance of level ground from the upper half of a picture.
-fn irradiance_from_above(rgb: &[[f32; 3]], width: usize, height: usize) -> Vec3 {
+fn irradiance_from_above(rgb: &[[f32; 3]], width: usize) -> Vec3 {
+    let height = width / 2;
     let row = |y: usize| {
         let sum: Vec3 = rgb[y * width..(y + 1) * width].iter().map(|&c| Vec3::from(c)).sum();
-        let (upper, lower) = (y as f32 / height as f32, (y + 1) as f32 / height as f32);
-        let projected = (std::f32::consts::PI * lower).sin().powi(2) - (std::f32::consts::PI * upper).sin().powi(2);
-        sum / width as f32 * std::f32::consts::PI * projected
+        let sin_squared = |y: usize| (PI * y as f32 / height as f32).sin().powi(2);
+        sum / width as f32 * PI * (sin_squared(y + 1) - sin_squared(y))
     };
     (0..height / 2).map(row).sum()
 }
@@ -99,10 +116,9 @@ impl Air {
         day * SKY_SCALE * self.twilight + NIGHT
     }
 
-    /// Radiance of the ground far away, lit by the sky's irradiance and the sun.
-    fn ground(&self, from_sky: Vec3) -> Vec3 {
-        let from_sun = self.sun_irradiance * self.to_sun.z.max(0.0);
-        (from_sky + from_sun) * self.ground_albedo * std::f32::consts::FRAC_1_PI
+    /// Radiance of the ground far away, from the irradiance facing the sun and that from the sky.
+    fn ground(&self, from_sun: Vec3, from_sky: Vec3) -> Vec3 {
+        (from_sky + from_sun * self.to_sun.z.max(0.0)) * self.ground_albedo / PI
     }
 }
 
@@ -124,8 +140,7 @@ mod tests {
 
     /// Brightness of level ground: from the sun, from the sky.
     fn light(sky: &BakedSky) -> (f32, f32) {
-        let (width, height) = (sky.map.width as usize, sky.map.height as usize);
-        let from_sky = luminance(irradiance_from_above(&sky.map.rgb, width, height));
+        let from_sky = luminance(irradiance_from_above(&sky.map.rgb, sky.map.width as usize));
         (luminance(sky.sun_irradiance) * sky.to_sun.z.max(0.0), from_sky)
     }
 
