@@ -110,7 +110,7 @@ fn round_bin() -> Asset {
         }
     }
     for z in [0.05, 0.78] {
-        let ring = [vec2(0.25, z), vec2(0.28, z), vec2(0.28, z + 0.04), vec2(0.25, z + 0.04)];
+        let ring = [vec2(0.25, z), vec2(0.28, z), vec2(0.28, z + 0.04), vec2(0.25, z + 0.04), vec2(0.25, z)];
         model.add(frame, Shape::lathe(&ring, 28));
     }
     let lid = [(0.0, 0.95), (0.29, 0.95), (0.29, 0.97), (0.2, 1.03), (0.0, 1.06)];

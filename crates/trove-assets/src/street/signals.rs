@@ -80,8 +80,7 @@ fn head(model: &mut Model, slots: &Slots, at: Vec3) {
                 })
                 .collect()
         };
-        let hood = Shape::sheet(&[row(0.0, 0.122), row(0.24, 0.118)]);
-        model.add(slots.black, hood.clone().and(hood.inside_out()));
+        model.add(slots.black, Shape::sheet(&[row(0.0, 0.122), row(0.24, 0.118)]));
     }
 }
 
