@@ -118,12 +118,60 @@ fn decode(t: [u8; 4], table: &[f32; 256]) -> Vec4 {
     Vec4::new(table[r], table[g], table[b], a as f32 / 255.0)
 }
 
+/// Linear light to sRGB bytes, in steps of which every byte has at least one.
+static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let byte = |i: u32| {
+        let c = i as f32 / SRGB_STEPS;
+        let s = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+        (s * 255.0).round() as u8
+    };
+    (0..=SRGB_STEPS as u32).map(byte).collect()
+});
+const SRGB_STEPS: f32 = 8192.0;
+
 fn encode(value: Vec4, color_space: ColorSpace) -> [u8; 4] {
-    let byte = |c: f32| (c * 255.0).round().clamp(0.0, 255.0) as u8;
+    let value = value.clamp(Vec4::ZERO, Vec4::ONE);
+    let byte = |c: f32| (c * 255.0 + 0.5) as u8;
     let color = |c: f32| match color_space {
         ColorSpace::Linear => byte(c),
-        ColorSpace::Srgb if c <= 0.003_130_8 => byte(c * 12.92),
-        ColorSpace::Srgb => byte(1.055 * c.powf(1.0 / 2.4) - 0.055),
+        ColorSpace::Srgb => SRGB[(c * SRGB_STEPS + 0.5) as usize],
     };
     [color(value.x), color(value.y), color(value.z), byte(value.w)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texture(width: u32, height: u32, f: impl Fn(u32, u32) -> [u8; 4]) -> Texture {
+        let rgba = (0..width * height).map(|i| f(i % width, i / width)).collect();
+        Texture { name: "test".into(), width, height, rgba, color_space: ColorSpace::Srgb }
+    }
+
+    #[test]
+    fn a_texel_is_read_at_its_centre_and_v_runs_up() {
+        let map = MipMap::new(&texture(5, 3, |x, y| [0, 0, 0, (10 * y + x) as u8]));
+        for (x, y) in [(0, 0), (4, 0), (2, 1), (4, 2)] {
+            let uv = Vec2::new((x as f32 + 0.5) / 5.0, 1.0 - (y as f32 + 0.5) / 3.0);
+            for turn in [-2.0, 0.0, 1.0] {
+                assert!((map.alpha(uv + turn) * 255.0 - (10 * y + x) as f32).abs() < 1e-2);
+            }
+        }
+    }
+
+    #[test]
+    fn the_smallest_copy_is_the_mean_of_the_light() {
+        let map = MipMap::new(&texture(8, 8, |x, y| [if (x + y) % 2 == 0 { 255 } else { 0 }; 4]));
+        let far = map.sample(Vec2::new(0.3, 0.7), Vec2::ONE);
+        assert!((far.w - 0.5).abs() < 0.01, "{far}"); // alpha
+        let opaque = MipMap::new(&texture(8, 8, |x, y| if (x + y) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
+        assert!((opaque.sample(Vec2::ZERO, Vec2::ONE).x - 0.5).abs() < 0.01);
+    }
+
+    #[test]
+    fn colours_survive_being_decoded_and_encoded() {
+        for byte in 0..=255u8 {
+            assert_eq!(encode(decode([byte; 4], &LINEAR), ColorSpace::Srgb), [byte; 4]);
+        }
+    }
 }
