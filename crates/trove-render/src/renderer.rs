@@ -8,6 +8,7 @@ use trove_model::{Capture, CaptureStats, Color, Scene, Shot, Texture};
 use crate::accel::{Kernel, KernelChoice};
 use crate::cache::Cache;
 use crate::denoise::Denoiser;
+use crate::light::LastSurroundings;
 use crate::texture::MipMap;
 use crate::{PreparedScene, RenderError, film, labels, path};
 
@@ -40,6 +41,7 @@ pub struct Renderer {
     kernel: Kernel,
     denoiser: Result<Denoiser, String>,
     textures: Cache<Texture, MipMap>,
+    surroundings: LastSurroundings,
     pool: rayon::ThreadPool,
 }
 
@@ -57,7 +59,7 @@ impl Renderer {
         } else {
             Err("not asked for".into())
         };
-        Ok(Self { kernel, denoiser, textures: Cache::default(), pool })
+        Ok(Self { kernel, denoiser, textures: Cache::default(), surroundings: LastSurroundings::default(), pool })
     }
 
     /// What this renderer works with.
@@ -71,7 +73,7 @@ impl Renderer {
 
     /// Checks a scene and makes it ready; what it shares with earlier scenes (by `Arc`) is not made again.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
-        self.pool.install(|| PreparedScene::new(scene, &self.kernel, &self.textures))
+        self.pool.install(|| PreparedScene::new(scene, &self.kernel, &self.textures, &self.surroundings))
     }
 
     /// Takes a picture with its labels, or with `light` false the labels alone.

@@ -11,7 +11,7 @@ use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject, Texture};
 use crate::RenderError;
 use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
 use crate::cache::Cache;
-use crate::light::Lights;
+use crate::light::{LastSurroundings, Lights};
 use crate::material::PreparedMaterial;
 use crate::texture::MipMap;
 
@@ -44,7 +44,12 @@ pub(crate) struct PreparedInstance {
 }
 
 impl PreparedScene {
-    pub(crate) fn new(scene: &Scene, kernel: &Kernel, textures: &Cache<Texture, MipMap>) -> Result<Self, RenderError> {
+    pub(crate) fn new(
+        scene: &Scene,
+        kernel: &Kernel,
+        textures: &Cache<Texture, MipMap>,
+        last: &LastSurroundings,
+    ) -> Result<Self, RenderError> {
         check::check(scene)?;
         textures.forget_unused();
         let materials: Vec<_> = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).collect();
@@ -58,7 +63,7 @@ impl PreparedScene {
             })
             .collect();
         let accel = kernel.build(&placed);
-        Ok(Self { instances, materials, lights: Lights::new(scene), accel })
+        Ok(Self { instances, materials, lights: Lights::new(scene, last), accel })
     }
 
     /// The nearest surface; cut-out holes are not there.
