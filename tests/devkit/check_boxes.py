@@ -149,7 +149,7 @@ def normal_error(frame):
 def check(out, dataset):
     """Checks all frames of recorded cameras; returns what was found."""
     verdicts, depths, flows, normals = Counter(), Counter(), [], []
-    for folder in sorted(out.glob("scene-*/v*/k*/ego.CAM_*")):
+    for folder in sorted(out.glob("*/v*/k*/ego.CAM_*")):
         frame = Frame(folder)
         record = dataset.get("sample_data", frame.table["source_token"])
         _, boxes, intrinsic = dataset.get_sample_data(record["token"])

@@ -98,8 +98,10 @@ fn read_sweeps(
     world_pose: impl Fn(GlobalFromEgo) -> GlobalFromEgo,
     report: &Report,
 ) {
-    let numbered = dataset.tables.categories.values().filter_map(|c| Some((c.index?, c.name.as_str())));
-    let classes = kinds::lidar_classes(numbered);
+    let categories = dataset.tables.categories.values();
+    let mut numbered: Vec<_> = categories.filter_map(|c| Some((c.index?, c.name.as_str()))).collect();
+    numbered.sort_unstable();
+    let classes = kinds::lidar_classes(&numbered);
     for (moment, keyframe) in moments.iter().zip(keyframes) {
         let Some(revolution) = moment.taken.revolution.as_ref().filter(|r| !r.file.is_empty()) else { continue };
         let labels = dataset.tables.lidarseg_files.get(&revolution.token).map_or("", String::as_str);

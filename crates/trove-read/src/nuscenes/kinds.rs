@@ -59,16 +59,14 @@ const LIDARSEG: [(u8, &str, LidarClass); 6] = [
 ];
 
 /// What each number in a lidarseg file means, by the dataset's own numbering where its categories carry one.
-pub(super) fn lidar_classes<'a>(numbered: impl Iterator<Item = (u8, &'a str)>) -> [LidarClass; 256] {
+pub(super) fn lidar_classes(numbered: &[(u8, &str)]) -> [LidarClass; 256] {
     let mut classes = [LidarClass::Other; 256];
-    let mut own_numbering = false;
-    for (number, name) in numbered {
-        own_numbering = true;
+    for &(number, name) in numbered {
         if let Some((_, _, class)) = LIDARSEG.iter().find(|(_, n, _)| *n == name) {
             classes[usize::from(number)] = *class;
         }
     }
-    if !own_numbering {
+    if numbered.is_empty() {
         LIDARSEG.iter().for_each(|(number, _, class)| classes[usize::from(*number)] = *class);
     }
     classes
@@ -91,8 +89,8 @@ mod tests {
 
     #[test]
     fn a_datasets_own_lidar_numbers_stand_before_the_published_ones() {
-        assert_eq!(lidar_classes([].into_iter())[30], LidarClass::Vegetation);
-        let own = lidar_classes([(3, "static.vegetation")].into_iter());
+        assert_eq!(lidar_classes(&[])[30], LidarClass::Vegetation);
+        let own = lidar_classes(&[(3, "static.vegetation")]);
         assert_eq!((own[3], own[30]), (LidarClass::Vegetation, LidarClass::Other));
     }
 }

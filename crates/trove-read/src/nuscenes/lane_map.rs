@@ -9,6 +9,7 @@ use serde::Deserialize;
 use trove_model::{Lane, LaneMap, Outcome, Polygon, Report};
 
 use super::arcline::{self, Arcline};
+use super::centreline;
 
 /// What lies farther from the driven path is left out, metres.
 const REACH_M: f64 = 400.0;
@@ -29,6 +30,7 @@ struct MapFile {
     road_divider: Vec<Layer>,
     lane_divider: Vec<Layer>,
     arcline_path_3: HashMap<String, Vec<Arcline>>,
+    connectivity: HashMap<String, Connection>,
 }
 
 #[derive(Deserialize)]
@@ -63,6 +65,14 @@ struct Layer {
     polygon_tokens: Vec<String>,
     #[serde(default)]
     line_token: String,
+}
+
+/// What comes before and after a lane: lane connectors, and lanes before and after those.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Connection {
+    incoming: Vec<String>,
+    outgoing: Vec<String>,
 }
 
 /// The map around a driven path; `None`, reported, where there is none that can be read.
@@ -136,22 +146,42 @@ impl<'a> Around<'a> {
     }
 
     fn lanes(&self, map: &MapFile) -> Vec<Lane> {
-        let rows = map.lane.iter().chain(&map.lane_connector);
-        let lane = |row: &Layer| {
-            if row.polygon_token.is_empty() {
-                self.dropped("lane", &row.token, "it has no polygon");
-                return None;
+        let mut lanes = Vec::new();
+        for (layer, rows) in [("lane", &map.lane), ("lane_connector", &map.lane_connector)] {
+            for row in rows {
+                if row.polygon_token.is_empty() {
+                    self.dropped(layer, &row.token, "it has no polygon");
+                } else if let Some(polygon) = self.polygon(layer, &row.polygon_token) {
+                    let arclines = map.arcline_path_3.get(&row.token).map_or(&[][..], Vec::as_slice);
+                    let centreline = arcline::vertices(arclines).into_iter().map(|p| p - self.anchor_m).collect();
+                    lanes.push(Lane { token: row.token.clone(), polygon, centreline });
+                }
             }
-            let polygon = self.polygon("lane", &row.polygon_token)?;
-            let arclines = map.arcline_path_3.get(&row.token).map_or(&[][..], Vec::as_slice);
-            Some(Lane { token: row.token.clone(), polygon, centreline: self.centreline(arclines) })
-        };
-        rows.filter_map(lane).collect()
+        }
+        self.derive_centrelines(map, &mut lanes);
+        lanes
     }
 
-    /// In driving direction; empty where the map has none.
-    fn centreline(&self, arclines: &[Arcline]) -> Vec<DVec2> {
-        arcline::vertices(arclines).into_iter().map(|p| p - self.anchor_m).collect()
+    /// Gives lanes without a centre line one from their outlines, where that tells.
+    fn derive_centrelines(&self, map: &MapFile, lanes: &mut [Lane]) {
+        let polygons: HashMap<String, Polygon> = lanes.iter().map(|l| (l.token.clone(), l.polygon.clone())).collect();
+        for lane in lanes.iter_mut().filter(|l| l.centreline.is_empty()) {
+            let neighbours = |of: fn(&Connection) -> &[String]| -> Vec<&Polygon> {
+                // Lanes meet directly, or over a connector that has no outline of its own.
+                let of_token = |token: &str| map.connectivity.get(token).map_or(&[][..], of);
+                let near = of_token(&lane.token).iter();
+                let tokens = near.flat_map(|token| std::iter::once(token).chain(of_token(token)));
+                tokens.filter_map(|token| polygons.get(token)).collect()
+            };
+            let (before, after) = (neighbours(|c| &c.incoming), neighbours(|c| &c.outgoing));
+            lane.centreline = centreline::between_sides(&lane.polygon.exterior, &before, &after);
+            let (outcome, what) = if lane.centreline.is_empty() {
+                (Outcome::Warned, "nuScenes map lane without a centre line")
+            } else {
+                (Outcome::Guessed, "nuScenes map lane's centre line, from its outline and neighbours")
+            };
+            self.report.note(outcome, what, &lane.token);
+        }
     }
 
     fn dividers(&self, layer: &str, rows: &[Layer]) -> Vec<Vec<DVec2>> {

@@ -6,6 +6,7 @@
 
 mod arcline;
 mod boxes;
+mod centreline;
 mod drive;
 mod exposures;
 mod index;

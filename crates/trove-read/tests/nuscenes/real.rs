@@ -116,3 +116,25 @@ fn scene_0103_is_what_the_devkit_says() {
     };
     assert_eq!(drive.keyframes.iter().filter(on_road).count(), 40);
 }
+
+#[test]
+fn the_lanes_of_scene_0103_run_the_way_that_the_ego_drives() {
+    let Some((drive, _)) = drive("scene-0103") else { return };
+    let map = drive.lane_map.as_ref().unwrap();
+    let lanes: Vec<_> = map.lanes.iter().filter(|l| l.centreline.len() >= 2).collect();
+    let (mut along, mut judged) = (0, 0);
+    for keyframe in &drive.keyframes {
+        let position = keyframe.world_from_ego.translation.truncate();
+        let heading = keyframe.world_from_ego.vector(DVec3::X).truncate();
+        for lane in lanes.iter().filter(|l| l.polygon.contains(position)) {
+            let nearest = lane.centreline.windows(2).min_by(|a, b| {
+                a[0].midpoint(a[1]).distance(position).total_cmp(&b[0].midpoint(b[1]).distance(position))
+            });
+            let [a, b] = nearest.unwrap() else { continue };
+            judged += 1;
+            along += usize::from((*b - *a).normalize().dot(heading) > 0.9);
+        }
+    }
+    assert!(lanes.len() * 10 >= map.lanes.len() * 8, "{} of {} lanes have a line", lanes.len(), map.lanes.len());
+    assert!(judged >= 20 && along * 10 >= judged * 9, "{along} of {judged}");
+}
