@@ -3,6 +3,7 @@
 //! A file is read whole into nodes, ways and multipolygons ([`raw`]), places become World's, and what lies in the
 //! wanted area or crosses it becomes roads, buildings, land and furniture. Everything else in the area is reported.
 
+mod coast;
 mod colors;
 mod details;
 mod meaning;
@@ -38,6 +39,7 @@ pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Repo
     let mut map = StreetMap { licence: LICENCE.into(), ..StreetMap::default() };
     let places = Places::new(&raw, projection, area);
     ways::add(&raw, &places, &mut map, report);
+    coast::add(&raw, &places, &mut map, report);
     things::add(&raw, &places, &mut map, report);
     map.roads.sort_by_key(|road| road.id);
     map.buildings.sort_by_key(|building| building.id);

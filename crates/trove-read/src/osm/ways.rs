@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
-use trove_model::{Furniture, FurnitureKind, Land, Outcome, Report, StreetMap};
+use trove_model::{Furniture, FurnitureKind, Land, Outcome, Polygon, Report, StreetMap};
 
 use super::Places;
+use super::coast::is_coastline;
 use super::details;
 use super::meaning::{Meaning, Outline, TREE_ROW_SPACING_M, meaning};
 use super::raw::{Raw, RawRelation, RawWay, Tags};
-use super::rings::{polygons, trace};
+use super::rings::{Repaired, polygons, trace};
 
 /// Adds everything that ways and multipolygons are.
 pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Report) {
@@ -31,7 +32,8 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
             continue;
         }
         seen += 1;
-        let is_edge = edges.contains(&way.id);
+        // The sea's edge is looked at elsewhere.
+        let is_edge = edges.contains(&way.id) || is_coastline(way);
         let added = !spent.contains(&way.id) && add_way(way, &line, is_edge, places, map, report);
         used += u32::from(added || is_edge);
     }
@@ -97,7 +99,9 @@ fn add_way(way: &RawWay, line: &Line, is_edge: bool, places: &Places, map: &mut 
             if ring.first() == ring.last() {
                 ring.pop();
             }
-            add_area(way.id, &owner, meaning, &way.tags, vec![ring], places, map, report)
+            let outlines = polygons([ring]);
+            note_repairs(&outlines, &owner, report);
+            add_areas((way.id, &way.tags), meaning, outlines.polygons, places, map, report)
         }
         Meaning::Road(kind) => {
             let mut added = false;
@@ -142,27 +146,27 @@ fn spaced(line: &[DVec2]) -> Vec<DVec2> {
     points
 }
 
-/// Adds the building or the land within some rings; whether there is any.
-#[allow(clippy::too_many_arguments)] // one thing with its owner, and where it goes
-fn add_area(
-    id: i64,
-    owner: &str,
-    meaning: Meaning,
-    tags: &Tags,
-    rings: Vec<Vec<DVec2>>,
-    places: &Places,
-    map: &mut StreetMap,
-    report: &Report,
-) -> bool {
-    let repaired = polygons(rings);
+/// Notes what had to be repaired in an outline.
+fn note_repairs(repaired: &Repaired, owner: &str, report: &Report) {
     if repaired.crossed {
         report.note(Outcome::Substituted, "osm: outline that crosses itself, cut where it does", owner);
     }
     if repaired.vanished {
         report.note(Outcome::Dropped, "osm: outline without an area", owner);
     }
+}
+
+/// Adds buildings or land of some outlines; whether any lies in the area.
+fn add_areas(
+    (id, tags): (i64, &Tags),
+    meaning: Meaning,
+    outlines: Vec<Polygon>,
+    places: &Places,
+    map: &mut StreetMap,
+    report: &Report,
+) -> bool {
     let mut added = false;
-    for polygon in repaired.polygons.into_iter().filter(|p| places.touched_by(&p.exterior)) {
+    for polygon in outlines.into_iter().filter(|p| places.touched_by(&p.exterior)) {
         added = true;
         match meaning {
             Meaning::Building => map.buildings.push(details::building(id, polygon, tags, report)),
@@ -197,47 +201,42 @@ fn add_multipolygon(
     if traced.open {
         note(Outcome::Warned, "osm: multipolygon whose rings do not all close");
     }
-    let rings: Vec<Vec<DVec2>> =
-        traced.rings.iter().map(|ring| ring.iter().filter_map(|&id| places.of(id)).collect()).collect();
+    let positions = |ring: &Vec<i64>| ring.iter().filter_map(|&id| places.of(id)).collect();
+    let outlines = polygons(traced.rings.iter().map(positions));
+    // A way is outer where its first place lies on the outer edge of a polygon, whatever its role says.
+    let is_outer = |way: &RawWay| {
+        let place = way.nodes.iter().find_map(|&id| places.of(id));
+        place.is_some_and(|p| outlines.polygons.iter().any(|o| o.exterior.iter().any(|v| v.distance(p) < 0.01)))
+    };
 
-    let own = meaning(&relation.tags, Outline::Area);
-    let (meaning, tags) = match own {
-        // The old style: the outer ways say what it is.
-        Meaning::Nothing("") => match outer_tags(&members, &rings, places) {
-            Some(found) => found,
-            None => return note(Outcome::Dropped, &nothing_of_ours(&relation.tags)),
-        },
+    let as_area = |tags: &Tags| meaning(tags, Outline::Area);
+    let own = as_area(&relation.tags);
+    let old_style = own == Meaning::Nothing("");
+    let tagged = match own {
+        // In the old style the outer ways say what it is.
+        _ if old_style => {
+            let outer = members.iter().filter(|way| is_outer(way)).map(|way| (as_area(&way.tags), &way.tags));
+            outer.into_iter().find(|(found, _)| matches!(found, Meaning::Building | Meaning::Land(_)))
+        }
         Meaning::Nothing(reason) => {
             return note(Outcome::Dropped, &format!("osm: multipolygon not used: {reason}"));
         }
-        own => (own, &relation.tags),
+        own => Some((own, &relation.tags)),
     };
-    // A member with the same meaning would be there twice, and fill the holes.
-    spent.extend(members.iter().filter(|way| self::meaning(&way.tags, Outline::Area) == meaning).map(|way| way.id));
-    if !add_area(-relation.id, &owner, meaning, tags, rings, places, map, report) {
+    let Some((meaning, tags)) = tagged else { return note(Outcome::Dropped, &nothing_of_ours(&relation.tags)) };
+    // An outer way of the same meaning would be there twice and fill the holes; in the old style, inner ways carry the
+    // tags too and are holes all the same.
+    let same = |way: &&&RawWay| as_area(&way.tags) == meaning && (old_style || is_outer(way));
+    spent.extend(members.iter().filter(same).map(|way| way.id));
+    note_repairs(&outlines, &owner, report);
+    if !add_areas((-relation.id, tags), meaning, outlines.polygons, places, map, report) {
         note(Outcome::Dropped, "osm: multipolygon without a closed ring in the area");
     }
 }
 
 fn nothing_of_ours(tags: &Tags) -> String {
     match tags.main_key() {
-        "" | "type" => "osm: multipolygon without a tag that says what it looks like".into(),
+        "" => "osm: multipolygon without a tag that says what it looks like".into(),
         key => format!("osm: multipolygon with {key} that is nothing of ours"),
     }
-}
-
-/// Meaning and tags of the way that encloses the most, where it has any.
-fn outer_tags<'a>(members: &[&'a RawWay], rings: &[Vec<DVec2>], places: &Places) -> Option<(Meaning, &'a Tags)> {
-    let areas = polygons(rings.iter().cloned());
-    // A way is outer where its first place lies on the edge of a polygon, not of a hole.
-    let on_edge = |way: &RawWay| {
-        way.nodes
-            .iter()
-            .find_map(|&id| places.of(id))
-            .is_some_and(|p| areas.polygons.iter().any(|polygon| polygon.exterior.iter().any(|v| v.distance(p) < 0.01)))
-    };
-    members.iter().filter(|way| on_edge(way)).find_map(|way| match meaning(&way.tags, Outline::Area) {
-        found @ (Meaning::Building | Meaning::Land(_)) => Some((found, &way.tags)),
-        _ => None,
-    })
 }
