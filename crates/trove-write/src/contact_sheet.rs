@@ -18,7 +18,7 @@ const TILE_WIDTH_PX: u32 = 320;
 const GAP_PX: u32 = 6;
 /// Height of the line with a frame's name, pixels.
 const CAPTION_PX: u32 = 14;
-/// Frames at most: two seconds of reading, and a sheet of a few megabytes.
+/// Frames at most: a few seconds of reading, and a sheet of a few megabytes.
 const FRAMES: usize = 24;
 const PAPER: [u8; 3] = [24, 26, 30];
 const INK: [u8; 3] = [205, 208, 214];
