@@ -27,8 +27,9 @@ pub(crate) struct LightSample {
     pub(crate) wi: Vec3,
     /// Metres; infinite for the sky.
     pub(crate) distance: f32,
-    /// Radiance that arrives if nothing is in the way.
-    pub(crate) radiance: Vec3,
+    /// Radiance that arrives if nothing is in the way; `None`: [`Lights::radiance`] of that direction, which is worth
+    /// asking for only when nothing is in the way.
+    pub(crate) radiance: Option<Vec3>,
     /// Density over solid angle with which this direction is drawn, over all lights.
     pub(crate) pdf: f32,
 }
@@ -126,7 +127,7 @@ impl Lights {
             _ => self.around.dome.draw(within),
         };
         let pdf = self.pdf(wi);
-        (pdf > 0.0).then(|| LightSample { wi, distance: f32::INFINITY, radiance: self.radiance(wi), pdf })
+        (pdf > 0.0).then(|| LightSample { wi, distance: f32::INFINITY, radiance: None, pdf })
     }
 
     fn sample_emitter(&self, emitters: &Emitters, point: Vec3, u: [f32; 2]) -> Option<LightSample> {
@@ -138,7 +139,7 @@ impl Lights {
         (distance > 0.0 && pdf.is_finite() && pdf > 0.0).then(|| LightSample {
             wi: to_light / distance,
             distance,
-            radiance: drawn.radiance,
+            radiance: Some(drawn.radiance),
             pdf,
         })
     }
@@ -221,7 +222,8 @@ mod tests {
         for _ in 0..draws {
             let Some(sample) = lights.sample(Vec3::ZERO, [unit(), unit(), unit()]) else { continue };
             assert!(sample.wi.is_normalized());
-            let part = luminance(sample.radiance) * sample.wi.z.max(0.0) / sample.pdf;
+            let radiance = sample.radiance.unwrap_or_else(|| lights.radiance(sample.wi));
+            let part = luminance(radiance) * sample.wi.z.max(0.0) / sample.pdf;
             if sample.distance.is_finite() {
                 from_lamp += part;
                 // Both triangles have the same area and power, and lie in one plane.

@@ -5,6 +5,7 @@ use trove_model::InstanceId;
 
 use crate::PreparedScene;
 use crate::accel::Ray;
+use crate::material::Bsdf;
 use crate::prepare::Surface;
 use crate::sampling::{Sampler, power_heuristic};
 
@@ -109,19 +110,8 @@ pub(crate) fn radiance(
             guide = Some((guide_filter * bsdf.albedo, surface.shading));
         }
 
-        // Light that comes straight from a lamp, the sky or the sun.
         let [l0, l1, l2, _] = sampler.next4();
-        if let Some(light) = scene.lights.sample(surface.point, [l0, l1, l2]).filter(|l| l.pdf > 0.0) {
-            let (f, pdf_bsdf) = bsdf.eval(light.wi);
-            if f != Vec3::ZERO && light.radiance != Vec3::ZERO {
-                *rays += 1;
-                let origin = surface.leave(light.wi);
-                let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
-                let share = scene.transmittance(&Ray { t_max, ..Ray::new(origin, light.wi) });
-                let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
-                gathered.add(throughput * f * light.radiance * share * weight, bounce + 1);
-            }
-        }
+        gathered.add(throughput * direct(scene, &surface, &bsdf, [l0, l1, l2], rays), bounce + 1);
 
         let [u_lobe, u0, u1, u_roulette] = sampler.next4();
         let Some(next) = bsdf.sample([u_lobe, u0, u1]) else { break };
@@ -157,4 +147,21 @@ pub(crate) fn radiance(
     }
     let (albedo, normal) = guide.unwrap_or((Vec3::ONE, Vec3::ZERO));
     Sample { radiance: gathered.radiance, albedo, normal }
+}
+
+/// Light that a surface sends on straight from a lamp, the sky or the sun, by one light sample.
+fn direct(scene: &PreparedScene, surface: &Surface, bsdf: &Bsdf, u: [f32; 3], rays: &mut u64) -> Vec3 {
+    let Some(light) = scene.lights.sample(surface.point, u) else { return Vec3::ZERO };
+    let (f, pdf_bsdf) = bsdf.eval(light.wi);
+    if f == Vec3::ZERO {
+        return Vec3::ZERO;
+    }
+    *rays += 1;
+    let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
+    let share = scene.transmittance(&Ray { t_max, ..Ray::new(surface.leave(light.wi), light.wi) });
+    if share == Vec3::ZERO {
+        return Vec3::ZERO;
+    }
+    let radiance = light.radiance.unwrap_or_else(|| scene.lights.radiance(light.wi));
+    f * radiance * share * (power_heuristic(light.pdf, pdf_bsdf) / light.pdf)
 }
