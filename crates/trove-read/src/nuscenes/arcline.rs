@@ -3,6 +3,8 @@
 use glam::DVec2;
 use serde::Deserialize;
 
+use super::poses::FARTHEST_M;
+
 /// Distance of the vertices along an arc, metres.
 const STEP_M: f64 = 1.0;
 /// No piece of a lane is longer, metres.
@@ -38,6 +40,9 @@ impl Arcline {
     fn append(&self, line: &mut Vec<DVec2>) -> Option<()> {
         let [x, y, mut heading_rad] = self.start_pose;
         let mut position = DVec2::new(x, y);
+        if position.abs().max_element() > FARTHEST_M {
+            return None;
+        }
         line.push(position);
         for (turn, &length_m) in self.shape.chars().zip(&self.segment_length) {
             let curvature = match turn {

@@ -10,6 +10,7 @@ use trove_model::{Lane, LaneMap, Outcome, Polygon, Report};
 
 use super::arcline::{self, Arcline};
 use super::centreline;
+use super::poses::FARTHEST_M;
 
 /// What lies farther from the driven path is left out, metres.
 const REACH_M: f64 = 400.0;
@@ -114,8 +115,10 @@ struct Around<'a> {
 
 impl<'a> Around<'a> {
     fn new(map: &'a MapFile, anchor_m: DVec2, path: &'a [DVec2], report: &'a Report) -> Self {
+        // A node at no place on earth is as good as missing.
+        let nodes = map.node.iter().filter(|n| n.x.abs().max(n.y.abs()) < FARTHEST_M);
         Self {
-            nodes: map.node.iter().map(|n| (n.token.as_str(), DVec2::new(n.x, n.y) - anchor_m)).collect(),
+            nodes: nodes.map(|n| (n.token.as_str(), DVec2::new(n.x, n.y) - anchor_m)).collect(),
             polygons: map.polygon.iter().map(|p| (p.token.as_str(), p)).collect(),
             lines: map.line.iter().map(|l| (l.token.as_str(), l)).collect(),
             anchor_m,

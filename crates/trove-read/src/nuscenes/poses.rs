@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use trove_model::{Frame, Lens, Pose};
 
 /// Beyond this from a map's origin nothing is a position: 1000 km, metres.
-const FARTHEST_M: f64 = 1e6;
+pub(super) const FARTHEST_M: f64 = 1e6;
 /// No image has a longer side, pixels.
 const LARGEST_IMAGE_PX: i64 = 65_535;
 
