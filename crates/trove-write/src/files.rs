@@ -44,7 +44,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         let _ = fs::remove_file(&partial);
     }
     written?;
-    sync_folder(path);
+    sync_folder(path.parent());
     Ok(())
 }
 
@@ -80,11 +80,11 @@ impl FolderInTheMaking {
 
     /// Puts the folder in its place.
     pub(crate) fn finish(mut self) -> Result<Vec<WrittenFile>, WriteError> {
-        sync_folder(&self.partial.join("."));
+        sync_folder(Some(&self.partial));
         fs::rename(&self.partial, &self.path)
             .map_err(WriteError::storage(&self.path, "put the folder in its place"))?;
         self.finished = true;
-        sync_folder(&self.path);
+        sync_folder(self.path.parent());
         Ok(std::mem::take(&mut self.files))
     }
 }
@@ -115,10 +115,10 @@ fn write_synced(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write().map_err(WriteError::storage(path, "write the file"))
 }
 
-/// Makes a rename last through a power cut where the system can do that for a folder; where it cannot, the rename is
-/// still whole.
-fn sync_folder(inside: &Path) {
-    if let Some(folder) = inside.parent().and_then(|p| File::open(p).ok()) {
+/// Makes what a folder lists last through a power cut where the system can do that; where it cannot, a rename is still
+/// whole.
+fn sync_folder(folder: Option<&Path>) {
+    if let Some(folder) = folder.and_then(|folder| File::open(folder).ok()) {
         let _ = folder.sync_all();
     }
 }
