@@ -16,10 +16,8 @@ use crate::stock::Stock;
 /// A recorded object with its asset, ready to be put into a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Actor {
-    /// What it is.
-    pub kind: Kind,
     /// What its pixels are.
-    pub class: Class,
+    class: Class,
     /// The asset's id.
     pub asset: String,
     mesh: usize,
@@ -85,7 +83,6 @@ impl Assembly {
         };
         self.credit(role.asset);
         Actor {
-            kind: role.kind,
             class: role.asset.class,
             asset: role.asset.id.clone(),
             mesh: self.stock.mesh(&role.asset.mesh),

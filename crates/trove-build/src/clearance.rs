@@ -76,6 +76,11 @@ impl<'a> Clearance<'a> {
         self.surfaces.footing(p) == Footing::Land
     }
 
+    /// Distance to the nearest carriageway or water, metres.
+    pub(crate) fn road_distance_m(&self, p: DVec2) -> f64 {
+        self.road_m.at(p)
+    }
+
     /// Distance to the nearest building, metres.
     pub(crate) fn building_distance_m(&self, p: DVec2) -> f64 {
         self.buildings_m.at(p)

@@ -5,8 +5,6 @@ use trove_model::{Cuboid, HeightField, Kind, Pose};
 
 use crate::roads::{Footing, KERB_M, RoadSurfaces};
 
-/// An annotation further than this above or below the ground is believed rather than the ground, metres.
-const MAX_LIFT_M: f64 = 0.6;
 /// Wheels stand this share of the length and width from the middle of a vehicle.
 const WHEELS: f64 = 0.35;
 
@@ -26,8 +24,6 @@ pub(crate) struct Placement {
     pub world_from_base: DAffine3,
     /// The box as placed.
     pub cuboid: Cuboid,
-    /// The annotation's height above the ground where it was kept, metres.
-    pub kept_lift_m: Option<f64>,
 }
 
 impl Stand<'_> {
@@ -36,25 +32,28 @@ impl Stand<'_> {
         self.ground.height_m(position) + self.surfaces.elevation_m(position)
     }
 
+    /// How far the bottom of an annotated box is above the surface, metres.
+    pub(crate) fn lift_m(&self, annotated: &Cuboid) -> f64 {
+        let centre = annotated.world_from_body.translation;
+        centre.z - annotated.size_m.z / 2.0 - self.surface_m(centre.truncate())
+    }
+
     /// Puts an annotated box on the ground: position and heading are kept, vehicles follow the slope.
     pub(crate) fn place(&self, annotated: &Cuboid, kind: Kind) -> Placement {
-        let pose = annotated.world_from_body;
-        let position = pose.translation.truncate();
-        let yaw_rad = pose.yaw_rad();
-        let up = if kind.is_vehicle() { self.ground.normal(position) } else { DVec3::Z };
-        let elevation_m =
-            if kind.is_vehicle() { self.wheels_elevation_m(annotated) } else { self.surfaces.elevation_m(position) };
-        let surface_m = self.ground.height_m(position) + elevation_m;
-        let lift_m = pose.translation.z - annotated.size_m.z / 2.0 - surface_m;
-        let kept_lift_m = (lift_m > MAX_LIFT_M).then_some(lift_m);
-        let base_world = position.extend(surface_m + kept_lift_m.unwrap_or(0.0));
-        let rotation = upright(yaw_rad, up);
-        let centre_world = base_world + rotation * DVec3::new(0.0, 0.0, annotated.size_m.z / 2.0);
-        Placement {
-            world_from_base: DAffine3::from_rotation_translation(rotation, base_world),
-            cuboid: Cuboid { world_from_body: Pose::new(rotation, centre_world), size_m: annotated.size_m },
-            kept_lift_m,
-        }
+        let position = annotated.world_from_body.translation.truncate();
+        let (elevation_m, up) = if kind.is_vehicle() {
+            (self.wheels_elevation_m(annotated), self.ground.normal(position))
+        } else {
+            (self.surfaces.elevation_m(position), DVec3::Z)
+        };
+        let base_world = position.extend(self.ground.height_m(position) + elevation_m);
+        Placement::new(annotated, base_world, up)
+    }
+
+    /// Leaves an annotated box at its own height, for someone on a platform.
+    pub(crate) fn keep(&self, annotated: &Cuboid) -> Placement {
+        let centre = annotated.world_from_body.translation;
+        Placement::new(annotated, centre - DVec3::Z * annotated.size_m.z / 2.0, DVec3::Z)
     }
 
     /// A vehicle stands on the kerb where most of its wheels do.
@@ -69,8 +68,19 @@ impl Stand<'_> {
     }
 }
 
+impl Placement {
+    fn new(annotated: &Cuboid, base_world: DVec3, up: DVec3) -> Self {
+        let rotation = upright(annotated.world_from_body.yaw_rad(), up);
+        let centre_world = base_world + rotation * DVec3::new(0.0, 0.0, annotated.size_m.z / 2.0);
+        Self {
+            world_from_base: DAffine3::from_rotation_translation(rotation, base_world),
+            cuboid: Cuboid { world_from_body: Pose::new(rotation, centre_world), size_m: annotated.size_m },
+        }
+    }
+}
+
 /// The rotation with z along `up` and x as near to the heading as that allows.
-pub(crate) fn upright(yaw_rad: f64, up: DVec3) -> DQuat {
+fn upright(yaw_rad: f64, up: DVec3) -> DQuat {
     let heading = DVec3::new(yaw_rad.cos(), yaw_rad.sin(), 0.0);
     let forward = (heading - up * heading.dot(up)).normalize();
     DQuat::from_mat3(&DMat3::from_cols(forward, up.cross(forward), up))

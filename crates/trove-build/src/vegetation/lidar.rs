@@ -27,12 +27,12 @@ const BUSH_TOP_M: f64 = 2.0;
 /// Columns higher than this are trees, metres.
 const TREE_TOP_M: f64 = 2.8;
 /// Side of the cubes that geometry is judged in, metres.
-const VOXEL_M: f64 = 1.0;
+const VOXEL_M: f64 = 1.5;
 /// Fewer points in a cube tell nothing.
-const MIN_POINTS: u32 = 6;
+const MIN_POINTS: u32 = 5;
 /// Foliage: its thinnest extent (standard deviation) is at least this, metres, and this share of its widest.
-const MIN_DEPTH_M: f64 = 0.09;
-const MIN_DEPTH_SHARE: f64 = 0.25;
+const MIN_DEPTH_M: f64 = 0.075;
+const MIN_DEPTH_SHARE: f64 = 0.2;
 /// Side of the density map's cells, metres.
 const CELL_M: f64 = 1.0;
 /// A point this far away has mass 1; masses grow with the square of the distance as points thin out.

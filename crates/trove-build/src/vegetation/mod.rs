@@ -3,6 +3,7 @@
 mod columns;
 mod lidar;
 mod map;
+mod open_land;
 mod species;
 mod streets;
 
@@ -32,7 +33,7 @@ struct Wish {
     radius_m: Option<f64>,
 }
 
-/// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along streets.
+/// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along streets, on open land.
 pub(crate) fn vegetation<'a>(
     around: &Surroundings,
     library: &'a AssetLibrary,
@@ -57,6 +58,7 @@ pub(crate) fn vegetation<'a>(
     let beyond = |w: &Wish| !seen.covers(w.position);
     wishes.extend(map::wishes(around, seed.child("map")).into_iter().filter(beyond));
     wishes.extend(streets::wishes(around, clearance, seed.child("streets")).into_iter().filter(beyond));
+    wishes.extend(open_land::wishes(around, clearance, seed.child("open-land")).into_iter().filter(beyond));
     report.measure("vegetation.lidar_wishes", counted as f64);
     report.measure("vegetation.wishes", wishes.len() as f64);
 
