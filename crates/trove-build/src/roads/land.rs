@@ -24,8 +24,9 @@ pub(super) struct Cover {
     pub area: Vec<Polygon>,
 }
 
-/// Divides the land among its covers: as the map says, paved around buildings, grass elsewhere.
-pub(super) fn covers(land: Vec<Polygon>, map: Option<&StreetMap>, bounds: Bounds) -> Vec<Cover> {
+/// Divides the land among its covers: asphalt where vehicles parked, then as the map says, paved around buildings,
+/// grass elsewhere.
+pub(super) fn covers(land: Vec<Polygon>, car_parks: &[Polygon], map: Option<&StreetMap>, bounds: Bounds) -> Vec<Cover> {
     let mut left = land;
     let mut covers: Vec<Cover> = Vec::new();
     let mut take = |left: &mut Vec<Polygon>, kind: SurfaceKind, area: &[Polygon]| {
@@ -38,6 +39,7 @@ pub(super) fn covers(land: Vec<Polygon>, map: Option<&StreetMap>, bounds: Bounds
             }
         }
     };
+    take(&mut left, SurfaceKind::Asphalt, car_parks);
     if let Some(map) = map {
         let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
         for (surface, kinds) in COVERS {

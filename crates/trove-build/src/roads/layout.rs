@@ -3,7 +3,8 @@
 use glam::DVec2;
 use trove_model::{Bounds, Drive, Outcome, Polygon, Report, RoadKind, StreetMap};
 
-use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch};
+use super::evidence::{self, Trace};
+use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
 use crate::plane::{difference, grown, intersection, rectangle, strip, union};
 use crate::plane_raster::PlaneRaster;
 
@@ -15,12 +16,27 @@ const SIDEWALK_M: f64 = 2.5;
 const FOOTWAY_M: f64 = 1.8;
 /// Half of the gaps that are closed between OpenStreetMap's carriageways, which also rounds their corners.
 const CORNER_M: f64 = 2.5;
-/// Half of the gaps that are closed between carriageway and walkway: nobody leaves strips that narrow.
-const GAP_M: f64 = 0.6;
+/// Half of the gaps that are closed between carriageway and walkway: what lies between them is paved too.
+const GAP_M: f64 = 1.5;
+/// A recorded road that more than this share of the recorded traffic left has gaps, usually at junctions; gaps up to
+/// twice this radius are closed in it.
+const PATCHY_SHARE: f64 = 0.05;
+const PATCH_M: f64 = 4.0;
+/// Islands in such a road smaller than this are gaps too, m².
+const PATCHY_ISLAND_M2: f64 = 250.0;
+/// Room on both sides of a vehicle that drove or parked, and the gaps between parked ones that are closed.
+const CLEARANCE_M: f64 = 0.5;
+const BAY_GAP_M: f64 = 2.0;
+/// A vehicle parked this near to the carriageway stands in a bay of it.
+const BAY_REACH_M: f64 = 3.0;
+/// Room around vehicles on a car park.
+const CAR_PARK_M: f64 = 3.0;
 /// Islands smaller than this are errors of drawing, m².
 const ISLAND_M2: f64 = 1.5;
 /// Half of the width of a road of which only the driven path is known.
 const PATH_HALF_WIDTH_M: f64 = 3.5;
+/// Half of the width of a path that people were seen on.
+const WALKED_HALF_WIDTH_M: f64 = 1.0;
 /// A street is built up where a building stands this near.
 const BUILT_UP_M: f64 = 40.0;
 
@@ -35,6 +51,8 @@ pub(super) struct Layout<'a> {
     pub pavement: Vec<Polygon>,
     /// What is left.
     pub land: Vec<Polygon>,
+    /// Around vehicles that were parked; may reach into all of the above.
+    pub car_parks: Vec<Polygon>,
 }
 
 /// Divides the plane within `bounds`.
@@ -53,21 +71,31 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let mapped = closed(&union(&strips), CORNER_M);
     let mut carriageway = union(&[drivable, mapped].concat());
 
-    // The vehicle drove on a road, whatever the maps say.
+    // Vehicles drove and parked on the road, whatever the maps say.
+    let traces = evidence::driven(drive);
+    if lanes.is_some() && is_patchy(&traces, &recorded) {
+        report.note(Outcome::Substituted, "gaps in the recorded drivable area, closed", &drive.id);
+        let driven = traces.iter().flat_map(|t| strip(&t.line, t.half_width_m + CLEARANCE_M));
+        carriageway = closed(&union(&driven.chain(carriageway).collect::<Vec<_>>()), PATCH_M);
+        carriageway = without_specks(carriageway, PATCHY_ISLAND_M2);
+    }
     let path = untouched_path(drive, &carriageway);
     if !path.is_empty() {
         report.note(Outcome::Guessed, "road under the driven path, which no map has", &drive.id);
         let strips: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
-        carriageway = union(&[carriageway, closed(&union(&strips), GAP_M)].concat());
+        carriageway = union(&[carriageway, closed(&union(&strips), CORNER_M)].concat());
     }
-    let mut carriageway = intersection(&carriageway, &whole);
-    for polygon in &mut carriageway {
-        polygon.holes.retain(|hole| Polygon::simple(hole.clone()).area_m2() > ISLAND_M2);
-    }
-    carriageway.retain(|p| p.area_m2() > ISLAND_M2);
+    let parked = evidence::parked(drive);
+    let carriageway = intersection(&with_bays(carriageway, &parked), &whole);
+    let carriageway = without_specks(carriageway, ISLAND_M2);
 
     // Walkways of the dataset, bands along the other roads, footpaths.
     let mut walks = lanes.map(|m| m.walkways.clone()).unwrap_or_default();
+    if lanes.is_some() && walks.is_empty() {
+        report.note(Outcome::Guessed, "sidewalks along recorded roads, which have none", &drive.id);
+        walks.extend(grown(&carriageway, SIDEWALK_M));
+        walks.extend(evidence::walked(drive).iter().flat_map(|t| strip(&t.line, WALKED_HALF_WIDTH_M)));
+    }
     if let Some(map) = map {
         walks.extend(stretches.iter().flat_map(|s| bands(s, map)));
         walks.extend(footways(map, &recorded, bounds));
@@ -79,7 +107,38 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let kerb = intersection(&difference(&stones, &carriageway), &whole);
     let pavement = intersection(&difference(&walked, &stones), &whole);
     let land = difference(&difference(&whole, &stones), &pavement);
-    Layout { recorded, stretches, carriageway, kerb, pavement, land }
+    let car_parks = closed(&grown(&union(&parked), CAR_PARK_M), CAR_PARK_M);
+    Layout { recorded, stretches, carriageway, kerb, pavement, land, car_parks }
+}
+
+/// Whether the recorded traffic left the recorded road for more than it should.
+fn is_patchy(traces: &[Trace], recorded: &PlaneRaster) -> bool {
+    let points: Vec<DVec2> = traces.iter().flat_map(|t| resampled(&t.line)).collect();
+    let off = points.iter().filter(|&&p| recorded.at(p) == NEAR).count();
+    off as f64 > PATCHY_SHARE * points.len() as f64
+}
+
+/// The carriageway with bays for the vehicles that were parked beside it.
+fn with_bays(carriageway: Vec<Polygon>, parked: &[Polygon]) -> Vec<Polygon> {
+    let reach = grown(&carriageway, BAY_REACH_M);
+    let beside = |p: &&Polygon| reach.iter().any(|r| r.contains(p.centroid()));
+    let bays: Vec<Polygon> = parked.iter().filter(beside).cloned().collect();
+    if bays.is_empty() {
+        return carriageway;
+    }
+    let bays = grown(&union(&bays), CLEARANCE_M);
+    let filled = closed(&union(&[carriageway.clone(), bays.clone()].concat()), BAY_GAP_M);
+    let near = intersection(&filled, &grown(&bays, BAY_GAP_M));
+    union(&[carriageway, bays, near].concat())
+}
+
+/// Without pieces that are too small to be meant, and islands smaller than `least_m2`.
+fn without_specks(mut carriageway: Vec<Polygon>, least_m2: f64) -> Vec<Polygon> {
+    for polygon in &mut carriageway {
+        polygon.holes.retain(|hole| Polygon::simple(hole.clone()).area_m2() > least_m2);
+    }
+    carriageway.retain(|p| p.area_m2() > ISLAND_M2);
+    carriageway
 }
 
 /// With gaps narrower than twice `radius_m` closed.

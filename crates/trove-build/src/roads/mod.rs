@@ -1,5 +1,6 @@
 //! Everything that lies on the ground: carriageway with its markings, sidewalks with their kerbs, land.
 
+mod evidence;
 mod land;
 mod layout;
 mod markings;
@@ -95,8 +96,10 @@ pub(crate) fn surfaces(
     report: &Report,
 ) -> RoadSurfaces {
     let layout = layout::layout(drive, map, bounds, report);
-    let (markings, covers) =
-        rayon::join(|| markings::markings(drive, map, &layout), || land::covers(layout.land.clone(), map, bounds));
+    let (markings, covers) = rayon::join(
+        || markings::markings(drive, map, &layout),
+        || land::covers(layout.land.clone(), &layout.car_parks, map, bounds),
+    );
     let palette = Palette { library, seed, report };
     let material = |kind: SurfaceKind| palette.material(kind, &format!("{kind:?}"));
     let drape = Drape::new(ground);

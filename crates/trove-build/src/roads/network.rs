@@ -11,6 +11,8 @@ const STEP_M: f64 = 2.0;
 pub(super) const BESIDE_M: f64 = 8.0;
 /// How far a road that leaves the recorded area is taken back into it, so that the two join.
 const OVERLAP_STEPS: usize = 2;
+/// Gaps in the recorded area that a road crosses are closed up to this length: the largest junctions.
+const LONGEST_GAP_STEPS: usize = 20;
 /// Values of the raster that tells what was recorded.
 pub(super) const NEAR: u8 = 1;
 pub(super) const RECORDED: u8 = 2;
@@ -127,6 +129,18 @@ fn measured_width_m(points: &[DVec2], recorded: &PlaneRaster) -> Option<f64> {
     (widths.len() >= 10).then(|| widths[widths.len() / 2].max(3.0))
 }
 
+/// Whether most points of a line have nothing recorded at their sides: it crosses a gap in the recorded area, and does
+/// not run along its edge.
+fn lies_open(line: &[DVec2], recorded: &PlaneRaster) -> bool {
+    let open = |i: &usize| {
+        let (before, after) = (line[i.saturating_sub(1)], line[(i + 1).min(line.len() - 1)]);
+        let across = (after - before).normalize_or_zero().perp();
+        let side = |sign: f64| (1..=4).any(|k| recorded.at(line[*i] + across * sign * f64::from(k)) == RECORDED);
+        !side(1.0) && !side(-1.0)
+    };
+    line.len() > 1 && 2 * (0..line.len()).filter(open).count() > line.len()
+}
+
 /// The parts of a resampled road outside the recorded area.
 fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
     let state: Vec<u8> = points.iter().map(|&p| recorded.at(p)).collect();
@@ -140,6 +154,10 @@ fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
         }
         let end = (i..points.len()).find(|&k| state[k] == RECORDED).unwrap_or(points.len());
         let far = (i..end).find(|&k| state[k] != NEAR).zip((i..end).rfind(|&k| state[k] != NEAR));
+        let between = i > 0 && end < points.len() && end - i <= LONGEST_GAP_STEPS;
+        if far.is_none() && between && lies_open(&points[i..end], recorded) {
+            lines.push(points[i.saturating_sub(OVERLAP_STEPS)..(end + OVERLAP_STEPS).min(points.len())].to_vec());
+        }
         if let Some((first, last)) = far {
             // It leaves the recorded area: up to its edge, unless it runs beside it for long.
             let from = if first - i <= near_steps { i.saturating_sub(OVERLAP_STEPS) } else { first };
