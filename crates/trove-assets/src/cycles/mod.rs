@@ -64,7 +64,7 @@ fn cycle(id: &str, kind: Kind, build: impl Fn(&Parts) -> Shape, rider: Option<Ri
             let shell = model.slot(Material { coat: 1.0, ..Material::plain("helmet", paints[0], 0.35) }, &paints);
             model.add(shell, helmet(&figure, rider.visor));
             if rider.visor {
-                let visor = Shape::ellipsoid(vec3(0.07, 0.105, 0.06), 18).moved(figure.head + vec3(0.075, 0.0, 0.005));
+                let visor = Shape::ellipsoid(vec3(0.082, 0.108, 0.06), 18).moved(figure.head + vec3(0.08, 0.0, 0.01));
                 model.add(parts.black, visor);
             }
         }

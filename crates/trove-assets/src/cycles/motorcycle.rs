@@ -128,14 +128,14 @@ impl Motorcycle {
         if self == Self::Scooter {
             let tail = blend(vec![
                 limb(vec3(0.45, 0.0, 0.55), vec3(-0.15, 0.0, 0.66), 0.14, 0.12).wide(Vec3::Y, 1.2),
-                limb(vec3(0.42, 0.0, 0.4), vec3(0.2, 0.0, 0.45), 0.1, 0.11).wide(Vec3::Y, 1.3),
+                limb(vec3(0.4, 0.0, 0.36), vec3(0.2, 0.0, 0.45), 0.1, 0.11).wide(Vec3::Y, 1.3),
                 limb(vec3(-0.1, 0.0, 0.68), vec3(-0.3, 0.0, 0.72), 0.1, 0.05).wide(Vec3::Y, 1.2),
             ]);
             let shield = blend(vec![
-                limb(vec3(0.98, 0.0, 0.42), vec3(0.93, 0.0, 0.95), 0.07, 0.06).wide(Vec3::Y, 3.0),
+                limb(vec3(1.0, 0.0, 0.34), vec3(0.93, 0.0, 0.95), 0.07, 0.06).wide(Vec3::Y, 3.0),
                 limb(vec3(0.9, 0.0, 1.0), vec3(0.98, 0.0, 0.98), 0.07, 0.07).wide(Vec3::Y, 2.2),
             ]);
-            let board = Shape::rounded_block(vec3(0.62, 0.36, 0.1), 0.04).moved(vec3(0.68, 0.0, 0.26));
+            let board = Shape::rounded_block(vec3(0.78, 0.36, 0.09), 0.04).moved(vec3(0.64, 0.0, 0.27));
             let cushion = blend(vec![
                 limb(seat + vec3(0.2, 0.0, -0.04), seat - vec3(0.2, 0.0, 0.03), 0.07, 0.075).wide(Vec3::Y, 1.8),
                 limb(seat - vec3(0.15, 0.0, 0.02), seat - vec3(0.5, 0.0, 0.0), 0.07, 0.05).wide(Vec3::Y, 1.8),
@@ -184,14 +184,16 @@ impl Motorcycle {
         ];
         if self == Self::Sports {
             let fairing = blend(vec![
-                limb(vec3(0.95, 0.0, 0.5), vec3(0.6, 0.0, 0.35), 0.15, 0.1).wide(Vec3::Y, 1.3),
-                limb(vec3(1.0, 0.0, 0.55), vec3(1.1, 0.0, 0.88), 0.14, 0.12).wide(Vec3::Y, 1.35),
-                limb(vec3(1.1, 0.0, 0.88), vec3(1.3, 0.0, 0.84), 0.12, 0.06).wide(Vec3::Y, 1.4),
+                limb(vec3(0.9, 0.0, 0.7), vec3(1.22, 0.0, 0.83), 0.2, 0.1).wide(Vec3::Y, 1.15),
+                limb(vec3(1.0, 0.0, 0.6), vec3(0.55, 0.0, 0.37), 0.17, 0.11).wide(Vec3::Y, 1.15),
+                limb(vec3(0.6, 0.0, 0.5), vec3(0.95, 0.0, 0.62), 0.14, 0.17).wide(Vec3::Y, 1.25),
+                limb(vec3(1.15, 0.0, 0.85), vec3(1.34, 0.0, 0.78), 0.12, 0.05).wide(Vec3::Y, 1.5),
             ]);
-            let screen = Shape::ellipsoid(vec3(0.16, 0.14, 0.12), 18).moved(vec3(1.12, 0.0, 1.0)).slot(parts.black);
+            let screen = Shape::ellipsoid(vec3(0.2, 0.13, 0.1), 18).turned(Quat::from_rotation_y(0.5));
+            let screen = screen.moved(vec3(1.08, 0.0, 0.96)).slot(parts.black);
             shapes.extend([fairing.slot(parts.paint), screen]);
             for side in [1.0, -1.0] {
-                let lamp = Shape::ellipsoid(vec3(0.05, 0.06, 0.025), 12).moved(vec3(1.31, 0.06 * side, 0.86));
+                let lamp = Shape::ellipsoid(vec3(0.05, 0.06, 0.025), 12).moved(vec3(1.34, 0.075 * side, 0.81));
                 shapes.push(lamp.slot(parts.lamp));
             }
         } else {

@@ -6,7 +6,7 @@ use super::wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 use crate::shape::{Blend, Limb, Shape};
 
 /// Edge of the cells that clothes, and heads and hands, are made of.
-const CLOTH_CELL_M: f32 = 0.037;
+const CLOTH_CELL_M: f32 = 0.04;
 const SKIN_CELL_M: f32 = 0.0235;
 
 /// Measures of a body; what they are shares of is its height.
@@ -117,7 +117,7 @@ impl Figure {
             let pole = vec3(-1.0, SIDES[i] * 0.5, -0.5);
             bent(shoulders[i], pose.wrists[i], 0.168 * h, 0.148 * h, pole)
         });
-        let neck = up(0.0, 0.0, 0.318);
+        let neck = up(0.0, 0.0, 0.317);
         let head = neck + Quat::from_rotation_y(pose.lean_rad * 0.35) * (vec3(0.014, 0.0, 0.1) * h);
         Self { body, pose, trunk, hips, knees, shoulders, elbows, neck, head }
     }
@@ -187,12 +187,12 @@ impl Figure {
             ));
         }
         let mut parts = vec![Blend::new(head, 0.022).surface(SKIN_CELL_M)];
-        for i in 0..2 {
+        for (i, side) in SIDES.into_iter().enumerate() {
             let (wrist, elbow) = (self.pose.wrists[i], self.elbows[i]);
             let along = (wrist - elbow).normalize_or(-Vec3::Z);
             let palm = wrist + along * self.m(0.045);
-            let tips = palm + (along + vec3(0.15, -SIDES[i] * 0.25, 0.0)).normalize() * self.m(0.04);
-            let thumb = palm + (along + vec3(0.9, -SIDES[i] * 0.2, 0.0)).normalize() * self.m(0.026);
+            let tips = palm + (along + vec3(0.15, -side * 0.25, 0.0)).normalize() * self.m(0.04);
+            let thumb = palm + (along + vec3(0.9, -side * 0.2, 0.0)).normalize() * self.m(0.026);
             let from = match outfit.sleeve {
                 Sleeve::Long => wrist - along * self.m(0.03),
                 Sleeve::Short | Sleeve::None => elbow,
@@ -213,7 +213,9 @@ impl Figure {
                     if outfit.sleeve == Sleeve::None { self.shoulders[i] } else { self.shoulders[i].lerp(elbow, 0.4) };
                 arm.push(Limb::new(start, elbow, self.radius(0.027), self.radius(0.025)));
             }
-            parts.push(Blend::new(arm, 0.015).surface(SKIN_CELL_M * 0.95));
+            parts.push(
+                Blend::new(arm, 0.015).surface(SKIN_CELL_M * if outfit.sleeve == Sleeve::Long { 0.95 } else { 1.1 }),
+            );
         }
         if outfit.leg == Leg::Shorts {
             parts.push(self.legs(0.0, 0.35, 0.9));

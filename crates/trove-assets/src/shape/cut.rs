@@ -98,11 +98,6 @@ impl Shape {
         self.split(prism).1
     }
 
-    /// The surface inside a prism alone.
-    pub(crate) fn only(self, prism: &Prism) -> Self {
-        self.split(prism).0
-    }
-
     /// What is in a slot, and the rest.
     pub(crate) fn split_slot(self, slot: u16) -> (Self, Self) {
         let part = |wanted: bool| {
@@ -120,6 +115,13 @@ impl Shape {
         let triangles = std::mem::take(&mut self.triangles);
         let slots = std::mem::take(&mut self.slots);
         for (t, slot) in triangles.into_iter().zip(slots) {
+            let outside =
+                |&(normal, offset): &(Vec3, f32)| t.iter().all(|&i| normal.dot(self.positions[i as usize]) > offset);
+            if prism.planes.iter().any(outside) {
+                self.triangles.push(t);
+                self.slots.push(slot);
+                continue;
+            }
             let mut left: Vec<Corner> = t
                 .iter()
                 .map(|&i| i as usize)

@@ -6,6 +6,9 @@ use glam::{Vec2, Vec3, vec2, vec3};
 
 use crate::shape::{Curve, Shape};
 
+/// Exponent of the superellipse that the ends are rounded by, seen from the side; 2 would be an ellipse.
+const ROUNDNESS: f32 = 3.0;
+
 /// The side view of a car, in metres: points are (distance from the front, height).
 #[derive(Clone, Debug)]
 pub(crate) struct Profile {
@@ -123,11 +126,6 @@ impl Lines {
         Self { profile: profile.clone(), top, rail_from, rail_drop, rail_share, belt, belt_share, width_share }
     }
 
-    /// Height of the roof, the bonnet or the boot in the middle.
-    pub(crate) fn top_m(&self, s: f32) -> f32 {
-        self.top.at(s)
-    }
-
     /// (y, z) of the line between the side and the roof, on the left.
     pub(crate) fn rail_m(&self, s: f32) -> Vec2 {
         let z = self.top.at(self.rail_from.at(s)).min(self.top.at(s)) - self.rail_drop.at(s);
@@ -174,7 +172,7 @@ impl Lines {
         // Towards the ends the section closes onto a line, like a superellipse.
         let close = |distance: f32, reach: f32| {
             let t = (1.0 - distance / reach).clamp(0.0, 1.0);
-            (1.0 - t.powf(2.6)).max(0.0).powf(1.0 / 2.6)
+            (1.0 - t.powf(ROUNDNESS)).max(0.0).powf(1.0 / ROUNDNESS)
         };
         let (front, back) = (close(s, p.round_m[0]), close(p.length_m - s, p.round_m[1]));
         let core = if s < p.length_m / 2.0 { p.nose.1 * 0.72 } else { p.tail.1.min(p.belt_m[1]) * 0.66 };
@@ -197,13 +195,13 @@ impl Lines {
         let p = &self.profile;
         let end = |reach: f32| {
             [0.0f32, 0.25, 0.45, 0.62, 0.75, 0.86, 0.94, 1.0]
-                .map(|f| reach * (1.0 - (1.0 - f.powf(2.6)).max(0.0).powf(1.0 / 2.6)))
+                .map(|f| reach * (1.0 - (1.0 - f.powf(ROUNDNESS)).max(0.0).powf(1.0 / ROUNDNESS)))
         };
         let mut stations: Vec<f32> = end(p.round_m[0]).to_vec();
         stations.extend(end(p.round_m[1]).map(|d| p.length_m - d));
         let knots = [p.cowl, p.header, p.rear_header, p.deck];
         stations.extend(knots.iter().flat_map(|k| [k.0 - 0.06, k.0, k.0 + 0.06]));
-        let steps = ((p.length_m - p.round_m[0] - p.round_m[1]) / 0.11) as usize;
+        let steps = ((p.length_m - p.round_m[0] - p.round_m[1]) / 0.13) as usize;
         let span = p.length_m - p.round_m[0] - p.round_m[1];
         stations.extend((1..steps).map(|i| p.round_m[0] + span * i as f32 / steps as f32));
         stations.sort_by(f32::total_cmp);

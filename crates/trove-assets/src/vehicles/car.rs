@@ -46,12 +46,13 @@ impl CarPlan {
         skin = self.ends(skin, palette);
         skin = self.seams(skin, &lines, palette);
         let mut parts = vec![self.interior(&lines, palette)];
-        for (i, &axle) in self.axles_m.iter().enumerate() {
+        for &axle in &self.axles_m {
             let (cut, arch) = self.arch(skin, axle, palette);
             skin = cut;
-            parts.extend([arch, self.wheels(axle, i == 0, palette)]);
+            parts.extend([arch, self.wheels(axle, palette)]);
         }
         parts.push(self.fittings(&skin, &lines, palette));
+        parts.push(self.ornaments(palette));
         parts.push(skin);
         Shape::join(parts)
     }
@@ -159,12 +160,42 @@ impl CarPlan {
             ]
         };
         skin = skin.mark_both(&back(&tail_lamp), palette.red);
-        let blinker = rect(1.0, tail - 0.15, tail - 0.11).map(|q| vec2(half * 0.86 + q.x * half * 0.1, q.y));
+        let blinker = rect(1.0, tail - 0.155, tail - 0.115).map(|q| vec2(half * 0.9 + q.x * half * 0.06, q.y));
         skin = skin.mark_both(&back(&blinker), palette.amber);
-        let plate_m = if self.tall_tail_lamps || tail > 1.1 { 0.62 } else { tail - 0.3 };
-        skin.mark(&front(&rect(0.26, lower + 0.14, lower + 0.25)), palette.plate)
-            .mark(&back(&rect(0.30, plate_m - 0.02, plate_m + 0.14)), palette.trim)
-            .mark(&back(&rect(0.26, plate_m, plate_m + 0.11)), palette.plate)
+        // Two bulbs in every headlamp, reflectors in the rear bumper.
+        for (y, z) in [(half * 0.71, nose - 0.112), (half * 0.84, nose - 0.102)] {
+            for (radius, slot) in [(0.036, palette.seam), (0.028, palette.chrome)] {
+                let bulb: Vec<Vec2> =
+                    (0..10).map(|i| vec2(y, z) + Vec2::from_angle(TAU * i as f32 / 10.0) * radius).collect();
+                skin = skin.mark_both(&front(&bulb), slot);
+            }
+        }
+        let reflector = [(0.6, 0.0), (0.78, 0.0), (0.78, 0.035), (0.6, 0.035)];
+        skin.mark_both(&back(&reflector.map(|(y, z)| vec2(half * y, lower + 0.09 + z))), palette.red)
+    }
+
+    /// Plates, a badge, an exhaust and an aerial, which stand off the skin.
+    fn ornaments(&self, palette: &Palette) -> Shape {
+        let p = &self.profile;
+        let (nose, tail) = (p.nose.1, p.tail.1.min(p.belt_m[1]));
+        let plate = |x: f32, z: f32| {
+            let frame = Shape::rounded_block(vec3(0.02, 0.54, 0.13), 0.006).slot(palette.trim);
+            let face = Shape::rounded_block(vec3(0.024, 0.51, 0.108), 0.004).slot(palette.plate);
+            frame.and(face).moved(vec3(x, 0.0, z))
+        };
+        let rear_plate_m = if self.tall_tail_lamps || tail > 1.1 { tail - 0.28 } else { tail - 0.25 };
+        let badge = Shape::ellipsoid(vec3(0.02, 0.055, 0.04), 14);
+        let mut parts = vec![
+            plate(-0.003, p.clearance_m + 0.27),
+            plate(-p.length_m + 0.0, rear_plate_m),
+            badge.moved(vec3(-0.035, 0.0, nose - 0.07 - self.grille_m[0] / 2.0)).slot(palette.chrome),
+        ];
+        let pipe = Shape::tube(&[vec3(0.25, 0.0, 0.0), Vec3::ZERO], 0.03, 10).slot(palette.chrome);
+        parts.push(pipe.moved(vec3(-p.length_m + 0.06, self.half_m() * 0.6, p.clearance_m + 0.04)));
+        let fin = Shape::ellipsoid(vec3(0.09, 0.02, 0.06), 12);
+        let (s, z) = p.rear_header;
+        parts.push(fin.moved(vec3(-s + 0.25, 0.0, z + 0.02)).slot(palette.paint));
+        Shape::join(parts)
     }
 
     /// Gaps between doors, bonnet, boot and bumpers.
@@ -192,9 +223,14 @@ impl CarPlan {
         // Boot lid or tailgate.
         let tail = p.tail.1.min(p.belt_m[1]);
         let width = self.half_m() * 0.78;
-        for (low, high) in [(vec2(-width, tail - 0.33), vec2(width, tail - 0.33 + GAP_M))] {
-            let line = [low, vec2(high.x, low.y), high, vec2(low.x, high.y)];
-            skin = skin.mark(&Prism::front(&line, -p.length_m - 0.1..=-p.length_m + 0.3), palette.seam);
+        let (low, high) = (tail - 0.33, tail - 0.33 + GAP_M);
+        let line = [vec2(-width, low), vec2(width, low), vec2(width, high), vec2(-width, high)];
+        skin = skin.mark(&Prism::front(&line, -p.length_m - 0.1..=-p.length_m + 0.3), palette.seam);
+        if p.tail.0 - p.deck.0 > 1.0 {
+            // The cover over a pick-up's bed.
+            let (front, back, side) = (-p.deck.0 - 0.12, -p.tail.0 + 0.02, self.half_m() * 0.76);
+            let cover = [vec2(front, -side), vec2(front, side), vec2(back, side), vec2(back, -side)];
+            skin = skin.mark(&Prism::top(&cover, p.tail.1 - 0.12..=p.deck.1 + 0.1), palette.trim);
         }
         if self.cladding {
             let strip = |s: f32| [vec2(-s, 0.0), vec2(-s + 10.0, 0.0), vec2(-s + 10.0, 0.34), vec2(-s, 0.34)];
@@ -229,7 +265,7 @@ impl CarPlan {
         (skin, well.and(wall).and(lip).both_sides())
     }
 
-    fn wheels(&self, axle: f32, _front: bool, palette: &Palette) -> Shape {
+    fn wheels(&self, axle: f32, palette: &Palette) -> Shape {
         let width = 0.19 + self.wheel_radius_m * 0.1;
         let y = self.half_m() * 0.985 - width / 2.0 - 0.02;
         wheel(palette, self.wheel_radius_m, width, self.rim).moved(vec3(-axle, y, self.wheel_radius_m)).both_sides()
@@ -275,8 +311,8 @@ impl CarPlan {
         let z = lines.belt_m(s).y + 0.06;
         let y = skin.outside_at(-s, z - 0.05).unwrap_or(self.half_m() * 0.9);
         let arm = Shape::rounded_block(vec3(0.07, 0.12, 0.04), 0.015).moved(vec3(-s, y + 0.03, z - 0.02));
-        let shell = Shape::rounded_block(vec3(0.11, 0.2, 0.14), 0.045).moved(vec3(-s, y + 0.13, z + 0.04));
-        let pane = Shape::block(vec3(0.004, 0.16, 0.1)).moved(vec3(-s - 0.055, y + 0.13, z + 0.04));
+        let shell = Shape::rounded_block(vec3(0.11, 0.17, 0.13), 0.045).moved(vec3(-s, y + 0.1, z + 0.04));
+        let pane = Shape::block(vec3(0.004, 0.13, 0.09)).moved(vec3(-s - 0.055, y + 0.1, z + 0.04));
         let mut parts = vec![arm.slot(palette.trim), shell.slot(palette.paint), pane.slot(palette.chrome)];
         let mut ends: Vec<f32> = self.pillars_m.clone();
         ends.truncate(2);
@@ -293,7 +329,7 @@ impl CarPlan {
                 .enumerate()
                 .map(|(i, s)| {
                     let q = lines.rail_m(s);
-                    vec3(-s, q.x - 0.05, q.y + if i == 0 || i == 12 { 0.01 } else { 0.055 })
+                    vec3(-s, q.x - 0.035, q.y + if i == 0 || i == 12 { 0.01 } else { 0.075 })
                 })
                 .collect();
             parts.push(Shape::tube(&rail, 0.016, 6).slot(palette.chrome));

@@ -15,7 +15,6 @@ const WHITE: Vec3 = vec3(0.76, 0.76, 0.74);
 /// Every passenger car and van.
 pub(crate) fn assets() -> Vec<Asset> {
     let fleet = |id: &str, class: Class, plan: &CarPlan| finish(id, Kind::Car, class, plan, &FLEET, extras::none);
-    let trade = |id: &str, plan: &CarPlan| finish(id, Kind::Car, Class::Van, plan, &COMMERCIAL, extras::none);
     let taxis = [vec3(0.62, 0.33, 0.015), vec3(0.015, 0.06, 0.3), vec3(0.45, 0.02, 0.02), WHITE];
     let police = [WHITE, vec3(0.012, 0.014, 0.02)];
     vec![
@@ -26,11 +25,13 @@ pub(crate) fn assets() -> Vec<Asset> {
         fleet("car/hatchback", Class::Car, &hatchback()),
         fleet("car/estate", Class::Car, &estate()),
         fleet("car/pickup", Class::Car, &pickup()),
+        // nuScenes, for one, counts pick-ups as trucks.
+        finish("truck/pickup", Kind::Truck, Class::Truck, &pickup(), &FLEET, extras::none),
         fleet("car/suv-compact", Class::Jeep, &compact_suv()),
         fleet("car/suv-large", Class::Jeep, &large_suv()),
         fleet("car/minivan", Class::Van, &minivan()),
-        trade("car/van-panel", &panel_van(false)),
-        trade("car/van-minibus", &panel_van(true)),
+        finish("car/van-panel", Kind::Car, Class::Van, &panel_van(false), &COMMERCIAL, extras::load_doors),
+        finish("car/van-minibus", Kind::Car, Class::Van, &panel_van(true), &COMMERCIAL, extras::none),
         finish("car/taxi", Kind::Car, Class::Car, &sedan(), &taxis, extras::taxi),
         finish("car/police", Kind::PoliceCar, Class::Car, &executive(), &police, extras::police),
         finish("van/ambulance", Kind::Ambulance, Class::Van, &panel_van(false), &[WHITE], extras::ambulance),
@@ -179,7 +180,7 @@ fn hatchback() -> CarPlan {
             ..sedan().profile
         },
         axles_m: [0.86, 3.49],
-        wheel_radius_m: 0.318,
+        wheel_radius_m: 0.317,
         rim: Rim::Spokes(5),
         pillars_m: vec![2.22, 3.1],
         last_window_m: 3.55,
@@ -368,7 +369,7 @@ fn panel_van(windows: bool) -> CarPlan {
         cladding: true,
         grille_m: [0.14, 0.42],
         tall_tail_lamps: true,
-        seats_m: if windows { vec![1.95, 2.8, 3.6, 4.4] } else { vec![1.9] },
+        seats_m: if windows { vec![1.95, 2.9, 3.9] } else { vec![1.9] },
         ..sedan()
     }
 }

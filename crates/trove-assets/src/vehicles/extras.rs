@@ -1,6 +1,6 @@
 //! What is put on top of an ordinary car: signs and lights.
 
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec2, Vec3, vec2, vec3};
 use trove_model::Material;
 
 use super::car::CarPlan;
@@ -27,8 +27,33 @@ pub(crate) fn police(model: &mut Model, palette: &Palette, plan: &CarPlan) {
     model.mark_both(&Prism::side(&band, 0.6..=2.0), palette.paint, blue);
 }
 
+/// Windows and seams of the doors behind and of a sliding door.
+pub(crate) fn load_doors(model: &mut Model, palette: &Palette, plan: &CarPlan) {
+    let p = &plan.profile;
+    let rect = |a: f32, b: f32, low: f32, high: f32| [vec2(a, low), vec2(b, low), vec2(b, high), vec2(a, high)];
+    let (low, high) = (p.belt_m[1] + 0.12, p.rear_header.1 - 0.3);
+    let back = |polygon: &[Vec2]| Prism::front(polygon, -p.length_m - 0.1..=-p.length_m + 0.4);
+    for (margin, slot) in [(0.0, palette.trim), (0.025, palette.interior)] {
+        let pane = rect(0.06 + margin, 0.62 - margin, low + margin, high - margin);
+        model.mark_both(&back(&pane), palette.paint, slot);
+        model.mark_both(&back(&pane), palette.trim, slot);
+    }
+    model.mark(&back(&rect(-0.006, 0.006, p.clearance_m + 0.2, p.rear_header.1 - 0.1)), palette.paint, palette.seam);
+    let (front, rear) = (-plan.blind_from_m - 0.02, -plan.blind_from_m - 1.25);
+    let (foot, head) = (p.clearance_m + 0.12, p.rear_header.1 - 0.22);
+    let rail = p.belt_m[1] - 0.02;
+    for line in [
+        rect(rear, rear + 0.01, foot, head),
+        rect(rear, front, head, head + 0.01),
+        rect(-p.length_m + 0.25, rear, rail, rail + 0.03),
+    ] {
+        model.mark_both(&Prism::side(&line, 0.5..=2.0), palette.paint, palette.seam);
+    }
+}
+
 /// Light bars and bands of an ambulance.
 pub(crate) fn ambulance(model: &mut Model, palette: &Palette, plan: &CarPlan) {
+    load_doors(model, palette, plan);
     let p = &plan.profile;
     light_bar(model, palette, (p.header.0 + 0.25, p.header.1 + 0.06), 1.4);
     light_bar(model, palette, (p.length_m - 0.35, p.rear_header.1), 1.2);

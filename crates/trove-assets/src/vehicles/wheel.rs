@@ -37,7 +37,7 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
         vec2(bead, half * 0.84),
     ];
     let barrel = [vec2(bead * 1.02, half * 0.82), vec2(bead * 0.97, half * 0.88), vec2(bead * 0.93, half * 0.8)];
-    let mut parts = vec![turned(&tyre, 32).slot(palette.rubber), turned(&barrel, 32).slot(palette.rim)];
+    let mut parts = vec![turned(&tyre, 28).slot(palette.rubber), turned(&barrel, 28).slot(palette.rim)];
     let back = [vec2(bead * 0.98, -half * 0.85), vec2(0.0, -half * 0.85)];
     parts.push(turned(&back, 20).inside_out().slot(palette.trim));
     match rim {
