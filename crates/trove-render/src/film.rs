@@ -20,10 +20,10 @@ const TRIM: [f64; 2] = [0.05, 0.05];
 const GREY: [f32; 2] = [0.18, 0.463];
 
 /// Steepness of the tone curve; the bare sRGB encoding has 0.81 at middle grey.
-const CONTRAST: f32 = 0.82;
+const CONTRAST: f32 = 0.85;
 
-/// Exposed radiance that just becomes white: five and a half stops above the grey card.
-const WHITE: f32 = 8.0;
+/// Exposed radiance that just becomes white: four stops above the grey card.
+const WHITE: f32 = 3.0;
 
 /// Share of brightness that is mixed into every channel: a camera's colour filters overlap.
 const FADE: f32 = 0.1;

@@ -30,14 +30,14 @@ const EXTINCTION: f32 = 0.035;
 const OPAQUE: f32 = 0.02;
 
 /// Lengths of the steps towards the sun, metres: short where detail shows.
-const TO_SUN_M: [f32; 6] = [35.0, 50.0, 80.0, 130.0, 220.0, 400.0];
+const TO_SUN_M: [f32; 5] = [40.0, 70.0, 120.0, 220.0, 400.0];
 
 /// Scattering orders are summed as in Wrenninge, Kulla, Lundqvist 2013: each octave has this share of the strength, of
 /// the extinction, and of the forward peak of the last one.
 const OCTAVE: [f32; 3] = [0.55, 0.4, 0.5];
 
 /// Brings a thick cloud that faces the sun to the 0.8 of a white surface that satellites see.
-const GAIN: f32 = 2.4;
+const GAIN: f32 = 4.2;
 
 /// From which cover on the sun itself is hidden.
 const SUN_HIDDEN_FROM: f32 = 0.8;
@@ -103,26 +103,23 @@ impl Clouds {
         }
         let from_sun = direction.dot(self.to_sun).clamp(-1.0, 1.0).acos();
         let opening = self.opening(from_sun);
-        let (mut t, end) = (BASE_M / direction.z, (BASE_M + self.tops_m) / direction.z);
+        let (mut t, end) = (BASE_M / direction.z, ((BASE_M + self.tops_m) / direction.z).min(3.0 * self.haze_m));
         let (mut light, mut passed, mut reach) = (Vec3::ZERO, 1.0f32, 0.0f32);
         let phases = phases(direction.dot(self.to_sun));
         while t < end && passed > OPAQUE {
             let point = direction * t;
-            let room = self.room(point) - opening;
-            if room <= 0.0 {
-                // The field falls by less than its span in 900 m: a longer step without risk.
-                t += (-room * 900.0).clamp(30.0, 600.0);
+            let step = 25.0 + 0.003 * t;
+            // Nothing changes by more than a span in 900 m, so far from clouds a longer step misses none.
+            let inside = self.inside(point, self.room(point) - opening, t);
+            if inside <= 0.0 {
+                t += (-inside * 900.0).clamp(step, 40.0 * step);
                 continue;
             }
-            let step = 25.0 + 0.002 * t;
-            let density = self.density(point, room, t);
-            if density > 0.0 {
-                let stays = (-density * EXTINCTION * step).exp();
-                let weight = passed * (1.0 - stays);
-                light += self.scattered(point, phases) * weight;
-                reach += weight * t;
-                passed *= stays;
-            }
+            let stays = (-density(point, inside) * EXTINCTION * step).exp();
+            let weight = passed * (1.0 - stays);
+            light += self.scattered(point, phases) * weight;
+            reach += weight * t;
+            passed *= stays;
             t += step;
         }
         let opacity = 1.0 - passed;
@@ -147,18 +144,15 @@ impl Clouds {
         over - (point.z - BASE_M) / self.tops_m
     }
 
-    /// 0 outside to 1 in the middle of a cloud; `room` as at the point, `from_eye_m` limits detail.
-    fn density(&self, point: Vec3, room: f32, from_eye_m: f32) -> f32 {
-        let flat = smoothstep(0.0, 60.0, point.z - BASE_M);
-        let mut left = room - BITE[0] * self.puffs.at(point / PUFFS_M[0]);
-        if left <= 0.0 {
-            return 0.0;
+    /// The room at a point that puffs leave, negative outside clouds; detail is left out far from the eye.
+    fn inside(&self, point: Vec3, room: f32, from_eye_m: f32) -> f32 {
+        if room <= 0.0 {
+            return room;
         }
-        let detail = (1.0 - from_eye_m / 40_000.0).max(0.0);
-        if detail > 0.0 && left < 0.5 {
-            left -= BITE[1] * detail * self.puffs.at(point / PUFFS_M[1]);
-        }
-        (left * 10.0).clamp(0.0, 1.0) * flat
+        let left = room - BITE[0] * self.puffs.at(point / PUFFS_M[0]);
+        let detail = BITE[1] * (1.0 - from_eye_m / 40_000.0).max(0.0);
+        let is_edge = (0.0..0.3).contains(&left) && detail > 0.0;
+        if is_edge { left - detail * self.puffs.at(point / PUFFS_M[1]) } else { left }
     }
 
     /// Radiance that a point of a cloud sends to the eye per unit of extinction.
@@ -166,18 +160,21 @@ impl Clouds {
         let (mut thickness, mut along) = (0.0, 0.0);
         for step in TO_SUN_M {
             let p = point + self.to_sun * (along + 0.5 * step);
-            let room = self.room(p);
-            if room > 0.0 && p.z > BASE_M {
-                thickness += self.density(p, room, 20_000.0) * EXTINCTION * step;
-            }
+            // Detail is too small to matter to a whole step.
+            thickness += density(p, self.inside(p, self.room(p), f32::INFINITY)) * EXTINCTION * step;
             along += step;
         }
         let [strength, extinction, _] = OCTAVE;
         let octave = |i: i32| strength.powi(i) * phases[i as usize] * (-thickness * extinction.powi(i)).exp();
         let from_sun = self.sun * GAIN * (0..3).map(octave).sum::<f32>();
         let height = ((point.z - BASE_M) / self.tops_m).clamp(0.0, 1.0);
-        from_sun + self.above * (0.35 + 0.45 * height) + self.below * (0.35 * (1.0 - height))
+        from_sun + self.above * (0.5 + 0.4 * height) + self.below * (0.5 * (1.0 - height))
     }
+}
+
+/// 0 outside to 1 in the middle of a cloud.
+fn density(point: Vec3, inside: f32) -> f32 {
+    (inside * 10.0).clamp(0.0, 1.0) * smoothstep(0.0, 60.0, point.z - BASE_M)
 }
 
 /// 0 while the sun stays clear, 1 under a closed cover.
