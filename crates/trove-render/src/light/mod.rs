@@ -127,7 +127,7 @@ impl Lights {
             _ => self.around.dome.draw(within),
         };
         let pdf = self.pdf(wi);
-        (pdf > 0.0).then(|| LightSample { wi, distance: f32::INFINITY, radiance: None, pdf })
+        (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance: None, pdf })
     }
 
     fn sample_emitter(&self, emitters: &Emitters, point: Vec3, u: [f32; 2]) -> Option<LightSample> {
