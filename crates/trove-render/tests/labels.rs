@@ -1,5 +1,7 @@
 //! Labels whose values are known in closed form.
 
+#![allow(clippy::unwrap_used)] // clippy knows the tests in here, not what they call
+
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
