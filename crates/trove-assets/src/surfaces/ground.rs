@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::canvas::{Canvas, Texel};
-use super::noise::{Noise, step};
+use super::noise::{Field, Noise, step};
 
 /// Asphalt's character.
 #[derive(Clone, Copy, Debug)]
@@ -26,20 +26,21 @@ pub(super) fn asphalt(kind: Wear) -> Canvas {
     let size = [6.0, 6.0];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, kind.seed * 31 + salt);
-    let (stones, grain, blotch, stain) = (noise(0.014, 1), noise(0.05, 2), noise(1.5, 3), noise(0.6, 4));
-    let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6), noise(1.7, 7));
+    let (stones, grain, blotch, stain) =
+        (noise(0.014, 1), noise(0.05, 2), noise(1.5, 3).field(3), noise(0.6, 4).field(3));
+    let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6).field(3), noise(1.7, 7));
     let warm = vec3(1.03, 1.0, 0.955);
     let mut canvas = Canvas::new([1024, 1024], size, |p| {
         let stone = stones.near(p);
-        let broad = blotch.fbm(p, 3);
+        let broad = blotch.at(p);
         let shown = step(0.62, 0.25, stone.first) * step(1.0 - kind.worn, 1.15 - kind.worn, stone.id + 0.25 * broad);
         let tone = kind.stone * (0.65 + 0.7 * stone.id);
         let mut value = kind.binder * (1.0 + 0.22 * grain.at(p)) + (tone - kind.binder) * shown;
-        value *= 1.0 + 0.14 * broad - 0.16 * step(0.25, 0.7, stain.fbm(p, 3));
+        value *= 1.0 + 0.14 * broad - 0.16 * step(0.25, 0.7, stain.at(p));
         let mut texel = Texel::new(warm * value, 0.86 - 0.1 * shown);
         texel.height_m = 0.0012 * step(0.7, 0.2, stone.first) + 0.0015 * grain.at(p);
         if kind.cracks > 0.0 {
-            let bent = p + vec2(warp.fbm(p, 3), warp.fbm(p + size_m * 0.37, 3)) * 0.22;
+            let bent = p + vec2(warp.at(p), warp.at(p + size_m * 0.37)) * 0.22;
             let cell = plates.near(bent);
             let open = step(0.25, 0.55, sparse.at(p) + kind.cracks - 0.45);
             let crack = step(0.012, 0.003, cell.second - cell.first) * open;
@@ -61,11 +62,11 @@ pub(super) fn asphalt(kind: Wear) -> Canvas {
 }
 
 /// A rectangle of newer asphalt with a sealed edge.
-fn patch(canvas: &mut Canvas, low: Vec2, high: Vec2, warp: &Noise, tone: f32) {
+fn patch(canvas: &mut Canvas, low: Vec2, high: Vec2, warp: &Field, tone: f32) {
     let size = high - low;
     canvas.rect(low - 0.05, high + 0.05, |p, texel| {
         let p = p - 0.05;
-        let edge = p.min(size - p).min_element() + 0.025 * warp.fbm(p + low, 3);
+        let edge = p.min(size - p).min_element() + 0.025 * warp.at(p + low);
         let inside = step(-0.006, 0.006, edge);
         let seal = step(0.05, 0.03, (edge - 0.01).abs() * 1.2) * inside;
         texel.albedo *= 1.0 - inside * (0.3 - 0.07 * tone);
@@ -79,12 +80,13 @@ fn patch(canvas: &mut Canvas, low: Vec2, high: Vec2, warp: &Noise, tone: f32) {
 pub(super) fn marking(color: Vec3, seed: u32) -> Canvas {
     let size = [2.0, 2.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
-    let (stones, grain, blotch, dirt) = (noise(0.014, 1), noise(0.03, 2), noise(0.45, 3), noise(0.2, 4));
+    let (stones, grain, blotch, dirt) =
+        (noise(0.014, 1), noise(0.03, 2), noise(0.45, 3).field(4), noise(0.2, 4).field(3));
     Canvas::new([512, 512], size, |p| {
         let stone = stones.near(p);
-        let broad = blotch.fbm(p, 4);
+        let broad = blotch.at(p);
         let worn = broad + 0.55 * (0.5 - stone.first) + 0.35 * grain.at(p);
-        let grime = 0.35 * step(0.0, 0.8, worn) + 0.15 * step(-0.2, 0.6, dirt.fbm(p, 3));
+        let grime = 0.35 * step(0.0, 0.8, worn) + 0.15 * step(-0.2, 0.6, dirt.at(p));
         let mut texel = Texel::new(color.lerp(Vec3::splat(0.14), grime), 0.62);
         texel.height_m = 0.001 * step(0.7, 0.2, stone.first);
         texel.alpha = step(0.8, 0.62, worn);
@@ -97,13 +99,13 @@ pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
     let size = [4.0, 4.0];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
-    let (clump, tuft, patch, earth) = (noise(0.5, 1), noise(0.09, 2), noise(1.3, 3), noise(0.025, 4));
+    let (clump, tuft, patch, earth) = (noise(0.5, 1).field(3), noise(0.09, 2), noise(1.3, 3).field(4), noise(0.025, 4));
     let mut canvas = Canvas::new([768, 768], size, |p| {
-        let (c, e) = (clump.fbm(p, 3), earth.fbm(p, 2));
+        let (c, e) = (clump.at(p), earth.fbm(p, 2));
         let soil = vec3(0.13, 0.09, 0.058) * (1.0 + 0.3 * e);
-        let dead = step(0.1, 0.7, patch.fbm(p, 3) + 0.25 * c);
+        let dead = step(0.1, 0.7, patch.at(p) + 0.25 * c);
         let green = fresh.lerp(dry, 0.35 * dead) * (0.75 + 0.3 * c);
-        let open = step(1.0 - bare, 1.25 - bare, 0.5 + 0.5 * patch.fbm(p + size_m * 0.31, 4) + 0.2 * tuft.at(p));
+        let open = step(1.0 - bare, 1.25 - bare, 0.5 + 0.5 * patch.at(p + size_m * 0.31) + 0.2 * tuft.at(p));
         let mut texel = Texel::new((green * 0.55).lerp(soil, open), 0.9);
         texel.height_m = 0.006 * tuft.fbm(p, 2) - 0.012 * open;
         texel.alpha = 1.0 - open;
@@ -137,9 +139,9 @@ pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
 pub(super) fn soil(seed: u32) -> Canvas {
     let size = [3.0, 3.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
-    let (crumb, broad, pebble) = (noise(0.05, 1), noise(0.8, 2), noise(0.11, 3));
+    let (crumb, broad, pebble) = (noise(0.05, 1), noise(0.8, 2).field(4), noise(0.11, 3));
     Canvas::new([512, 512], size, |p| {
-        let (c, b) = (crumb.fbm(p, 4), broad.fbm(p, 4));
+        let (c, b) = (crumb.fbm(p, 4), broad.at(p));
         let stone = pebble.near(p);
         let is_stone = step(0.24, 0.17, stone.first) * step(0.72, 0.75, stone.id);
         let earth = vec3(0.135, 0.095, 0.064) * (1.0 + 0.35 * c + 0.3 * b);
@@ -153,7 +155,8 @@ pub(super) fn soil(seed: u32) -> Canvas {
 pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32) -> Canvas {
     let size = [2.0, 2.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
-    let (stones, fine, grain, broad) = (noise(stone_m, 1), noise(stone_m * 0.6, 2), noise(0.02, 3), noise(0.6, 4));
+    let (stones, fine, grain, broad) =
+        (noise(stone_m, 1), noise(stone_m * 0.6, 2), noise(0.02, 3), noise(0.6, 4).field(3));
     Canvas::new([512, 512], size, |p| {
         let (large, small) = (stones.near(p), fine.near(p));
         let on_top = large.first < 0.52;
@@ -161,7 +164,7 @@ pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32) -> Canvas {
         let dome = (1.0 - (stone.first * 1.5).powi(2)).max(0.0);
         let tone = depth * (0.55 + 0.8 * stone.id) * (0.45 + 0.55 * dome) * (1.0 + 0.15 * grain.at(p));
         let warm = vec3(1.0 + 0.12 * (stone.id - 0.5), 1.0, 1.0 - 0.15 * (stone.id - 0.5));
-        let mut texel = Texel::new(color * warm * tone * (1.0 + 0.2 * broad.fbm(p, 3)), 0.88);
+        let mut texel = Texel::new(color * warm * tone * (1.0 + 0.2 * broad.at(p)), 0.88);
         texel.height_m = stone_m * (0.3 * dome + if on_top { 0.25 } else { 0.0 });
         texel
     })

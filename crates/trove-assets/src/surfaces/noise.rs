@@ -48,28 +48,16 @@ impl Noise {
 
     /// The cell that a point in cells lies in, brought into the texture, and where in it the point lies.
     fn locate(&self, p: Vec2) -> (IVec2, Vec2) {
-        let cell = p.floor();
-        let wrapped = cell - self.cells.as_vec2() * (cell / self.cells.as_vec2()).floor();
-        (wrapped.as_ivec2(), p - cell)
-    }
-
-    /// A coordinate at most one beyond the texture, brought back into it.
-    fn wrapped(x: i32, cells: i32) -> i32 {
-        if x < 0 {
-            x + cells
-        } else if x >= cells {
-            x - cells
-        } else {
-            x
-        }
+        let cell = ivec2(floor(p.x), floor(p.y));
+        (ivec2(into(cell.x, self.cells.x), into(cell.y, self.cells.y)), p - cell.as_vec2())
     }
 
     /// Perlin's gradient noise at a point in metres, about −1 to 1.
     pub(crate) fn at(&self, p_m: Vec2) -> f32 {
         // Every seed's lattice lies elsewhere, lest the zeros of all octaves meet at the texture's edge.
-        let shift = vec2((self.seed & 63) as f32, (self.seed >> 1 & 63) as f32) * 0.377;
+        let shift = vec2((self.seed & 7) as f32, (self.seed >> 3 & 7) as f32) / 8.0 + 0.06;
         let (cell, f) = self.locate(p_m * self.cells_per_m + shift);
-        let next = ivec2(Self::wrapped(cell.x + 1, self.cells.x), Self::wrapped(cell.y + 1, self.cells.y));
+        let next = ivec2(into(cell.x + 1, self.cells.x), into(cell.y + 1, self.cells.y));
         let corner = |x: i32, y: i32, from: Vec2| {
             let (gx, gy) = GRADIENTS[(bits(x, y, self.seed) >> 28) as usize];
             gx * from.x + gy * from.y
@@ -94,14 +82,23 @@ impl Noise {
         sum
     }
 
+    /// [`Noise::fbm`] computed once on a grid fine enough for its smallest octave: quick where it is asked for often.
+    pub(crate) fn field(&self, octaves: u32) -> Field {
+        let size = self.cells * (4 << (octaves - 1));
+        let cell_m = self.cells.as_vec2() / self.cells_per_m / size.as_vec2();
+        let places = (0..size.y).flat_map(|y| (0..size.x).map(move |x| ivec2(x, y)));
+        let values = places.map(|p| self.fbm(p.as_vec2() * cell_m, octaves)).collect();
+        Field { size, per_m: 1.0 / cell_m, values }
+    }
+
     /// Worley's cellular noise at a point in metres.
     pub(crate) fn near(&self, p_m: Vec2) -> Near {
         let (cell, f) = self.locate(p_m * self.cells_per_m);
         let (mut first, mut second, mut nearest) = (f32::INFINITY, f32::INFINITY, 0);
         for dy in -1..=1 {
-            let y = Self::wrapped(cell.y + dy, self.cells.y);
+            let y = into(cell.y + dy, self.cells.y);
             for dx in -1..=1 {
-                let h = bits(Self::wrapped(cell.x + dx, self.cells.x), y, self.seed);
+                let h = bits(into(cell.x + dx, self.cells.x), y, self.seed);
                 let point = vec2((h & 0xffff) as f32, (h >> 16) as f32) / 65536.0;
                 let d = (f - point - vec2(dx as f32, dy as f32)).length_squared();
                 second = second.min(d.max(first));
@@ -113,6 +110,40 @@ impl Noise {
         let id = (nearest.wrapping_mul(0x9e37_79b1) >> 8) as f32 / (1 << 24) as f32;
         Near { first: first.sqrt(), second: second.sqrt(), id }
     }
+}
+
+/// Noise on a grid that repeats with the texture.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    size: IVec2,
+    per_m: Vec2,
+    values: Vec<f32>,
+}
+
+impl Field {
+    /// Its value at a point in metres, between the grid's.
+    pub(crate) fn at(&self, p_m: Vec2) -> f32 {
+        let p = p_m * self.per_m;
+        let cell = ivec2(floor(p.x), floor(p.y));
+        let f = p - cell.as_vec2();
+        let (x, y) = (into(cell.x, self.size.x), into(cell.y, self.size.y));
+        let (right, above) = (into(x + 1, self.size.x), into(y + 1, self.size.y));
+        let value = |x: i32, y: i32| self.values[(y * self.size.x + x) as usize];
+        let low = value(x, y) + (value(right, y) - value(x, y)) * f.x;
+        let high = value(x, above) + (value(right, above) - value(x, above)) * f.x;
+        low + (high - low) * f.y
+    }
+}
+
+/// A coordinate brought into the texture.
+fn into(x: i32, cells: i32) -> i32 {
+    if (0..cells).contains(&x) { x } else { x.rem_euclid(cells) }
+}
+
+/// The whole number below (`f32::floor` is a slow call where the processor's newer instructions are not asked for).
+fn floor(x: f32) -> i32 {
+    let whole = x as i32;
+    whole - i32::from((whole as f32) > x)
 }
 
 /// Sixteen directions around the circle.

@@ -3,14 +3,14 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::canvas::{Canvas, Texel};
-use super::noise::{Noise, hash, step};
+use super::noise::{Field, Noise, hash, step};
 
 /// Concrete's own look: fine pores, clouds, stains.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Cement {
     pores: Noise,
-    clouds: Noise,
-    stains: Noise,
+    clouds: Field,
+    stains: Field,
     color: Vec3,
 }
 
@@ -18,13 +18,13 @@ impl Cement {
     /// For a texture of some size.
     pub(super) fn new(size_m: Vec2, color: Vec3, seed: u32) -> Self {
         let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
-        Self { pores: noise(0.025, 1), clouds: noise(0.9, 2), stains: noise(0.35, 3), color }
+        Self { pores: noise(0.025, 1), clouds: noise(0.9, 2).field(4), stains: noise(0.35, 3).field(3), color }
     }
 
     /// The surface at a point, metres.
     pub(super) fn at(&self, p: Vec2) -> Texel {
-        let (pores, clouds) = (self.pores.fbm(p, 2), self.clouds.fbm(p, 4));
-        let stain = step(0.3, 0.8, self.stains.fbm(p, 3));
+        let (pores, clouds) = (self.pores.fbm(p, 2), self.clouds.at(p));
+        let stain = step(0.3, 0.8, self.stains.at(p));
         let mut texel = Texel::new(self.color * (1.0 + 0.1 * pores + 0.13 * clouds - 0.14 * stain), 0.84);
         texel.height_m = 0.0008 * pores;
         texel
@@ -136,14 +136,14 @@ pub(super) fn kerb(color: Vec3, black: bool, seed: u32) -> Canvas {
     let size = [4.0, 1.0];
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
-    let (wear, chips) = (Noise::new(size_m, 0.3, seed + 7), Noise::new(size_m, 0.04, seed + 8));
+    let (wear, chips) = (Noise::new(size_m, 0.3, seed + 7).field(4), Noise::new(size_m, 0.04, seed + 8));
     Canvas::new([1024, 256], size, |p| {
         let mut texel = cement.at(p);
         let stone = p.x.floor() as i32;
         let edge_m = (p.x - p.x.floor()).min(p.x.ceil() - p.x);
         if black {
             let paint = if stone % 2 == 0 { Vec3::splat(0.028) } else { vec3(0.62, 0.61, 0.57) };
-            let worn = step(0.12, 0.45, wear.fbm(p, 4) + 0.35 * chips.fbm(p, 2) - 0.1 * (stone % 2) as f32);
+            let worn = step(0.12, 0.45, wear.at(p) + 0.35 * chips.fbm(p, 2) - 0.1 * (stone % 2) as f32);
             texel.tint(paint * (1.0 + 0.12 * chips.at(p)), 1.0 - 0.85 * worn);
             texel.roughness = 0.6 + 0.25 * worn;
         }

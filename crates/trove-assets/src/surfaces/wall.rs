@@ -33,12 +33,12 @@ impl Grid {
 
 /// Rain streaks and blotches over a finished wall.
 pub(super) fn weather(canvas: &mut Canvas, strength: f32, seed: u32) {
-    let streaks = Noise::stretched(canvas.size_m, vec2(0.12, 3.0), seed + 91);
-    let blotches = Noise::new(canvas.size_m, 1.6, seed + 92);
+    let streaks = Noise::stretched(canvas.size_m, vec2(0.12, 3.0), seed + 91).field(2);
+    let blotches = Noise::new(canvas.size_m, 1.6, seed + 92).field(3);
     canvas.all(|p, texel| {
         // Glass is washed.
         if texel.roughness > 0.3 {
-            let dirt = 0.5 * streaks.fbm(p, 2) + 0.7 * blotches.fbm(p, 3);
+            let dirt = 0.5 * streaks.at(p) + 0.7 * blotches.at(p);
             texel.albedo *= 1.0 - strength * dirt.clamp(-0.6, 1.0);
         }
     });
@@ -50,7 +50,7 @@ pub(super) fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas 
     let count = (size / vec2(0.225, 0.075) / 2.0).round() * 2.0;
     let piece = size / count;
     let noise = |feature_m, salt| Noise::new(size, feature_m, seed * 31 + salt);
-    let (grain, broad) = (noise(0.03, 1), noise(1.1, 2));
+    let (grain, broad) = (noise(0.03, 1), noise(1.1, 2).field(3));
     Canvas::new(grid.size_px(), size.to_array(), |p| {
         let row = (p.y / piece.y).floor();
         let along = p.x / piece.x + if row as i32 % 2 == 0 { 0.0 } else { 0.5 };
@@ -59,7 +59,7 @@ pub(super) fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas 
         let tone = 0.72 + 0.5 * hash(i, k, seed) - if hash(i, k, seed + 2) > 0.93 { 0.25 } else { 0.0 };
         let warmth = 0.25 * (hash(i, k, seed + 1) - 0.5);
         let mut texel = Texel::new(color * tone * vec3(1.0 + 0.4 * warmth, 1.0, 1.0 - warmth), 0.88);
-        texel.albedo *= 1.0 + 0.12 * grain.at(p) + 0.12 * broad.fbm(p, 3);
+        texel.albedo *= 1.0 + 0.12 * grain.at(p) + 0.12 * broad.at(p);
         let edge_m = within.min(piece - within).min_element();
         let joint = step(0.0075, 0.004, edge_m);
         texel.tint(mortar * (1.0 + 0.15 * grain.at(p)), joint * 0.9);
@@ -72,10 +72,10 @@ pub(super) fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas 
 pub(super) fn plaster(grid: Grid, color: Vec3, seed: u32) -> Canvas {
     let size = grid.size_m();
     let noise = |feature_m, salt| Noise::new(size, feature_m, seed * 31 + salt);
-    let (grain, broad) = (noise(0.04, 1), noise(0.9, 2));
+    let (grain, broad) = (noise(0.04, 1), noise(0.9, 2).field(4));
     Canvas::new(grid.size_px(), size.to_array(), |p| {
         let g = grain.fbm(p, 2);
-        let mut texel = Texel::new(color * (1.0 + 0.04 * g + 0.07 * broad.fbm(p, 4)), 0.9);
+        let mut texel = Texel::new(color * (1.0 + 0.04 * g + 0.07 * broad.at(p)), 0.9);
         texel.height_m = 0.0015 * g;
         texel
     })
@@ -110,13 +110,13 @@ pub(super) fn corrugated(grid: Grid, color: Vec3, seed: u32) -> Canvas {
     let size = grid.size_m();
     let ribs = (size.x / 0.25).round();
     let noise = |feature_m: Vec2, salt| Noise::stretched(size, feature_m, seed * 31 + salt);
-    let (rust, streak) = (noise(Vec2::splat(0.7), 1), noise(vec2(0.08, 1.6), 2));
+    let (rust, streak) = (noise(Vec2::splat(0.7), 1).field(4), noise(vec2(0.08, 1.6), 2).field(2));
     Canvas::new(grid.size_px(), size.to_array(), |p| {
         let wave = (p.x / size.x * ribs).fract();
         let rib = step(0.0, 0.12, wave) * step(0.6, 0.48, wave);
         let lap = step(0.03, 0.01, (p.y - size.y * 0.5).abs());
-        let mut texel = Texel::new(color * (0.94 + 0.1 * rib) * (1.0 + 0.06 * streak.fbm(p, 2)), 0.42);
-        let rusty = step(0.45, 0.8, rust.fbm(p, 4) + 0.4 * streak.at(p));
+        let mut texel = Texel::new(color * (0.94 + 0.1 * rib) * (1.0 + 0.06 * streak.at(p)), 0.42);
+        let rusty = step(0.45, 0.8, rust.at(p) + 0.4 * streak.at(p));
         texel.tint(vec3(0.13, 0.065, 0.035), 0.6 * rusty);
         texel.roughness += 0.4 * rusty;
         texel.albedo *= 1.0 - 0.3 * lap;
