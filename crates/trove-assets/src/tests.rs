@@ -46,7 +46,7 @@ fn everything_that_moves_has_models_within_its_budget() {
         assert!(found >= least, "{found} of {least} models of {kind:?}");
         for asset in assets.iter().filter(|a| a.kind == kind) {
             let triangles = asset.mesh.triangles.len();
-            let most = if matches!(kind, Kind::Adult | Kind::Child) { 9_000 } else { 25_000 };
+            let most = if matches!(kind, Kind::Adult | Kind::Child) { 8_000 } else { 25_000 };
             assert!(triangles <= most, "{} has {triangles} triangles", asset.id);
         }
     }

@@ -14,7 +14,7 @@ pub(crate) fn assets() -> Vec<Asset> {
     let woman = Physique::WOMAN;
     let small = Physique { height_m: 1.58, ..woman };
     let child = Physique::CHILD;
-    let teen = Physique { height_m: 1.45, head: 0.95, ..child };
+    let teen = Physique { height_m: 1.45, head: 0.98, ..child };
     let casual = Outfit::CASUAL;
     let jacket = Outfit::JACKET;
     let shorts = Outfit { leg: Leg::Shorts, ..casual };
@@ -191,5 +191,5 @@ fn helmet(figure: &Figure, slot: u16) -> Shape {
     let shell = Shape::lathe(&shell, 20).scaled(vec3(1.08, 0.92, 1.0));
     let rim = Shape::lathe(&[vec2(0.0, 0.0), vec2(0.14, 0.0)], 20).scaled(vec3(1.08, 0.92, 1.0)).inside_out();
     let peak = Shape::ellipsoid(vec3(0.08, 0.08, 0.01), 14).moved(vec3(0.1, 0.0, 0.003));
-    Shape::join([shell, rim, peak]).moved(figure.head + vec3(-0.005, 0.0, 0.045)).slot(slot)
+    Shape::join([shell, rim, peak]).moved(figure.head + vec3(-0.005, 0.0, 0.04)).slot(slot)
 }

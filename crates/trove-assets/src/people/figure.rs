@@ -6,7 +6,7 @@ use super::wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 use crate::shape::{Blend, Limb, Shape};
 
 /// Edge of the cells that clothes, and heads and hands, are made of.
-const CLOTH_CELL_M: f32 = 0.04;
+const CLOTH_CELL_M: f32 = 0.043;
 const SKIN_CELL_M: f32 = 0.0235;
 
 /// Measures of a body; what they are shares of is its height.
@@ -27,13 +27,13 @@ pub(crate) struct Physique {
 impl Physique {
     /// A grown man.
     pub(crate) const MAN: Self =
-        Self { height_m: 1.77, shoulder: 0.104, hip: 0.05, girth: 1.08, head: 1.0, bust: false };
+        Self { height_m: 1.77, shoulder: 0.1, hip: 0.05, girth: 1.08, head: 1.05, bust: false };
     /// A grown woman.
     pub(crate) const WOMAN: Self =
-        Self { height_m: 1.65, shoulder: 0.092, hip: 0.054, girth: 0.98, head: 0.97, bust: true };
+        Self { height_m: 1.65, shoulder: 0.089, hip: 0.054, girth: 0.98, head: 1.02, bust: true };
     /// A child of about eight.
     pub(crate) const CHILD: Self =
-        Self { height_m: 1.3, shoulder: 0.095, hip: 0.05, girth: 1.0, head: 0.93, bust: false };
+        Self { height_m: 1.3, shoulder: 0.095, hip: 0.05, girth: 1.0, head: 0.96, bust: false };
 }
 
 /// Where the joints that matter are, metres; index 0 is left. The body faces +x.
@@ -108,7 +108,7 @@ impl Figure {
         let twist = Quat::from_rotation_z((stride * 0.35).clamp(-0.15, 0.15));
         let up = |x: f32, y: f32, z: f32| pose.hips + trunk * twist * (vec3(x, y, z) * h);
         let hips = SIDES.map(|s| pose.hips + vec3(0.0, s * body.hip * h, 0.0));
-        let shoulders = SIDES.map(|s| up(-0.008, s * body.shoulder, 0.292));
+        let shoulders = SIDES.map(|s| up(-0.008, s * body.shoulder, 0.283));
         let knees = [0, 1].map(|i| {
             let pole = vec3(1.0, SIDES[i] * 0.12, 0.15);
             bent(hips[i], pose.ankles[i], 0.248 * h, 0.238 * h, pole)
@@ -176,7 +176,7 @@ impl Figure {
             Limb::new(at(-0.012, 0.0, 0.03), at(0.005, 0.0, 0.028), 0.08 * k, 0.078 * k).wide(Vec3::X, 1.17),
             Limb::new(at(0.02, 0.0, -0.01), at(0.042, 0.0, -0.075), 0.068 * k, 0.04 * k),
             Limb::new(at(0.084, 0.0, 0.005), at(0.096, 0.0, -0.022), 0.007 * k, 0.012 * k),
-            Limb::new(self.neck - vec3(0.0, 0.0, 0.03), at(-0.012, 0.0, -0.03), self.radius(0.033), self.radius(0.03)),
+            Limb::new(self.neck - vec3(0.0, 0.0, 0.03), at(-0.012, 0.0, -0.03), self.radius(0.03), self.radius(0.028)),
         ];
         for side in SIDES {
             head.push(Limb::new(
@@ -233,7 +233,7 @@ impl Figure {
                 Limb::new(self.knees[i], calf, self.radius(0.031 * slim), self.radius(0.034 * slim)),
                 Limb::new(calf, self.pose.ankles[i], self.radius(0.034 * slim), self.radius(0.022 * slim)),
             ];
-            Blend::new(limbs, 0.03).surface(CLOTH_CELL_M * 0.9)
+            Blend::new(limbs, 0.03).surface(CLOTH_CELL_M)
         });
         Shape::join(legs)
     }
@@ -242,7 +242,7 @@ impl Figure {
     fn face(&self) -> Shape {
         let k = self.head_scale();
         let eye = |side: f32| {
-            Shape::ellipsoid(vec3(0.006, 0.012, 0.006) * k, 8).moved(self.at_head(0.077, side * 0.031, 0.018))
+            Shape::ellipsoid(vec3(0.006, 0.012, 0.006) * k, 8).moved(self.at_head(0.086, side * 0.031, 0.016))
         };
         let mouth = Shape::ellipsoid(vec3(0.005, 0.02, 0.004) * k, 8).moved(self.at_head(0.082, 0.0, -0.052));
         Shape::join([eye(1.0), eye(-1.0), mouth])
@@ -292,8 +292,13 @@ impl Figure {
         let mut limbs = vec![
             Limb::new(at(0.0, 0.0, 0.11), at(-0.008, 0.0, hem), r(0.058), r(0.066)).wide(wide, hip).blunt(),
             Limb::new(at(0.0, 0.0, 0.1), at(0.004, 0.0, 0.22), r(0.056), r(0.064)).wide(wide, 1.48),
-            Limb::new(at(-0.006, 0.0, 0.22), at(-0.01, 0.0, 0.272), r(0.062), r(0.04)).wide(wide, 1.6),
-            Limb::new(at(-0.006, 0.0, 0.27), self.neck, r(0.045), self.radius(0.034) + 0.004),
+            Limb::new(at(-0.006, 0.0, 0.22), at(-0.01, 0.0, 0.265), r(0.061), r(0.038)).wide(wide, 1.6),
+            Limb::new(
+                at(-0.006, 0.0, 0.265),
+                self.neck - Vec3::Z * self.m(0.004),
+                r(0.042),
+                self.radius(0.031) + 0.004,
+            ),
         ];
         if outfit.leg != Leg::Skirt {
             // The hem falls over the thighs.
@@ -309,15 +314,15 @@ impl Figure {
         }
         for (i, side) in SIDES.into_iter().enumerate() {
             let (shoulder_m, elbow, wrist) = (self.shoulders[i], self.elbows[i], self.pose.wrists[i]);
-            limbs.push(Limb::new(at(-0.006, side * shoulder * 0.5, 0.28), shoulder_m, r(0.034), r(0.03)));
-            limbs.push(Limb::new(at(-0.01, side * 0.026, 0.315), shoulder_m, r(0.022), r(0.024)));
+            limbs.push(Limb::new(at(-0.006, side * shoulder * 0.5, 0.272), shoulder_m, r(0.032), r(0.0275)));
+            limbs.push(Limb::new(at(-0.01, side * 0.026, 0.308), shoulder_m, r(0.021), r(0.023)));
             match outfit.sleeve {
                 Sleeve::None => {}
                 Sleeve::Short => {
-                    limbs.push(Limb::new(shoulder_m, shoulder_m.lerp(elbow, 0.68), r(0.03), r(0.033)).blunt());
+                    limbs.push(Limb::new(shoulder_m, shoulder_m.lerp(elbow, 0.68), r(0.0285), r(0.032)).blunt());
                 }
                 Sleeve::Long => {
-                    limbs.push(Limb::new(shoulder_m, elbow, r(0.03), r(0.026)));
+                    limbs.push(Limb::new(shoulder_m, elbow, r(0.0285), r(0.026)));
                     limbs.push(Limb::new(elbow, wrist, r(0.026), r(0.0195)).blunt());
                 }
             }
@@ -369,7 +374,7 @@ impl Figure {
             let mut shoe = Blend::new(limbs, 0.02);
             shoe.floor_m = m(-0.044);
             let turn = Quat::from_rotation_z(out) * Quat::from_rotation_y(self.pose.toes_rad[i]);
-            shoe.surface(0.028).turned(turn).moved(self.pose.ankles[i])
+            shoe.surface(0.03).turned(turn).moved(self.pose.ankles[i])
         });
         Shape::join(shoes)
     }
