@@ -123,16 +123,26 @@ impl<'a> Site<'a> {
         for side in [-1.0f32, 1.0] {
             let corner = |x: f32| vec3(x * side, -out.y * side, low);
             let end = |x: f32| vec3(x * side, 0.0, top);
-            self.add(tiles, slope(&[corner(-out.x), corner(out.x), end(ridge), end(-ridge)]));
-            self.add(gable, slope(&[corner(out.x), corner(-out.x), end(-ridge), end(ridge)]).moved(Vec3::Z * -0.12));
+            self.roof_plane(tiles, gable, &[corner(-out.x), corner(out.x), end(ridge), end(-ridge)]);
             if hip_m > 0.0 {
                 let foot = |y: f32| vec3(out.x * side, y * out.y * side, low);
-                self.add(tiles, slope(&[foot(-1.0), foot(1.0), end(ridge)]));
-                self.add(gable, slope(&[foot(1.0), foot(-1.0), end(ridge)]).moved(Vec3::Z * -0.12));
+                self.roof_plane(tiles, gable, &[foot(-1.0), foot(1.0), end(ridge)]);
             } else {
                 let at = |y: f32, z: f32| vec3(half.x * side, y * half.y * side, z);
                 self.add(gable, slope(&[at(-1.0, z_m), at(1.0, z_m), at(0.0, top)]));
             }
+        }
+    }
+
+    /// One sloping plane with its underside and its edges, counter-clockwise from above.
+    fn roof_plane(&mut self, tiles: u16, under: u16, corners: &[Vec3]) {
+        let thick = Vec3::Z * 0.12;
+        self.add(tiles, slope(corners));
+        let below: Vec<Vec3> = corners.iter().rev().map(|&c| c - thick).collect();
+        self.add(under, slope(&below));
+        for (i, &a) in corners.iter().enumerate() {
+            let b = corners[(i + 1) % corners.len()];
+            self.add(under, slope(&[a - thick, b - thick, b, a]));
         }
     }
 

@@ -158,13 +158,13 @@ impl Pen<'_> {
     }
 
     fn frond(&mut self) {
-        for k in 0..46 {
-            let t = k as f32 / 46.0;
+        for k in 0..30 {
+            let t = k as f32 / 30.0;
             for side in [1.0, -1.0] {
                 let at = vec2(0.5, 0.03 + 0.93 * t);
                 let along = Vec2::from_angle(std::f32::consts::FRAC_PI_2 - side * (1.15 - 0.5 * t));
                 let length = 0.5 * (1.0 - 0.75 * t * t) * (0.55 + 0.45 * (t * 6.0).min(1.0)) * self.range(0.9, 1.08);
-                self.leaf(at, along, length, 0.032, 0.6);
+                self.leaf(at, along, length, 0.026, 0.6);
             }
         }
         self.twig(vec2(0.5, 0.0), vec2(0.5, 0.98), 0.014);

@@ -14,3 +14,57 @@ pub(crate) fn assets() -> Vec<Asset> {
     let groups: [fn() -> Vec<Asset>; 3] = [trees::assets, stems::assets, bushes::assets];
     groups.par_iter().flat_map_iter(|group| group()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use trove_model::{Asset, Kind, Material};
+
+    use super::assets;
+
+    fn leaves(asset: &Asset) -> impl Iterator<Item = &Material> {
+        asset.slots.iter().map(|s| &s.material).filter(|m| m.translucency > 0.0)
+    }
+
+    #[test]
+    fn plants_are_many_light_enough_and_of_real_size() {
+        let assets = assets();
+        let of = |kind| assets.iter().filter(move |a| a.kind == kind);
+        assert!(of(Kind::Tree).count() >= 8 && of(Kind::Bush).count() >= 5);
+        for (kind, triangles, height) in [(Kind::Tree, 40_000, 4.5..18.5), (Kind::Bush, 6_000, 0.3..3.2)] {
+            for asset in of(kind) {
+                assert!(asset.mesh.triangles.len() <= triangles, "{}: {}", asset.id, asset.mesh.triangles.len());
+                assert!(height.contains(&asset.size_m.z), "{} is {} high", asset.id, asset.size_m.z);
+            }
+        }
+    }
+
+    #[test]
+    fn leaves_are_green_cut_out_and_let_light_through() {
+        for asset in &assets() {
+            assert_eq!(leaves(asset).count(), 1, "{}", asset.id);
+            for material in leaves(asset) {
+                let picture = material.base_color_map.as_ref().unwrap();
+                let there = picture.rgba.iter().filter(|t| t[3] > 127).count() as f32 / picture.rgba.len() as f32;
+                assert!((0.12..0.8).contains(&there), "{} covers {there} of its card", material.name);
+                assert!(material.alpha_cutoff == 0.5);
+                let [r, g, b] = [0, 1, 2].map(|c| picture.rgba.iter().map(|t| u32::from(t[c])).sum::<u32>());
+                assert!(g > r && r > b, "{} is not green", material.name);
+            }
+        }
+    }
+
+    #[test]
+    fn crowns_are_lit_from_outside() {
+        for asset in assets().iter().filter(|a| a.kind == Kind::Tree) {
+            let mesh = &asset.mesh;
+            let middle = glam::Vec3::Z * asset.size_m.z as f32 * 0.45;
+            let leaf = |t: usize| asset.slots[usize::from(mesh.slot(t))].material.translucency > 0.0;
+            let outward = (0..mesh.triangles.len()).filter(|&t| leaf(t)).map(|t| {
+                let i = mesh.triangles[t][0] as usize;
+                mesh.normals[i].dot((mesh.positions[i] - middle).normalize_or_zero())
+            });
+            let (sum, n) = outward.fold((0.0, 0), |(s, n), x| (s + x, n + 1));
+            assert!(sum / n as f32 > 0.2, "{}: {}", asset.id, sum / n as f32);
+        }
+    }
+}

@@ -14,7 +14,7 @@ pub(super) fn assets() -> Vec<Asset> {
     vec![
         conifer("tree/spruce", 12.5, 2.7, 0.9, -0.35),
         conifer("tree/pine", 10.5, 2.6, 3.2, 0.25),
-        palm("tree/palm", 8.0, 19, 3.0),
+        palm("tree/palm", 8.0, 22, 3.3),
         palm("tree/palm-low", 4.6, 16, 2.5),
     ]
 }
@@ -119,7 +119,7 @@ fn frond(foot: Vec3, turn: f32, pitch: f32, length_m: f32) -> Shape {
         let angle = pitch - 1.5 * t * t;
         let up = Vec3::Z * angle.cos() - out * angle.sin();
         for (u, side) in [(0.0, -1.0), (0.5, 0.0), (1.0, 1.0f32)] {
-            let hang = 0.5 * side.abs();
+            let hang = 0.65 * side.abs();
             shape.positions.push(at + (across * side * 0.85 - up * hang) * length_m * 0.25);
             shape.normals.push((up + across * side * 0.35 + out * 0.3).normalize_or(Vec3::Z));
             shape.uvs.push(vec2(u, t));

@@ -25,3 +25,62 @@ pub(crate) fn assets() -> Vec<Asset> {
     ]
     .concat()
 }
+
+#[cfg(test)]
+mod tests {
+    use trove_model::Kind;
+
+    use super::assets;
+
+    #[test]
+    fn every_kind_of_furniture_has_its_models() {
+        let assets = assets();
+        #[rustfmt::skip]
+        let wanted = [
+            (Kind::TrafficCone, 3), (Kind::Barrier, 5), (Kind::PushablePullable, 3), (Kind::Debris, 3),
+            (Kind::BicycleRack, 1), (Kind::TrafficSign, 6), (Kind::TrafficSignal, 2), (Kind::StreetLamp, 3),
+            (Kind::UtilityPole, 1), (Kind::Bollard, 2), (Kind::Hydrant, 1), (Kind::Bin, 2), (Kind::Bench, 2),
+            (Kind::Shelter, 1),
+        ];
+        for (kind, least) in wanted {
+            let found = assets.iter().filter(|a| a.kind == kind).count();
+            assert!(found >= least, "{found} of {least} models of {kind:?}");
+        }
+        assert!(assets.iter().all(|a| a.mesh.triangles.len() < 10_000));
+    }
+
+    #[test]
+    fn things_have_the_sizes_that_nuscenes_annotates() {
+        // Length, width and height between the smallest and the largest of the mini set, a little wider.
+        for asset in &assets() {
+            let ranges = match asset.kind {
+                Kind::TrafficCone => [0.3..0.75, 0.3..0.75, 0.5..1.4],
+                Kind::Barrier => [0.5..0.8, 1.7..2.6, 0.8..1.4],
+                Kind::BicycleRack => [4.0..15.0, 1.2..2.0, 0.8..1.5],
+                _ => continue,
+            };
+            for (range, size) in ranges.iter().zip(asset.size_m.to_array()) {
+                assert!(range.contains(&size), "{} measures {}", asset.id, asset.size_m);
+            }
+        }
+    }
+
+    #[test]
+    fn faces_of_signs_look_along_x() {
+        for asset in assets().iter().filter(|a| a.kind == Kind::TrafficSign) {
+            for (t, corners) in asset.mesh.triangles.iter().enumerate() {
+                let material = &asset.slots[usize::from(asset.mesh.slot(t))].material;
+                if material.base_color_map.is_some() {
+                    assert!(asset.mesh.normals[corners[0] as usize].x > 0.99, "{}", asset.id);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_signal_has_one_kind_of_lamp_lit() {
+        for asset in assets().iter().filter(|a| a.kind == Kind::TrafficSignal) {
+            assert_eq!(asset.slots.iter().filter(|s| s.material.is_emitter()).count(), 1, "{}", asset.id);
+        }
+    }
+}
