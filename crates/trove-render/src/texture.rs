@@ -39,17 +39,15 @@ impl MipMap {
     }
 
     /// The colour at `uv` averaged over about `footprint` (in units of uv); alpha is the fourth.
-    pub(crate) fn sample(&self, uv: Vec2, footprint: Vec2) -> Vec4 {
+    ///
+    /// Between two sizes `dither`, uniform in [0, 1), chooses: the mean over many look-ups is their blend, at half the
+    /// cost.
+    pub(crate) fn sample(&self, uv: Vec2, footprint: Vec2, dither: f32) -> Vec4 {
         let texels = footprint * Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
         // Both directions alike: the geometric mean of the two sides.
-        let lod = (0.5 * (texels.x * texels.y).max(1.0).log2()).min((self.levels.len() - 1) as f32);
-        let (fine, blend) = (lod as usize, lod.fract());
-        let table = table(self.color_space);
-        let sharp = self.levels[fine].bilinear(uv, table);
-        match self.levels.get(fine + 1) {
-            Some(coarse) if blend > 0.0 => sharp.lerp(coarse.bilinear(uv, table), blend),
-            _ => sharp,
-        }
+        let lod = 0.5 * (texels.x * texels.y).max(1.0).log2();
+        let level = ((lod + dither) as usize).min(self.levels.len() - 1);
+        self.levels[level].bilinear(uv, table(self.color_space))
     }
 
     /// Alpha at `uv` in full resolution.
@@ -65,17 +63,25 @@ fn table(color_space: ColorSpace) -> &'static [f32; 256] {
     }
 }
 
+/// The two of `n` repeating texels around a coordinate whose period is 1, and the position between their centres.
+fn between(coordinate: f32, n: u32) -> (usize, usize, f32) {
+    // Divisions and calls to `floor` would cost more than the rest of a look-up.
+    let whole = coordinate as i32 as f32;
+    let fraction = coordinate - whole;
+    let fraction = if fraction < 0.0 { fraction + 1.0 } else { fraction };
+    let position = fraction * n as f32 + 0.5;
+    let above = position as usize;
+    let (last, next) = (n as usize - 1, above.min(n as usize));
+    (if next == 0 { last } else { next - 1 }, if next > last { 0 } else { next }, (position - above as f32).clamp(0.0, 1.0))
+}
+
 impl Level {
     /// The four texels around `uv` and the position between them; v runs up, rows run down.
     fn corners(&self, uv: Vec2) -> ([[u8; 4]; 4], f32, f32) {
-        let x = (uv.x - uv.x.floor()) * self.width as f32 - 0.5;
-        let y = (1.0 - (uv.y - uv.y.floor())) * self.height as f32 - 0.5;
-        let (fx, fy) = (x - x.floor(), y - y.floor());
-        let wrap = |i: f32, n: u32| (i as i32).rem_euclid(n as i32) as usize;
-        let (x0, y0) = (wrap(x.floor(), self.width), wrap(y.floor(), self.height));
-        let (x1, y1) = ((x0 + 1) % self.width as usize, (y0 + 1) % self.height as usize);
-        let at = |x: usize, y: usize| self.texels[y * self.width as usize + x];
-        ([at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)], fx, fy)
+        let ((x0, x1, fx), (y0, y1, fy)) = (between(uv.x, self.width), between(1.0 - uv.y, self.height));
+        let (upper, lower) = (y0 * self.width as usize, y1 * self.width as usize);
+        let at = |i: usize| self.texels[i];
+        ([at(upper + x0), at(upper + x1), at(lower + x0), at(lower + x1)], fx, fy)
     }
 
     fn bilinear(&self, uv: Vec2, table: &[f32; 256]) -> Vec4 {
@@ -162,10 +168,10 @@ mod tests {
     #[test]
     fn the_smallest_copy_is_the_mean_of_the_light() {
         let map = MipMap::new(&texture(8, 8, |x, y| [if (x + y) % 2 == 0 { 255 } else { 0 }; 4]));
-        let far = map.sample(Vec2::new(0.3, 0.7), Vec2::ONE);
+        let far = map.sample(Vec2::new(0.3, 0.7), Vec2::ONE, 0.5);
         assert!((far.w - 0.5).abs() < 0.01, "{far}"); // alpha
         let opaque = MipMap::new(&texture(8, 8, |x, y| if (x + y) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
-        assert!((opaque.sample(Vec2::ZERO, Vec2::ONE).x - 0.5).abs() < 0.01);
+        assert!((opaque.sample(Vec2::ZERO, Vec2::ONE, 0.5).x - 0.5).abs() < 0.01);
     }
 
     #[test]

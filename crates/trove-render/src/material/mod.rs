@@ -80,16 +80,17 @@ impl PreparedMaterial {
         self.base_color * ((1.0 - reflected) * self.transmission * (1.0 - self.metalness))
     }
 
-    /// How it scatters light at a point; `width_m` is the width of what one sample covers there.
-    pub(crate) fn shade(&self, surface: &Surface, width_m: f32) -> Bsdf {
+    /// How it scatters light at a point; `width_m` is the width of what one sample covers there,
+    /// `dither` a random number in [0, 1).
+    pub(crate) fn shade(&self, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
         let uv = surface.uv * self.uv_scale;
         let footprint = surface.uv_axes.map_or(Vec2::ZERO, |[along_u, along_v]| {
             width_m * self.uv_scale.abs() / Vec2::new(along_u.length(), along_v.length()).max(Vec2::splat(1e-9))
         });
-        let color = self.base_color_map.as_ref().map_or(Vec3::ONE, |map| map.sample(uv, footprint).truncate());
-        let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| map.sample(uv, footprint).truncate());
+        let color = self.base_color_map.as_ref().map_or(Vec3::ONE, |map| map.sample(uv, footprint, dither).truncate());
+        let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| map.sample(uv, footprint, dither).truncate());
         let normal = match (&self.normal_map, surface.uv_axes) {
-            (Some(map), Some(axes)) => bumped(surface, axes, map.sample(uv, footprint).truncate() * 2.0 - 1.0),
+            (Some(map), Some(axes)) => bumped(surface, axes, map.sample(uv, footprint, dither).truncate() * 2.0 - 1.0),
             _ => surface.shading,
         };
         Bsdf::new(

@@ -105,12 +105,12 @@ pub(crate) fn radiance(
             gathered.add(throughput * material.emission * weight, bounce);
         }
 
-        let bsdf = material.shade(&surface, cone.width_m * SHARPNESS);
+        let [l0, l1, l2, dither] = sampler.next4();
+        let bsdf = material.shade(&surface, cone.width_m * SHARPNESS, dither);
         if guide.is_none() && (!bsdf.is_mirror || bounce >= 2) {
             guide = Some((guide_filter * bsdf.albedo, surface.shading));
         }
 
-        let [l0, l1, l2, _] = sampler.next4();
         gathered.add(throughput * direct(scene, &surface, &bsdf, [l0, l1, l2], rays), bounce + 1);
 
         let [u_lobe, u0, u1, u_roulette] = sampler.next4();
