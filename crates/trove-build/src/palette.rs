@@ -1,32 +1,27 @@
 //! Which of the library's surfaces a place is made of.
 
 use glam::Vec3;
-use trove_model::{AssetLibrary, Material, Report, Seed, Surface, SurfaceKind};
+use trove_model::{AssetLibrary, Material, Outcome, Random, Report, Surface, SurfaceKind};
 
-/// Draws surfaces: the same name gets the same one.
+/// The library's surfaces, with plain colours where it lacks a kind.
 pub(crate) struct Palette<'a> {
     pub library: &'a AssetLibrary,
-    pub seed: Seed,
     pub report: &'a Report,
 }
 
 impl Palette<'_> {
-    /// A surface of a kind for what is called `name`; a plain colour where the library has none.
-    pub(crate) fn surface(&self, kind: SurfaceKind, name: &str) -> Surface {
-        let all: Vec<&Surface> = self.library.surfaces_of(kind).collect();
-        match self.seed.child(name).random().pick(&all) {
+    /// One of a kind's surfaces whose id has one of the words; one of all of the kind where none has.
+    pub(crate) fn fitting(&self, kind: SurfaceKind, words: &[&str], random: &mut Random) -> Surface {
+        let (fits, others): (Vec<&Surface>, Vec<&Surface>) =
+            self.library.surfaces_of(kind).partition(|s| words.iter().any(|w| s.id.contains(w)));
+        match random.pick(if fits.is_empty() { &others } else { &fits }) {
             Some(surface) => (*surface).clone(),
             None => {
-                let what = "the asset library has no surface of a kind: a plain colour stands for it";
-                self.report.note(trove_model::Outcome::Substituted, what, format_args!("{kind:?}"));
+                let what = "surface of a kind that the asset library lacks, by a plain colour";
+                self.report.note(Outcome::Substituted, what, format_args!("{kind:?}"));
                 plain(kind)
             }
         }
-    }
-
-    /// The same, the material alone.
-    pub(crate) fn material(&self, kind: SurfaceKind, name: &str) -> Material {
-        self.surface(kind, name).material
     }
 }
 

@@ -18,8 +18,6 @@ pub(crate) struct Piece {
     pub materials: Vec<Material>,
     /// What it is, for an object with an id of its own; `None` for stuff.
     pub kind: Option<Kind>,
-    /// Where it came from (`osm way 123`).
-    pub name: String,
     /// Id of the asset that stands for it; empty for what was built for this place.
     pub asset: String,
 }

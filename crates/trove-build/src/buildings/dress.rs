@@ -1,7 +1,7 @@
 //! What a building wears: facade, ground floor, roof.
 
 use glam::Vec3;
-use trove_model::{Building, Material, Random, Surface, SurfaceKind};
+use trove_model::{Building, Material, Random, SurfaceKind};
 
 use super::volumes::is_house;
 use super::walls::Grid;
@@ -28,12 +28,12 @@ pub(super) fn dress(
     palette: &Palette<'_>,
     random: &mut Random,
 ) -> Dress {
-    let facade = draw(SurfaceKind::Facade, facade_words(building, kind, height_m), palette, random);
+    let facade = palette.fitting(SurfaceKind::Facade, facade_words(building, kind, height_m), random);
     let ground_floor =
-        ground_floor_words(kind, height_m).map(|words| draw(SurfaceKind::FacadeGroundFloor, words, palette, random));
-    let trim = palette.surface(SurfaceKind::Concrete, "trim");
-    let flat = draw(SurfaceKind::FlatRoof, &[], palette, random);
-    let tiles = draw(SurfaceKind::RoofTiles, &[], palette, random);
+        ground_floor_words(kind, height_m).map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
+    let trim = palette.fitting(SurfaceKind::Concrete, &[], random);
+    let flat = palette.fitting(SurfaceKind::FlatRoof, &[], random);
+    let tiles = palette.fitting(SurfaceKind::RoofTiles, &[], random);
     let mut wall = facade.material.clone();
     match building.color {
         Some(color) => wall.base_color = tinted(wall.base_color, color),
@@ -52,16 +52,6 @@ pub(super) fn dress(
         materials: vec![wall, ground, trim.material, flat_roof, pitched],
         facade: Grid::of(&facade),
         ground_floor: grid,
-    }
-}
-
-/// One of the surfaces whose id has one of the words; one of all where there is none.
-fn draw(kind: SurfaceKind, words: &[&str], palette: &Palette<'_>, random: &mut Random) -> Surface {
-    let fits: Vec<&Surface> =
-        palette.library.surfaces_of(kind).filter(|s| words.iter().any(|w| s.id.contains(w))).collect();
-    match random.pick(&fits) {
-        Some(surface) => (*surface).clone(),
-        None => palette.surface(kind, &format!("{kind:?} {}", random.index(1 << 16))),
     }
 }
 

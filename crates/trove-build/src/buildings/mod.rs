@@ -42,7 +42,7 @@ pub(crate) fn buildings(
     report: &Report,
 ) -> BuiltBuildings {
     let houses = map.map(|m| volumes::houses(m, keep_clear, bounds, seed, report)).unwrap_or_default();
-    let palette = Palette { library, seed, report };
+    let palette = Palette { library, report };
     let build = |house: &House<'_>| {
         let mut random = seed.child("building").nth(house.building.id as u64).random();
         replaced(house, keep_clear, ground, library, &mut random, report)
@@ -70,7 +70,6 @@ fn extruded(
         class: Class::Building,
         materials: dress.materials,
         kind: Some(Kind::Building),
-        name: volumes::name(house.building),
         asset: String::new(),
     }
 }
@@ -94,7 +93,6 @@ fn replaced(
         class: Class::Building,
         materials: found.asset.slots.iter().map(|slot| painted(slot, random)).collect(),
         kind: Some(Kind::Building),
-        name,
         asset: found.asset.id.clone(),
     })
 }

@@ -35,6 +35,8 @@ const CAR_PARK_M: f64 = 3.0;
 const ISLAND_M2: f64 = 1.5;
 /// Half of the width of a road of which only the driven path is known.
 const PATH_HALF_WIDTH_M: f64 = 3.5;
+/// How far such a road goes on before and behind the driven path.
+const PATH_BEYOND_M: f64 = 30.0;
 /// Half of the width of a path that people were seen on.
 const WALKED_HALF_WIDTH_M: f64 = 1.0;
 /// A street is built up where a building stands this near.
@@ -160,10 +162,19 @@ fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
             _ => lines.push(vec![path[i], path[i + 1]]),
         }
     }
-    // A vehicle that stood still all the time has no path: its own length stands for it.
+    // The road did not begin where the recording did; a vehicle that stood still tells its direction.
     if let (true, Some(k)) = (path.len() == 1 && off[0], drive.keyframes.first()) {
-        let forward = k.world_from_ego.vector(glam::DVec3::X).truncate() * 10.0;
-        lines.push(vec![path[0] - forward, path[0] + forward]);
+        lines.push(vec![path[0], path[0] + k.world_from_ego.vector(glam::DVec3::X).truncate()]);
+    }
+    for line in &mut lines {
+        line.dedup_by(|a, b| a.distance(*b) < 0.5);
+        let n = line.len();
+        if n > 1 {
+            let (start, end) =
+                ((line[0] - line[1]).normalize_or_zero(), (line[n - 1] - line[n - 2]).normalize_or_zero());
+            line.insert(0, line[0] + start * PATH_BEYOND_M);
+            line.push(line[n] + end * PATH_BEYOND_M);
+        }
     }
     lines
 }

@@ -5,6 +5,8 @@ mod land;
 mod layout;
 mod markings;
 mod network;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
@@ -50,8 +52,6 @@ pub(crate) struct RoadSurfaces {
     pub pieces: Vec<Piece>,
     /// Where vehicles drive; polygons do not overlap.
     pub carriageway: Vec<Polygon>,
-    /// Where people walk, kerb stones included; polygons overlap neither each other nor the carriageway.
-    pub sidewalks: Vec<Polygon>,
     footings: PlaneRaster,
 }
 
@@ -100,8 +100,12 @@ pub(crate) fn surfaces(
         || markings::markings(drive, map, &layout),
         || land::covers(layout.land.clone(), &layout.car_parks, map, bounds),
     );
-    let palette = Palette { library, seed, report };
-    let material = |kind: SurfaceKind| palette.material(kind, &format!("{kind:?}"));
+    let palette = Palette { library, report };
+    // One surface of a kind in the whole place; kerbs of plain stone where the library has them.
+    let material = |kind: SurfaceKind| {
+        let words: &[&str] = if kind == SurfaceKind::Kerb { &["concrete", "stone"] } else { &[] };
+        palette.fitting(kind, words, &mut seed.child(&format!("{kind:?}")).random()).material
+    };
     let drape = Drape::new(ground);
 
     let mut footings = PlaneRaster::new(bounds, FOOTING_CELL_M);
@@ -113,45 +117,42 @@ pub(crate) fn surfaces(
     }
 
     let mut pieces = Vec::new();
-    let mut add = |mesh: Mesh, class: Class, material: Material, name: &str| {
+    let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| {
         if !mesh.triangles.is_empty() {
-            pieces.push(stuff(mesh, class, material, name));
+            pieces.push(stuff(mesh, class, material(kind)));
         }
     };
-    add(drape.surface(&layout.carriageway, 0.0), Class::Road, material(SurfaceKind::Asphalt), "carriageway");
-    add(drape.surface(&markings.white, PAINT_M), Class::Road, material(SurfaceKind::MarkingWhite), "white markings");
-    add(drape.surface(&markings.yellow, PAINT_M), Class::Road, material(SurfaceKind::MarkingYellow), "yellow markings");
+    add(drape.surface(&layout.carriageway, 0.0), Class::Road, SurfaceKind::Asphalt);
+    add(drape.surface(&markings.white, PAINT_M), Class::Road, SurfaceKind::MarkingWhite);
+    add(drape.surface(&markings.yellow, PAINT_M), Class::Road, SurfaceKind::MarkingYellow);
     let on_border = |a: DVec2, b: DVec2| {
-        let at = |side: fn(DVec2) -> f64, limit: f64| (side(a) - limit).abs() < 0.01 && (side(b) - limit).abs() < 0.01;
-        at(|p| p.x, bounds.min.x) || at(|p| p.x, bounds.max.x) || at(|p| p.y, bounds.min.y) || at(|p| p.y, bounds.max.y)
+        let on = |limit: DVec2| ((a - limit).abs().max((b - limit).abs())).min_element() < 0.01;
+        on(bounds.min) || on(bounds.max)
     };
     let mut kerb = drape.surface(&layout.kerb, KERB_M);
     kerb.append(&drape.faces(&layout.carriageway, 0.0, KERB_M, on_border), 0);
-    add(kerb, Class::Sidewalk, material(SurfaceKind::Kerb), "kerb");
-    add(drape.surface(&layout.pavement, KERB_M), Class::Sidewalk, material(SurfaceKind::Paving), "pavement");
+    add(kerb, Class::Sidewalk, SurfaceKind::Kerb);
+    add(drape.surface(&layout.pavement, KERB_M), Class::Sidewalk, SurfaceKind::Paving);
     for cover in &covers {
-        let lift_m = if cover.kind == SurfaceKind::Water { WATER_M } else { KERB_M };
-        let name = format!("land: {:?}", cover.kind);
-        add(drape.surface(&cover.area, lift_m), Class::Ground, material(cover.kind), &name);
-        if cover.kind == SurfaceKind::Water {
-            let quay = drape.faces(&cover.area, WATER_M, KERB_M, on_border);
-            add(quay, Class::Ground, material(SurfaceKind::Concrete), "quay");
+        let is_water = cover.kind == SurfaceKind::Water;
+        let lift_m = if is_water { WATER_M } else { KERB_M };
+        add(drape.surface(&cover.area, lift_m), Class::Ground, cover.kind);
+        if is_water {
+            add(drape.faces(&cover.area, WATER_M, KERB_M, on_border), Class::Ground, SurfaceKind::Concrete);
         }
     }
-    add(drape.apron(HORIZON_M, KERB_M), Class::Ground, material(SurfaceKind::Grass), "land beyond the place");
+    add(drape.apron(HORIZON_M, KERB_M), Class::Ground, SurfaceKind::Grass);
 
-    let sidewalks = [layout.kerb, layout.pavement].concat();
-    RoadSurfaces { pieces, carriageway: layout.carriageway, sidewalks, footings }
+    RoadSurfaces { pieces, carriageway: layout.carriageway, footings }
 }
 
-fn stuff(mesh: Mesh, class: Class, material: Material, name: &str) -> Piece {
+fn stuff(mesh: Mesh, class: Class, material: Material) -> Piece {
     Piece {
         mesh: Arc::new(mesh),
         world_from_mesh: DAffine3::IDENTITY,
         class,
         materials: vec![material],
         kind: None,
-        name: name.into(),
         asset: String::new(),
     }
 }

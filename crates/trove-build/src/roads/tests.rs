@@ -1,0 +1,135 @@
+//! What holds of every place's surfaces, on a made-up street with a map around it.
+
+use glam::DVec2;
+use trove_model::{
+    AssetLibrary, Bounds, Class, HeightField, LaneMap, Polygon, Raster, Report, Road, RoadKind, Seed, SidewalkSides,
+    StreetMap,
+};
+
+use super::{Footing, KERB_M, RoadSurfaces, surfaces};
+use crate::piece::Piece;
+use crate::plane;
+use crate::testing::drive;
+
+/// Side streets across the recorded street, which runs along x from y = −4 to 12.
+fn map() -> StreetMap {
+    let road = |id: i64, kind: RoadKind, points: [[f64; 2]; 2]| Road {
+        id,
+        kind,
+        centreline: points.map(DVec2::from_array).to_vec(),
+        lanes: None,
+        width_m: None,
+        oneway: false,
+        sidewalk: SidewalkSides::default(),
+        layer: 0,
+        bridge: false,
+        tunnel: false,
+        surface: String::new(),
+        name: String::new(),
+    };
+    let roads = vec![
+        road(1, RoadKind::Residential, [[60.0, 4.0], [90.0, 180.0]]),
+        road(2, RoadKind::Tertiary, [[-60.0, -170.0], [-60.0, 170.0]]),
+        road(3, RoadKind::Footway, [[-150.0, 60.0], [150.0, 80.0]]),
+        road(4, RoadKind::Secondary, [[-240.0, 3.0], [240.0, 5.0]]),
+    ];
+    StreetMap { roads, ..StreetMap::default() }
+}
+
+fn bounds() -> Bounds {
+    Bounds::square(DVec2::new(20.0, 0.0), 360.0)
+}
+
+fn hilly() -> HeightField {
+    let nodes = Raster::from_fn(182, 182, |x, y| (x as f32 * 0.05).sin() + 0.02 * y as f32);
+    HeightField { origin: bounds().min - 1.0, cell_m: 2.0, nodes }
+}
+
+fn built() -> RoadSurfaces {
+    surfaces(&drive(), Some(&map()), &hilly(), bounds(), &AssetLibrary::default(), Seed(7), &Report::default())
+}
+
+fn area_m2(area: &[Polygon]) -> f64 {
+    area.iter().map(Polygon::area_m2).sum()
+}
+
+fn is_paint(piece: &Piece) -> bool {
+    piece.materials[0].name.contains("marking")
+}
+
+fn is_apron(piece: &Piece) -> bool {
+    piece.mesh.bounds().is_some_and(|(low, high)| (high - low).x > 1000.0)
+}
+
+#[test]
+fn the_plane_is_covered_once() {
+    let built = built();
+    // Seen from above: everything that faces up, but for paint, which lies on the road.
+    let mut covered_m2 = 0.0;
+    for piece in built.pieces.iter().filter(|p| !is_paint(p) && !is_apron(p)) {
+        assert_eq!(piece.mesh.defect(), None);
+        for t in &piece.mesh.triangles {
+            let [a, b, c] = t.map(|i| piece.mesh.positions[i as usize].as_dvec3());
+            let up = (b - a).cross(c - a).z / 2.0;
+            assert!(up > -1e-4, "{:?} faces down", piece.class);
+            covered_m2 += up;
+        }
+    }
+    let whole_m2 = bounds().size_m().element_product();
+    assert!((covered_m2 - whole_m2).abs() < 1e-4 * whole_m2, "{covered_m2} of {whole_m2} m²");
+}
+
+#[test]
+fn the_recorded_street_keeps_its_area_and_the_map_adds_only_what_it_lacks() {
+    let built = built();
+    let recorded = [plane::rectangle(Bounds { min: DVec2::new(-160.0, -4.0), max: DVec2::new(200.0, 12.0) })];
+    let kept = plane::intersection(&built.carriageway, &recorded);
+    assert!((area_m2(&kept) - 360.0 * 16.0).abs() < 1.0, "{}", area_m2(&kept));
+    assert_eq!(built.footing(DVec2::new(-60.0, 100.0)), Footing::Carriageway);
+    assert_eq!(built.footing(DVec2::new(-60.0 + 5.0, 100.0)), Footing::Sidewalk);
+    assert_eq!(built.footing(DVec2::new(20.0, 13.5)), Footing::Sidewalk);
+    assert_eq!(built.footing(DVec2::new(20.0, 100.0)), Footing::Land);
+    // Two side streets of 6.9 m and their rounded corners, no second street along the recorded one.
+    let added = area_m2(&built.carriageway) - area_m2(&kept);
+    assert!((3000.0..4200.0).contains(&added), "{added}");
+}
+
+#[test]
+fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
+    let (built, ground) = (built(), hilly());
+    let heights = |class: Class, paint: bool| -> Vec<f64> {
+        let pieces = built.pieces.iter().filter(|p| p.class == class && is_paint(p) == paint);
+        let above = |p: &glam::Vec3| f64::from(p.z) - ground.height_m(p.as_dvec3().truncate());
+        pieces.flat_map(|p| p.mesh.positions.iter().map(above)).collect()
+    };
+    assert!(heights(Class::Road, false).iter().all(|h| h.abs() < 0.02));
+    let paint = heights(Class::Road, true);
+    assert!(!paint.is_empty() && paint.iter().all(|h| (h - 0.004).abs() < 0.02));
+    assert!(heights(Class::Sidewalk, false).iter().all(|h| (-0.02..KERB_M + 0.02).contains(h)));
+}
+
+#[test]
+fn a_drive_without_any_map_has_a_road_under_it() {
+    let drive = trove_model::Drive { lane_map: None, ..drive() };
+    let flat = HeightField::flat(bounds(), 0.0);
+    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), Seed(7), &Report::default());
+    for keyframe in &drive.keyframes {
+        assert_eq!(built.footing(keyframe.world_from_ego.translation.truncate()), Footing::Carriageway);
+    }
+}
+
+#[test]
+fn a_patchy_recording_is_closed_where_vehicles_drove() {
+    let mut drive = drive();
+    let piece = |from: f64, to: f64| {
+        let corners = [[from, -4.0], [to, -4.0], [to, 12.0], [from, 12.0]];
+        Polygon::simple(corners.map(DVec2::from_array).to_vec())
+    };
+    let drivable = vec![piece(-100.0, 5.0), piece(25.0, 200.0)];
+    drive.lane_map = Some(LaneMap { drivable, ..LaneMap::default() });
+    let flat = HeightField::flat(bounds(), 0.0);
+    let report = Report::default();
+    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), Seed(7), &report);
+    assert_eq!(built.footing(DVec2::new(15.0, 0.0)), Footing::Carriageway);
+    assert!(report.entries().iter().any(|e| e.what.contains("gaps")));
+}
