@@ -50,7 +50,7 @@ fn signs(run: &[KerbPoint], shop: &mut Shop, random: &mut Random, report: &Repor
 }
 
 fn small_things(run: &[KerbPoint], shop: &mut Shop, random: &mut Random, report: &Report) {
-    const KINDS: [Kind; 10] = [
+    const KINDS: [Kind; 9] = [
         Kind::Bin,
         Kind::Bin,
         Kind::Bench,
@@ -59,7 +59,6 @@ fn small_things(run: &[KerbPoint], shop: &mut Shop, random: &mut Random, report:
         Kind::Bollard,
         Kind::Bollard,
         Kind::UtilityPole,
-        Kind::BicycleRack,
         Kind::Bench,
     ];
     for kerb in drawn(run, SMALL_SPACING_M, random) {

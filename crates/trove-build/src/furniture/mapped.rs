@@ -30,7 +30,8 @@ pub(super) fn wishes(around: &Surroundings, report: &Report) -> Vec<Wish> {
             }
         };
         let yaw_rad = thing.heading_rad.or(kerb.map(|k| facing(kind, &k))).unwrap_or(0.0);
-        wishes.push(Wish { kind, position, yaw_rad });
+        let road = kerb.map(|k| -k.outward);
+        wishes.push(Wish { kind, position, yaw_rad, road });
     }
     wishes
 }

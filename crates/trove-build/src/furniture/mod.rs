@@ -17,6 +17,9 @@ use crate::surroundings::Surroundings;
 /// Poles stand this far behind the kerb, metres.
 const OFF_KERB_M: f64 = 0.55;
 
+/// An asset whose foot is this far from the middle of its width reaches to one side, metres.
+const ONE_SIDED_M: f64 = 1.0;
+
 /// A piece of furniture that is wanted somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Wish {
@@ -25,19 +28,31 @@ struct Wish {
     position: DVec2,
     /// Where its front looks, or its arm reaches.
     yaw_rad: f64,
+    /// To the road that it belongs to, unit; `None` where there is none near.
+    road: Option<DVec2>,
 }
 
 impl Wish {
     /// At a kerb, looking the way that things of its kind do.
     fn at_kerb(kind: Kind, kerb: &KerbPoint) -> Self {
-        Self { kind, position: kerb.position + kerb.outward * OFF_KERB_M, yaw_rad: facing(kind, kerb) }
+        let position = kerb.position + kerb.outward * OFF_KERB_M;
+        Self { kind, position, yaw_rad: facing(kind, kerb), road: Some(-kerb.outward) }
     }
 }
 
-/// Signs and signals look at the traffic that comes, everything else at the road.
+impl Wish {
+    /// Whether an asset with its foot there reaches over the road, where it reaches to one side at all.
+    fn suits(&self, foot: DVec2) -> bool {
+        let arm_world = DVec2::from_angle(self.yaw_rad).rotate(DVec2::new(0.0, -foot.y));
+        foot.y.abs() < ONE_SIDED_M || self.road.is_some_and(|road| road.dot(arm_world) > 0.0)
+    }
+}
+
+/// Signs and signals look at the traffic that comes, racks lie along the kerb, everything else looks at the road.
 fn facing(kind: Kind, kerb: &KerbPoint) -> f64 {
     let look = match kind {
         Kind::TrafficSign | Kind::TrafficSignal => -kerb.traffic,
+        Kind::BicycleRack => kerb.traffic,
         _ => -kerb.outward,
     };
     look.y.atan2(look.x)
@@ -82,17 +97,19 @@ impl<'a> Shop<'a, '_, '_> {
             return false;
         }
         let seed = self.seed.child("piece").nth(self.placed.len() as u64);
-        let models: Vec<&'a Asset> = self.library.of_kind(wish.kind).collect();
+        let library = self.library;
+        let models: Vec<(&'a Asset, DVec2)> =
+            library.of_kind(wish.kind).map(|a| (a, self.foot(a))).filter(|(_, foot)| wish.suits(*foot)).collect();
         // A street's lamps are alike: the model is drawn for a large square.
         let square = (wish.position / 150.0).floor();
         let alike = self.seed.child("model").nth(square.x as i64 as u64).nth(square.y as i64 as u64);
         let draw = if wish.kind == Kind::TrafficSign { seed } else { alike };
-        let Some(asset) = draw.child(wish.kind.class().row().name).random().pick(&models).copied() else {
-            report.note(Outcome::Dropped, &format!("furniture without an asset of kind {:?}", wish.kind), "");
+        let Some((asset, foot)) = draw.child(wish.kind.class().row().name).random().pick(&models).copied() else {
+            let example = format!("at {:.0}", wish.position);
+            report.note(Outcome::Dropped, &format!("furniture without an asset of kind {:?}", wish.kind), example);
             return false;
         };
         self.clearance.take(wish.position, room.radius_m);
-        let foot = *self.feet.entry(&asset.id).or_insert_with(|| foot(asset));
         let middle = wish.position - DVec2::from_angle(wish.yaw_rad).rotate(foot);
         let surface_m = self.around.stand.surface_m(wish.position);
         self.placed.push(Scenery {
@@ -103,6 +120,10 @@ impl<'a> Shop<'a, '_, '_> {
             seed,
         });
         true
+    }
+
+    fn foot(&mut self, asset: &'a Asset) -> DVec2 {
+        *self.feet.entry(&asset.id).or_insert_with(|| foot(asset))
     }
 
     /// Distance to the nearest piece of a kind that stands already, metres.
@@ -129,4 +150,23 @@ fn foot(asset: &Asset) -> DVec2 {
         asset.mesh.positions.iter().filter(|p| p.z < TOUCHES_M).map(|p| p.truncate().as_dvec2()).collect();
     let bounds = trove_model::Bounds::around(low);
     bounds.map_or(DVec2::ZERO, |b| b.centre())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arm_reaches_over_the_road_or_is_not_taken() {
+        // A pole with its arm towards −y, as in right-hand traffic: the foot is left of the box's middle.
+        let arm_to_the_right = DVec2::new(0.0, 2.7);
+        let kerb = |outward: DVec2| KerbPoint { position: DVec2::ZERO, outward, traffic: DVec2::X, sidewalk: true };
+        // Traffic drives east. South of it the kerb is on its right, and the signal looks west.
+        let right_hand = Wish::at_kerb(Kind::TrafficSignal, &kerb(-DVec2::Y));
+        let left_hand = Wish::at_kerb(Kind::TrafficSignal, &kerb(DVec2::Y));
+        assert!((right_hand.yaw_rad.abs() - std::f64::consts::PI).abs() < 1e-9);
+        assert!(!right_hand.suits(-arm_to_the_right) && left_hand.suits(-arm_to_the_right));
+        assert!(right_hand.suits(arm_to_the_right) && !left_hand.suits(arm_to_the_right));
+        assert!(left_hand.suits(DVec2::ZERO));
+    }
 }

@@ -105,13 +105,7 @@ fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize
 }
 
 /// One of the `top_k` assets that fit best, drawn with equal chances.
-fn choose<'a>(
-    library: &'a AssetLibrary,
-    kind: Kind,
-    size_m: DVec3,
-    top_k: usize,
-    seed: Seed,
-) -> Option<(&'a Asset, Fit)> {
+fn choose(library: &AssetLibrary, kind: Kind, size_m: DVec3, top_k: usize, seed: Seed) -> Option<(&Asset, Fit)> {
     let mut fits: Vec<(&Asset, Fit)> =
         library.of_kind(kind).map(|asset| (asset, Fit::new(asset.size_m, size_m, kind))).collect();
     fits.sort_by(|(a, fa), (b, fb)| fb.quality_m.total_cmp(&fa.quality_m).then_with(|| a.id.cmp(&b.id)));
