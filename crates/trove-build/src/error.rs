@@ -21,6 +21,19 @@ pub enum BuildError {
         /// The pose as read.
         found: String,
     },
+    /// A place that no street's worth of memory holds, from a pose or box far away from the others.
+    #[error(
+        "drive {drive}: expected a place of at most {limit_m:.0} m, found one of {side_m:.0} m; leave out the keyframes \
+         or boxes that are far away"
+    )]
+    TooLarge {
+        /// The dataset's name of the drive.
+        drive: String,
+        /// Side of its square, metres; not a number where a box has none.
+        side_m: f64,
+        /// The most that can be built, metres.
+        limit_m: f64,
+    },
     /// A place without a road to stand on.
     #[error("place {place}: expected a road for cars within {size_m:.0} m, found none; move the place or enlarge it")]
     NoRoads {

@@ -25,6 +25,8 @@ use crate::{buildings, ground, roads};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
 const MIN_SIDE_M: f64 = 600.0;
+/// A larger place does not fit into memory beside its pictures, metres.
+const MAX_SIDE_M: f64 = 3000.0;
 /// LiDAR points further from the sensor do not widen the place, metres.
 const LIDAR_REACH_M: f64 = 100.0;
 /// Added around everything seen, metres.
@@ -151,7 +153,12 @@ fn checked_area(drive: &Drive) -> Result<Bounds, BuildError> {
             });
         }
     }
-    area(drive).ok_or_else(|| BuildError::EmptyDrive { drive: drive.id.clone() })
+    let bounds = area(drive).ok_or_else(|| BuildError::EmptyDrive { drive: drive.id.clone() })?;
+    let side_m = bounds.size_m().max_element();
+    if !(bounds.min.is_finite() && bounds.max.is_finite() && side_m <= MAX_SIDE_M) {
+        return Err(BuildError::TooLarge { drive: drive.id.clone(), side_m, limit_m: MAX_SIDE_M });
+    }
+    Ok(bounds)
 }
 
 impl Site {
@@ -327,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drive_without_keyframes_or_with_a_broken_pose_is_an_error() {
+    fn a_drive_without_keyframes_with_a_broken_pose_or_a_box_out_of_this_world_is_an_error() {
         let (library, report) = (testing::library(), Report::default());
         let empty = Drive { keyframes: Vec::new(), ..testing::drive() };
         assert!(matches!(build(&empty, None, &library, &settings(0), &report), Err(BuildError::EmptyDrive { .. })));
@@ -335,5 +342,9 @@ mod tests {
         broken.keyframes[3].world_from_ego.translation.x = f64::NAN;
         let error = build(&broken, None, &library, &settings(0), &report).unwrap_err();
         assert!(matches!(error, BuildError::BadPose { keyframe: 3, .. }));
+        let mut strayed = testing::drive();
+        strayed.keyframes[3].boxes[0].cuboid.world_from_body.translation.x = 1e7;
+        let error = build(&strayed, None, &library, &settings(0), &report).unwrap_err();
+        assert!(matches!(error, BuildError::TooLarge { .. }));
     }
 }

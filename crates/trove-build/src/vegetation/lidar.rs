@@ -244,6 +244,50 @@ fn eigenvalues(diagonal: DVec3, off: DVec3) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kerbs::Kerbs;
+    use crate::placement::Stand;
+    use crate::testing;
+    use trove_model::HeightField;
+
+    /// A crown 4 m above the land, a wall beside it, and a sensor on the road.
+    fn sweep(labelled: bool) -> LidarSweep {
+        let mut random = Seed(2).random();
+        let mut cloud = |low: DVec3, size: DVec3| -> Vec<glam::Vec3> {
+            let point = |_| low + DVec3::new(random.unit(), random.unit(), random.unit()) * size;
+            (0..1500).map(point).map(|p| p.as_vec3()).collect()
+        };
+        let crown = cloud(DVec3::new(18.0, -24.0, 2.0), DVec3::new(4.0, 4.0, 3.0));
+        let wall = cloud(DVec3::new(30.0, -20.0, 0.0), DVec3::new(8.0, 0.02, 4.0));
+        let classes = [vec![LidarClass::Vegetation; crown.len()], vec![LidarClass::Manmade; wall.len()]].concat();
+        LidarSweep {
+            origin_world: DVec3::new(10.0, 0.0, 1.8),
+            points_world: [crown, wall].concat(),
+            classes: if labelled { classes } else { Vec::new() },
+        }
+    }
+
+    #[test]
+    fn trees_grow_where_the_lidar_saw_a_crown_and_not_at_a_wall_with_labels_and_without() {
+        for labelled in [true, false] {
+            let mut drive = testing::drive();
+            drive.keyframes[2].lidar = Some(sweep(labelled));
+            let bounds = crate::area(&drive).unwrap();
+            let ground = HeightField::flat(bounds, 0.0);
+            let surfaces = testing::surfaces(&drive, &ground);
+            let clearance = Clearance::new(&drive, &surfaces, &[], bounds);
+            let kerbs = Kerbs::new(&drive, None, &surfaces, bounds);
+            let stand = Stand { ground: &ground, surfaces: &surfaces };
+            let around = Surroundings { drive: &drive, map: None, bounds, kerbs: &kerbs, stand };
+            let seen = Seen::new(&around, &clearance);
+            let wishes = seen.wishes(Seed(1));
+            assert!(wishes.iter().any(|w| w.kind == Kind::Tree));
+            for wish in &wishes {
+                assert!(wish.position.distance(DVec2::new(20.0, -22.0)) < 4.5, "{wish:?}");
+                assert!((3.0..10.1).contains(&wish.height_m));
+            }
+            assert!(seen.covers(DVec2::new(30.0, -20.0)) && !seen.covers(DVec2::new(80.0, 0.0)));
+        }
+    }
 
     #[test]
     fn eigenvalues_of_a_turned_ellipsoid_come_out() {
