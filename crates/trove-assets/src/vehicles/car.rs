@@ -61,6 +61,11 @@ impl CarPlan {
         self.profile.width_m / 2.0
     }
 
+    /// Where doors end: at every pillar but one that only parts off a small pane beside the windscreen.
+    fn door_ends_m(&self) -> impl Iterator<Item = f32> {
+        self.pillars_m.iter().copied().filter(|&s| s > self.profile.cowl.0 + 0.7)
+    }
+
     fn windows(&self, skin: Shape, lines: &Lines, palette: &Palette) -> Shape {
         let p = &self.profile;
         // Side windows: under the roof's edge, over the shoulder, from the windscreen's post to the last one.
@@ -209,7 +214,7 @@ impl CarPlan {
             [vec2(-s - GAP_M, sill), vec2(-s, sill), vec2(-s - lean, top), vec2(-s - lean - GAP_M, top)]
         };
         let mut doors = vec![(p.cowl.0 + 0.12, 0.02)];
-        doors.extend(self.pillars_m.iter().map(|&s| (s, 0.0)));
+        doors.extend(self.door_ends_m().map(|s| (s, 0.0)));
         for (s, lean) in doors {
             skin = skin.mark_both(&Prism::side(&upright(s, lean), 0.5..=2.0), palette.seam);
         }
@@ -314,9 +319,7 @@ impl CarPlan {
         let shell = Shape::rounded_block(vec3(0.11, 0.17, 0.13), 0.045).moved(vec3(-s, y + 0.1, z + 0.04));
         let pane = Shape::block(vec3(0.004, 0.13, 0.09)).moved(vec3(-s - 0.055, y + 0.1, z + 0.04));
         let mut parts = vec![arm.slot(palette.trim), shell.slot(palette.paint), pane.slot(palette.chrome)];
-        let mut ends: Vec<f32> = self.pillars_m.clone();
-        ends.truncate(2);
-        for s in ends {
+        for s in self.door_ends_m().take(2) {
             let z = lines.belt_m(s).y - 0.13;
             if let Some(y) = skin.outside_at(-s + 0.18, z) {
                 let handle = Shape::rounded_block(vec3(0.19, 0.03, 0.03), 0.012);

@@ -28,6 +28,8 @@ pub(crate) fn assets() -> Vec<Asset> {
         // nuScenes, for one, counts pick-ups as trucks.
         finish("truck/pickup", Kind::Truck, Class::Truck, &pickup(), &FLEET, extras::none),
         fleet("car/suv-compact", Class::Jeep, &compact_suv()),
+        fleet("car/suv-midsize", Class::Jeep, &midsize_suv()),
+        fleet("car/mpv", Class::Car, &mpv()),
         fleet("car/suv-large", Class::Jeep, &large_suv()),
         fleet("car/minivan", Class::Van, &minivan()),
         finish("car/van-panel", Kind::Car, Class::Van, &panel_van(false), &COMMERCIAL, extras::load_doors),
@@ -244,6 +246,62 @@ fn compact_suv() -> CarPlan {
         roof_rails: true,
         seats_m: vec![2.15, 2.98],
         ..sedan()
+    }
+}
+
+fn midsize_suv() -> CarPlan {
+    CarPlan {
+        profile: Profile {
+            length_m: 4.7,
+            width_m: 1.9,
+            nose: (0.09, 0.98),
+            cowl: (1.22, 1.18),
+            header: (2.02, 1.65),
+            peak: (2.55, 1.72),
+            rear_header: (4.1, 1.62),
+            deck: (4.5, 1.2),
+            tail: (4.6, 1.09),
+            belt_m: [1.11, 1.2],
+            ..compact_suv().profile
+        },
+        axles_m: [0.92, 3.74],
+        wheel_radius_m: 0.365,
+        rim: Rim::Spokes(10),
+        pillars_m: vec![2.34, 3.26],
+        last_window_m: 3.95,
+        cladding: false,
+        grille_m: [0.2, 0.45],
+        roof_rails: false,
+        seats_m: vec![2.25, 3.1],
+        ..compact_suv()
+    }
+}
+
+/// A tall small family car.
+fn mpv() -> CarPlan {
+    CarPlan {
+        profile: Profile {
+            length_m: 4.26,
+            width_m: 1.72,
+            nose: (0.11, 0.86),
+            cowl: (0.82, 1.07),
+            header: (1.62, 1.58),
+            peak: (2.3, 1.68),
+            rear_header: (3.95, 1.6),
+            deck: (4.14, 1.07),
+            tail: (4.2, 0.98),
+            belt_m: [1.0, 1.06],
+            roof_share: 0.7,
+            ..minivan().profile
+        },
+        axles_m: [0.83, 3.56],
+        wheel_radius_m: 0.305,
+        rim: Rim::Spokes(8),
+        pillars_m: vec![1.3, 2.12, 3.02],
+        last_window_m: 3.82,
+        grille_m: [0.08, 0.4],
+        seats_m: vec![1.9, 2.75],
+        ..minivan()
     }
 }
 
