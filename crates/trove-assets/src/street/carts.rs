@@ -3,7 +3,7 @@
 use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material, Seed};
 
-use super::finish::{bar, galvanised, painted, plastic, post, rubber, timber};
+use super::finish::{bar, galvanised, painted, plastic, rubber, timber};
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
@@ -160,14 +160,13 @@ fn branch() -> Asset {
         .collect();
     let tapered: Vec<(Vec3, f32)> = spine.iter().enumerate().map(|(i, &p)| (p, 0.032 - 0.003 * i as f32)).collect();
     model.add(bark, Shape::tapered_tube(&tapered, 9));
-    for i in 2..9 {
+    for (i, &from) in spine.iter().enumerate().skip(2) {
         let side = if i % 2 == 0 { 1.0 } else { -1.0 };
         let reach = random.range(0.2, 0.5) as f32;
         let lift = random.range(-0.02, 0.25) as f32;
-        let (from, to) = (spine[i], spine[i] + vec3(reach * 0.7, side * reach, lift.max(0.02 - spine[i].z + 0.01)));
+        let to = from + vec3(reach * 0.7, side * reach, lift.max(0.03 - from.z));
         let bend = from.lerp(to, 0.5) + vec3(0.0, 0.0, 0.04);
         model.add(bark, Shape::tapered_tube(&[(from, 0.012), (bend, 0.009), (to, 0.003)], 6));
     }
-    model.add(bark, post(vec3(-0.01, 0.0, 0.03), 0.01, 0.05, 6));
     model.asset("debris/branch", Kind::Debris, Class::Void)
 }

@@ -80,7 +80,7 @@ fn head(model: &mut Model, slots: &Slots, at: Vec3) {
                 })
                 .collect()
         };
-        model.add(slots.black, Shape::sheet(&[row(0.0, 0.122), row(0.24, 0.118)]));
+        model.add(slots.black, Shape::sheet(&[row(0.24, 0.118), row(0.0, 0.122)]));
     }
 }
 

@@ -50,7 +50,8 @@ pub(super) fn assets() -> Vec<Asset> {
 }
 
 fn sign(id: &str, plates: Vec<Plate>) -> Asset {
-    let top_m = plates.iter().map(|p| p.up_m + p.size_m.y / 2.0).fold(0.0, f32::max);
+    let top = |p: &Plate| p.up_m + p.outline.iter().map(|corner| corner.y).fold(0.0, f32::max);
+    let top_m = plates.iter().map(top).fold(0.0, f32::max);
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     let back = model.slot(painted(Vec3::splat(0.27)), &[]);
@@ -117,7 +118,7 @@ fn speed_limit(number: &str) -> Picture {
     let writing = Writing::new(number);
     Box::new(move |p| {
         let r = p.length();
-        let ink = writing.distance(p / 0.27) < 0.105;
+        let ink = writing.distance(p / vec2(0.19, 0.25)) < 0.12;
         choose(r > 0.305, WHITE, choose(r > 0.225, RED, choose(ink, BLACK, WHITE)))
     })
 }
@@ -131,7 +132,7 @@ fn stop() -> Plate {
     let picture = Box::new(move |p: Vec2| {
         // Distance from the middle across the octagon's sides.
         let across = (0..4).map(|k| p.dot(Vec2::from_angle(PI / 4.0 * k as f32)).abs()).fold(0.0, f32::max);
-        let ink = writing.distance(p / 0.22) < 0.1;
+        let ink = writing.distance(p / vec2(0.155, 0.25)) < 0.115;
         choose(across > 0.345 || ink, WHITE, RED)
     });
     let radius = 0.375 / (PI / 8.0).cos();

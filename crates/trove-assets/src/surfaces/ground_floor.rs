@@ -85,7 +85,7 @@ pub(super) fn entrances(color: Vec3, seed: u32) -> Facade {
     let doors = [vec3(0.02, 0.05, 0.12), vec3(0.2, 0.02, 0.02), vec3(0.02, 0.08, 0.04), vec3(0.03, 0.03, 0.03)];
     each(&mut canvas, grid, seed, |canvas, i, corner, random| {
         if i % 2 == 0 {
-            slab(canvas, corner + vec2(0.78, 0.0), corner + vec2(2.12, 2.95), stone, 0.03, 1);
+            slab(canvas, corner + vec2(0.78, 0.0), corner + vec2(2.12, 2.95), stone, 0.0, 1);
             door(canvas, corner + vec2(0.95, 0.15), vec2(1.0, 2.1), doors[i as usize % 4], false, random);
             let over = Window { recess_m: 0.12, ..pane(vec2(1.0, 0.42), [3, 1], Vec3::splat(0.6), Dress::Home) };
             window(canvas, corner + vec2(0.95, 2.3), &over, random);
@@ -96,7 +96,7 @@ pub(super) fn entrances(color: Vec3, seed: u32) -> Facade {
             streaks(canvas, corner + vec2(0.77, 0.8), 1.36, 0.7, random);
             slab(canvas, corner + vec2(0.73, 2.7), corner + vec2(2.17, 2.93), stone, 0.015, 1);
         }
-        slab(canvas, corner, corner + vec2(grid.cell_m.x, 0.12), stone * 0.8, 0.04, 1);
+        slab(canvas, corner, corner + vec2(grid.cell_m.x, 0.12), stone * 0.8, 0.0, 1);
     });
     (canvas, grid)
 }
@@ -112,7 +112,7 @@ pub(super) fn loading(seed: u32) -> Facade {
             let make = pane(vec2(1.4, 0.9), [2, 1], Vec3::splat(0.3), Dress::Office);
             window(canvas, corner + vec2(2.9, 1.2), &make, random);
         } else {
-            slab(canvas, corner + vec2(0.5, 0.0), corner + vec2(4.0, 4.1), vec3(0.2, 0.2, 0.2), 0.03, 1);
+            slab(canvas, corner + vec2(0.5, 0.0), corner + vec2(4.0, 4.1), vec3(0.2, 0.2, 0.2), 0.0, 1);
             let tone = random.range(0.85, 1.15) as f32;
             canvas.rect(corner + vec2(0.65, 0.0), corner + vec2(3.85, 3.95), |p, texel| {
                 let slat = (p.y / 0.11).fract();
@@ -144,7 +144,7 @@ pub(super) fn arcade(seed: u32) -> Facade {
             texel.albedo *= 0.75 - 0.5 * step(1.5, 3.3, p.y);
             texel.roughness = texel.roughness.max(0.15);
         });
-        slab(canvas, corner + vec2(-0.36, 0.0), corner + vec2(0.36, 0.3), vec3(0.25, 0.24, 0.22), 0.05, 1);
+        slab(canvas, corner + vec2(-0.36, 0.0), corner + vec2(0.36, 0.3), vec3(0.25, 0.24, 0.22), 0.0, 1);
         slab(canvas, corner + vec2(-0.4, 3.1), corner + vec2(0.4, 3.28), vec3(0.42, 0.4, 0.37), 0.08, 1);
         slab(canvas, corner + vec2(0.0, 3.8), corner + vec2(3.6, 4.0), vec3(0.42, 0.4, 0.37), 0.1, 1);
     });
