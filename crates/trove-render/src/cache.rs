@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
+use rayon::prelude::*;
+
 /// What was made (`T`) of things (`S`) that somebody else still holds.
 pub(crate) struct Cache<S, T> {
     /// By address, which cannot be used again as long as the weak reference is there.
@@ -30,6 +32,17 @@ impl<S, T> Cache<S, T> {
         // Not under the lock, so that others can be made at the same time.
         let entry = Entry { source: Arc::downgrade(source), made: Arc::new(make(source)) };
         self.lock().entry(address).or_insert(entry).made.clone()
+    }
+
+    /// Makes all that is missing, with the current thread pool, and forgets what is not used any more.
+    pub(crate) fn make_all<'a>(&self, sources: impl Iterator<Item = &'a Arc<S>>, make: impl Fn(&S) -> T + Sync)
+    where
+        S: Send + Sync + 'a,
+        T: Send + Sync,
+    {
+        self.forget_unused();
+        let once: BTreeMap<usize, &Arc<S>> = sources.map(|source| (Arc::as_ptr(source) as usize, source)).collect();
+        once.into_par_iter().for_each(|(_, source)| drop(self.get(source, &make)));
     }
 
     /// Drops what was made of things that are no more.

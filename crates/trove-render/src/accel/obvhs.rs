@@ -10,7 +10,6 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::{build_bvh2, build_bvh2_from_tris};
 use obvhs::ray::RayHit;
 use obvhs::triangle::Triangle;
-use rayon::prelude::*;
 use trove_model::Mesh;
 
 use super::watertight::Sheared;
@@ -44,12 +43,7 @@ pub(crate) struct Accel {
 
 impl Kernel {
     pub(super) fn build(&self, placed: &[Placed]) -> Accel {
-        self.built.forget_unused();
-        let mut meshes: Vec<&Arc<Mesh>> = placed.iter().map(|p| &p.mesh).collect();
-        meshes.sort_by_key(|mesh| Arc::as_ptr(mesh));
-        meshes.dedup_by_key(|mesh| Arc::as_ptr(mesh));
-        meshes.into_par_iter().for_each(|mesh| drop(self.built.get(mesh, Bottom::new)));
-
+        self.built.make_all(placed.iter().map(|p| &p.mesh), Bottom::new);
         let top = |p: &Placed| Top {
             bottom: self.built.get(&p.mesh, Bottom::new),
             mesh_from_world: p.world_from_mesh.inverse(),

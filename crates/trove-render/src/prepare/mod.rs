@@ -6,7 +6,7 @@ mod surface;
 use std::sync::Arc;
 
 use glam::{Affine3A, DAffine3, Mat3A, Vec3};
-use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject, Texture};
+use trove_model::{Class, InstanceId, Material, Mesh, Scene, SceneObject, Texture};
 
 use crate::RenderError;
 use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
@@ -51,7 +51,7 @@ impl PreparedScene {
         last: &LastSurroundings,
     ) -> Result<Self, RenderError> {
         check::check(scene)?;
-        textures.forget_unused();
+        textures.make_all(scene.materials.iter().flat_map(Material::textures), MipMap::new);
         let materials: Vec<_> = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).collect();
         let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
         let placed: Vec<_> = instances
@@ -62,8 +62,8 @@ impl PreparedScene {
                 tested: i.materials.iter().any(|&m| materials[m as usize].lets_light_pass()),
             })
             .collect();
-        let accel = kernel.build(&placed);
-        Ok(Self { instances, materials, lights: Lights::new(scene, last), accel })
+        let (accel, lights) = rayon::join(|| kernel.build(&placed), || Lights::new(scene, last));
+        Ok(Self { instances, materials, lights, accel })
     }
 
     /// The nearest surface; cut-out holes are not there.
