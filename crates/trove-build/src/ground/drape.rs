@@ -5,7 +5,7 @@
 //! millimetres above a road is that much above it everywhere.
 
 use glam::{DVec2, UVec2, Vec2, Vec3};
-use trove_model::{HeightField, Mesh, Polygon};
+use trove_model::{Bounds, HeightField, Mesh, Polygon};
 
 use super::rings::{self, Line, Ring};
 use crate::plane;
@@ -31,6 +31,12 @@ struct Cells {
 impl<'a> Drape<'a> {
     pub(crate) fn new(field: &'a HeightField) -> Self {
         Self { field }
+    }
+
+    /// Where the field ends.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let last = UVec2::new(self.field.nodes.width - 1, self.field.nodes.height - 1);
+        Bounds { min: self.field.origin, max: self.field.origin + last.as_dvec2() * self.field.cell_m }
     }
 
     /// Height of the triangle under a point, metres; outside the field the nearest edge's.
@@ -243,7 +249,7 @@ fn welded(mesh: &Mesh) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::{Bounds, Raster};
+    use trove_model::Raster;
 
     fn hilly() -> HeightField {
         let nodes = Raster::from_fn(21, 21, |x, y| ((x * 7 + y * 13) % 5) as f32 * 0.1);

@@ -95,6 +95,10 @@ pub(crate) fn surfaces(
     seed: Seed,
     report: &Report,
 ) -> RoadSurfaces {
+    let drape = Drape::new(ground);
+    // Up to the end of the height field, where the apron begins.
+    let field = drape.bounds();
+    let bounds = Bounds { min: bounds.min.min(field.min), max: bounds.max.max(field.max) };
     let layout = layout::layout(drive, map, bounds, report);
     let (markings, covers) = rayon::join(
         || markings::markings(drive, map, &layout),
@@ -106,7 +110,6 @@ pub(crate) fn surfaces(
         let words: &[&str] = if kind == SurfaceKind::Kerb { &["concrete", "stone"] } else { &[] };
         palette.fitting(kind, words, &mut seed.child(&format!("{kind:?}")).random()).material
     };
-    let drape = Drape::new(ground);
 
     let mut footings = PlaneRaster::new(bounds, FOOTING_CELL_M);
     footings.fill(&layout.pavement, 2);
