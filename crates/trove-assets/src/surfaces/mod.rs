@@ -86,7 +86,7 @@ fn ground_recipes() -> Vec<Recipe> {
         plain("kerb/black-white", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), true, 32)),
         plain("concrete/plain", Concrete, || paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33)),
         plain("grass/lawn", Grass, move || ground::grass(green, straw, 0.12, 41)),
-        plain("grass/worn", Grass, move || ground::grass(green * 0.95, straw, 0.42, 42)),
+        plain("grass/worn", Grass, move || ground::grass(vec3(0.098, 0.117, 0.044), straw, 0.42, 42)),
         plain("soil/earth", Soil, || ground::soil(43)),
         plain("gravel/grey", Gravel, || ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44)),
         plain("water/still", Water, ground::water),
