@@ -23,6 +23,8 @@ test: test-rust test-python
 
 # The Rust tests use Embree and Open Image Denoise where .venv has them, as users do.
 test-rust: install
+	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
+	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" \
 	cargo test --workspace --exclude trove-py --no-fail-fast
 
 test-python: install

@@ -31,6 +31,7 @@ pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {
         size_m: DVec3::from_array(size_m),
         mesh: Arc::new(mesh),
         slots: vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints }],
+        frost_tender: false,
         licence: "test".into(),
     }
 }

@@ -9,10 +9,14 @@ mod trees;
 use rayon::prelude::*;
 use trove_model::Asset;
 
+/// Plants of the tropics.
+const FROST_TENDER: [&str; 4] = ["bush/tropical", "tree/palm", "tree/palm-low", "tree/rain-tree"];
+
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
     let groups: [fn() -> Vec<Asset>; 3] = [trees::assets, stems::assets, bushes::assets];
-    groups.par_iter().flat_map_iter(|group| group()).collect()
+    let placed = |asset: Asset| Asset { frost_tender: FROST_TENDER.contains(&asset.id.as_str()), ..asset };
+    groups.par_iter().flat_map_iter(|group| group()).map(placed).collect()
 }
 
 #[cfg(test)]
@@ -36,6 +40,13 @@ mod tests {
                 assert!(height.contains(&asset.size_m.z), "{} is {} high", asset.id, asset.size_m.z);
             }
         }
+    }
+
+    #[test]
+    fn some_plants_freeze_and_most_do_not() {
+        let assets = assets();
+        assert_eq!(assets.iter().filter(|a| a.frost_tender).count(), super::FROST_TENDER.len());
+        assert!(assets.iter().filter(|a| !a.frost_tender).count() >= 9);
     }
 
     #[test]

@@ -57,6 +57,7 @@ impl Model {
 
         let (low, high) = mesh.bounds().unwrap_or_default();
         let size_m = high.as_dvec3() - low.as_dvec3();
-        Asset { id: id.into(), kind, class, size_m, mesh: Arc::new(mesh), slots, licence: crate::LICENCE.into() }
+        let (id, mesh, licence) = (id.into(), Arc::new(mesh), crate::LICENCE.into());
+        Asset { id, kind, class, size_m, mesh, slots, frost_tender: false, licence }
     }
 }

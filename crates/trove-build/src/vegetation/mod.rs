@@ -41,7 +41,7 @@ pub(crate) fn vegetation<'a>(
     seed: Seed,
     report: &Report,
 ) -> Vec<Scenery<'a>> {
-    let species = Species::new(library);
+    let species = Species::new(library, around.drive.projection.origin_lat_deg);
     for (kind, none) in [(Kind::Tree, species.trees.is_empty()), (Kind::Bush, species.bushes.is_empty())] {
         if none {
             report.note(

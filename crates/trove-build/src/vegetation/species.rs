@@ -10,6 +10,8 @@ use crate::scenery::Scenery;
 const MAX_SCALE: f64 = 1.6;
 /// Individuals differ from their species by so much in each direction.
 const VARIATION: f64 = 0.1;
+/// Nearer to the equator it hardly freezes at the heights where cities lie.
+const FROST_LAT_DEG: f64 = 34.0;
 
 /// The plants of a library.
 pub(super) struct Species<'a> {
@@ -28,8 +30,11 @@ pub(super) struct Grown<'a> {
 }
 
 impl<'a> Species<'a> {
-    pub(super) fn new(library: &'a AssetLibrary) -> Self {
-        Self { trees: library.of_kind(Kind::Tree).collect(), bushes: library.of_kind(Kind::Bush).collect() }
+    /// The plants that live at a latitude.
+    pub(super) fn new(library: &'a AssetLibrary, lat_deg: f64) -> Self {
+        let lives = |asset: &&Asset| !asset.frost_tender || lat_deg.abs() < FROST_LAT_DEG;
+        let of_kind = |kind| library.of_kind(kind).filter(lives).collect();
+        Self { trees: of_kind(Kind::Tree), bushes: of_kind(Kind::Bush) }
     }
 
     /// The plant for a wish; `None` where the library has none of the kind.

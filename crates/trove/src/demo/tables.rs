@@ -85,6 +85,7 @@ fn log() -> Value {
         "location": PLACE,
         "trove_origin_lat_deg": LAT_DEG,
         "trove_origin_lon_deg": LON_DEG,
+        "trove_licence": "MIT OR Apache-2.0",
     })
 }
 
