@@ -5,7 +5,7 @@ mod output;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
 use trove_build::{BuildSettings, LightChoice, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
@@ -199,6 +199,7 @@ impl Run<'_> {
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
         let report = Report::default();
         let (drive, map) = self.sources.drive(scene, &report)?;
+        self.check_cameras(&drive)?;
         let settings = self.settings(scene, variation);
         let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
         let views = ViewSettings {
@@ -222,6 +223,17 @@ impl Run<'_> {
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { drive, site, shots }))
+    }
+
+    /// The cameras that the recipe names are cameras of the drive.
+    fn check_cameras(&self, drive: &Drive) -> Result<()> {
+        for name in self.recipe.camera_names().unwrap_or_default() {
+            if drive.rig.iter().all(|camera| camera.name != name) {
+                let known: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
+                bail!("views.rig: expected cameras out of {}, found {name}", known.join(", "));
+            }
+        }
+        Ok(())
     }
 
     fn settings(&self, scene: &str, variation: u32) -> BuildSettings {
