@@ -8,7 +8,7 @@ use super::index::read_spans;
 use super::lidar::{self, SweepFiles};
 use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
 use super::tables::ByToken;
-use super::{LICENCE, NuScenes, boxes, keyframes, kinds, lane_map, place};
+use super::{LICENCE, NuScenes, boxes, keyframes, kinds, lane_map, levelling, place};
 use crate::ReadError;
 
 /// nuScenes' recording cars are Renault Zoes: published length, width without mirrors, and height. The origin of Ego
@@ -57,7 +57,7 @@ pub(super) fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<
     }
     let place_name = log.map_or("", |l| l.location.as_str());
     let path: Vec<DVec2> = keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
-    Ok(Drive {
+    let mut drive = Drive {
         id: record.name.clone(),
         dataset: "nuscenes".to_owned(),
         place: place_name.to_owned(),
@@ -68,7 +68,9 @@ pub(super) fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<
         keyframes,
         tracks,
         licence: log.and_then(|l| l.trove_licence.clone()).unwrap_or_else(|| LICENCE.to_owned()),
-    })
+    };
+    levelling::level(&mut drive, report);
+    Ok(drive)
 }
 
 /// The scene's samples that have a pose, in order.

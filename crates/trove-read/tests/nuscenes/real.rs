@@ -63,7 +63,8 @@ fn scene_0061_is_what_the_devkit_says() {
     assert!(unknown == 15 && (sum_mps - 2111.473188).abs() < 1e-3, "{unknown} {sum_mps}");
     let front = drive.keyframes[0].exposures.iter().find(|e| drive.rig[e.camera].name == "CAM_FRONT").unwrap();
     let expected = DVec3::new(411.41997584800345 - 411.0, 1181.197177405937 - 1181.0, 8.711842003350512e-08);
-    assert!(front.world_from_ego.translation.distance(expected) < 1e-9);
+    // Levelling turns the picture's pose about the keyframe's by a fraction of a degree.
+    assert!(front.world_from_ego.translation.distance(expected) < 2e-3);
     assert_eq!(front.time_ns, 1_532_402_927_612_460_000);
     let centre = centre_px(&drive, "62467e5dae9200295b0f718ffba4d529");
     assert!(centre.distance(DVec2::new(1508.19116648, 580.7217097)) < 1e-5, "{centre}");
