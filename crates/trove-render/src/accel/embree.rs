@@ -1,9 +1,11 @@
-//! Embree 4: one Embree scene for each mesh, and one of instances over them.
+//! Embree 4: one Embree scene for each mesh that is placed, and one over them, in which meshes that already lie in World
+//! are as they are.
 
+use std::collections::BTreeMap;
 use std::ffi::c_void;
 use std::path::PathBuf;
 use std::ptr;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::Affine3A;
 use trove_model::Mesh;
@@ -59,8 +61,16 @@ pub(crate) struct Kernel {
 /// A two-level scene.
 pub(crate) struct Accel {
     top: BuiltScene,
-    /// By index of the instance: what it shows and its `mesh_from_world`.
-    bottoms: Vec<(Arc<BuiltScene>, Affine3A)>,
+    /// By index of the instance.
+    bottoms: Vec<Bottom>,
+}
+
+/// What an instance shows, on its own.
+enum Bottom {
+    /// A scene that may be placed several times, with its `mesh_from_world`.
+    Placed(Arc<BuiltScene>, Affine3A),
+    /// Triangles that lie in the top scene, in World; a scene of their own is built when it is first asked for.
+    InTop { mesh: Arc<Mesh>, tested: bool, alone: OnceLock<BuiltScene> },
 }
 
 impl Kernel {
@@ -114,7 +124,15 @@ impl Kernel {
         let api = &self.device.api;
         let top = BuiltScene { device: self.device.clone(), handle: new_scene(&self.device) };
         let mut bottoms = Vec::with_capacity(placed.len());
+        let mut uses: BTreeMap<*const Mesh, usize> = BTreeMap::new();
+        placed.iter().for_each(|p| *uses.entry(Arc::as_ptr(&p.mesh)).or_default() += 1);
         for (i, p) in placed.iter().enumerate() {
+            // Ground, roads and houses overlap: as instances, a ray would have to enter one after the other.
+            if p.world_from_mesh == Affine3A::IDENTITY && uses[&Arc::as_ptr(&p.mesh)] == 1 {
+                attach_mesh(&top, &p.mesh, p.tested, i as u32);
+                bottoms.push(Bottom::InTop { mesh: p.mesh.clone(), tested: p.tested, alone: OnceLock::new() });
+                continue;
+            }
             let cache = &self.built[usize::from(p.tested)];
             let bottom = cache.get(&p.mesh, |mesh| build_mesh(&self.device, mesh, p.tested));
             let columns = p.world_from_mesh.to_cols_array();
@@ -128,7 +146,7 @@ impl Kernel {
                 (api.attach_by_id)(top.handle, geometry, i as u32);
                 (api.release_geometry)(geometry);
             }
-            bottoms.push((bottom, p.world_from_mesh.inverse()));
+            bottoms.push(Bottom::Placed(bottom, p.world_from_mesh.inverse()));
         }
         // SAFETY: the scene is alive and complete.
         unsafe { (api.commit_scene)(top.handle) };
@@ -148,27 +166,34 @@ fn new_scene(device: &Device) -> Handle {
 }
 
 fn build_mesh(device: &Arc<Device>, mesh: &Mesh, tested: bool) -> BuiltScene {
-    let api = &device.api;
     let scene = BuiltScene { device: device.clone(), handle: new_scene(device) };
+    attach_mesh(&scene, mesh, tested, 0);
+    // SAFETY: the scene is alive and complete.
+    unsafe { (device.api.commit_scene)(scene.handle) };
+    scene
+}
+
+/// Puts a mesh into a scene that is not committed yet, under an id that is not taken.
+fn attach_mesh(scene: &BuiltScene, mesh: &Mesh, tested: bool, id: u32) {
+    if mesh.triangles.is_empty() {
+        return;
+    }
+    let (api, device) = (&scene.device.api, scene.device.handle);
     // SAFETY: handles are alive; Embree's own buffers have room for exactly the vertices (12 bytes) and triangles
     // (12 bytes) that are copied into them.
     unsafe {
-        if !mesh.triangles.is_empty() {
-            let geometry = (api.new_geometry)(device.handle, api::GEOMETRY_TRIANGLE);
-            let vertices = mesh.positions.len();
-            let to = (api.new_buffer)(geometry, api::BUFFER_VERTEX, 0, api::FORMAT_FLOAT3, 12, vertices);
-            ptr::copy_nonoverlapping(mesh.positions.as_ptr().cast::<u8>(), to.cast(), 12 * vertices);
-            let triangles = mesh.triangles.len();
-            let to = (api.new_buffer)(geometry, api::BUFFER_INDEX, 0, api::FORMAT_UINT3, 12, triangles);
-            ptr::copy_nonoverlapping(mesh.triangles.as_ptr().cast::<u8>(), to.cast(), 12 * triangles);
-            (api.filter_from_arguments)(geometry, tested);
-            (api.commit_geometry)(geometry);
-            (api.attach_by_id)(scene.handle, geometry, 0);
-            (api.release_geometry)(geometry);
-        }
-        (api.commit_scene)(scene.handle);
+        let geometry = (api.new_geometry)(device, api::GEOMETRY_TRIANGLE);
+        let vertices = mesh.positions.len();
+        let to = (api.new_buffer)(geometry, api::BUFFER_VERTEX, 0, api::FORMAT_FLOAT3, 12, vertices);
+        ptr::copy_nonoverlapping(mesh.positions.as_ptr().cast::<u8>(), to.cast(), 12 * vertices);
+        let triangles = mesh.triangles.len();
+        let to = (api.new_buffer)(geometry, api::BUFFER_INDEX, 0, api::FORMAT_UINT3, 12, triangles);
+        ptr::copy_nonoverlapping(mesh.triangles.as_ptr().cast::<u8>(), to.cast(), 12 * triangles);
+        (api.filter_from_arguments)(geometry, tested);
+        (api.commit_geometry)(geometry);
+        (api.attach_by_id)(scene.handle, geometry, id);
+        (api.release_geometry)(geometry);
     }
-    scene
 }
 
 /// What the filter is given: the caller's closure, and the instance where Embree does not know it.
@@ -198,7 +223,9 @@ unsafe extern "C" fn filter(arguments: *const FilterArguments) {
 }
 
 fn hit_of(raw: &RawHit, t: f32, instance: Option<u32>) -> Hit {
-    Hit { t, instance: instance.unwrap_or(raw.instance), triangle: raw.primitive, u: raw.u, v: raw.v }
+    // Triangles of the top scene are attached to it by the instance's index.
+    let found = if raw.instance == api::INVALID_ID { raw.geometry } else { raw.instance };
+    Hit { t, instance: instance.unwrap_or(found), triangle: raw.primitive, u: raw.u, v: raw.v }
 }
 
 fn raw_ray(ray: &Ray) -> RawRay {
@@ -265,12 +292,19 @@ impl Accel {
     }
 
     pub(super) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {
-        let (bottom, mesh_from_world) = &self.bottoms[instance as usize];
-        let local = Ray {
-            origin: mesh_from_world.transform_point3(ray.origin),
-            direction: mesh_from_world.transform_vector3(ray.direction),
-            ..*ray
-        };
-        bottom.intersect(&local, accept, Some(instance))
+        match &self.bottoms[instance as usize] {
+            Bottom::Placed(bottom, mesh_from_world) => {
+                let local = Ray {
+                    origin: mesh_from_world.transform_point3(ray.origin),
+                    direction: mesh_from_world.transform_vector3(ray.direction),
+                    ..*ray
+                };
+                bottom.intersect(&local, accept, Some(instance))
+            }
+            Bottom::InTop { mesh, tested, alone } => {
+                let build = || build_mesh(&self.top.device, mesh, *tested);
+                alone.get_or_init(build).intersect(ray, accept, Some(instance))
+            }
+        }
     }
 }
