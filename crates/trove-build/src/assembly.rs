@@ -13,6 +13,10 @@ use crate::placement::Role;
 use crate::scenery::Scenery;
 use crate::stock::Stock;
 
+/// Motion from keyframe to keyframe that is no motion.
+const TREMOR_M: f64 = 0.02;
+const TREMOR_RAD: f64 = 0.005;
+
 /// A recorded object with its asset, ready to be put into a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Actor {
@@ -64,6 +68,19 @@ impl Actor {
     }
 }
 
+/// Gives each pose that is the one before it but for an annotator's tremor that pose, so that what stands has no flow
+/// of its own.
+fn hold_still(poses: &mut [(usize, ActorPose)]) {
+    for i in 1..poses.len() {
+        let before = poses[i - 1].1;
+        let (was, is) = (before.cuboid.world_from_body, poses[i].1.cuboid.world_from_body);
+        let turned_rad = was.rotation.angle_between(is.rotation);
+        if was.translation.distance(is.translation) < TREMOR_M && turned_rad < TREMOR_RAD {
+            poses[i].1 = before;
+        }
+    }
+}
+
 /// A place being put together.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
@@ -82,12 +99,14 @@ impl Assembly {
             (*k, ActorPose { world_from_mesh: role.world_from_mesh(p), cuboid: p.cuboid })
         };
         self.credit(role.asset);
+        let mut poses: Vec<(usize, ActorPose)> = role.placements.iter().map(pose).collect();
+        hold_still(&mut poses);
         Actor {
             class: role.asset.class,
             asset: role.asset.id.clone(),
             mesh: self.stock.mesh(&role.asset.mesh),
             materials: self.stock.painted(role.asset, role.seed),
-            poses: role.placements.iter().map(pose).collect(),
+            poses,
         }
     }
 
@@ -170,4 +189,22 @@ fn cuboid(mesh: &Mesh, world_from_mesh: &DAffine3) -> Cuboid {
     let rotation = DMat3::from_cols(axes.x_axis / scale.x, axes.y_axis / scale.y, axes.z_axis / scale.z);
     let centre_world = world_from_mesh.transform_point3((low + high) / 2.0);
     Cuboid { world_from_body: Pose::new(DQuat::from_mat3(&rotation), centre_world), size_m: (high - low) * scale }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_annotator_s_tremor_is_no_motion_and_a_creep_is() {
+        let at = |x: f64| {
+            let cuboid = Cuboid { world_from_body: Pose::from_yaw(0.0, DVec3::new(x, 0.0, 0.5)), size_m: DVec3::ONE };
+            ActorPose { world_from_mesh: DAffine3::from_translation(DVec3::X * x), cuboid }
+        };
+        let mut poses: Vec<(usize, ActorPose)> =
+            [0.0, 0.008, 0.016, 0.024, 1.0].into_iter().map(at).enumerate().collect();
+        hold_still(&mut poses);
+        let placed: Vec<f64> = poses.iter().map(|(_, pose)| pose.world_from_mesh.translation.x).collect();
+        assert_eq!(placed, [0.0, 0.0, 0.0, 0.024, 1.0]);
+    }
 }
