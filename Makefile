@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python lint bench-build bench-frame bench-memory clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-nuscenes clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -30,6 +30,19 @@ test-rust: install
 test-python: install
 	$(BIN)/python -m pytest -q
 
+# Holds a run's output OUT to the recording in NUSCENES with the official devkit, which has an environment of its own.
+test-devkit: .venv-devkit/.installed
+	.venv-devkit/bin/python tests/devkit/check_boxes.py $(OUT) --root $(NUSCENES)
+
+.venv-devkit/.installed: tests/devkit/requirements.txt
+	$(PYTHON) -m venv .venv-devkit
+	.venv-devkit/bin/python -m pip install --quiet --disable-pip-version-check -r $<
+	touch $@
+
+# The full-size tables are 2.6 GB in the temporary folder.
+bench-nuscenes:
+	cargo run --release -p trove-read --example nuscenes_size
+
 lint:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets -- -D warnings
@@ -40,4 +53,4 @@ bench-build bench-frame bench-memory: bench-%: install
 	$(BIN)/python benches/bench.py $*
 
 clean:
-	rm -rf target $(VENV) demo-out
+	rm -rf target $(VENV) .venv-devkit demo-out
