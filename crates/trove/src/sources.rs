@@ -26,11 +26,7 @@ impl<'a> Sources<'a> {
             Some(section) => Some(open_dataset(section, &recipe.at(&section.root), report)?),
             None => None,
         };
-        let environment = recipe
-            .environment_file()
-            .map(|file| environment::read(&file))
-            .transpose()?
-            .map(Arc::new);
+        let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?.map(Arc::new);
         Ok(Self { recipe, dataset, environment })
     }
 
