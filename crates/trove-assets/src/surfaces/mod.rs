@@ -64,17 +64,18 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
 /// Roads, paths and land.
 fn ground_recipes() -> Vec<Recipe> {
     use SurfaceKind::*;
-    let worn = Wear { binder: 0.07, stone: 0.17, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
+    // Asphalt that has greyed over the years reflects 12 to 20 %, new asphalt about 7 %.
+    let worn = Wear { binder: 0.15, stone: 0.24, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
     let green = vec3(0.075, 0.115, 0.028);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
         plain("asphalt/new", Asphalt, || {
-            let new = Wear { binder: 0.045, stone: 0.1, worn: 0.15, cracks: 0.0, patches: false, seed: 1 };
+            let new = Wear { binder: 0.065, stone: 0.12, worn: 0.15, cracks: 0.0, patches: false, seed: 1 };
             ground::asphalt(new)
         }),
         plain("asphalt/worn", Asphalt, move || ground::asphalt(worn)),
         plain("asphalt/patched", Asphalt, move || {
-            ground::asphalt(Wear { cracks: 0.6, patches: true, seed: 3, ..worn })
+            ground::asphalt(Wear { binder: 0.13, stone: 0.22, cracks: 0.6, patches: true, seed: 3, ..worn })
         }),
         plain("marking/white", MarkingWhite, || ground::marking(vec3(0.62, 0.62, 0.6), 11)),
         plain("marking/yellow", MarkingYellow, || ground::marking(vec3(0.56, 0.33, 0.035), 12)),
@@ -102,7 +103,7 @@ fn building_recipes() -> Vec<Recipe> {
     use SurfaceKind::{Facade, FacadeGroundFloor};
     let brown = vec3(0.22, 0.125, 0.085);
     let blue = || facade::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24), 105);
-    let green = || facade::curtain_wall(vec3(0.6, 0.95, 0.85), vec3(0.07, 0.095, 0.085), Vec3::splat(0.1), 106);
+    let green = || facade::curtain_wall(vec3(0.76, 0.88, 0.84), vec3(0.08, 0.092, 0.088), Vec3::splat(0.1), 106);
     let cream = || facade::plaster_shutters(vec3(0.5, 0.42, 0.29), vec3(0.05, 0.1, 0.075), 103);
     vec![
         storeys("facade/brick-row", Facade, move || facade::brick_row(brown, 101)),

@@ -12,6 +12,11 @@ use solar::to_sun;
 const GROUND_ALBEDO: f64 = 0.2;
 /// A drawn time of day has the sun at least this high, so that there are shadows.
 const MIN_SUN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// Nearer to the equator the air is humid all year.
+const HUMID_LAT_DEG: f64 = 20.0;
+/// Turbidities of humid air, and of fair weather elsewhere.
+const HUMID_TURBIDITY: [f64; 2] = [4.0, 6.0];
+const FAIR_TURBIDITY: [f64; 2] = [3.0, 4.0];
 const DAY_NS: i64 = 86_400_000_000_000;
 
 /// Where the light comes from.
@@ -34,7 +39,8 @@ pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: S
         LightChoice::Map(map) => Environment::Map(map.clone()),
         LightChoice::CaptureTime => {
             // Fair weather: what cars with cameras are mostly sent out in.
-            let turbidity = random.range(2.5, 4.0);
+            let [clear, hazy] = if lat_deg.abs() < HUMID_LAT_DEG { HUMID_TURBIDITY } else { FAIR_TURBIDITY };
+            let turbidity = random.range(clear, hazy);
             let cloud_cover = random.range(0.15, 0.4);
             let to_sun = to_sun(time_ns, lat_deg, lon_deg);
             Environment::Sky(PhysicalSky {
