@@ -25,6 +25,9 @@ struct Habit {
     from_ground: bool,
 }
 
+/// Share of the sprigs that hang below the widest place, down to the ground.
+const SKIRT: f64 = 0.42;
+
 pub(super) fn assets() -> Vec<Asset> {
     [
         Habit {
@@ -33,7 +36,7 @@ pub(super) fn assets() -> Vec<Asset> {
             power: 2.2,
             lumps: 0.22,
             sprig: Sprig::Broad,
-            green: vec3(0.06, 0.105, 0.03),
+            green: vec3(0.09, 0.147, 0.045),
             card_m: 0.34,
             cards: 1500,
             from_ground: false,
@@ -44,7 +47,7 @@ pub(super) fn assets() -> Vec<Asset> {
             power: 9.0,
             lumps: 0.04,
             sprig: Sprig::Feathered,
-            green: vec3(0.055, 0.1, 0.028),
+            green: vec3(0.083, 0.14, 0.042),
             card_m: 0.24,
             cards: 2400,
             from_ground: false,
@@ -55,7 +58,7 @@ pub(super) fn assets() -> Vec<Asset> {
             power: 2.4,
             lumps: 0.28,
             sprig: Sprig::Broad,
-            green: vec3(0.07, 0.112, 0.033),
+            green: vec3(0.105, 0.157, 0.05),
             card_m: 0.46,
             cards: 1700,
             from_ground: false,
@@ -66,7 +69,7 @@ pub(super) fn assets() -> Vec<Asset> {
             power: 2.0,
             lumps: 0.15,
             sprig: Sprig::Blades,
-            green: vec3(0.062, 0.118, 0.03),
+            green: vec3(0.093, 0.165, 0.045),
             card_m: 0.8,
             cards: 190,
             from_ground: true,
@@ -77,7 +80,7 @@ pub(super) fn assets() -> Vec<Asset> {
             power: 3.0,
             lumps: 0.3,
             sprig: Sprig::Broad,
-            green: vec3(0.07, 0.125, 0.035),
+            green: vec3(0.105, 0.175, 0.053),
             card_m: 0.22,
             cards: 1500,
             from_ground: false,
@@ -98,13 +101,16 @@ fn bush(habit: &Habit) -> Asset {
     let mut foliage = Foliage::default();
     for _ in 0..habit.cards {
         let out = direction(&mut random);
-        let out = vec3(out.x, out.y, out.z.abs().powf(0.8) * if random.chance(0.25) { -0.6 } else { 1.0 });
+        // Below the widest place it hangs to the ground like a skirt.
+        let skirt = random.chance(SKIRT);
+        let out = vec3(out.x, out.y, if skirt { 0.0 } else { out.z.abs().powf(0.8) });
         // A superellipsoid with clumps; most sprigs near its surface, some inside.
         let norm = out.abs().to_array().iter().map(|x| x.powf(habit.power)).sum::<f32>().powf(1.0 / habit.power);
         let clump = lumps.iter().map(|l| l.dot(out.normalize_or(Vec3::Z)).max(0.0).powi(6)).fold(0.0, f32::max);
         let depth = 1.0 - habit.lumps * (1.0 - clump) - 0.35 * (random.unit() as f32).powi(3);
-        let p = out / norm * depth * habit.half_m;
-        let z = if p.z < 0.0 { habit.half_m.z * (1.0 + p.z / habit.half_m.z * 0.85) } else { habit.half_m.z + p.z };
+        let height = if skirt { random.unit() as f32 } else { 1.0 };
+        let p = out / norm.max(1e-3) * depth * (0.82 + 0.18 * height) * habit.half_m;
+        let z = habit.half_m.z * height + p.z;
         let at = vec3(p.x, p.y, z.max(0.03));
         let share = p / habit.half_m;
         let outward = share.abs().powf(habit.power - 1.0) * share.signum();
@@ -112,8 +118,9 @@ fn bush(habit: &Habit) -> Asset {
         let size = habit.card_m * random.range(0.75, 1.2) as f32;
         if habit.from_ground {
             let foot = vec3(p.x, p.y, 0.0) * 0.55 + Vec3::Z * 0.05 * random.unit() as f32;
-            let along = vec3(out.x, out.y, 0.35 + 1.3 * random.unit() as f32) + direction(&mut random) * 0.3;
-            let lift = Vec3::Z * habit.half_m.z * 0.9 * random.unit() as f32;
+            let rise = if skirt { -0.1 } else { 0.35 };
+            let along = vec3(out.x, out.y, rise + 1.3 * random.unit() as f32) + direction(&mut random) * 0.3;
+            let lift = Vec3::Z * habit.half_m.z * if skirt { 0.15 } else { 0.9 } * random.unit() as f32;
             foliage.card(foot + lift, along, Vec3::Z + out * 0.5, size, (along + Vec3::Z * 0.6).normalize_or(Vec3::Z));
         } else {
             let along = outward * 0.8 + direction(&mut random) + Vec3::Z * 0.3;

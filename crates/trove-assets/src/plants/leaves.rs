@@ -26,8 +26,10 @@ pub(super) fn material(name: &str, sprig: Sprig, green: Vec3, seed: u64) -> Mate
     Material {
         base_color_map: Some(canvas.color(name)),
         alpha_cutoff: 0.5,
-        translucency: 0.3,
-        ..Material::plain(name, Vec3::ONE, 0.55)
+        translucency: 0.4,
+        // Leaves in their thousands gleam little: each is bent, and most are dull or dusty.
+        ior: 1.35,
+        ..Material::plain(name, Vec3::ONE, 0.7)
     }
 }
 

@@ -25,7 +25,7 @@ fn conifer(id: &str, height_m: f32, reach_m: f32, clear_m: f32, lift: f32) -> As
     let mut random = seed.random();
     let mut model = Model::default();
     let wood = model.slot(bark(&format!("{id}-bark"), vec3(0.125, 0.085, 0.06), 7), &[]);
-    let green = vec3(0.042, 0.082, 0.032);
+    let green = vec3(0.06, 0.11, 0.045);
     let leaves = model.slot(material(&format!("{id}-leaves"), Sprig::Needles, green, seed.0), &SHADES);
     let radius = |z: f32| 0.02 + 0.17 * (1.0 - z / height_m);
     let trunk: Vec<(Vec3, f32)> = (0..=16)
@@ -79,7 +79,7 @@ fn palm(id: &str, trunk_m: f32, fronds: usize, frond_m: f32) -> Asset {
     let mut random = seed.random();
     let mut model = Model::default();
     let wood = model.slot(bark(&format!("{id}-bark"), vec3(0.2, 0.175, 0.14), 9), &[]);
-    let green = vec3(0.07, 0.115, 0.03);
+    let green = vec3(0.105, 0.161, 0.045);
     let leaves = model.slot(material(&format!("{id}-leaves"), Sprig::Frond, green, seed.0), &SHADES);
     let lean = vec2(0.5, 0.2) * trunk_m / 8.0;
     let axis = |z: f32| (lean * (z / trunk_m).powi(2)).extend(z);

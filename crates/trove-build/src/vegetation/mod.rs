@@ -16,7 +16,7 @@ use crate::surroundings::Surroundings;
 use species::Species;
 
 /// Side of the squares in which plants are of one species, metres.
-const SPECIES_SQUARE_M: f64 = 25.0;
+const SPECIES_SQUARE_M: f64 = 60.0;
 
 /// A plant that is wanted somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ pub(crate) fn vegetation<'a>(
     let mut plants = Vec::new();
     for (i, wish) in wishes.iter().enumerate() {
         let Some(grown) = species.grow(wish, seed.child("plant").nth(i as u64)) else { continue };
-        let radius_m = wish.radius_m.unwrap_or(grown.radius_m * 0.75);
+        let radius_m = wish.radius_m.unwrap_or(grown.radius_m * 0.6);
         let room = match wish.kind {
             // A trunk beside the road, a crown off the walls and off what passes by.
             Kind::Tree => Room {

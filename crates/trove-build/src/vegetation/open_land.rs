@@ -9,15 +9,15 @@ use crate::plane_raster::PlaneRaster;
 use crate::surroundings::Surroundings;
 
 /// One place for a plant in every square of this side, metres.
-const STEP_M: f64 = 6.0;
+const STEP_M: f64 = 5.0;
 /// Groves and clearings alternate over this length, metres.
 const GROVE_M: f64 = 55.0;
 /// Share of a grove's places that carry a plant where buildings are mapped: what is left between them is mostly yards.
 const TOWN_SHARE: f64 = 0.2;
 /// The same where none are: the plants stand in for whatever hides the horizon.
-const BARE_SHARE: f64 = 0.6;
+const BARE_SHARE: f64 = 0.85;
 /// Share of the plants that are trees.
-const TREE_SHARE: f64 = 0.6;
+const TREE_SHARE: f64 = 0.7;
 /// Streets have their own rows: groves begin behind them, metres from the carriageway.
 const OFF_ROAD_M: f64 = 5.0;
 /// Walls are kept free for this, metres.
@@ -48,7 +48,7 @@ pub(super) fn wishes(around: &Surroundings, clearance: &Clearance, seed: Seed) -
                 continue;
             }
             let (kind, height_m) =
-                if what < TREE_SHARE { (Kind::Tree, 5.5 + 6.5 * height) } else { (Kind::Bush, 0.7 + 1.1 * height) };
+                if what < TREE_SHARE { (Kind::Tree, 6.0 + 8.0 * height) } else { (Kind::Bush, 0.7 + 1.1 * height) };
             let group = species_group(seed, position);
             wishes.push(Wish { kind, position, height_m, group, radius_m: None });
         }
@@ -71,5 +71,5 @@ fn density(seed: Seed, p: DVec2) -> f64 {
     let south = node(cell.x, cell.y) * (1.0 - f.x) + node(cell.x + 1.0, cell.y) * f.x;
     let north = node(cell.x, cell.y + 1.0) * (1.0 - f.x) + node(cell.x + 1.0, cell.y + 1.0) * f.x;
     let value = south * (1.0 - f.y) + north * f.y;
-    ((value - 0.35) / 0.4).clamp(0.0, 1.0)
+    ((value - 0.3) / 0.3).clamp(0.0, 1.0)
 }

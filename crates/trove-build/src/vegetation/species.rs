@@ -17,6 +17,8 @@ const FROST_LAT_DEG: f64 = 34.0;
 pub(super) struct Species<'a> {
     pub(super) trees: Vec<&'a Asset>,
     pub(super) bushes: Vec<&'a Asset>,
+    /// It never freezes there.
+    is_warm: bool,
 }
 
 /// A plant that has a model and a size, and no place yet.
@@ -32,9 +34,21 @@ pub(super) struct Grown<'a> {
 impl<'a> Species<'a> {
     /// The plants that live at a latitude.
     pub(super) fn new(library: &'a AssetLibrary, lat_deg: f64) -> Self {
-        let lives = |asset: &&Asset| !asset.frost_tender || lat_deg.abs() < FROST_LAT_DEG;
+        let is_warm = lat_deg.abs() < FROST_LAT_DEG;
+        let lives = |asset: &&Asset| !asset.frost_tender || is_warm;
         let of_kind = |kind| library.of_kind(kind).filter(lives).collect();
-        Self { trees: of_kind(Kind::Tree), bushes: of_kind(Kind::Bush) }
+        Self { trees: of_kind(Kind::Tree), bushes: of_kind(Kind::Bush), is_warm }
+    }
+
+    /// How many lots a species has in the draw: towns are green with broad crowns, palms are planted here and there, and
+    /// conifers hardly grow where it never freezes.
+    fn commonness(&self, asset: &Asset) -> usize {
+        match asset.id.as_str() {
+            "tree/spruce" | "tree/pine" if self.is_warm => 1,
+            "tree/palm" | "tree/palm-low" => 4,
+            "tree/rain-tree" => 20,
+            _ => 10,
+        }
     }
 
     /// The plant for a wish; `None` where the library has none of the kind.
@@ -47,7 +61,8 @@ impl<'a> Species<'a> {
         let suitable: Vec<&Asset> = models.iter().filter(suits).copied().collect();
         let strangeness = |asset: &Asset| scale_of(asset).ln().abs();
         let nearest = || models.iter().copied().min_by(|a, b| strangeness(a).total_cmp(&strangeness(b)));
-        let asset = Seed(wish.group).child("species").random().pick(&suitable).copied().or_else(nearest)?;
+        let lots: Vec<&Asset> = suitable.into_iter().flat_map(|a| std::iter::repeat_n(a, self.commonness(a))).collect();
+        let asset = Seed(wish.group).child("species").random().pick(&lots).copied().or_else(nearest)?;
 
         let mut random = seed.random();
         let mut vary = || 1.0 + random.range(-VARIATION, VARIATION);
