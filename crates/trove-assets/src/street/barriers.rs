@@ -11,8 +11,8 @@ const WHITE: Vec3 = vec3(0.56, 0.55, 0.51);
 
 pub(super) fn assets() -> Vec<Asset> {
     vec![
-        water_filled("barrier/water-red", RED, &[RED, RED * 0.85, vec3(0.55, 0.13, 0.07)]),
-        water_filled("barrier/water-white", WHITE, &[WHITE, WHITE * 0.85, vec3(0.5, 0.48, 0.42)]),
+        water_filled("barrier/water-red", RED, &[RED, WHITE, RED * 0.85, WHITE * 0.85]),
+        water_filled("barrier/water-white", WHITE, &[WHITE, RED, vec3(0.5, 0.48, 0.42), vec3(0.55, 0.13, 0.07)]),
         jersey(),
         crowd(),
         planks(),

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Pose, Report, Seed, Track};
 
 use super::fit::Fit;
+use super::rows::rows;
 use super::stand::{Placement, Stand};
 
 /// A living thing annotated higher than this above the ground stands on something, metres.
@@ -42,7 +43,7 @@ pub(crate) fn cast<'a>(
     report: &Report,
 ) -> Vec<Option<Role<'a>>> {
     let mut roles = Vec::with_capacity(drive.tracks.len() + 1);
-    for track in &drive.tracks {
+    for (track, first) in drive.tracks.iter().zip(rows(&drive.tracks)) {
         let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
         let unsound = track.boxes.len() - boxes.len();
         for _ in 0..unsound {
@@ -50,8 +51,13 @@ pub(crate) fn cast<'a>(
         }
         let size_m = median_size_m(&boxes);
         let role = size_m.and_then(|size_m| {
-            let seed = seed.child(&track.token);
-            let Some((asset, fit)) = choose(library, track.kind, size_m, top_k, seed) else {
+            let (root_seed, seed) = (seed, seed.child(&track.token));
+            // A row is of the make that was drawn for its first.
+            let first = &drive.tracks[first];
+            let row_size_m =
+                median_size_m(&first.boxes).filter(|s| s.is_finite() && s.min_element() > 0.0).unwrap_or(size_m);
+            let row_seed = root_seed.child(&first.token);
+            let Some((asset, _)) = choose(library, track.kind, row_size_m, top_k, row_seed) else {
                 report.note(
                     Outcome::Dropped,
                     &format!("object without an asset of kind {:?}", track.kind),
@@ -59,6 +65,7 @@ pub(crate) fn cast<'a>(
                 );
                 return None;
             };
+            let fit = Fit::new(asset.size_m, size_m, track.kind);
             let stays_up = stays_up(track, &boxes, stand, report);
             let place = |(k, cuboid): &(usize, Cuboid)| {
                 (*k, if stays_up { stand.keep(cuboid) } else { stand.place(cuboid, track.kind) })
@@ -104,13 +111,16 @@ fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize
     Some(Role { asset, fit, seed, placements: drive.keyframes.iter().enumerate().map(place).collect() })
 }
 
-/// One of the `top_k` assets that fit best, drawn with equal chances.
+/// One of the `top_k` assets that fit best, drawn with equal chances, but for barriers of plastic: they are the most
+/// common.
 fn choose(library: &AssetLibrary, kind: Kind, size_m: DVec3, top_k: usize, seed: Seed) -> Option<(&Asset, Fit)> {
     let mut fits: Vec<(&Asset, Fit)> =
         library.of_kind(kind).map(|asset| (asset, Fit::new(asset.size_m, size_m, kind))).collect();
     fits.sort_by(|(a, fa), (b, fb)| fb.quality_m.total_cmp(&fa.quality_m).then_with(|| a.id.cmp(&b.id)));
     fits.truncate(top_k.max(1));
-    seed.child("asset").random().pick(&fits).copied()
+    let lots = |asset: &Asset| if asset.id.starts_with("barrier/water") { 4 } else { 1 };
+    let lots: Vec<(&Asset, Fit)> = fits.into_iter().flat_map(|fit| std::iter::repeat_n(fit, lots(fit.0))).collect();
+    seed.child("asset").random().pick(&lots).copied()
 }
 
 fn is_sound(cuboid: &Cuboid) -> bool {

@@ -2,6 +2,7 @@
 
 mod cast;
 mod fit;
+mod rows;
 mod stand;
 
 pub(crate) use cast::{Role, cast};
