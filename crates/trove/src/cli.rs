@@ -12,7 +12,7 @@ use trove_render::KernelChoice;
 use crate::progress::duration;
 use crate::recipe::{Dataset, Recipe};
 use crate::run::{RunOptions, Summary, generate};
-use crate::{build, demo, doctor, inspect, interrupt, libraries};
+use crate::{build, demo, doctor, inspect, interrupt, libraries, message};
 
 /// Turns recordings of real roads into photorealistic virtual scenes with perfect labels.
 #[derive(Parser)]
@@ -133,7 +133,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
     match run(cli.command, site_packages) {
         Ok(status) => status,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", message::of(&error));
             1
         }
     }

@@ -10,6 +10,7 @@ mod doctor;
 mod inspect;
 mod interrupt;
 mod libraries;
+mod message;
 mod place;
 mod progress;
 pub mod recipe;

@@ -12,10 +12,10 @@ use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
 
-use crate::interrupt;
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
+use crate::{interrupt, message};
 pub(crate) use manifest::report_json;
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 use output::OutputFolder;
@@ -167,8 +167,9 @@ impl Run<'_> {
                         }
                         Err(error) => {
                             self.progress.correct(frames_hint, 0);
-                            self.progress.say(&format!("{scene} is passed over: {error:#}"));
-                            self.report.note(Outcome::Dropped, "scene", format!("{scene}: {error:#}"));
+                            let why = format!("{scene}: {}", message::of(&error));
+                            self.progress.say(&format!("passed over: {why}"));
+                            self.report.note(Outcome::Dropped, "scene", why);
                             continue;
                         }
                     }
