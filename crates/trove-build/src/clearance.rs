@@ -103,7 +103,7 @@ fn bucket(p: DVec2) -> [i64; 2] {
 }
 
 /// Outlines of every box at every keyframe and of the recording vehicle on its way.
-fn recorded(drive: &Drive) -> impl Iterator<Item = Polygon> {
+pub(crate) fn recorded(drive: &Drive) -> impl Iterator<Item = Polygon> {
     let boxes = drive.keyframes.iter().flat_map(|k| &k.boxes).map(|b| outline(&b.cuboid));
     let ego = |k: &trove_model::Keyframe| Cuboid {
         world_from_body: trove_model::Pose::new(

@@ -1,7 +1,8 @@
-//! Buildings from their footprints: extruded with a facade, or replaced by an asset where it fits.
+//! Buildings from their footprints, or from the LiDAR where no map has them: extruded with a facade, or replaced by an asset where it fits.
 
 mod dress;
 mod extrude;
+mod lidar;
 mod rectangle;
 mod replace;
 mod roof;
@@ -14,7 +15,8 @@ use std::sync::Arc;
 use glam::DAffine3;
 use rayon::prelude::*;
 use trove_model::{
-    AssetLibrary, Bounds, Class, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Seed, Slot, StreetMap,
+    AssetLibrary, Bounds, Building, Class, Drive, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Seed,
+    Slot, StreetMap,
 };
 
 use crate::palette::Palette;
@@ -31,8 +33,10 @@ pub(crate) struct BuiltBuildings {
     pub footprints: Vec<Polygon>,
 }
 
-/// Builds every building of the map that does not stand in the way.
+/// Builds every building of the map that does not stand in the way, and those that only the LiDAR saw.
+#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
 pub(crate) fn buildings(
+    drive: &Drive,
     map: Option<&StreetMap>,
     keep_clear: &RoadSurfaces,
     ground: &HeightField,
@@ -41,7 +45,10 @@ pub(crate) fn buildings(
     seed: Seed,
     report: &Report,
 ) -> BuiltBuildings {
-    let houses = map.map(|m| volumes::houses(m, keep_clear, bounds, seed, report)).unwrap_or_default();
+    let mapped = map.map_or(&[][..], |m| &m.buildings);
+    let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, seed, report);
+    let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
+    let houses = volumes::houses(&all, keep_clear, bounds, seed, report);
     let palette = Palette { library, report };
     let build = |house: &House<'_>| {
         let mut random = seed.child("building").nth(house.building.id as u64).random();

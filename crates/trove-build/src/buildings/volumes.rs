@@ -1,6 +1,6 @@
 //! What is to be built: which outlines and parts, where, and how high.
 
-use trove_model::{Bounds, Building, Outcome, Polygon, Random, Report, RoofShape, Seed, StreetMap};
+use trove_model::{Bounds, Building, Outcome, Polygon, Random, Report, RoofShape, Seed};
 
 use crate::plane::{difference, intersection, union};
 use crate::roads::{Footing, RoadSurfaces};
@@ -34,17 +34,18 @@ pub(super) struct House<'a> {
     pub volumes: Vec<Volume<'a>>,
 }
 
-/// The buildings of a map within `bounds`, standing clear of the road.
+/// The buildings within `bounds`, standing clear of the road.
 pub(super) fn houses<'a>(
-    map: &'a StreetMap,
+    buildings: &[&'a Building],
     keep_clear: &RoadSurfaces,
     bounds: Bounds,
     seed: Seed,
     report: &Report,
 ) -> Vec<House<'a>> {
     use rayon::prelude::*;
-    let inside = |b: &&Building| bounds.contains(b.footprint.centroid());
-    let (parts, outlines): (Vec<&Building>, Vec<&Building>) = map.buildings.iter().filter(inside).partition(|b| b.part);
+    let inside = |b: &&'a Building| bounds.contains(b.footprint.centroid());
+    let (parts, outlines): (Vec<&Building>, Vec<&Building>) =
+        buildings.iter().copied().filter(inside).partition(|b| b.part);
     let boxes: Vec<Option<Bounds>> = outlines.iter().map(|b| b.footprint.bounds()).collect();
     let home = |part: &Building| {
         let at = part.footprint.centroid();
@@ -90,8 +91,11 @@ pub(super) fn houses<'a>(
         .collect()
 }
 
-/// `osm way 12`.
+/// `osm way 12`; `LiDAR building 3` for one that no map has.
 pub(super) fn name(building: &Building) -> String {
+    if building.id < super::lidar::FIRST_ID / 2 {
+        return format!("LiDAR building {}", building.id - super::lidar::FIRST_ID);
+    }
     if building.id < 0 { format!("osm relation {}", -building.id) } else { format!("osm way {}", building.id) }
 }
 
