@@ -97,7 +97,7 @@ impl Renderer {
             if stop(0.0) {
                 return None;
             }
-            let labels = labels::render(scene, shot);
+            let labels = labels::render(scene, shot, &|| stop(0.0))?;
             let mut stats = CaptureStats::default();
             let color = if light {
                 let buffers = path::trace(scene, shot, &stop)?;

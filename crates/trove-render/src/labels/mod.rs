@@ -30,23 +30,24 @@ struct Pixel {
     flow_backward: [f32; 2],
 }
 
-/// All labels of a picture, computed with the current thread pool.
-pub(crate) fn render(scene: &PreparedScene, shot: &Shot) -> Labels {
+/// All labels of a picture, computed with the current thread pool; `None` once `stop` answers true, which it then does
+/// for good.
+pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> bool + Sync)) -> Option<Labels> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
     let neighbours = [
         Neighbour::new(scene, shot, shot.world_from_camera_next, |i| i.world_from_mesh_next),
         Neighbour::new(scene, shot, shot.world_from_camera_previous, |i| i.world_from_mesh_previous),
     ];
-    let pixels: Vec<Pixel> = (0..width * height)
-        .into_par_iter()
-        .map(|i| pixel(scene, shot, &neighbours, DVec2::new(f64::from(i % width) + 0.5, f64::from(i / width) + 0.5)))
-        .collect();
+    let centre = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let row = |y: u32| (0..width).map(|x| pixel(scene, shot, &neighbours, centre(x, y))).collect::<Vec<_>>();
+    let rows: Option<Vec<Vec<Pixel>>> = (0..height).into_par_iter().map(|y| (!stop()).then(|| row(y))).collect();
+    let pixels = rows?.into_iter().flatten().collect();
 
     let instance = |index: u32| scene.instances.get(index as usize);
     let shown = Raster { width, height, data: pixels };
     let class = shown.map(|p| instance(p.instance).map_or(Class::Sky, |i| i.class).id());
-    let objects = objects::list(scene, shot, &shown);
-    Labels {
+    let objects = objects::list(scene, shot, &shown, stop)?;
+    Some(Labels {
         class,
         instance: shown.map(|p| instance(p.instance).map_or(0, |i| i.id.0)),
         depth_m: shown.map(|p| p.depth_m),
@@ -54,7 +55,7 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot) -> Labels {
         flow_forward: shown.map(|p| p.flow_forward),
         flow_backward: shown.map(|p| p.flow_backward),
         objects,
-    }
+    })
 }
 
 fn pixel(scene: &PreparedScene, shot: &Shot, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {

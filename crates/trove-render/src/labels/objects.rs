@@ -33,8 +33,13 @@ impl Extent {
 }
 
 /// All recorded objects of which a pixel would be seen if nothing else were there, and the scenery of which one is seen,
-/// in the order of ids.
-pub(super) fn list(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>) -> Vec<ObjectLabel> {
+/// in the order of ids; `None` once `stop` answers true.
+pub(super) fn list(
+    scene: &PreparedScene,
+    shot: &Shot,
+    shown: &Raster<Pixel>,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<ObjectLabel>> {
     let mut visible = vec![Extent::default(); scene.instances.len()];
     for (i, pixel) in shown.data.iter().enumerate().filter(|(_, pixel)| pixel.instance != NOTHING) {
         let extent = &mut visible[pixel.instance as usize];
@@ -43,6 +48,9 @@ pub(super) fn list(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>) ->
     let mut objects: Vec<ObjectLabel> = (0..scene.instances.len())
         .into_par_iter()
         .filter_map(|i| {
+            if stop() {
+                return None;
+            }
             let instance = &scene.instances[i];
             let object =
                 instance.object.as_deref().filter(|_| instance.id.0 != 0 && Some(instance.id) != shot.carrier)?;
@@ -52,7 +60,7 @@ pub(super) fn list(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>) ->
         })
         .collect();
     objects.sort_by_key(|object| object.id);
-    objects
+    (!stop()).then_some(objects)
 }
 
 fn label(
