@@ -13,9 +13,9 @@ use super::luminance;
 /// Rows and columns are those of [`EnvironmentMap`]. Drawing works on cells of `cell × cell` texels: a row of cells,
 /// then a cell of the row, then a point in the cell, evenly over its solid angle.
 pub(super) struct Dome {
-    width: usize,
-    height: usize,
-    rgb: Vec<[f32; 3]>,
+    picture: Picture,
+    /// The same with fewer texels, which stay in the processor's caches; `None`: the picture itself.
+    coarse: Option<Picture>,
     /// Edges between columns of cells, as shares of the width.
     edges_u: Vec<f32>,
     /// z of the edges between rows of cells, from 1 down to −1.
@@ -23,6 +23,38 @@ pub(super) struct Dome {
     cell: usize,
     rows: Cdf,
     cells: Vec<Cdf>,
+}
+
+/// Rows and columns of colours.
+struct Picture {
+    width: usize,
+    height: usize,
+    rgb: Vec<[f32; 3]>,
+}
+
+impl Picture {
+    /// Interpolated between the four nearest texels; `u` and `v` are shares of width and height.
+    fn at(&self, (u, v): (f32, f32)) -> Vec3 {
+        let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let column = |i: f32| (i as isize).rem_euclid(self.width as isize) as usize;
+        let row = |i: f32| (i.max(0.0) as usize).min(self.height - 1);
+        let texel = |x: f32, y: f32| Vec3::from(self.rgb[row(y) * self.width + column(x)]);
+        let upper = texel(left, top).lerp(texel(left + 1.0, top), x - left);
+        let lower = texel(left, top + 1.0).lerp(texel(left + 1.0, top + 1.0), x - left);
+        upper.lerp(lower, y - top)
+    }
+
+    /// Means of squares of `cell × cell` texels, into which the picture must divide.
+    fn averaged(&self, cell: usize) -> Self {
+        let (width, height) = (self.width / cell, self.height / cell);
+        let mean = |x: usize, y: usize| {
+            let square = (0..cell * cell).map(|i| (y * cell + i / cell) * self.width + x * cell + i % cell);
+            (square.map(|i| Vec3::from(self.rgb[i])).sum::<Vec3>() / (cell * cell) as f32).to_array()
+        };
+        let rgb = (0..width * height).map(|i| mean(i % width, i / width)).collect();
+        Self { width, height, rgb }
+    }
 }
 
 impl Dome {
@@ -54,20 +86,20 @@ impl Dome {
             cells.push(Cdf::new(&weights));
         }
         let edges_u = edges_x.iter().map(|&x| x as f32 / width as f32).collect();
-        Self { width, height, rgb: map.rgb, edges_u, edges_z, cell, rows: Cdf::new(&row_weights), cells }
+        let picture = Picture { width, height, rgb: map.rgb };
+        let divides = width.is_multiple_of(cell) && height.is_multiple_of(cell);
+        let coarse = (cell > 1 && divides).then(|| picture.averaged(cell));
+        Self { picture, coarse, edges_u, edges_z, cell, rows: Cdf::new(&row_weights), cells }
     }
 
-    /// Radiance, interpolated between the four nearest texels.
+    /// Radiance in all detail.
     pub(super) fn radiance(&self, direction: Vec3) -> Vec3 {
-        let (u, v) = uv_of(direction);
-        let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
-        let (left, top) = (x.floor(), y.floor());
-        let column = |i: f32| (i as isize).rem_euclid(self.width as isize) as usize;
-        let row = |i: f32| (i.max(0.0) as usize).min(self.height - 1);
-        let texel = |x: f32, y: f32| Vec3::from(self.rgb[row(y) * self.width + column(x)]);
-        let upper = texel(left, top).lerp(texel(left + 1.0, top), x - left);
-        let lower = texel(left, top + 1.0).lerp(texel(left + 1.0, top + 1.0), x - left);
-        upper.lerp(lower, y - top)
+        self.picture.at(uv_of(direction))
+    }
+
+    /// Radiance for directions that stand for a cone wider than a cell.
+    pub(super) fn radiance_coarse(&self, direction: Vec3) -> Vec3 {
+        self.coarse.as_ref().unwrap_or(&self.picture).at(uv_of(direction))
     }
 
     /// A direction, in proportion to brightness.
@@ -87,8 +119,8 @@ impl Dome {
         let (u, v) = uv_of(direction);
         let index =
             |share: f32, texels: usize, cells: usize| ((share * texels as f32) as usize / self.cell).min(cells - 1);
-        let row = index(v, self.height, self.cells.len());
-        let column = index(u, self.width, self.edges_u.len() - 1);
+        let row = index(v, self.picture.height, self.cells.len());
+        let column = index(u, self.picture.width, self.edges_u.len() - 1);
         let solid_angle =
             TAU * (self.edges_u[column + 1] - self.edges_u[column]) * (self.edges_z[row] - self.edges_z[row + 1]);
         self.rows.probability(row) * self.cells[row].probability(column) / solid_angle

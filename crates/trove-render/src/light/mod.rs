@@ -21,6 +21,9 @@ use dome::Dome;
 use emitters::Emitters;
 use sun::Sun;
 
+/// From this width on a cone is many times as wide as a cell of the sky.
+pub(crate) const WIDE_RAD: f32 = 0.1;
+
 /// One way for light to reach a point.
 pub(crate) struct LightSample {
     /// Unit vector from the point to the light, World.
@@ -144,10 +147,12 @@ impl Lights {
         })
     }
 
-    /// Radiance of the environment with the sun's disk in it.
-    pub(crate) fn radiance(&self, direction: Vec3) -> Vec3 {
-        self.around.dome.radiance(direction)
-            + self.around.sun.as_ref().map_or(Vec3::ZERO, |sun| sun.radiance(direction))
+    /// Radiance of the environment with the sun's disk in it, for a ray that stands for a cone of `spread_rad`: a wide
+    /// one does not need the sky's details, whose look-up waits for memory.
+    pub(crate) fn radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
+        let dome = &self.around.dome;
+        let sky = if spread_rad < WIDE_RAD { dome.radiance(direction) } else { dome.radiance_coarse(direction) };
+        sky + self.around.sun.as_ref().map_or(Vec3::ZERO, |sun| sun.radiance(direction))
     }
 
     /// Density over solid angle with which [`Self::sample`] draws a direction of the environment.
@@ -222,7 +227,7 @@ mod tests {
         for _ in 0..draws {
             let Some(sample) = lights.sample(Vec3::ZERO, [unit(), unit(), unit()]) else { continue };
             assert!(sample.wi.is_normalized());
-            let radiance = sample.radiance.unwrap_or_else(|| lights.radiance(sample.wi));
+            let radiance = sample.radiance.unwrap_or_else(|| lights.radiance(sample.wi, 0.0));
             let part = luminance(radiance) * sample.wi.z.max(0.0) / sample.pdf;
             if sample.distance.is_finite() {
                 from_lamp += part;

@@ -5,6 +5,7 @@ use trove_model::InstanceId;
 
 use crate::PreparedScene;
 use crate::accel::Ray;
+use crate::light::WIDE_RAD;
 use crate::material::Bsdf;
 use crate::prepare::Surface;
 use crate::sampling::{Sampler, power_heuristic};
@@ -89,7 +90,7 @@ pub(crate) fn radiance(
         let Some(hit) = found else {
             // The sky, unless light sampling would have found it better.
             let weight = scattered.map_or(1.0, |(_, pdf)| power_heuristic(pdf, scene.lights.pdf(ray.direction)));
-            gathered.add(throughput * scene.lights.radiance(ray.direction) * weight, bounce);
+            gathered.add(throughput * scene.lights.radiance(ray.direction, cone.spread_rad) * weight, bounce);
             guide = guide.or(Some((guide_filter, Vec3::ZERO)));
             break;
         };
@@ -162,6 +163,7 @@ fn direct(scene: &PreparedScene, surface: &Surface, bsdf: &Bsdf, u: [f32; 3], ra
     if share == Vec3::ZERO {
         return Vec3::ZERO;
     }
-    let radiance = light.radiance.unwrap_or_else(|| scene.lights.radiance(light.wi));
+    // Narrow lobes find the sky themselves; what is left to light samples is wide.
+    let radiance = light.radiance.unwrap_or_else(|| scene.lights.radiance(light.wi, WIDE_RAD));
     f * radiance * share * (power_heuristic(light.pdf, pdf_bsdf) / light.pdf)
 }
