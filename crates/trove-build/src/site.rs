@@ -88,7 +88,8 @@ pub fn build(
     // What lies and stands for good.
     let ground = ground::height_field(drive, bounds, report);
     let surfaces = roads::surfaces(drive, map, &ground, bounds, library, seed.child("roads"), report);
-    let buildings = buildings::buildings(drive, map, &surfaces, &ground, bounds, library, seed.child("buildings"), report);
+    let buildings =
+        buildings::buildings(drive, map, &surfaces, &ground, bounds, library, seed.child("buildings"), report);
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };

@@ -10,7 +10,7 @@ const STEPS_PER_STOP: f64 = 32.0;
 const SPAN_STOPS: f64 = 24.0;
 
 /// The metered mean of the lower part of a picture becomes this radiance: what the same measurement gives on
-/// photographs of sunny streets with little shade, where the road itself comes out at about 130 of 255.
+/// photographs of sunny streets with little shade; the sunlit road then comes out at 105 to 130 of 255.
 const METERED_TO: f64 = 0.16;
 
 /// Shares of the metered pixels that are left out at the dark and at the bright end.

@@ -72,7 +72,11 @@ fn between(coordinate: f32, n: u32) -> (usize, usize, f32) {
     let position = fraction * n as f32 + 0.5;
     let above = position as usize;
     let (last, next) = (n as usize - 1, above.min(n as usize));
-    (if next == 0 { last } else { next - 1 }, if next > last { 0 } else { next }, (position - above as f32).clamp(0.0, 1.0))
+    (
+        if next == 0 { last } else { next - 1 },
+        if next > last { 0 } else { next },
+        (position - above as f32).clamp(0.0, 1.0),
+    )
 }
 
 impl Level {

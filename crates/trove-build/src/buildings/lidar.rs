@@ -32,7 +32,7 @@ const ALIKE: f64 = 0.94;
 const GAP_M: f64 = 4.0;
 const OFF_LINE_M: f64 = 0.8;
 /// A facade is at least this long and seen up to this height, of at least so many pieces.
-const MIN_FACADE_M: f64 = 5.0;
+const MIN_FACADE_M: f64 = 8.0;
 const MIN_TOP_M: f64 = 3.4;
 const MIN_PIECES: usize = 4;
 /// What a map that has buildings does not show this near to them is none, metres.
