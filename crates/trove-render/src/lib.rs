@@ -15,6 +15,7 @@ mod path;
 mod prepare;
 mod renderer;
 mod sampling;
+mod shared_library;
 mod texture;
 
 pub use accel::KernelChoice;

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 use libloading::Library;
 
+use crate::shared_library::shared_library;
+
 pub(super) type Handle = *mut c_void;
 
 pub(super) const GEOMETRY_TRIANGLE: c_int = 0;
@@ -90,29 +92,8 @@ pub(super) struct QueryArguments {
     pub(super) min_width: f32,
 }
 
-macro_rules! api {
-    ($($field:ident = $symbol:literal : fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// The functions; they stay valid, because the library is never unloaded.
-        pub(super) struct Api {
-            $(pub(super) $field: unsafe extern "C" fn($($arg),*) $(-> $ret)?,)*
-        }
-
-        impl Api {
-            fn from_library(library: Library) -> Result<Self, libloading::Error> {
-                $(
-                    // SAFETY: the type is the one that Embree 4's headers declare for this symbol, and the
-                    // library stays loaded.
-                    let $field = unsafe { *library.get::<unsafe extern "C" fn($($arg),*) $(-> $ret)?>($symbol)? };
-                )*
-                // oneTBB's threads may still be on their way out when the last device is released.
-                std::mem::forget(library);
-                Ok(Self { $($field,)* })
-            }
-        }
-    };
-}
-
-api! {
+// Types as in Embree 4's headers.
+shared_library! {
     new_device = b"rtcNewDevice": fn(*const c_char) -> Handle;
     release_device = b"rtcReleaseDevice": fn(Handle);
     device_property = b"rtcGetDeviceProperty": fn(Handle, c_int) -> isize;

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use libloading::Library;
 
+use crate::shared_library::shared_library;
+
 pub(super) type Handle = *mut c_void;
 
 pub(super) const DEVICE_CPU: c_int = 1;
@@ -14,29 +16,8 @@ pub(super) const FORMAT_FLOAT3: c_int = 3;
 pub(super) const QUALITY_HIGH: c_int = 6;
 pub(super) const ERROR_NONE: c_int = 0;
 
-macro_rules! api {
-    ($($field:ident = $symbol:literal : fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// The functions; they stay valid, because the library is never unloaded.
-        pub(super) struct Api {
-            $(pub(super) $field: unsafe extern "C" fn($($arg),*) $(-> $ret)?,)*
-        }
-
-        impl Api {
-            fn from_library(library: Library) -> Result<Self, libloading::Error> {
-                $(
-                    // SAFETY: the type is the one that `oidn.h` of version 2 declares for this symbol, and the library
-                    // stays loaded.
-                    let $field = unsafe { *library.get::<unsafe extern "C" fn($($arg),*) $(-> $ret)?>($symbol)? };
-                )*
-                // oneTBB's threads may still be on their way out when the last device is released.
-                std::mem::forget(library);
-                Ok(Self { $($field,)* })
-            }
-        }
-    };
-}
-
-api! {
+// Types as in version 2's `oidn.h`.
+shared_library! {
     new_device = b"oidnNewDevice": fn(c_int) -> Handle;
     set_device_bool = b"oidnSetDeviceBool": fn(Handle, *const c_char, bool);
     set_device_int = b"oidnSetDeviceInt": fn(Handle, *const c_char, c_int);
