@@ -157,12 +157,12 @@ pub(crate) fn drive() -> Drive {
     }
 }
 
-/// A map of one road.
-pub(crate) fn map_with_road(ends: [[f64; 2]; 2]) -> StreetMap {
-    let road = Road {
-        id: 1,
-        kind: RoadKind::Residential,
-        centreline: ends.map(DVec2::from_array).to_vec(),
+/// A road on the ground of which the map says no more than where it runs.
+pub(crate) fn road(id: i64, kind: RoadKind, points: &[[f64; 2]]) -> Road {
+    Road {
+        id,
+        kind,
+        centreline: points.iter().copied().map(DVec2::from_array).collect(),
         lanes: None,
         width_m: None,
         oneway: false,
@@ -172,6 +172,11 @@ pub(crate) fn map_with_road(ends: [[f64; 2]; 2]) -> StreetMap {
         tunnel: false,
         surface: String::new(),
         name: String::new(),
-    };
+    }
+}
+
+/// A map of one road.
+pub(crate) fn map_with_road(ends: [[f64; 2]; 2]) -> StreetMap {
+    let road = road(1, RoadKind::Residential, &ends);
     StreetMap { roads: vec![road], ..StreetMap::default() }
 }

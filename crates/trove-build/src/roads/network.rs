@@ -175,23 +175,10 @@ fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
 mod tests {
     use super::*;
     use crate::plane;
-    use trove_model::SidewalkSides;
 
     fn road(points: &[(f64, f64)]) -> Road {
-        Road {
-            id: 1,
-            kind: RoadKind::Residential,
-            centreline: points.iter().map(|&(x, y)| DVec2::new(x, y)).collect(),
-            lanes: None,
-            width_m: None,
-            oneway: false,
-            sidewalk: SidewalkSides::default(),
-            layer: 0,
-            bridge: false,
-            tunnel: false,
-            surface: String::new(),
-            name: String::new(),
-        }
+        let points: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x, y]).collect();
+        crate::testing::road(1, RoadKind::Residential, &points)
     }
 
     fn recorded() -> (PlaneRaster, Bounds) {

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 use trove_model::{
-    AssetLibrary, Bounds, Class, HeightField, LaneMap, Polygon, Raster, Report, Road, RoadKind, Seed, SidewalkSides,
-    StreetMap,
+    AssetLibrary, Bounds, Class, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
 };
 
 use super::{Footing, KERB_M, RoadSurfaces, surfaces};
@@ -14,20 +13,7 @@ use crate::testing::drive;
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.
 fn map() -> StreetMap {
-    let road = |id: i64, kind: RoadKind, points: [[f64; 2]; 2]| Road {
-        id,
-        kind,
-        centreline: points.map(DVec2::from_array).to_vec(),
-        lanes: None,
-        width_m: None,
-        oneway: false,
-        sidewalk: SidewalkSides::default(),
-        layer: 0,
-        bridge: false,
-        tunnel: false,
-        surface: String::new(),
-        name: String::new(),
-    };
+    let road = |id: i64, kind: RoadKind, points: [[f64; 2]; 2]| crate::testing::road(id, kind, &points);
     let roads = vec![
         road(1, RoadKind::Residential, [[60.0, 4.0], [90.0, 180.0]]),
         road(2, RoadKind::Tertiary, [[-60.0, -170.0], [-60.0, 170.0]]),

@@ -146,23 +146,10 @@ fn rig() -> Vec<RigCamera> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::{RoadKind, SidewalkSides};
+    use trove_model::RoadKind;
 
     fn map() -> StreetMap {
-        let road = |id: i64, ends: [[f64; 2]; 2]| Road {
-            id,
-            kind: RoadKind::Residential,
-            centreline: ends.map(DVec2::from_array).to_vec(),
-            lanes: None,
-            width_m: None,
-            oneway: false,
-            sidewalk: SidewalkSides::default(),
-            layer: 0,
-            bridge: false,
-            tunnel: false,
-            surface: String::new(),
-            name: String::new(),
-        };
+        let road = |id: i64, ends: [[f64; 2]; 2]| crate::testing::road(id, RoadKind::Residential, &ends);
         StreetMap {
             roads: vec![road(1, [[-300.0, 0.0], [300.0, 0.0]]), road(2, [[0.0, -300.0], [0.0, 300.0]])],
             ..StreetMap::default()
