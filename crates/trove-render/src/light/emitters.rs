@@ -1,10 +1,15 @@
 //! Triangles that shine.
 
-use glam::{DVec3, Vec3};
+use std::f32::consts::PI;
+
+use glam::{DVec3, Vec2, Vec3};
 use trove_model::Scene;
 
 use super::cdf::Cdf;
 use super::luminance;
+
+/// How far light of the outermost emitters reaches, roughly.
+const MARGIN_M: f32 = 20.0;
 
 /// All shining triangles of a scene, drawn in proportion to their power.
 pub(super) struct Emitters {
@@ -26,7 +31,8 @@ struct Emitter {
 pub(super) struct EmitterPoint {
     pub(super) point: Vec3,
     pub(super) radiance: Vec3,
-    index: usize,
+    /// Density over solid angle with which it was drawn; infinite seen edge-on.
+    pub(super) pdf: f32,
 }
 
 impl Emitters {
@@ -59,25 +65,28 @@ impl Emitters {
         (!triangles.is_empty()).then(|| Self { triangles, by_power: Cdf::new(&powers) })
     }
 
-    /// A point on some triangle.
-    pub(super) fn draw(&self, u: [f32; 2]) -> EmitterPoint {
-        let (index, rest) = self.by_power.draw(u[0]);
+    /// Irradiance of a surface among the emitters: all their light, spread over the ground that they stand on.
+    pub(super) fn typical_irradiance(&self) -> f32 {
+        let flux: f32 = self.triangles.iter().map(|e| PI * 0.5 * e.cross.length() * luminance(e.radiance)).sum();
+        let corners = || self.triangles.iter().map(|e| e.corner.truncate());
+        let (low, high) = (corners().fold(Vec2::INFINITY, Vec2::min), corners().fold(-Vec2::INFINITY, Vec2::max));
+        flux / (high - low + MARGIN_M).element_product()
+    }
+
+    /// A point on some triangle, for a surface at `from` that is lit from the side of `normal` (both if it is 0).
+    pub(super) fn draw(&self, from: Vec3, _normal: Vec3, u: [f32; 3]) -> Option<EmitterPoint> {
+        let (index, _) = self.by_power.draw(u[0]);
         let emitter = &self.triangles[index];
         // Even over the triangle's area.
-        let root = rest.sqrt();
-        let (b, c) = (root * (1.0 - u[1]), root * u[1]);
+        let root = u[1].sqrt();
+        let (b, c) = (root * (1.0 - u[2]), root * u[2]);
         let point = emitter.corner + emitter.edges[0] * b + emitter.edges[1] * c;
-        EmitterPoint { point, radiance: emitter.radiance, index }
+        Some(EmitterPoint { point, radiance: emitter.radiance, pdf: self.density(index, from, point) })
     }
 
-    /// Density over solid angle, seen from `from`, with which that point is drawn; infinite seen edge-on.
-    pub(super) fn pdf(&self, drawn: &EmitterPoint, from: Vec3) -> f32 {
-        self.density(drawn.index, from, drawn.point)
-    }
-
-    /// The same for a point of a triangle that was found in another way; 0 where it is never drawn.
-    pub(super) fn pdf_of(&self, instance: u32, triangle: u32, from: Vec3, point: Vec3) -> f32 {
-        let found = self.triangles.binary_search_by_key(&(instance, triangle), |e| e.key);
+    /// Density over solid angle, seen from `from`, with which that point of a triangle is drawn; 0 where it never is.
+    pub(super) fn pdf(&self, key: (u32, u32), from: Vec3, _normal: Vec3, point: Vec3) -> f32 {
+        let found = self.triangles.binary_search_by_key(&key, |e| e.key);
         found.map_or(0.0, |index| self.density(index, from, point))
     }
 

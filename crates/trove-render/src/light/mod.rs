@@ -1,10 +1,10 @@
 //! Where light comes from: sky, sun, environment map, emitters.
 //!
-//! One light sample chooses between the sun, the rest of the environment, and the emitters, with probabilities that are
-//! fixed for a scene (see [`Shares`]). Directions to sun and environment share one density, so that a direction on the
-//! sun's disk counts both; a point on an emitter has its own.
+//! The sun is sampled for itself, since it casts the edges that noise shows on. The rest, which is the sky and the
+//! emitters, shares one sample, drawn with a probability that is fixed for a scene.
 
 mod cdf;
+mod cells;
 mod clouds;
 mod dome;
 mod emitters;
@@ -12,6 +12,7 @@ mod noise;
 mod sky;
 mod sun;
 
+use std::f32::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
@@ -21,8 +22,15 @@ use dome::Dome;
 use emitters::Emitters;
 use sun::Sun;
 
-/// From this width on a cone is many times as wide as a cell of the sky.
-pub(crate) const WIDE_RAD: f32 = 0.1;
+/// Cells on a side of a hemisphere's square: fine enough for clouds, and for the windows and lamps of a photograph.
+const SKY_CELLS: usize = 64;
+const MAP_CELLS: usize = 256;
+
+/// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
+const SHARE_BELOW: f64 = 0.05;
+
+/// From this width on a cone is wider than any cell of the sky.
+const WIDE_RAD: f32 = 0.1;
 
 /// One way for light to reach a point.
 pub(crate) struct LightSample {
@@ -30,32 +38,10 @@ pub(crate) struct LightSample {
     pub(crate) wi: Vec3,
     /// Metres; infinite for the sky.
     pub(crate) distance: f32,
-    /// Radiance that arrives if nothing is in the way; `None`: [`Lights::radiance`] of that direction, which is worth
-    /// asking for only when nothing is in the way.
-    pub(crate) radiance: Option<Vec3>,
-    /// Density over solid angle with which this direction is drawn, over all lights.
+    /// Radiance that arrives if nothing is in the way.
+    pub(crate) radiance: Vec3,
+    /// Density over solid angle with which this direction is drawn, among the lights that were asked for.
     pub(crate) pdf: f32,
-}
-
-/// Probabilities of choosing each sort of light; they add up to 1.
-struct Shares {
-    sun: f32,
-    dome: f32,
-    emitters: f32,
-}
-
-impl Shares {
-    /// The sun casts the edges that noise shows on, and gives most of the light: half. By day lamps add little, and by
-    /// night nearly everything.
-    fn new(sun: bool, emitters: bool) -> Self {
-        let (sun, dome, emitters) = match (sun, emitters) {
-            (true, false) => (0.5, 0.5, 0.0),
-            (true, true) => (0.45, 0.4, 0.15),
-            (false, true) => (0.0, 0.4, 0.6),
-            (false, false) => (0.0, 1.0, 0.0),
-        };
-        Self { sun, dome, emitters }
-    }
 }
 
 /// Everything infinitely far away.
@@ -67,10 +53,10 @@ struct Surroundings {
 impl Surroundings {
     fn new(environment: &Environment) -> Self {
         match environment {
-            Environment::Map(map) => Self { dome: Dome::new(map.as_ref().clone(), 1, 1.0), sun: None },
+            Environment::Map(map) => Self { dome: Dome::new(map.as_ref().clone(), MAP_CELLS, SHARE_BELOW), sun: None },
             Environment::Sky(parameters) => {
                 let sky = sky::bake(parameters);
-                let dome = Dome::new(sky.map, sky::CELL, sky::SHARE_BELOW);
+                let dome = Dome::new(sky.map, SKY_CELLS, SHARE_BELOW);
                 Self { dome, sun: Sun::new(sky.to_sun, sky.sun_irradiance) }
             }
         }
@@ -104,68 +90,134 @@ fn is_same(a: &Environment, b: &Environment) -> bool {
     }
 }
 
-/// All lights of a scene.
+/// All lights of a scene: the sun, and the rest of them, which are the sky and the emitters.
 pub(crate) struct Lights {
     around: Arc<Surroundings>,
     emitters: Option<Emitters>,
-    shares: Shares,
+    /// Probability that a sample of the rest is one of an emitter.
+    emitter_share: f32,
+    scale: f32,
 }
 
 impl Lights {
     pub(crate) fn new(scene: &Scene, last: &LastSurroundings) -> Self {
         let around = last.get(&scene.light.environment);
         let emitters = Emitters::new(scene);
-        let shares = Shares::new(around.sun.is_some(), emitters.is_some());
-        Self { around, emitters, shares }
+        let from_sky = luminance(around.dome.irradiance());
+        let from_sun = around.sun.as_ref().map_or(0.0, |sun| luminance(sun.level_irradiance()));
+        let from_emitters = emitters.as_ref().map_or(0.0, Emitters::typical_irradiance);
+        // By day lamps add little, and by night nearly everything; neither is ever left out.
+        let even = from_emitters / (from_emitters + from_sky).max(f32::MIN_POSITIVE);
+        let emitter_share = if emitters.is_some() { even.clamp(0.1, 0.9) } else { 0.0 };
+        let scale = (from_sky + from_sun + from_emitters) / PI;
+        Self { around, emitters, emitter_share, scale: scale.max(f32::MIN_POSITIVE) }
     }
 
-    /// Draws a light (first number) and a direction to it (the other two).
-    pub(crate) fn sample(&self, point: Vec3, u: [f32; 3]) -> Option<LightSample> {
-        let within = [u[1], u[2]];
-        let wi = match (&self.around.sun, &self.emitters) {
-            (Some(sun), _) if u[0] < self.shares.sun => sun.draw(within),
-            (_, Some(emitters)) if u[0] >= self.shares.sun + self.shares.dome => {
-                return self.sample_emitter(emitters, point, within);
-            }
-            _ => self.around.dome.draw(within),
-        };
-        let pdf = self.pdf(wi);
-        (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance: None, pdf })
+    /// Radiance of a white level surface in the open, roughly: what is dark and what is bright in this light.
+    pub(crate) fn scale(&self) -> f32 {
+        self.scale
     }
 
-    fn sample_emitter(&self, emitters: &Emitters, point: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        let drawn = emitters.draw(u);
+    /// A direction to the sun's disk; `None` where no sun shines.
+    pub(crate) fn sample_sun(&self, u: [f32; 2]) -> Option<LightSample> {
+        let sun = self.around.sun.as_ref()?;
+        let wi = sun.draw(u);
+        let pdf = sun.pdf(wi);
+        (pdf > 0.0).then(|| LightSample { wi, distance: f32::INFINITY, radiance: sun.radiance(wi), pdf })
+    }
+
+    /// Density over solid angle with which [`Self::sample_sun`] draws a direction.
+    pub(crate) fn sun_pdf(&self, direction: Vec3) -> f32 {
+        self.around.sun.as_ref().map_or(0.0, |sun| sun.pdf(direction))
+    }
+
+    /// Radiance of the sun's disk; 0 beside it.
+    pub(crate) fn sun_radiance(&self, direction: Vec3) -> Vec3 {
+        self.around.sun.as_ref().map_or(Vec3::ZERO, |sun| sun.radiance(direction))
+    }
+
+    /// Draws the sky or an emitter (first number) and a direction to it (the other two), for a surface at `point` that is
+    /// lit from the side of `normal`; from both sides if it is 0.
+    pub(crate) fn sample_rest(&self, point: Vec3, normal: Vec3, u: [f32; 3]) -> Option<LightSample> {
+        if let Some(emitters) = self.emitters.as_ref().filter(|_| u[0] < self.emitter_share) {
+            return self.sample_emitter(emitters, point, normal, [u[0] / self.emitter_share, u[1], u[2]]);
+        }
+        let (wi, radiance, pdf) = self.around.dome.draw([u[1], u[2]]);
+        let pdf = pdf * (1.0 - self.emitter_share);
+        (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance, pdf })
+    }
+
+    fn sample_emitter(&self, emitters: &Emitters, point: Vec3, normal: Vec3, u: [f32; 3]) -> Option<LightSample> {
+        let drawn = emitters.draw(point, normal, u)?;
         let to_light = drawn.point - point;
         let distance = to_light.length();
-        let pdf = self.shares.emitters * emitters.pdf(&drawn, point);
+        let pdf = self.emitter_share * drawn.pdf;
         // Seen edge-on, or from the point itself, it gives nothing.
         (distance > 0.0 && pdf.is_finite() && pdf > 0.0).then(|| LightSample {
             wi: to_light / distance,
             distance,
-            radiance: Some(drawn.radiance),
+            radiance: drawn.radiance,
             pdf,
         })
     }
 
-    /// Radiance of the environment with the sun's disk in it, for a ray that stands for a cone of `spread_rad`: a wide
-    /// one does not need the sky's details, whose look-up waits for memory.
+    /// Density over solid angle with which [`Self::sample_rest`] draws a direction of the sky.
+    pub(crate) fn pdf_rest(&self, direction: Vec3) -> f32 {
+        (1.0 - self.emitter_share) * self.around.dome.pdf(direction)
+    }
+
+    /// Density over solid angle with which [`Self::sample_rest`], given that point and normal, draws the point `on_light`
+    /// of an emitting triangle; 0 where the triangle is never drawn.
+    pub(crate) fn pdf_rest_emitter(
+        &self,
+        instance: u32,
+        triangle: u32,
+        point: Vec3,
+        normal: Vec3,
+        on_light: Vec3,
+    ) -> f32 {
+        let pdf = self.emitters.as_ref().map_or(0.0, |e| e.pdf((instance, triangle), point, normal, on_light));
+        self.emitter_share * pdf
+    }
+
+    /// Radiance of the sky without the sun's disk, for a ray that stands for a cone of `spread_rad`.
+    pub(crate) fn sky_radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
+        self.around.dome.radiance(direction, spread_rad)
+    }
+
+    /// Draws a light (first number) and a direction to it (the other two).
+    pub(crate) fn sample(&self, point: Vec3, u: [f32; 3]) -> Option<LightSample> {
+        let share = self.sun_share();
+        if u[0] < share {
+            let sun = self.sample_sun([u[1], u[2]])?;
+            let radiance = sun.radiance + self.sky_radiance(sun.wi, WIDE_RAD);
+            return Some(LightSample { radiance, pdf: self.pdf(sun.wi), ..sun });
+        }
+        let rest = self.sample_rest(point, Vec3::ZERO, [(u[0] - share) / (1.0 - share), u[1], u[2]])?;
+        if rest.distance.is_finite() {
+            return Some(LightSample { pdf: rest.pdf * (1.0 - share), ..rest });
+        }
+        Some(LightSample { radiance: rest.radiance + self.sun_radiance(rest.wi), pdf: self.pdf(rest.wi), ..rest })
+    }
+
+    fn sun_share(&self) -> f32 {
+        if self.around.sun.is_some() { 0.5 } else { 0.0 }
+    }
+
+    /// Radiance of the environment with the sun's disk in it, for a ray that stands for a cone of `spread_rad`.
     pub(crate) fn radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
-        let dome = &self.around.dome;
-        let sky = if spread_rad < WIDE_RAD { dome.radiance(direction) } else { dome.radiance_coarse(direction) };
-        sky + self.around.sun.as_ref().map_or(Vec3::ZERO, |sun| sun.radiance(direction))
+        self.sky_radiance(direction, spread_rad) + self.sun_radiance(direction)
     }
 
     /// Density over solid angle with which [`Self::sample`] draws a direction of the environment.
     pub(crate) fn pdf(&self, direction: Vec3) -> f32 {
-        let sun = self.around.sun.as_ref().map_or(0.0, |sun| sun.pdf(direction));
-        self.shares.sun * sun + self.shares.dome * self.around.dome.pdf(direction)
+        self.sun_share() * self.sun_pdf(direction) + (1.0 - self.sun_share()) * self.pdf_rest(direction)
     }
 
     /// Density over solid angle, seen from `point`, with which [`Self::sample`] draws the point `on_light` of an
     /// emitting triangle; 0 where the triangle is never drawn.
     pub(crate) fn emitter_pdf(&self, instance: u32, triangle: u32, point: Vec3, on_light: Vec3) -> f32 {
-        let pdf = self.emitters.as_ref().map_or(0.0, |e| e.pdf_of(instance, triangle, point, on_light));
-        self.shares.emitters * pdf
+        (1.0 - self.sun_share()) * self.pdf_rest_emitter(instance, triangle, point, Vec3::ZERO, on_light)
     }
 }
 
@@ -176,8 +228,6 @@ fn luminance(rgb: Vec3) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use std::f32::consts::PI;
-
     use glam::{DAffine3, DVec3};
     use trove_model::{Class, Instance, InstanceId, Light, Material, Mesh, PhysicalSky, Seed};
 
@@ -225,20 +275,21 @@ mod tests {
         let mut unit = || random.unit() as f32;
         let (draws, mut from_far, mut from_lamp) = (60_000, 0.0, 0.0);
         for _ in 0..draws {
-            let Some(sample) = lights.sample(Vec3::ZERO, [unit(), unit(), unit()]) else { continue };
-            assert!(sample.wi.is_normalized());
-            let radiance = sample.radiance.unwrap_or_else(|| lights.radiance(sample.wi, 0.0));
-            let part = luminance(radiance) * sample.wi.z.max(0.0) / sample.pdf;
-            if sample.distance.is_finite() {
-                from_lamp += part;
-                // Both triangles have the same area and power, and lie in one plane.
-                let point = sample.wi * sample.distance;
-                let pdf = lights.emitter_pdf(0, 1, Vec3::ZERO, point);
-                assert!((point.z - 1.5).abs() < 1e-4 && (pdf / sample.pdf - 1.0).abs() < 1e-3);
-            } else {
-                from_far += part;
-                assert!((lights.pdf(sample.wi) / sample.pdf - 1.0).abs() < 1e-6);
+            let rest = lights.sample_rest(Vec3::ZERO, Vec3::Z, [unit(), unit(), unit()]);
+            let sun = lights.sample_sun([unit(), unit()]);
+            if let Some(sun) = &sun {
+                assert!((lights.sun_pdf(sun.wi) / sun.pdf - 1.0).abs() < 1e-6);
             }
+            for sample in rest.iter().chain(&sun) {
+                assert!(sample.wi.is_normalized());
+                let part = luminance(sample.radiance) * sample.wi.z.max(0.0) / sample.pdf;
+                *if sample.distance.is_finite() { &mut from_lamp } else { &mut from_far } += part;
+            }
+            let Some(sample) = rest.filter(|rest| rest.distance.is_finite()) else { continue };
+            // Both triangles have the same area and power, and lie in one plane.
+            let point = sample.wi * sample.distance;
+            let pdfs = [0, 1].map(|triangle| lights.pdf_rest_emitter(0, triangle, Vec3::ZERO, Vec3::Z, point));
+            assert!((point.z - 1.5).abs() < 1e-4 && pdfs.iter().any(|pdf| (pdf / sample.pdf - 1.0).abs() < 1e-3));
         }
         // The same by a grid over the hemisphere for the sky, by the sun's own irradiance, and by a grid over the lamp.
         let Surroundings { dome, sun } = &*lights.around;
@@ -246,7 +297,7 @@ mod tests {
         for i in 0..grid * grid {
             let (z, azimuth) = (((i / grid) as f32 + 0.5) / grid as f32, (i % grid) as f32 / grid as f32 * 2.0 * PI);
             let r = (1.0 - z * z).sqrt();
-            sky += luminance(dome.radiance(Vec3::new(r * azimuth.cos(), r * azimuth.sin(), z))) * z * 2.0 * PI;
+            sky += luminance(dome.radiance(Vec3::new(r * azimuth.cos(), r * azimuth.sin(), z), 0.0)) * z * 2.0 * PI;
         }
         let sky = sky / (grid * grid) as f32;
         let to_sun = Vec3::new(0.3, -0.4, 0.8).normalize();

@@ -27,12 +27,6 @@ const SKY_SCALE: f32 = 0.0206;
 /// Light of the night: the moonless sky over a town.
 const NIGHT: Vec3 = Vec3::new(4e-4, 5e-4, 8e-4);
 
-/// Texels on a side of the cells by which directions are drawn: fine enough for any cloud.
-pub(super) const CELL: usize = 4;
-
-/// Draws of directions below the horizon, as a share of what their brightness asks for.
-pub(super) const SHARE_BELOW: f64 = 0.05;
-
 /// A sky ready to be drawn.
 pub(super) struct BakedSky {
     pub(super) map: EnvironmentMap,

@@ -33,6 +33,11 @@ impl Sun {
         (irradiance.max_element() > 0.0).then(|| Self { to_sun, across: [a, b], radiance: irradiance / solid_angle() })
     }
 
+    /// Irradiance of a level surface that looks up.
+    pub(super) fn level_irradiance(&self) -> Vec3 {
+        self.radiance * solid_angle() * self.to_sun.z.max(0.0)
+    }
+
     /// A direction on the disk, evenly over its solid angle.
     pub(super) fn draw(&self, u: [f32; 2]) -> Vec3 {
         let fall = u[0] * fall();

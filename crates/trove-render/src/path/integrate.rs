@@ -5,7 +5,6 @@ use trove_model::InstanceId;
 
 use crate::PreparedScene;
 use crate::accel::Ray;
-use crate::light::WIDE_RAD;
 use crate::material::Bsdf;
 use crate::prepare::Surface;
 use crate::sampling::{Sampler, power_heuristic};
@@ -16,8 +15,8 @@ const MAX_BOUNCES: u32 = 6;
 const MAX_PASSAGES: u32 = 16;
 /// From this bounce on paths end by chance, the likelier the less they carry.
 const ROULETTE_FROM: u32 = 2;
-/// Largest radiance that one sample may bring at the first bounce and after it, where a white surface in the sun has
-/// about 1: rare paths that carry more would be speckles long before they are an average.
+/// Largest radiance that one sample may bring at the first bounce and after it, in units of what a white surface
+/// has: rare paths that carry more would be speckles long before they are an average.
 const MOST_DIRECT: f32 = 64.0;
 const MOST_INDIRECT: f32 = 6.0;
 /// Textures are looked up at this share of the pixel's width: the samples in the pixel do the rest.
@@ -54,11 +53,13 @@ impl Sample {
 /// Light along a path, kept below what a sample may bring.
 struct Gathered {
     radiance: Vec3,
+    /// What a white surface has in this light.
+    scale: f32,
 }
 
 impl Gathered {
     fn add(&mut self, light: Vec3, bounce: u32) {
-        let most = if bounce <= 1 { MOST_DIRECT } else { MOST_INDIRECT };
+        let most = self.scale * if bounce <= 1 { MOST_DIRECT } else { MOST_INDIRECT };
         let largest = light.max_element();
         // NaN would spread over the picture when it is filtered.
         if largest.is_finite() {
@@ -76,7 +77,7 @@ pub(crate) fn radiance(
     sampler: &mut Sampler,
     rays: &mut u64,
 ) -> Sample {
-    let mut gathered = Gathered { radiance: Vec3::ZERO };
+    let mut gathered = Gathered { radiance: Vec3::ZERO, scale: scene.lights.scale() };
     let mut guide: Option<(Vec3, Vec3)> = None;
     let mut guide_filter = Vec3::ONE;
     let mut throughput = Vec3::ONE;
@@ -163,7 +164,5 @@ fn direct(scene: &PreparedScene, surface: &Surface, bsdf: &Bsdf, u: [f32; 3], ra
     if share == Vec3::ZERO {
         return Vec3::ZERO;
     }
-    // Narrow lobes find the sky themselves; what is left to light samples is wide.
-    let radiance = light.radiance.unwrap_or_else(|| scene.lights.radiance(light.wi, WIDE_RAD));
-    f * radiance * share * (power_heuristic(light.pdf, pdf_bsdf) / light.pdf)
+    f * light.radiance * share * (power_heuristic(light.pdf, pdf_bsdf) / light.pdf)
 }
