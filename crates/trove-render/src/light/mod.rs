@@ -11,12 +11,15 @@ mod emitters;
 mod noise;
 mod sky;
 mod sun;
+mod tree;
 
 use std::f32::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
 use trove_model::{Environment, Scene};
+
+pub(crate) use noise::Plane;
 
 use dome::Dome;
 use emitters::Emitters;
@@ -244,7 +247,7 @@ mod tests {
         };
         let lamp = Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 2.0, 0.0), Vec3::new(0.0, 2.0, 0.0)],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            triangles: vec![[0, 2, 1], [0, 3, 2]],
             ..Mesh::default()
         };
         let at = DAffine3::from_translation(DVec3::new(0.5, 0.0, 1.5));

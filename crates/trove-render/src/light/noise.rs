@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use trove_model::Seed;
 
 /// A square field of numbers, interpolated, that repeats with period 1.
-pub(super) struct Plane {
+pub(crate) struct Plane {
     side: usize,
     values: Vec<f32>,
 }
@@ -13,7 +13,7 @@ pub(super) struct Plane {
 impl Plane {
     /// Octaves of value noise, the first with `cells` random numbers a side, each next one twice as fine and half as
     /// strong (by `persistence`); 0 to 1.
-    pub(super) fn fractal(seed: Seed, side: usize, cells: usize, octaves: usize, persistence: f32) -> Self {
+    pub(crate) fn fractal(seed: Seed, side: usize, cells: usize, octaves: usize, persistence: f32) -> Self {
         let layers: Vec<(f32, Self)> = (0..octaves)
             .map(|octave| {
                 let cells = cells << octave;
@@ -41,7 +41,7 @@ impl Plane {
     }
 
     /// The field at a point, linear between its values.
-    pub(super) fn at(&self, point: Vec2) -> f32 {
+    pub(crate) fn at(&self, point: Vec2) -> f32 {
         self.blend(point, |t| t)
     }
 
