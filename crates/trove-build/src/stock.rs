@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::Vec3;
-use trove_model::{Asset, Material, Mesh, Seed};
+use trove_model::{Asset, Mapping, Material, Mesh, Seed, Tiling};
 
 /// Meshes and materials, numbered in the order of their first use.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,8 @@ pub(crate) struct Stock {
 struct MaterialKey {
     name: String,
     numbers: Vec<u32>,
-    images: [usize; 3],
+    images: [usize; 4],
+    mapping: (Mapping, Tiling),
 }
 
 impl Stock {
@@ -74,8 +75,14 @@ fn key(material: &Material) -> MaterialKey {
         m.metalness,
         m.ior,
         m.coat,
+        m.flakes,
+        m.sheen,
+        m.subsurface,
         m.transmission,
         m.translucency,
+        m.dirt,
+        m.wetness,
+        m.height_m,
         m.emission.x,
         m.emission.y,
         m.emission.z,
@@ -86,7 +93,8 @@ fn key(material: &Material) -> MaterialKey {
     MaterialKey {
         name: m.name.clone(),
         numbers: floats.map(f32::to_bits).to_vec(),
-        images: [image(&m.base_color_map), image(&m.orm_map), image(&m.normal_map)],
+        images: [&m.base_color_map, &m.orm_map, &m.normal_map, &m.height_map].map(image),
+        mapping: (m.mapping, m.tiling),
     }
 }
 

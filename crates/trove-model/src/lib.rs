@@ -36,7 +36,7 @@ pub use kind::Kind;
 pub use lane_map::{Lane, LaneMap};
 pub use lens::Lens;
 pub use light::{Environment, EnvironmentMap, Light, PhysicalSky};
-pub use material::{ColorSpace, Material, Texture};
+pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
 pub use polygon::{Bounds, Polygon};
 pub use projection::MapProjection;

@@ -28,6 +28,28 @@ pub struct Texture {
     pub color_space: ColorSpace,
 }
 
+/// How texture coordinates come about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mapping {
+    /// The mesh's own.
+    #[default]
+    Uv,
+    /// The mesh's positions in metres, seen along whichever of its axes the surface faces most; next to an edge both
+    /// are mixed. For meshes without useful texture coordinates.
+    Triplanar,
+}
+
+/// How a texture goes on beyond its edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tiling {
+    /// It repeats.
+    #[default]
+    Repeat,
+    /// Every cell of a hexagonal lattice shows another part of it, so that no repetition is seen (after Heitz and
+    /// Neyret 2018). For what has no larger structure: asphalt, grass, plaster.
+    Stochastic,
+}
+
 /// A principled surface; colours are linear Rec. 709.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -47,18 +69,37 @@ pub struct Material {
     pub orm_map: Option<Arc<Texture>>,
     /// Tangent-space normals, OpenGL's way (green up).
     pub normal_map: Option<Arc<Texture>>,
+    /// Heights in the first channel, 0 to 1; where there is a normal map too, that is the same relief and wins.
+    pub height_map: Option<Arc<Texture>>,
+    /// Height of 1 in the height map above its 0, metres.
+    pub height_m: f32,
     /// Index of refraction of the dielectric.
     pub ior: f32,
     /// 0 to 1: a clear lacquer over everything else (car paint).
     pub coat: f32,
+    /// 0 to 1: metal flakes in the paint under the lacquer.
+    pub flakes: f32,
+    /// 0 to 1: fibres that stand off the surface and shine at grazing angles (cloth).
+    pub sheen: f32,
+    /// 0 to 1: share of diffuse light that wanders about below the surface before it leaves (skin, wax).
+    pub subsurface: f32,
     /// 0 to 1: share of light that goes straight through a thin pane (glass).
     pub transmission: f32,
     /// 0 to 1: share of diffuse light that comes out on the other side (leaves).
     pub translucency: f32,
     /// Emitted radiance, W·m⁻²·sr⁻¹ in the renderer's scale (a clear midday sky is about 0.1, see the light's docs).
     pub emission: Vec3,
+    /// 0 to 1: what weather, feet and wheels leave: streaks on walls, stains on level ground, dust near the foot.
+    pub dirt: f32,
+    /// 0 to 1: rain that lies on it. Level places are filmed with water and, from about a half, hold puddles; slopes
+    /// are damp.
+    pub wetness: f32,
     /// Texture coordinates are multiplied by it (1 / the texture's size where a mesh's uvs are metres).
     pub uv_scale: Vec2,
+    /// Where texture coordinates come from.
+    pub mapping: Mapping,
+    /// What is beyond a texture's edges.
+    pub tiling: Tiling,
 }
 
 impl Default for Material {
@@ -73,12 +114,21 @@ impl Default for Material {
             metalness: 0.0,
             orm_map: None,
             normal_map: None,
+            height_map: None,
+            height_m: 0.0,
             ior: 1.5,
             coat: 0.0,
+            flakes: 0.0,
+            sheen: 0.0,
+            subsurface: 0.0,
             transmission: 0.0,
             translucency: 0.0,
             emission: Vec3::ZERO,
+            dirt: 0.0,
+            wetness: 0.0,
             uv_scale: Vec2::ONE,
+            mapping: Mapping::Uv,
+            tiling: Tiling::Repeat,
         }
     }
 }
@@ -96,6 +146,6 @@ impl Material {
 
     /// The images that it uses.
     pub fn textures(&self) -> impl Iterator<Item = &Arc<Texture>> {
-        [&self.base_color_map, &self.orm_map, &self.normal_map].into_iter().flatten()
+        [&self.base_color_map, &self.orm_map, &self.normal_map, &self.height_map].into_iter().flatten()
     }
 }

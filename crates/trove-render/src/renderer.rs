@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, Scene, Shot, Texture};
+use trove_model::{Capture, CaptureStats, Color, Scene, Shot};
 
 use crate::accel::{Kernel, KernelChoice};
-use crate::cache::Cache;
 use crate::denoise::Denoiser;
 use crate::light::LastSurroundings;
-use crate::texture::MipMap;
+use crate::texture::Textures;
 use crate::{PreparedScene, RenderError, film, labels, path};
 
 /// How to set a renderer up.
@@ -40,7 +39,7 @@ pub struct Capabilities {
 pub struct Renderer {
     kernel: Kernel,
     denoiser: Result<Denoiser, String>,
-    textures: Cache<Texture, MipMap>,
+    textures: Textures,
     surroundings: LastSurroundings,
     pool: rayon::ThreadPool,
 }
@@ -59,7 +58,7 @@ impl Renderer {
         } else {
             Err("not asked for".into())
         };
-        Ok(Self { kernel, denoiser, textures: Cache::default(), surroundings: LastSurroundings::default(), pool })
+        Ok(Self { kernel, denoiser, textures: Textures::default(), surroundings: LastSurroundings::default(), pool })
     }
 
     /// What this renderer works with.

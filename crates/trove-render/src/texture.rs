@@ -1,9 +1,59 @@
 //! Images on surfaces: bilinear look-up in a chain of ever smaller copies.
 
-use std::sync::LazyLock;
+mod opacity;
+mod relief;
+
+use std::sync::{Arc, LazyLock};
 
 use glam::{Vec2, Vec4};
-use trove_model::{ColorSpace, Texture};
+use trove_model::{ColorSpace, Material, Texture};
+
+use crate::cache::Cache;
+
+pub(crate) use opacity::{Coverage, OpacityMask};
+
+/// What was made of textures, for all scenes that share them.
+#[derive(Default)]
+pub(crate) struct Textures {
+    maps: Cache<Texture, MipMap>,
+    normals: Cache<Texture, MipMap>,
+    heights: Cache<Texture, MipMap>,
+    masks: Cache<Texture, OpacityMask>,
+}
+
+impl Textures {
+    /// Makes what these materials need and forgets what nobody uses any more.
+    pub(crate) fn make_all(&self, materials: &[Material]) {
+        let plain = |m: &Material| [m.base_color_map.clone(), m.orm_map.clone()];
+        self.maps.make_all(materials.iter().flat_map(plain).flatten().collect::<Vec<_>>().iter(), MipMap::new);
+        self.normals.make_all(materials.iter().filter_map(|m| m.normal_map.as_ref()), relief::from_normals);
+        self.heights.make_all(materials.iter().filter_map(|m| m.height_map.as_ref()), relief::from_heights);
+        self.masks.forget_unused();
+    }
+
+    /// Colours or plain numbers.
+    pub(crate) fn map(&self, texture: &Arc<Texture>) -> Arc<MipMap> {
+        self.maps.get(texture, MipMap::new)
+    }
+
+    /// Tangent-space normals: x, y, z from 0 to 1, and √(1 − length) of the mean that they stand for.
+    pub(crate) fn normals(&self, texture: &Arc<Texture>) -> Arc<MipMap> {
+        self.normals.get(texture, relief::from_normals)
+    }
+
+    /// Slopes of a height map: along u and v from 0 to 1 for −1 to 1 of its range per texel, and the root of their
+    /// variance.
+    pub(crate) fn heights(&self, texture: &Arc<Texture>) -> Arc<MipMap> {
+        self.heights.get(texture, relief::from_heights)
+    }
+
+    /// Where alpha reaches `cutoff`; kept for one cut-off a texture, which is all that is ever asked for.
+    pub(crate) fn mask(&self, texture: &Arc<Texture>, cutoff: f32) -> Arc<OpacityMask> {
+        let make = |t: &Texture| OpacityMask::new(t, &self.map(texture), cutoff);
+        let kept = self.masks.get(texture, make);
+        if kept.cutoff() == cutoff { kept } else { Arc::new(make(texture)) }
+    }
+}
 
 /// A texture and its smaller copies, 8 bits a channel as they came.
 pub(crate) struct MipMap {
@@ -43,15 +93,20 @@ impl MipMap {
     /// Between two sizes `dither`, uniform in [0, 1), chooses: the mean over many look-ups is their blend, at half the
     /// cost.
     pub(crate) fn sample(&self, uv: Vec2, footprint: Vec2, dither: f32) -> Vec4 {
-        let texels = footprint * Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
+        let texels = footprint * self.size();
         // Both directions alike: the geometric mean of the two sides.
         let lod = 0.5 * (texels.x * texels.y).max(1.0).log2();
         let level = ((lod + dither) as usize).min(self.levels.len() - 1);
         self.levels[level].bilinear(uv, table(self.color_space))
     }
 
+    /// Texels of the largest copy.
+    pub(crate) fn size(&self) -> Vec2 {
+        Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32)
+    }
+
     /// Alpha at `uv` in full resolution.
-    pub(crate) fn alpha(&self, uv: Vec2) -> f32 {
+    fn alpha(&self, uv: Vec2) -> f32 {
         self.levels[0].bilinear_alpha(uv)
     }
 }

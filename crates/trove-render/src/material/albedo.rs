@@ -34,8 +34,9 @@ fn integrate(cos: f32, alpha: f32) -> Vec2 {
         if wi.z <= 0.0 {
             continue;
         }
-        let (f_cos, pdf) = ggx::eval(wo, wi, alpha);
-        let m = (1.0 - wo.dot((wo + wi).normalize())).clamp(0.0, 1.0).powi(5);
+        let h = (wo + wi).normalize();
+        let (f_cos, pdf) = ggx::eval(wo.z, wi.z, ggx::Facet::new(h, Vec3::Z), alpha);
+        let m = (1.0 - wo.dot(h)).clamp(0.0, 1.0).powi(5);
         sum += f_cos / pdf * Vec2::new(1.0 - m, m);
     }
     sum / (GRID * GRID) as f32

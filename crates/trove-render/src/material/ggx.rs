@@ -1,4 +1,4 @@
-//! The GGX distribution of facets (Walter et al. 2007) in coordinates whose z is the shading normal.
+//! The GGX distribution of facets (Walter et al. 2007).
 
 use std::f32::consts::{PI, TAU};
 
@@ -7,10 +7,25 @@ use glam::Vec3;
 /// Smallest α: below it highlights are narrower than single precision resolves, and than the sun.
 pub(crate) const ALPHA_MIN: f32 = 1e-3;
 
-/// Density of facets with normal `h`.
-pub(crate) fn distribution(h: Vec3, alpha: f32) -> f32 {
+/// The normal of the facets that mirror one direction into another, as seen from the surface's own normal.
+#[derive(Clone, Copy)]
+pub(crate) struct Facet {
+    pub(crate) cos: f32,
+    /// Squared sine: near the normal, 1 − cos² would be rounding.
+    pub(crate) sin2: f32,
+}
+
+impl Facet {
+    /// Of unit vectors.
+    pub(crate) fn new(h: Vec3, normal: Vec3) -> Self {
+        Self { cos: h.dot(normal), sin2: h.cross(normal).length_squared() }
+    }
+}
+
+/// Density of facets with such a normal.
+fn distribution(facet: Facet, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+    let d = facet.sin2 + a2 * facet.cos * facet.cos;
     a2 / (PI * d * d)
 }
 
@@ -20,18 +35,17 @@ fn visible(cos: f32, alpha: f32) -> f32 {
 }
 
 /// Reflected light without the Fresnel term, times cos θi, and the density with which [`sample`] draws `wi`.
-pub(crate) fn eval(wo: Vec3, wi: Vec3, alpha: f32) -> (f32, f32) {
-    let h = (wo + wi).normalize_or(Vec3::Z);
-    let d = distribution(h, alpha);
+pub(crate) fn eval(cos_o: f32, cos_i: f32, facet: Facet, alpha: f32) -> (f32, f32) {
+    let d = distribution(facet, alpha);
     let a2 = alpha * alpha;
     // Masking and shadowing at correlated heights (Heitz 2014).
     let lambda = |a: f32, b: f32| a * (a2 + (1.0 - a2) * b * b).sqrt();
-    let g2 = 2.0 * wo.z * wi.z / (lambda(wo.z, wi.z) + lambda(wi.z, wo.z));
-    (d * g2 / (4.0 * wo.z), d * visible(wo.z, alpha) / (4.0 * wo.z))
+    let g2 = 2.0 * cos_o * cos_i / (lambda(cos_o, cos_i) + lambda(cos_i, cos_o));
+    (d * g2 / (4.0 * cos_o), d * visible(cos_o, alpha) / (4.0 * cos_o))
 }
 
 /// A direction reflected by a facet that is drawn among those visible from `wo` (Dupuy, Benyoub 2023); it may lie
-/// below the surface.
+/// below the surface. Coordinates whose z is the surface's normal.
 pub(crate) fn sample(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let w = Vec3::new(wo.x * alpha, wo.y * alpha, wo.z).normalize();
     let (sin_phi, cos_phi) = (TAU * u[0]).sin_cos();

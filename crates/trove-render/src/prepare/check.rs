@@ -22,8 +22,14 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
             material.metalness,
             material.ior,
             material.coat,
+            material.flakes,
+            material.sheen,
+            material.subsurface,
             material.transmission,
             material.translucency,
+            material.dirt,
+            material.wetness,
+            material.height_m,
         ];
         let finite = numbers.iter().all(|n| n.is_finite())
             && material.base_color.is_finite()

@@ -6,14 +6,13 @@ mod surface;
 use std::sync::Arc;
 
 use glam::{Affine3A, DAffine3, Mat3A, Vec3};
-use trove_model::{Class, InstanceId, Material, Mesh, Scene, SceneObject, Texture};
+use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
-use crate::cache::Cache;
 use crate::light::{LastSurroundings, Lights};
 use crate::material::PreparedMaterial;
-use crate::texture::MipMap;
+use crate::texture::Textures;
 
 pub(crate) use surface::Surface;
 
@@ -30,6 +29,8 @@ pub(crate) struct PreparedInstance {
     pub(crate) id: InstanceId,
     pub(crate) class: Class,
     pub(crate) mesh: Arc<Mesh>,
+    /// Lowest z of the mesh, its own metres.
+    pub(crate) foot_z: f32,
     /// Index into the scene's materials for each slot.
     pub(crate) materials: Vec<u32>,
     pub(crate) world_from_mesh: Affine3A,
@@ -47,13 +48,14 @@ impl PreparedScene {
     pub(crate) fn new(
         scene: &Scene,
         kernel: &Kernel,
-        textures: &Cache<Texture, MipMap>,
+        textures: &Textures,
         last: &LastSurroundings,
     ) -> Result<Self, RenderError> {
         check::check(scene)?;
-        textures.make_all(scene.materials.iter().flat_map(Material::textures), MipMap::new);
+        textures.make_all(&scene.materials);
         let materials: Vec<_> = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).collect();
-        let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
+        let feet_z: Vec<f32> = scene.meshes.iter().map(|m| m.bounds().map_or(0.0, |(low, _)| low.z)).collect();
+        let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, &feet_z, i)).collect();
         let placed: Vec<_> = instances
             .iter()
             .map(|i| Placed {
@@ -123,7 +125,7 @@ impl PreparedScene {
 }
 
 impl PreparedInstance {
-    fn new(scene: &Scene, instance: &trove_model::Instance) -> Self {
+    fn new(scene: &Scene, feet_z: &[f32], instance: &trove_model::Instance) -> Self {
         let m = instance.world_from_mesh;
         let world_from_mesh = Affine3A::from_cols(
             m.matrix3.x_axis.as_vec3a(),
@@ -136,6 +138,7 @@ impl PreparedInstance {
             id: instance.id,
             class: instance.class,
             mesh: scene.meshes[instance.mesh].clone(),
+            foot_z: feet_z[instance.mesh],
             materials: instance.materials.iter().map(|&m| m as u32).collect(),
             world_from_mesh,
             world_from_normal: Mat3A::from_cols(

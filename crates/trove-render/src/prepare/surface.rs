@@ -9,6 +9,10 @@ use crate::accel::{Hit, Ray};
 /// A point on a surface, in World, seen from where the ray came.
 pub(crate) struct Surface {
     pub(crate) point: Vec3,
+    /// The same in the mesh's own coordinates.
+    pub(crate) point_mesh: Vec3,
+    /// Above the mesh's lowest corner, metres along its z.
+    pub(crate) above_foot_m: f32,
     /// Unit, towards the ray's origin.
     pub(crate) wo: Vec3,
     /// Unit normal of the triangle, on the side of `wo`.
@@ -32,7 +36,8 @@ impl Surface {
         let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
 
         // The point lies on the triangle, not on the ray: the ray's error grows with distance.
-        let point = instance.world_from_mesh.transform_point3a(a * weights[0] + b * weights[1] + c * weights[2]);
+        let point_mesh = a * weights[0] + b * weights[1] + c * weights[2];
+        let point = instance.world_from_mesh.transform_point3a(point_mesh);
         let (edge_b, edge_c) = (b - a, c - a);
         let outside = (instance.world_from_normal * edge_b.cross(edge_c)).normalize_or(Vec3A::Z);
 
@@ -65,6 +70,8 @@ impl Surface {
         }
         Self {
             point: point.into(),
+            point_mesh: point_mesh.into(),
+            above_foot_m: point_mesh.z - instance.foot_z,
             wo: wo.into(),
             geometric: (outside * side).into(),
             shading: (shading * side).into(),

@@ -1,0 +1,227 @@
+//! What weather and use do to surfaces: streaks, stains and dust, damp and puddles. Procedural, so that it repeats
+//! nowhere.
+
+use std::sync::LazyLock;
+
+use glam::{Vec2, Vec3, vec2};
+use trove_model::Seed;
+
+use super::bsdf::{Coat, Parameters};
+use crate::light::Plane;
+use crate::prepare::Surface;
+
+/// Dust of roads.
+const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);
+/// Up to about this height wheels and rain throw it, metres.
+const SPLASH_M: f32 = 0.7;
+/// Samples that cover more than this see the mean of everything here, metres.
+const TOO_WIDE_M: f32 = 3.0;
+/// Normal reflectance of water.
+const WATER_F0: f32 = 0.02;
+/// GGX α of water that stands, and of a film over something rough.
+const STILL: f32 = 0.004;
+const FILM: f32 = 0.3;
+
+/// A repeating field, as evenly spread from 0 to 1 as can be: of any area the share `s` lies above 1 − s.
+static FIELD: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let plane = Plane::fractal(Seed(0x77e7), SIDE, 16, 4, 0.55);
+    let value = |i: usize| plane.at(vec2((i % SIDE) as f32, (i / SIDE) as f32) / SIDE as f32);
+    let values: Vec<f32> = (0..SIDE * SIDE).map(value).collect();
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut field = vec![0; values.len()];
+    for (rank, i) in order.into_iter().enumerate() {
+        field[i] = (rank * 256 / values.len()) as u8;
+    }
+    field
+});
+const SIDE: usize = 256;
+
+/// The field at a point; features are a sixteenth of its period 1 and finer.
+fn field(p: Vec2) -> f32 {
+    let p = p * SIDE as f32;
+    let low = p.floor();
+    let t = p - low;
+    let mask = SIDE as i32 - 1;
+    let (x, y) = (low.x as i32 & mask, low.y as i32 & mask);
+    let (x1, y1) = ((x + 1) & mask, (y + 1) & mask);
+    let at = |x: i32, y: i32| f32::from(FIELD[y as usize * SIDE + x as usize]);
+    let (top, bottom) = (at(x, y) + (at(x1, y) - at(x, y)) * t.x, at(x, y1) + (at(x1, y1) - at(x, y1)) * t.x);
+    (top + (bottom - top) * t.y) / 255.0
+}
+
+/// From 0 below `low` to 1 above `high`.
+fn step(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// How much of it a material has.
+#[derive(Clone, Copy)]
+pub(super) struct Weather {
+    pub(super) dirt: f32,
+    pub(super) wetness: f32,
+}
+
+impl Weather {
+    /// Whether it does nothing.
+    pub(super) fn is_none(self) -> bool {
+        self.dirt <= 0.0 && self.wetness <= 0.0
+    }
+
+    /// Changes what a material is at a point; returns its normal, which water flattens.
+    pub(super) fn wear(self, surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
+        let outward = if surface.is_front { surface.shading.z } else { -surface.shading.z };
+        if self.dirt > 0.0 && width_m < TOO_WIDE_M {
+            // Windows are washed.
+            let dirt = self.dirt * step(0.01, 0.1, p.alpha);
+            if surface.shading.z.abs() > 0.7 {
+                stain(surface.point_mesh.truncate(), dirt, p);
+            } else {
+                streak(surface, dirt, p);
+            }
+            splash(surface, self.dirt, p);
+        }
+        if self.wetness > 0.0 { rain(surface, self.wetness, outward, width_m, normal, p) } else { normal }
+    }
+}
+
+/// Level ground: broad tones of wear and dust, blotches of oil.
+fn stain(at: Vec2, dirt: f32, p: &mut Parameters) {
+    let (broad, fine) = (field(at / 61.0), field(vec2(at.y, -at.x) / 9.0));
+    let tone = 0.36 * (broad - 0.5) + 0.2 * (fine - 0.5);
+    let oil = step(0.86, 0.97, fine) * step(0.35, 0.8, broad);
+    p.base_color *= (1.0 + dirt * tone) * (1.0 - 0.4 * dirt * oil);
+    p.alpha *= 1.0 - 0.3 * dirt * oil;
+}
+
+/// Walls: water runs down and takes dirt along.
+fn streak(surface: &Surface, dirt: f32, p: &mut Parameters) {
+    let at = surface.point_mesh;
+    let n = surface.shading;
+    let along = (at.y * n.x - at.x * n.y) / n.truncate().length().max(1e-3);
+    let (runs, broad) = (field(vec2(along / 2.6, at.z / 37.0)), field(vec2(along / 31.0, at.z / 23.0)));
+    let dark = step(0.5, 1.0, runs) * (0.3 + 0.7 * broad) + 0.3 * (broad - 0.5);
+    p.base_color *= 1.0 - 0.5 * dirt * dark;
+}
+
+/// Dust near the foot of everything.
+fn splash(surface: &Surface, dirt: f32, p: &mut Parameters) {
+    let height = surface.above_foot_m / SPLASH_M;
+    if surface.shading.z.abs() > 0.7 || height > 2.0 {
+        return;
+    }
+    let at = surface.point_mesh;
+    let ragged = field(vec2(at.x + at.y, at.z) / 3.0);
+    let share = 0.75 * dirt * (-height * height).exp() * (0.5 + ragged);
+    p.base_color = p.base_color.lerp(DUST, share.min(1.0));
+    p.coat.share *= 1.0 - share.min(1.0);
+    p.alpha += (0.5 - p.alpha).max(0.0) * share.min(1.0);
+}
+
+/// Rain darkens what is porous (Lagarde 2013, after Jensen et al. 1999), lies as a film on what is level, and stands
+/// in its low places.
+fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
+    let level = step(0.7, 0.97, outward);
+    // Walls get what the wind drives.
+    let damp = wetness * (0.3 * step(-0.3, 0.2, outward) + 0.7 * level);
+    let full = (0.7 * (wetness - 0.4)).max(0.0) * level;
+    let puddle = if full <= 0.0 {
+        0.0
+    } else if width_m < TOO_WIDE_M {
+        let at = surface.point.truncate();
+        let low = 0.75 * field(at / 43.0) + 0.25 * field(vec2(at.y, -at.x) / 11.0);
+        step(1.0 - full, 1.08 - full, low + 0.1 * (field(at / 2.7) - 0.5))
+    } else {
+        full
+    };
+    let soaked = damp.max(puddle);
+    let porosity = step(0.2, 0.6, p.alpha) * (1.0 - p.metalness);
+    p.base_color *= Vec3::ONE.lerp(0.45 + 0.35 * p.base_color, soaked * porosity);
+    p.alpha *= 1.0 - 0.5 * soaked;
+    p.diffuse_roughness *= 1.0 - soaked;
+    let film = wetness * level * 0.6;
+    let water = film.max(puddle);
+    if water > 0.0 && p.coat.share <= 0.0 {
+        let normal = normal.lerp(surface.shading, 0.6 + 0.4 * puddle).normalize_or(normal);
+        let alpha = FILM + (STILL - FILM) * puddle;
+        p.coat = Coat { normal, share: water, alpha, f0: WATER_F0 };
+    }
+    normal.lerp(surface.shading, puddle).normalize_or(normal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asphalt() -> Parameters {
+        Parameters {
+            base_color: Vec3::splat(0.15),
+            alpha: 0.7,
+            diffuse_roughness: 0.4,
+            metalness: 0.0,
+            f0: 0.04,
+            coat: Coat { normal: Vec3::Z, share: 0.0, alpha: 0.003, f0: 0.04 },
+            sheen: Vec3::ZERO,
+            subsurface: 0.0,
+            translucency: 0.0,
+            transmission: 0.0,
+            tint: Vec3::ONE,
+        }
+    }
+
+    fn surface(at: Vec3, normal: Vec3) -> Surface {
+        Surface {
+            point: at,
+            point_mesh: at,
+            above_foot_m: at.z,
+            wo: normal,
+            geometric: normal,
+            shading: normal,
+            is_front: true,
+            uv: Vec2::ZERO,
+            uv_axes: None,
+        }
+    }
+
+    #[test]
+    fn the_more_it_rains_the_darker_and_smoother_is_the_road() {
+        let mut last = (1.0, 1.0);
+        for wetness in [0.0, 0.3, 0.6, 1.0] {
+            let (mut reflectance, mut alpha) = (0.0, 0.0);
+            for i in 0..400 {
+                let mut p = asphalt();
+                let at = Vec3::new(i as f32 * 1.7, i as f32 * 0.9, 0.0);
+                Weather { dirt: 0.0, wetness }.wear(&surface(at, Vec3::Z), 0.01, Vec3::Z, &mut p);
+                reflectance += p.base_color.x / 400.0;
+                alpha += (p.alpha + (p.coat.alpha - p.alpha) * p.coat.share) / 400.0;
+            }
+            assert!(reflectance < last.0 && alpha < last.1, "{reflectance}, {alpha} at {wetness}");
+            last = (reflectance, alpha);
+        }
+        assert!((0.06..0.11).contains(&last.0) && last.1 < 0.25, "{last:?}");
+    }
+
+    #[test]
+    fn a_wall_has_no_puddles_and_is_dustier_at_its_foot() {
+        let mut low = asphalt();
+        let weather = Weather { dirt: 1.0, wetness: 1.0 };
+        weather.wear(&surface(Vec3::new(3.0, 0.0, 0.1), Vec3::Y), 0.01, Vec3::Y, &mut low);
+        assert_eq!(low.coat.share, 0.0);
+        let dust = |z: f32| {
+            let mut p = Parameters { base_color: Vec3::X, ..asphalt() };
+            Weather { dirt: 1.0, wetness: 0.0 }.wear(&surface(Vec3::new(3.0, 0.0, z), Vec3::Y), 0.01, Vec3::Y, &mut p);
+            p.base_color.y
+        };
+        assert!(dust(0.1) > 0.03 && dust(3.0) == 0.0);
+    }
+
+    #[test]
+    fn the_field_is_spread_evenly() {
+        let n = 20_000;
+        let above = |limit: f32| (0..n).filter(|&i| field(vec2(i as f32 * 0.617, i as f32 * 0.383)) > limit).count();
+        for share in [0.1, 0.5, 0.9] {
+            assert!((above(1.0 - share) as f32 / n as f32 - share).abs() < 0.05);
+        }
+    }
+}
