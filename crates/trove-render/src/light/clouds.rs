@@ -1,18 +1,25 @@
-//! Fair-weather clouds: flat below, heaped above, lit by the sun and the sky.
+//! Clouds: fair-weather ones, flat below, heaped above, lit by the sun and the sky; thin ice clouds far above them; and
+//! from a cover of about four fifths on a closed deck instead.
 //!
 //! A cloud is where a field over the ground exceeds the height above the clouds' base, with puffs bitten out of it. Rays
 //! march through that space, and through each lit point another one towards the sun.
 
+use std::f32::consts::PI;
+
 use glam::{Vec2, Vec3};
 use trove_model::{PhysicalSky, Seed};
 
+use super::luminance;
 use super::noise::{Plane, Puffs};
 
 /// Height of the clouds' flat bases above the ground.
 const BASE_M: f32 = 1_300.0;
 
-/// Height of the highest tops above the bases, under a broken sky and under a closed one (which is a flat layer).
-const TOPS_M: [f32; 2] = [2_200.0, 700.0];
+/// Height of the highest tops above the bases.
+const TOPS_M: f32 = 2_400.0;
+
+/// Height of ice clouds.
+const CIRRUS_M: f32 = 9_000.0;
 
 /// Side of the square after which the clouds repeat; farther than one sees through haze.
 const PERIOD_M: f32 = 48_000.0;
@@ -21,7 +28,7 @@ const PERIOD_M: f32 = 48_000.0;
 const PUFFS_M: [f32; 2] = [2_400.0, 510.0];
 
 /// How much of the field the large and the small puffs bite away.
-const BITE: [f32; 2] = [0.42, 0.13];
+const BITE: [f32; 2] = [0.36, 0.2];
 
 /// Extinction of a full cloud, 1/m: one sees some forty metres into it.
 const EXTINCTION: f32 = 0.035;
@@ -30,27 +37,42 @@ const EXTINCTION: f32 = 0.035;
 const OPAQUE: f32 = 0.02;
 
 /// Lengths of the steps towards the sun, metres: short where detail shows.
-const TO_SUN_M: [f32; 5] = [40.0, 70.0, 120.0, 220.0, 400.0];
+const TO_SUN_M: [f32; 3] = [80.0, 220.0, 550.0];
 
 /// Scattering orders are summed as in Wrenninge, Kulla, Lundqvist 2013: each octave has this share of the strength, of
 /// the extinction, and of the forward peak of the last one.
-const OCTAVE: [f32; 3] = [0.55, 0.4, 0.5];
+const OCTAVE: [f32; 3] = [0.6, 0.3, 0.5];
 
 /// Brings a thick cloud that faces the sun to the 0.8 of a white surface that satellites see.
 const GAIN: f32 = 4.2;
 
-/// From which cover on the sun itself is hidden.
-const SUN_HIDDEN_FROM: f32 = 0.8;
+/// Below this cover the sun stands in a gap: recordings under broken clouds have shadows.
+const SUN_CLEAR_BELOW: f32 = 0.7;
+
+/// Covers between which broken clouds grow into a deck.
+const DECK: [f32; 2] = [0.75, 0.95];
+
+/// A deck lets this share of the light through to the ground (Kasten and Czeplak 1980), and this of the sun itself.
+const DECK_PASSES: f32 = 0.25;
+const DECK_SUN: f32 = 0.004;
+
+/// What is left of the sun's and the sky's colours below a deck, at a luminance of about 1.
+const DECK_COLOR: Vec3 = Vec3::new(0.97, 1.0, 1.06);
 
 /// Clouds over a place.
 pub(super) struct Clouds {
     field: Plane,
-    puffs: Puffs,
-    cover: f32,
+    puffs: &'static Puffs,
+    /// Where the fields lie over the place, metres.
+    offset: Vec2,
+    /// How far the deck is closed, 0 to 1, and its radiance at the zenith.
+    closed: f32,
+    deck: Vec3,
+    /// Optical thickness of the ice clouds where they are thickest.
+    cirrus: f32,
     /// Value of the field at the clouds' edge, and by how much it exceeds that at the highest tops.
     edge: f32,
     span: f32,
-    tops_m: f32,
     to_sun: Vec3,
     sun: Vec3,
     /// Mean radiance of the sky and of the ground, which light the clouds too.
@@ -69,29 +91,48 @@ impl Clouds {
             return None;
         }
         let seed = Seed(sky.cloud_seed).child("clouds");
-        let field = Plane::fractal(seed.child("field"), 512, 9, 5, 0.5);
+        let field = Plane::fractal(seed.child("field"), 512, 20, 4, 0.55);
         // Puffs bite into the edges, so the field has to start beyond them.
-        let edge = field.quantile_from_above(f64::from(cover.powf(0.75)));
-        let span = (field.quantile_from_above(0.002) - edge).max(0.05);
-        let closed = hidden_share(cover);
-        Some(Self {
+        let [edge, top] = field.quantiles_from_above([f64::from(cover.powf(0.75)), 0.002]);
+        let to_sun = sky.to_sun.normalize().as_vec3();
+        let lit = luminance(above) * PI + luminance(sun) * to_sun.z.max(0.0);
+        let mut clouds = Self {
             field,
-            puffs: Puffs::new(seed.child("puffs")),
-            cover,
+            puffs: Puffs::shared(),
+            offset: Vec2::ZERO,
+            closed: smoothstep(DECK[0], DECK[1], cover),
+            // Irradiance under the overcast sky of the CIE is 7π/9 of its zenith's radiance.
+            deck: DECK_COLOR * (DECK_PASSES * lit * 9.0 / (7.0 * PI)),
+            cirrus: 0.35 * (2.0 * cover).min(1.0),
             edge,
-            span,
-            tops_m: TOPS_M[0] + (TOPS_M[1] - TOPS_M[0]) * closed,
-            to_sun: sky.to_sun.normalize().as_vec3(),
+            span: (top - edge).max(0.05),
+            to_sun,
             sun,
             above,
             below,
             haze_m: 75_000.0 / sky.turbidity.clamp(1.7, 10.0) as f32,
-        })
+        };
+        // The clouds lie anywhere, but that few of them stand before the sun.
+        let mut random = seed.child("offset").random();
+        let tries = if cover < SUN_CLEAR_BELOW { 24 } else { 1 };
+        let mut clearest = (-1.0, Vec2::ZERO);
+        for _ in 0..tries {
+            clouds.offset = Vec2::new(random.unit() as f32, random.unit() as f32) * PERIOD_M;
+            let passes = clouds.sun_share();
+            if passes > clearest.0 {
+                clearest = (passes, clouds.offset);
+            }
+        }
+        clouds.offset = clearest.1;
+        Some(clouds)
     }
 
     /// Share of the sun's light that the clouds before it let through.
-    pub(super) fn sun_share(cover: f64) -> f32 {
-        1.0 - 0.98 * hidden_share(cover.clamp(0.0, 1.0) as f32)
+    pub(super) fn sun_share(&self) -> f32 {
+        let (_, passed, _) = self.heap(self.to_sun);
+        let ice = (-self.ice_thickness(self.to_sun)).exp();
+        let broken = passed * ice;
+        broken * (1.0 - self.closed) + DECK_SUN * self.closed
     }
 
     /// Radiance of the sky in a direction with the clouds before it, where the air alone has the radiance `air`.
@@ -99,49 +140,87 @@ impl Clouds {
         /// Nearer to the horizon clouds are lost in haze.
         const LOWEST_Z: f32 = 0.012;
         if direction.z < LOWEST_Z {
-            return air;
+            return air.lerp(self.deck_radiance(direction), self.closed);
         }
-        let from_sun = direction.dot(self.to_sun).clamp(-1.0, 1.0).acos();
-        let opening = self.opening(from_sun);
-        let (mut t, end) = (BASE_M / direction.z, ((BASE_M + self.tops_m) / direction.z).min(3.0 * self.haze_m));
+        let deck = if self.closed > 0.0 { self.deck_radiance(direction) } else { Vec3::ZERO };
+        if self.closed >= 1.0 {
+            return deck;
+        }
+        let behind = self.behind_ice(air, direction);
+        let (light, passed, reach) = self.heap(direction);
+        let opacity = 1.0 - passed;
+        let broken = if opacity < 1e-3 {
+            behind
+        } else {
+            // Haze lies before the clouds, and has the colour of the sky there.
+            let seen = (-reach / self.haze_m).exp();
+            light * seen + air * opacity * (1.0 - seen) + behind * passed
+        };
+        broken.lerp(deck, self.closed)
+    }
+
+    /// Heaped clouds in a direction: the light that they send, the share that passes them, and how far away they are.
+    fn heap(&self, direction: Vec3) -> (Vec3, f32, f32) {
+        if direction.z <= 0.0 {
+            return (Vec3::ZERO, 1.0, 0.0);
+        }
+        let (mut t, end) = (BASE_M / direction.z, ((BASE_M + TOPS_M) / direction.z).min(2.0 * self.haze_m));
         let (mut light, mut passed, mut reach) = (Vec3::ZERO, 1.0f32, 0.0f32);
         let phases = phases(direction.dot(self.to_sun));
+        let mut lit = Vec3::ZERO;
         while t < end && passed > OPAQUE {
             let point = direction * t;
-            let step = 25.0 + 0.003 * t;
+            let step = 60.0 + 0.007 * t;
             // Nothing changes by more than a span in 900 m, so far from clouds a longer step misses none.
-            let inside = self.inside(point, self.room(point) - opening, t);
+            let inside = self.inside(point, self.room(point), t);
             if inside <= 0.0 {
                 t += (-inside * 900.0).clamp(step, 40.0 * step);
                 continue;
             }
             let stays = (-density(point, inside) * EXTINCTION * step).exp();
             let weight = passed * (1.0 - stays);
-            light += self.scattered(point, phases) * weight;
+            // Where little is added the last value does.
+            if weight > 0.04 || lit == Vec3::ZERO {
+                lit = self.scattered(point, inside, phases);
+            }
+            light += lit * weight;
             reach += weight * t;
             passed *= stays;
             t += step;
         }
         let opacity = 1.0 - passed;
-        if opacity < 1e-3 {
-            return air;
-        }
-        // Haze lies before the clouds, and has the colour of the sky there.
-        let seen = (-(reach / opacity) / self.haze_m).exp();
-        let cloud = light * seen + air * opacity * (1.0 - seen);
-        cloud + air * passed
+        (light, passed, if opacity > 0.0 { reach / opacity } else { 0.0 })
     }
 
-    /// How much the field is lowered around the sun, which stays clear of broken clouds.
-    fn opening(&self, from_sun_rad: f32) -> f32 {
-        let near = 1.0 - smoothstep(4.0, 14.0, from_sun_rad.to_degrees());
-        1.5 * near * (1.0 - hidden_share(self.cover))
+    /// Streaks of ice along the wind, before the air's radiance.
+    fn behind_ice(&self, air: Vec3, direction: Vec3) -> Vec3 {
+        let passed = (-self.ice_thickness(direction)).exp();
+        let [wide, ..] = phases(direction.dot(self.to_sun));
+        let light = self.sun * (wide + 0.04) * 1.6 + self.above * 0.6;
+        air * passed + light * (1.0 - passed)
+    }
+
+    fn ice_thickness(&self, direction: Vec3) -> f32 {
+        // The earth's curvature bounds the way through the layer.
+        let at = direction.truncate() * (CIRRUS_M / (direction.z.max(0.0) + 0.06)) + self.offset;
+        let streak = self.field.at(Vec2::new(at.x + 0.35 * at.y, at.y * 4.0 - at.x) / (2.5 * PERIOD_M));
+        let tuft = self.field.at(Vec2::new(at.x - 0.6 * at.y, at.y * 2.0 + at.x) * (2.2 / PERIOD_M));
+        self.cirrus * smoothstep(0.46, 0.78, 0.65 * streak + 0.35 * tuft) * (0.4 + 0.8 * tuft)
+    }
+
+    /// The overcast sky of the CIE, three times as bright at the zenith as at the horizon, uneven as real ones are.
+    fn deck_radiance(&self, direction: Vec3) -> Vec3 {
+        let z = direction.z.max(0.0);
+        let at = direction.truncate() * (BASE_M / (z + 0.12)) + self.offset;
+        let uneven = 0.7 * self.field.at(at / (0.3 * PERIOD_M)) + 0.3 * self.field.at(at / (0.08 * PERIOD_M));
+        let near_sun = (-(1.0 - direction.dot(self.to_sun)) / 0.1).exp();
+        self.deck * ((1.0 + 2.0 * z) / 3.0 * (0.78 + 0.44 * uneven) * (1.0 + 0.35 * near_sun))
     }
 
     /// By how much the field exceeds the height at a point, in spans; negative outside clouds.
     fn room(&self, point: Vec3) -> f32 {
-        let over = (self.field.at(Vec2::new(point.x, point.y) / PERIOD_M) - self.edge) / self.span;
-        over - (point.z - BASE_M) / self.tops_m
+        let over = (self.field.at((point.truncate() + self.offset) / PERIOD_M) - self.edge) / self.span;
+        over - (point.z - BASE_M) / TOPS_M
     }
 
     /// The room at a point that puffs leave, negative outside clouds; detail is left out far from the eye.
@@ -156,7 +235,7 @@ impl Clouds {
     }
 
     /// Radiance that a point of a cloud sends to the eye per unit of extinction.
-    fn scattered(&self, point: Vec3, phases: [f32; 3]) -> Vec3 {
+    fn scattered(&self, point: Vec3, inside: f32, phases: [f32; 3]) -> Vec3 {
         let (mut thickness, mut along) = (0.0, 0.0);
         for step in TO_SUN_M {
             let p = point + self.to_sun * (along + 0.5 * step);
@@ -167,8 +246,10 @@ impl Clouds {
         let [strength, extinction, _] = OCTAVE;
         let octave = |i: i32| strength.powi(i) * phases[i as usize] * (-thickness * extinction.powi(i)).exp();
         let from_sun = self.sun * GAIN * (0..3).map(octave).sum::<f32>();
-        let height = ((point.z - BASE_M) / self.tops_m).clamp(0.0, 1.0);
-        from_sun + self.above * (0.5 + 0.4 * height) + self.below * (0.5 * (1.0 - height))
+        let height = ((point.z - BASE_M) / TOPS_M).clamp(0.0, 1.0);
+        // Thin parts are lit through and through.
+        let open = 0.6 * (-inside * 5.0).exp();
+        from_sun + self.above * (0.45 + 0.4 * height + open) + self.below * (0.5 * (1.0 - height) + open)
     }
 }
 
@@ -177,17 +258,12 @@ fn density(point: Vec3, inside: f32) -> f32 {
     (inside * 10.0).clamp(0.0, 1.0) * smoothstep(0.0, 60.0, point.z - BASE_M)
 }
 
-/// 0 while the sun stays clear, 1 under a closed cover.
-fn hidden_share(cover: f32) -> f32 {
-    ((cover - SUN_HIDDEN_FROM) / (1.0 - SUN_HIDDEN_FROM)).clamp(0.0, 1.0)
-}
-
 /// The phase function of each octave for the cosine between eye ray and sun: mostly even, with a forward peak that makes
 /// thin edges before the sun shine (two lobes of Henyey and Greenstein 1941).
 fn phases(cos: f32) -> [f32; 3] {
     let lobe = |g: f32| {
         let square = 1.0 + g * g - 2.0 * g * cos;
-        (1.0 - g * g) / (square * square.sqrt()) / (4.0 * std::f32::consts::PI)
+        (1.0 - g * g) / (square * square.sqrt()) / (4.0 * PI)
     };
     let peak = |i: i32| OCTAVE[2].powi(i);
     [0, 1, 2].map(|i| 0.65 * lobe(0.75 * peak(i)) + 0.35 * lobe(-0.3 * peak(i)))

@@ -11,6 +11,7 @@ mod emitters;
 mod noise;
 mod sky;
 mod sun;
+mod sun_in_map;
 mod tree;
 
 use std::f32::consts::PI;
@@ -24,6 +25,7 @@ pub(crate) use noise::Plane;
 use dome::Dome;
 use emitters::Emitters;
 use sun::Sun;
+use sun_in_map::take_sun;
 
 /// Cells on a side of a hemisphere's square: fine enough for clouds, and for the windows and lamps of a photograph.
 const SKY_CELLS: usize = 64;
@@ -56,7 +58,11 @@ struct Surroundings {
 impl Surroundings {
     fn new(environment: &Environment) -> Self {
         match environment {
-            Environment::Map(map) => Self { dome: Dome::new(map.as_ref().clone(), MAP_CELLS, SHARE_BELOW), sun: None },
+            Environment::Map(map) => {
+                let mut map = map.as_ref().clone();
+                let sun = take_sun(&mut map).and_then(|sun| Sun::new(sun.to_sun, sun.irradiance));
+                Self { dome: Dome::new(map, MAP_CELLS, SHARE_BELOW), sun }
+            }
             Environment::Sky(parameters) => {
                 let sky = sky::bake(parameters);
                 let dome = Dome::new(sky.map, SKY_CELLS, SHARE_BELOW);

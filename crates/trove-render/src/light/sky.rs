@@ -8,24 +8,31 @@ use rayon::prelude::*;
 use trove_model::{EnvironmentMap, PhysicalSky};
 
 use super::clouds::Clouds;
-use super::{dome, sun};
+use super::{dome, luminance, sun};
 
 /// Columns of the picture, and twice its rows.
-const WIDTH: usize = 2560;
+const WIDTH: usize = 1280;
 
 /// The same for the clear sky that only has to be summed.
 const COARSE_WIDTH: usize = 128;
 
 /// Mean irradiance above the atmosphere in the scale of [`trove_model::Light`]: under a clear midday sun (60° high,
 /// turbidity 3) sun and sky together give a white diffuse surface a radiance of 1.
-const SUN_OUTSIDE: f32 = 4.4;
+const SUN_OUTSIDE: f32 = 3.85;
 
 /// From the scale of the Hosek–Wilkie data to that of [`trove_model::Light`]: the sky then gives 17 % of the midday
 /// light, as it does on a clear day.
 const SKY_SCALE: f32 = 0.0206;
 
+/// From the height of clouds the horizon is lower by this.
+const CLOUD_DIP_RAD: f64 = 1.2 * std::f64::consts::PI / 180.0;
+
+/// Colours of the zenith and of the horizon below the sun at dusk, relative to the model's.
+const ZENITH_TINT: Vec3 = Vec3::new(0.62, 0.9, 1.55);
+const GLOW_TINT: Vec3 = Vec3::new(1.45, 0.88, 0.5);
+
 /// Light of the night: the moonless sky over a town.
-const NIGHT: Vec3 = Vec3::new(4e-4, 5e-4, 8e-4);
+const NIGHT: Vec3 = Vec3::new(6e-6, 5e-6, 5e-6);
 
 /// A sky ready to be drawn.
 pub(super) struct BakedSky {
@@ -42,9 +49,8 @@ pub(super) fn bake(sky: &PhysicalSky) -> BakedSky {
     // The clear sky, coarsely, lights the clouds and the ground below them.
     let coarse = upper_half(COARSE_WIDTH, |direction| air.radiance(direction));
     let from_clear_sky = irradiance_from_above(&coarse, COARSE_WIDTH);
-    let clouds =
-        Clouds::new(sky, air.sun_irradiance, from_clear_sky / PI, air.ground(air.sun_irradiance, from_clear_sky));
-    let sun_irradiance = air.sun_irradiance * Clouds::sun_share(sky.cloud_cover);
+    let clouds = Clouds::new(sky, air.sun_aloft, from_clear_sky / PI, air.ground(air.sun_irradiance, from_clear_sky));
+    let sun_irradiance = air.sun_irradiance * clouds.as_ref().map_or(1.0, Clouds::sun_share);
 
     let mut rgb = upper_half(width, |direction| {
         let clear = air.radiance(direction);
@@ -80,6 +86,12 @@ struct Air {
     /// Share of the model's light that is left when the sun is below the horizon.
     twilight: f32,
     sun_irradiance: Vec3,
+    /// The same at the clouds' height, where the sun rises earlier and sets later.
+    sun_aloft: Vec3,
+    /// How much of the light comes from a sun near the horizon, 0 to 1.
+    dusk: f32,
+    /// How much large particles whiten the sky, 0 to 1.
+    whitened: f32,
     ground_albedo: f32,
 }
 
@@ -95,10 +107,25 @@ impl Air {
             albedo: [ground_albedo; 3],
         };
         let state = SkyState::new(&params).expect("the parameters were clamped to the model's range");
-        // Illuminance falls tenfold for every 3° that the sun sinks.
-        let twilight = 10f64.powf(elevation_rad.min(0.0).to_degrees() / 3.0) as f32;
+        // Illuminance on level ground is some 2,000 lx at 3°, 600 lx at 0°, 3.4 lx at −6°, 0.008 lx at −12°; the model ends
+        // too bright.
+        let (low, sunken) = ((1.0 - elevation_rad.to_degrees() / 6.0).clamp(0.0, 1.0), (-elevation_rad).to_degrees());
+        let sunken = sunken.max(0.0);
+        let twilight = 10f64.powf(-0.5 * low - sunken * (0.3 + 0.009 * sunken)) as f32;
         let sun_irradiance = sun::irradiance(elevation_rad, turbidity, SUN_OUTSIDE);
-        Self { state, to_sun: to_sun.as_vec3(), twilight, sun_irradiance, ground_albedo }
+        let sun_aloft = sun::irradiance(elevation_rad + CLOUD_DIP_RAD, turbidity, SUN_OUTSIDE);
+        let dusk = (1.0 - (elevation_rad.to_degrees() - 1.0) / 14.0).clamp(0.0, 1.0) as f32;
+        let whitened = (0.1 * (turbidity - 2.0)).clamp(0.0, 0.55) as f32;
+        Self {
+            state,
+            to_sun: to_sun.as_vec3(),
+            twilight,
+            sun_irradiance,
+            sun_aloft,
+            dusk: dusk * dusk * (3.0 - 2.0 * dusk),
+            whitened,
+            ground_albedo,
+        }
     }
 
     /// Radiance of the sky without the sun's disk, in a direction above the horizon.
@@ -107,7 +134,15 @@ impl Air {
         let from_sun = direction.dot(self.to_sun).clamp(-1.0, 1.0).acos();
         let channel = |c| self.state.radiance(from_zenith, from_sun, c).max(0.0);
         let day = Vec3::new(channel(Channel::R), channel(Channel::G), channel(Channel::B));
-        day * SKY_SCALE * self.twilight + NIGHT
+        // The model has one kind of small particles; real haze has larger ones too, which scatter all colours alike.
+        let day = day.lerp(Vec3::splat(luminance(day)), self.whitened);
+        // It ends with the sun on the horizon, without ozone, which makes the twilight's zenith blue, and without the
+        // long ways of the light, which redden the sky near the sun.
+        let low = (1.0 - direction.z.max(0.0) / 0.5).clamp(0.0, 1.0).powi(2);
+        let toward_sun = 0.5 + 0.5 * direction.dot(self.to_sun);
+        let tint = ZENITH_TINT.lerp(GLOW_TINT, low * (0.25 + 0.75 * toward_sun * toward_sun));
+        let tinted = day * tint * (luminance(day) / luminance(day * tint).max(f32::MIN_POSITIVE));
+        day.lerp(tinted, self.dusk) * SKY_SCALE * self.twilight + NIGHT
     }
 
     /// Radiance of the ground far away, from the irradiance facing the sun and that from the sky.
@@ -119,7 +154,6 @@ impl Air {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::light::luminance;
 
     fn clear(elevation_deg: f64) -> PhysicalSky {
         let (sin, cos) = elevation_deg.to_radians().sin_cos();
