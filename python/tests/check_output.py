@@ -58,6 +58,12 @@ def check_frame(folder, hashes):
         rgb = np.asarray(Image.open(folder / "rgb.png"))
         assert rgb.shape == (*shape, 3) and rgb.dtype == np.uint8 and rgb.std() > 5, f"{folder}: a flat picture"
 
+    if "radiance.exr" in hashes:
+        radiance = exr(folder / "radiance.exr")
+        assert radiance.shape == (*shape, 3) and np.isfinite(radiance).all() and (radiance >= 0).all()
+        brightness = (radiance * 2 ** frame["exposure_ev"]).mean(axis=-1)
+        assert np.corrcoef(brightness.ravel(), rgb.mean(axis=-1).ravel())[0, 1] > 0.5, f"{folder}: another picture"
+
     depth, normal = exr(folder / "depth.exr"), exr(folder / "normal.exr")
     sky = classes == SKY
     assert depth.shape == shape and np.array_equal(np.isinf(depth), sky) and (depth > 0).all()

@@ -115,6 +115,19 @@ def test_labels_alone_cost_no_light(recipe, finished, tmp_path):
             assert (tmp_path / "out" / path / name).read_bytes() == (finished / path / name).read_bytes()
 
 
+def test_the_radiance_behind_a_picture_is_written_where_it_is_asked_for(recipe, finished, tmp_path):
+    wanted = tmp_path / "radiance.toml"
+    wanted.write_text(recipe.read_text() + "radiance = true\n")
+    done = trove("generate", wanted, "--out", tmp_path / "out", "--json")
+    assert done.returncode == 0, done.stderr
+    frames = check_output.check(tmp_path / "out")
+    for path in frames:
+        assert (tmp_path / "out" / path / "radiance.exr").exists() and not (finished / path / "radiance.exr").exists()
+        assert (tmp_path / "out" / path / "rgb.png").read_bytes() == (finished / path / "rgb.png").read_bytes()
+    timings = json.loads(done.stdout)["timings"]
+    assert {row["path"] for row in timings} == set(frames) and all(row["render_seconds"] > 0 for row in timings)
+
+
 def test_a_place_without_a_drive_is_photographed_from_its_streets(recipe, tmp_path):
     source = recipe.parent / "demo" / ".trove" / "demo"
     place = tmp_path / "place.toml"
@@ -128,11 +141,17 @@ def test_a_place_without_a_drive_is_photographed_from_its_streets(recipe, tmp_pa
 
 
 def test_the_virtual_scene_is_a_binary_gltf(recipe, tmp_path):
-    done = trove("build", recipe, "--out", tmp_path / "scene.glb", "--json")
+    sky = tmp_path / "sky.exr"
+    done = trove("build", recipe, "--out", tmp_path / "scene.glb", "--environment", sky, "--json")
     assert done.returncode == 0, done.stderr
     report = json.loads(done.stdout)
     data = (tmp_path / "scene.glb").read_bytes()
     assert data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data) == report["bytes"]
+    picture = check_output.exr(sky)
+    assert picture.shape[1] == 2 * picture.shape[0] and picture[0].mean() > 0
+    root = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    assert {camera["name"] for camera in root["cameras"]} >= {"ego.CAM_FRONT", "ego.CAM_BACK"}
+    assert root["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] == "directional"
     assert "map.path_to_road_median_m" in report["report"]["measurements"]
 
 

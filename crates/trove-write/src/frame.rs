@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::{fs, io};
 
-use trove_model::{Capture, Ego, InstanceId, Labels, MapProjection, Pose, Scene, Shot, World};
+use trove_model::{Capture, Color, Ego, InstanceId, Labels, MapProjection, Pose, Scene, Shot, World};
 
 use crate::files::FolderInTheMaking;
 use crate::frame_table::frame_table;
@@ -36,8 +36,20 @@ pub struct FrameMeta {
     pub projection: MapProjection,
 }
 
+/// What a frame's folder holds beside its labels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pictures {
+    /// Nothing.
+    None,
+    /// The picture.
+    Developed,
+    /// The picture and the radiance that it was made from.
+    WithRadiance,
+}
+
 /// What a frame's folder can hold.
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
+    "radiance.exr",
     "rgb.png",
     "class.png",
     "instance.png",
@@ -48,29 +60,38 @@ const FILES: [&str; 8] = [
     "frame.json",
 ];
 
-/// Names of the files in a finished frame's folder; without a picture there is no `rgb.png`.
-pub fn frame_files(colored: bool) -> &'static [&'static str] {
-    if colored { &FILES } else { &FILES[1..] }
+/// Names of the files in a finished frame's folder.
+pub fn frame_files(pictures: Pictures) -> &'static [&'static str] {
+    match pictures {
+        Pictures::WithRadiance => &FILES,
+        Pictures::Developed => &FILES[1..],
+        Pictures::None => &FILES[2..],
+    }
 }
 
 /// Writes a frame's folder whole: under a hidden name beside it first, then renamed, so that `dir` is never there in
 /// part. What an interrupted run left under the hidden name, and a `dir` without all its files, is replaced; a finished
-/// frame is not.
+/// frame is not. A capture without a picture is written without `pictures`.
 pub fn write_frame(
     dir: &Path,
     scene: &Scene,
     shot: &Shot,
     capture: &Capture,
     meta: &FrameMeta,
+    pictures: Pictures,
 ) -> Result<Vec<WrittenFile>, WriteError> {
     let (labels, width, height) = (&capture.labels, shot.lens.width_px, shot.lens.height_px);
     check_sizes(capture, width, height)?;
     let table = frame_table(scene, shot, capture, meta)?;
     let instances = narrowed(labels)?;
-    clear_unfinished(dir, capture.color.is_some())?;
+    let color = capture.color.as_ref().filter(|_| pictures != Pictures::None);
+    clear_unfinished(dir, frame_files(if color.is_some() { pictures } else { Pictures::None }))?;
 
     let mut folder = FolderInTheMaking::start(dir)?;
-    if let Some(color) = &capture.color {
+    if let Some(color) = color {
+        if pictures == Pictures::WithRadiance {
+            folder.add("radiance.exr", &exr_file::encode("radiance.exr", &color.radiance, ["R", "G", "B"])?)?;
+        }
         folder.add("rgb.png", &png_file::rgb("rgb.png", width, height, &color.srgb.data)?)?;
     }
     folder.add("class.png", &png_file::grey("class.png", width, height, &labels.class.data)?)?;
@@ -95,7 +116,10 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
         ("flow_forward", labels.flow_forward.width, labels.flow_forward.height, labels.flow_forward.data.len()),
         ("flow_backward", labels.flow_backward.width, labels.flow_backward.height, labels.flow_backward.data.len()),
     ];
-    found.extend(capture.color.as_ref().map(|c| ("rgb", c.srgb.width, c.srgb.height, c.srgb.data.len())));
+    if let Some(Color { radiance, srgb, .. }) = &capture.color {
+        found.push(("radiance", radiance.width, radiance.height, radiance.data.len()));
+        found.push(("rgb", srgb.width, srgb.height, srgb.data.len()));
+    }
     match found.iter().find(|(_, w, h, len)| (*w, *h) != (width, height) || *len != width as usize * height as usize) {
         None if width > 0 && height > 0 => Ok(()),
         None => Err(WriteError::Mismatch(format!("a picture of {width}×{height} pixels"))),
@@ -111,7 +135,7 @@ fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
 }
 
 /// Removes what lies at `dir` where that is a frame without all its files, and refuses where it is anything else.
-fn clear_unfinished(dir: &Path, colored: bool) -> Result<(), WriteError> {
+fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
     let entries = match fs::read_dir(dir) {
         Ok(entries) => entries,
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -126,7 +150,7 @@ fn clear_unfinished(dir: &Path, colored: bool) -> Result<(), WriteError> {
             None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
         }
     }
-    if frame_files(colored).iter().all(|file| present.contains(&file)) {
+    if expected.iter().all(|file| present.contains(&file)) {
         return occupied("one".into());
     }
     fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))

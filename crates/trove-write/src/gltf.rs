@@ -1,23 +1,36 @@
 //! A scene as glTF 2.0 binary, which Blender and every viewer open.
 //!
 //! One glTF mesh a scene mesh and set of materials, one node an instance, below a root node that turns World's z-up
-//! into glTF's y-up. A node's extras hold class, id, kind, asset and track. Left out, because glTF has no word for
-//! them: the sky, and light that leaves come through (`translucency`).
+//! into glTF's y-up. A node's extras hold class, id, kind, asset and track. The sky is left out, because glTF has no
+//! word for it: [`write_environment`] puts it into a file of its own.
 
+mod cameras;
 mod geometry;
 mod materials;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3, Vec3};
 use serde_json::{Value, json};
-use trove_model::{Instance, Scene};
+use trove_model::{EnvironmentMap, Instance, Raster, Scene, Shot};
 
 use crate::frame_table::kind_name;
-use crate::{WriteError, write_atomically};
+use crate::{WriteError, exr_file, write_atomically};
 use geometry::Geometry;
 use materials::Materials;
+
+/// The sun, which a picture of the sky cannot hold: its disk is a thousand times as bright as the rest and half a
+/// degree wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunLight {
+    /// Unit vector to its centre, World.
+    pub to_sun: DVec3,
+    /// Irradiance of a surface that faces it, linear Rec. 709 in the scale of [`trove_model::Light`].
+    pub irradiance: Vec3,
+    /// Angular radius of the disk.
+    pub radius_rad: f64,
+}
 
 /// What a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,8 +49,15 @@ pub struct GlbStats {
     pub bytes: u64,
 }
 
-/// Writes a scene into one file, whole or not at all.
-pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
+/// Writes the picture of a sky as OpenEXR, in the rows and columns of [`EnvironmentMap`], which are those of Blender's
+/// environment texture too.
+pub fn write_environment(path: &Path, map: &EnvironmentMap) -> Result<(), WriteError> {
+    let raster = Raster { width: map.width, height: map.height, data: map.rgb.clone() };
+    write_atomically(path, &exr_file::encode(&file_name(path), &raster, ["R", "G", "B"])?)
+}
+
+/// Writes a scene with its cameras and its sun into one file, whole or not at all.
+pub fn write_glb(path: &Path, scene: &Scene, shots: &[Shot], sun: Option<&SunLight>) -> Result<GlbStats, WriteError> {
     let mut binary = Binary::default();
     let materials = Materials::encode(scene, &mut binary)?;
     let mut geometry = Geometry::new(scene, &mut binary);
@@ -65,6 +85,16 @@ pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
         nodes.push(node(instance, mesh)?);
     }
     let accessors = geometry.finish();
+    let instances = nodes.len() - 1;
+    let (cameras, camera_nodes): (Vec<_>, Vec<_>) =
+        shots.iter().enumerate().map(|(i, shot)| cameras::camera(shot, i)).unzip();
+    nodes.extend(camera_nodes);
+    let (lights, light_nodes): (Vec<_>, Vec<_>) = sun.map(cameras::sun).into_iter().unzip();
+    nodes.extend(light_nodes);
+    let mut extensions = materials.extensions;
+    if !lights.is_empty() {
+        extensions.insert("KHR_lights_punctual");
+    }
     let half_turn = std::f64::consts::FRAC_1_SQRT_2;
     nodes[0] = json!({ "name": "world (x east, y north, z up)", "rotation": [-half_turn, 0.0, 0.0, half_turn] });
     if nodes.len() > 1 {
@@ -73,7 +103,7 @@ pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
 
     let stats = GlbStats {
         meshes: meshes.len(),
-        instances: nodes.len() - 1,
+        instances,
         materials: materials.materials.len(),
         images: materials.images.len(),
         triangles,
@@ -85,16 +115,20 @@ pub fn write_glb(path: &Path, scene: &Scene) -> Result<GlbStats, WriteError> {
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
         "nodes": nodes,
+        "cameras": cameras,
         "meshes": meshes,
         "accessors": accessors,
         "materials": materials.materials,
         "textures": materials.textures,
         "images": materials.images,
         "samplers": if materials.textures.is_empty() { json!([]) } else { json!([{ "magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497 }]) },
-        "extensionsUsed": materials.extensions,
+        "extensionsUsed": extensions,
         "bufferViews": binary.views,
         "buffers": [{ "byteLength": binary.bytes.len() }],
     });
+    if !lights.is_empty() {
+        root["extensions"]["KHR_lights_punctual"]["lights"] = lights.into();
+    }
     // glTF forbids empty lists, and a buffer of nothing.
     if let Some(fields) = root.as_object_mut() {
         fields.retain(|_, value| value.as_array().is_none_or(|list| !list.is_empty()));

@@ -14,4 +14,4 @@ mod png_file;
 
 pub use error::WriteError;
 pub use files::{WrittenFile, sha256_file, write_atomically};
-pub use frame::{FrameMeta, frame_files, write_frame};
+pub use frame::{FrameMeta, Pictures, frame_files, write_frame};

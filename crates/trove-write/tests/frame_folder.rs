@@ -10,7 +10,7 @@ use trove_model::{
     Capture, CaptureStats, Class, Color, Cuboid, Environment, ExposureRule, Instance, InstanceId, Kind, Labels, Lens,
     Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
-use trove_write::{FrameMeta, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
+use trove_write::{FrameMeta, Pictures, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
 
 const W: u32 = 48;
 const H: u32 = 20;
@@ -84,7 +84,7 @@ fn capture() -> Capture {
         objects: vec![object],
     };
     let color = Color {
-        radiance: Raster::filled(W, H, [1.0; 3]),
+        radiance: Raster::from_fn(W, H, |x, y| [x as f32, 0.1 * y as f32, 1e5]),
         srgb: Raster::from_fn(W, H, |x, y| [x as u8, y as u8, 200]),
         exposure_ev: -0.7,
     };
@@ -108,7 +108,7 @@ fn meta() -> FrameMeta {
 }
 
 fn write(dir: &Path, capture: &Capture) -> Result<Vec<WrittenFile>, WriteError> {
-    write_frame(dir, &scene(), &shot(), capture, &meta())
+    write_frame(dir, &scene(), &shot(), capture, &meta(), Pictures::WithRadiance)
 }
 
 fn names(dir: &Path) -> Vec<String> {
@@ -124,7 +124,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
     let files = write(&dir, &capture).unwrap();
 
-    assert_eq!(names(&dir).len(), 8);
+    assert_eq!(names(&dir).len(), 9);
     assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
     for file in &files {
         assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
@@ -145,10 +145,13 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     };
     let bits = |values: Vec<f32>| values.into_iter().map(f32::to_bits).collect::<Vec<_>>();
     assert_eq!(planes("depth.exr"), [("Y".to_owned(), bits(capture.labels.depth_m.data.clone()))]);
-    let normal = planes("normal.exr");
-    for (name, i) in [("R", 0), ("G", 1), ("B", 2)] {
-        let plane = normal.iter().find(|(n, _)| n == name).unwrap();
-        assert_eq!(plane.1, bits(capture.labels.normal.data.iter().map(|n| n[i]).collect()));
+    let radiance = &capture.color.as_ref().unwrap().radiance.data;
+    for (file, values) in [("normal.exr", &capture.labels.normal.data), ("radiance.exr", radiance)] {
+        let found = planes(file);
+        for (name, i) in [("R", 0), ("G", 1), ("B", 2)] {
+            let plane = found.iter().find(|(n, _)| n == name).unwrap();
+            assert_eq!(plane.1, bits(values.iter().map(|n| n[i]).collect()), "{file} {name}");
+        }
     }
     let flow = planes("flow_forward.exr");
     assert_eq!(flow.iter().find(|(n, _)| n == "R").unwrap().1[W as usize * 4 + 7], 7f32.to_bits());
@@ -188,7 +191,7 @@ fn labels_alone_leave_no_picture() {
     let root = tempfile::tempdir().unwrap();
     let dir = root.path().join("frame");
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
-    assert!(files.iter().all(|f| f.name != "rgb.png"));
+    assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
     assert_eq!(names(&dir).len(), 7);
 }
 

@@ -5,14 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::validation::Validate;
 use serde_json::Value;
 use trove_model::{
-    Class, ColorSpace, Cuboid, Environment, Instance, InstanceId, Kind, Light, Material, Mesh, PhysicalSky, Pose,
-    Provenance, Scene, SceneObject, Texture,
+    Class, ColorSpace, Cuboid, Environment, EnvironmentMap, ExposureRule, Instance, InstanceId, Kind, Lens, Light,
+    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Seed, Shot, Texture,
 };
-use trove_write::gltf::{GlbStats, write_glb};
+use trove_write::gltf::{GlbStats, SunLight, write_environment, write_glb};
 
 fn square() -> Mesh {
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
@@ -95,10 +95,30 @@ fn scene() -> Scene {
     }
 }
 
+fn shot() -> Shot {
+    Shot {
+        view: "ego.CAM_FRONT".into(),
+        lens: Lens { width_px: 1600, height_px: 900, fx_px: 1250.0, fy_px: 1250.0, cx_px: 816.0, cy_px: 491.0 },
+        world_from_camera: Pose::from_yaw(0.0, DVec3::new(1.0, 2.0, 3.0)),
+        world_from_camera_previous: None,
+        world_from_camera_next: None,
+        time_ns: 0,
+        spp: 1,
+        exposure: ExposureRule::Fixed { ev: 0.0 },
+        seed: Seed(0),
+        carrier: Some(InstanceId(7)),
+    }
+}
+
+fn sun() -> SunLight {
+    let to_sun = DVec3::new(0.0, 0.6, 0.8);
+    SunLight { to_sun, irradiance: Vec3::new(2.0, 1.5, 1.0), radius_rad: 0.004_66 }
+}
+
 fn write(scene: &Scene) -> (GlbStats, Vec<u8>) {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("scene.glb");
-    let stats = write_glb(&path, scene).unwrap();
+    let stats = write_glb(&path, scene, &[shot()], Some(&sun())).unwrap();
     (stats, fs::read(path).unwrap())
 }
 
@@ -159,6 +179,39 @@ fn shapes_are_stored_once_and_nodes_carry_what_they_are() {
 }
 
 #[test]
+fn camera_and_sun_point_where_they_should() {
+    let (_, bytes) = write(&scene());
+    let root: Value = serde_json::from_slice(chunks(&bytes).0).unwrap();
+    let node = |name: &str| root["nodes"].as_array().unwrap().iter().find(|n| n["name"] == name).unwrap();
+    let numbers = |v: &Value| v.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect::<Vec<_>>();
+    let camera = node("ego.CAM_FRONT");
+    let world_from_node = DMat4::from_cols_slice(&numbers(&camera["matrix"]));
+    let (forward, up) = (world_from_node.transform_vector3(-DVec3::Z), world_from_node.transform_vector3(DVec3::Y));
+    assert_eq!((forward, up), (DVec3::Z, -DVec3::Y), "this camera's axes are World's: it looks up");
+    assert_eq!((&camera["extras"]["cx_px"], &camera["extras"]["carrier"]), (&816.0.into(), &7.into()));
+    let fov = root["cameras"][0]["perspective"]["yfov"].as_f64().unwrap();
+    assert!((fov - 2.0 * (450.0f64 / 1250.0).atan()).abs() < 1e-12);
+    let turn = numbers(&node("sun")["rotation"]);
+    let to_sun = DQuat::from_xyzw(turn[0], turn[1], turn[2], turn[3]) * DVec3::Z;
+    assert!((to_sun - sun().to_sun).length() < 1e-12);
+    let light = &root["extensions"]["KHR_lights_punctual"]["lights"][0];
+    assert_eq!((&light["color"][1], &light["intensity"]), (&0.75.into(), &1366.0.into()));
+    assert_eq!(root["nodes"][0]["children"].as_array().unwrap().len(), 6, "four instances, the camera and the sun");
+}
+
+#[test]
+fn a_sky_s_rows_come_back_from_its_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("sky.exr");
+    let rgb = vec![[1.0, 0.5, 0.25], [2.0, 0.0, 1e4]];
+    write_environment(&path, &EnvironmentMap { name: "sky".into(), width: 2, height: 1, rgb }).unwrap();
+    let image = exr::prelude::read_first_flat_layer_from_file(&path).unwrap();
+    let planes: Vec<Vec<f32>> =
+        image.layer_data.channel_data.list.iter().map(|c| c.sample_data.values_as_f32().collect()).collect();
+    assert_eq!(planes, [[0.25, 1e4], [0.5, 0.0], [1.0, 2.0]], "B, G, R");
+}
+
+#[test]
 fn materials_keep_what_gltf_can_say() {
     let (_, bytes) = write(&scene());
     let root: Value = serde_json::from_slice(chunks(&bytes).0).unwrap();
@@ -187,13 +240,13 @@ fn an_empty_scene_is_a_sound_file_and_a_defective_one_an_error() {
     let empty = Scene { meshes: vec![], materials: vec![], instances: vec![], ..scene() };
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("scene.glb");
-    assert_eq!(write_glb(&path, &empty).unwrap().instances, 0);
+    assert_eq!(write_glb(&path, &empty, &[], None).unwrap().instances, 0);
     let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
     assert!(!text.contains("[]"), "glTF forbids empty lists: {text}");
     let refused = |change: fn(&mut Scene), path: &Path| {
         let mut scene = scene();
         change(&mut scene);
-        write_glb(path, &scene).unwrap_err().to_string()
+        write_glb(path, &scene, &[], None).unwrap_err().to_string()
     };
     assert!(refused(|s| s.instances[0].materials.clear(), &path).contains("no material for slot 0 of a road"));
     assert!(refused(|s| s.instances[1].mesh = 99, &path).contains("no mesh 99"));

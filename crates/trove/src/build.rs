@@ -5,15 +5,23 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 use trove_build::{BuildSettings, LightChoice};
-use trove_model::{Report, Seed};
-use trove_write::gltf::write_glb;
+use trove_model::{Environment, Report, Seed};
+use trove_render::{SUN_RADIUS_RAD, bake_sky};
+use trove_write::gltf::{SunLight, write_environment, write_glb};
 
 use crate::recipe::Recipe;
-use crate::run::report_json;
+use crate::run::{report_json, view_settings};
 use crate::sources::Sources;
 
-/// Builds the recipe's first scene at one keyframe and writes it as GLB.
-pub(crate) fn run(recipe: &Recipe, out: &Path, keyframe: Option<usize>, as_json: bool) -> Result<()> {
+/// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
+/// where `environment` is given, its sky as OpenEXR.
+pub(crate) fn run(
+    recipe: &Recipe,
+    out: &Path,
+    keyframe: Option<usize>,
+    environment: Option<&Path>,
+    as_json: bool,
+) -> Result<()> {
     let report = Report::default();
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
@@ -35,7 +43,22 @@ pub(crate) fn run(recipe: &Recipe, out: &Path, keyframe: Option<usize>, as_json:
     let site = trove_build::build(&drive, map.as_ref(), &trove_assets::library(), &settings, &report)?;
     let scene = site.scene(&drive, keyframe);
     report.measure("build.seconds", started.elapsed().as_secs_f64());
-    let stats = write_glb(out, &scene)?;
+    let seed = settings.seed.child("views");
+    let shots = trove_build::shots(&drive, &site, keyframe, &view_settings(recipe)?, seed, &report);
+    let sun = match &scene.light.environment {
+        Environment::Sky(sky) => {
+            let sky = bake_sky(sky);
+            environment.map_or(Ok(()), |path| write_environment(path, &sky.map))?;
+            let radius_rad = f64::from(SUN_RADIUS_RAD);
+            let sun = SunLight { to_sun: sky.to_sun.as_dvec3(), irradiance: sky.sun_irradiance, radius_rad };
+            Some(sun).filter(|sun| sun.irradiance.max_element() > 0.0)
+        }
+        Environment::Map(map) => {
+            environment.map_or(Ok(()), |path| write_environment(path, map))?;
+            None
+        }
+    };
+    let stats = write_glb(out, &scene, &shots, sun.as_ref())?;
     let report = report_json(&report);
     if as_json {
         let printed = json!({

@@ -11,7 +11,7 @@ use trove_render::KernelChoice;
 
 use crate::progress::duration;
 use crate::recipe::{Dataset, Recipe};
-use crate::run::{RunOptions, Summary, generate};
+use crate::run::{RenderedFrame, RunOptions, Summary, generate};
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message};
 
 /// Turns recordings of real roads into photorealistic virtual scenes with perfect labels.
@@ -69,6 +69,9 @@ enum Command {
         /// The keyframe whose objects are placed; without it the recipe's first.
         #[arg(long)]
         keyframe: Option<usize>,
+        /// An .exr file to write the sky to, as a latitude-longitude picture without the sun, which is in the .glb.
+        #[arg(long)]
+        environment: Option<PathBuf>,
         /// Prints the report as JSON.
         #[arg(long)]
         json: bool,
@@ -143,8 +146,8 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
     match command {
         Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
         Command::Inspect { root, dataset, version, json } => inspect::run(&root, dataset, version, json).map(|()| 0),
-        Command::Build { recipe, out, keyframe, json } => {
-            build::run(&Recipe::read(&recipe)?, &out, keyframe, json).map(|()| 0)
+        Command::Build { recipe, out, keyframe, environment, json } => {
+            build::run(&Recipe::read(&recipe)?, &out, keyframe, environment.as_deref(), json).map(|()| 0)
         }
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
@@ -170,10 +173,16 @@ fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, site_packages: &[P
 
 fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<()> {
     if as_json {
+        let timing = |frame: &RenderedFrame| {
+            let RenderedFrame { path, prepare_s, render_s } = frame;
+            json!({ "path": path, "prepare_seconds": prepare_s, "render_seconds": render_s })
+        };
+        let timings: Vec<_> = summary.rendered.iter().map(timing).collect();
         let printed = json!({
             "out": out,
             "frames": summary.frames,
-            "rendered": summary.rendered,
+            "rendered": summary.rendered.len(),
+            "timings": timings,
             "interrupted": summary.interrupted,
             "seconds": seconds,
         });
@@ -181,15 +190,16 @@ fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<(
     } else if summary.interrupted {
         eprintln!(
             "interrupted after {} frames of {}; the same command goes on from here",
-            summary.rendered, summary.frames
+            summary.rendered.len(),
+            summary.frames
         );
     } else {
-        let rate = if summary.rendered > 0 {
-            format!(", {} a frame", duration(seconds / summary.rendered as f64))
+        let rate = if !summary.rendered.is_empty() {
+            format!(", {} a frame", duration(seconds / summary.rendered.len() as f64))
         } else {
             String::new()
         };
-        println!("{} frames, {} of them new, in {}{rate}", summary.frames, summary.rendered, duration(seconds));
+        println!("{} frames, {} of them new, in {}{rate}", summary.frames, summary.rendered.len(), duration(seconds));
         println!("see {}", out.join("contact_sheet.png").display());
     }
     Ok(())

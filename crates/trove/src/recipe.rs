@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
+use trove_write::Pictures;
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -161,6 +162,8 @@ pub struct RenderSection {
     pub denoise: bool,
     /// False: labels only.
     pub light: bool,
+    /// Whether the linear radiance behind a picture is written too.
+    pub radiance: bool,
     /// 0: all. It is not kept in the manifest, for it changes nothing.
     #[serde(skip_serializing)]
     pub threads: usize,
@@ -194,7 +197,7 @@ impl Default for LightSection {
 
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: 1.0, spp: 64, denoise: true, light: true, threads: 0 }
+        Self { scale: 1.0, spp: 64, denoise: true, light: true, radiance: false, threads: 0 }
     }
 }
 
@@ -271,6 +274,10 @@ impl Recipe {
         let (render, assets) = (&self.render, &self.assets);
         check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
+        ensure!(
+            render.light || !render.radiance,
+            "render.radiance: without light there is no radiance; remove it or render.light = false"
+        );
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
@@ -290,6 +297,15 @@ impl Recipe {
         match self.light.environment.as_str() {
             "capture-time" | "random" => None,
             file => Some(self.at(Path::new(file))),
+        }
+    }
+
+    /// What a frame holds beside its labels.
+    pub fn pictures(&self) -> Pictures {
+        match (self.render.light, self.render.radiance) {
+            (false, _) => Pictures::None,
+            (true, false) => Pictures::Developed,
+            (true, true) => Pictures::WithRadiance,
         }
     }
 
@@ -379,6 +395,7 @@ mod tests {
         for (text, expect) in [
             ("[render]\nscale = 0\n", "render.scale: expected more than 0"),
             ("[render]\nspp = 0\n", "render.spp: expected 1 to 65536, found 0"),
+            ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[variations]\ncount = 0\n", "variations.count"),
             ("[assets]\nlibraries = [\"mine\"]\n", "\"mine\" is not known"),
         ] {

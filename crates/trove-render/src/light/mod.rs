@@ -24,6 +24,8 @@ pub(crate) use noise::Plane;
 
 use dome::Dome;
 use emitters::Emitters;
+pub use sky::{BakedSky, bake_sky};
+pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
 use sun::Sun;
 use sun_in_map::take_sun;
 
@@ -64,7 +66,7 @@ impl Surroundings {
                 Self { dome: Dome::new(map, MAP_CELLS, SHARE_BELOW), sun }
             }
             Environment::Sky(parameters) => {
-                let sky = sky::bake(parameters);
+                let sky = sky::bake_sky(parameters);
                 let dome = Dome::new(sky.map, SKY_CELLS, SHARE_BELOW);
                 Self { dome, sun: Sun::new(sky.to_sun, sky.sun_irradiance) }
             }

@@ -34,16 +34,18 @@ const GLOW_TINT: Vec3 = Vec3::new(1.45, 0.88, 0.5);
 /// Light of the night: the moonless sky over a town.
 const NIGHT: Vec3 = Vec3::new(6e-6, 5e-6, 5e-6);
 
-/// A sky ready to be drawn.
-pub(super) struct BakedSky {
-    pub(super) map: EnvironmentMap,
-    pub(super) to_sun: Vec3,
-    /// Irradiance of a surface that faces the sun.
-    pub(super) sun_irradiance: Vec3,
+/// A sky as the renderer shows it.
+pub struct BakedSky {
+    /// Everything but the sun's disk.
+    pub map: EnvironmentMap,
+    /// Unit vector to the sun, World.
+    pub to_sun: Vec3,
+    /// Irradiance of a surface that faces the sun, linear Rec. 709; 0 where none shines.
+    pub sun_irradiance: Vec3,
 }
 
 /// Computes the picture of a sky.
-pub(super) fn bake(sky: &PhysicalSky) -> BakedSky {
+pub fn bake_sky(sky: &PhysicalSky) -> BakedSky {
     let air = Air::new(sky);
     let (width, height) = (WIDTH, WIDTH / 2);
     // The clear sky, coarsely, lights the clouds and the ground below them.
@@ -174,7 +176,7 @@ mod tests {
 
     #[test]
     fn a_white_surface_under_a_clear_midday_sun_has_a_radiance_of_one() {
-        let (sun, sky) = light(&bake(&clear(60.0)));
+        let (sun, sky) = light(&bake_sky(&clear(60.0)));
         assert!(((sun + sky) / std::f32::consts::PI - 1.0).abs() < 0.05, "sun {sun}, sky {sky}");
         assert!((sky / (sun + sky) - 0.17).abs() < 0.02, "sun {sun}, sky {sky}");
     }

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use glam::Vec3;
 
 /// Angular radius as seen from Earth (mean of the year).
-pub(super) const RADIUS_RAD: f32 = 0.267 * std::f32::consts::PI / 180.0;
+pub const RADIUS_RAD: f32 = 0.267 * std::f32::consts::PI / 180.0;
 
 /// Irradiance of a surface that faces the sun outside the atmosphere, linear Rec. 709 with a mean brightness of 1: a
 /// black body of 5800 K is a little warmer than the white point.

@@ -4,6 +4,7 @@ mod manifest;
 mod output;
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
@@ -33,14 +34,25 @@ pub struct RunOptions {
 }
 
 /// What a run did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Frames that the recipe asks for, as far as they are known.
     pub frames: usize,
     /// Frames rendered by this run.
-    pub rendered: usize,
+    pub rendered: Vec<RenderedFrame>,
     /// Whether it was asked to end before all were done.
     pub interrupted: bool,
+}
+
+/// A frame that a run rendered, and how long it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderedFrame {
+    /// Its folder below the output folder.
+    pub path: String,
+    /// Making the scene ready, seconds; 0 where an earlier frame's scene was still there.
+    pub prepare_s: f64,
+    /// Picture and labels, seconds, without writing them.
+    pub render_s: f64,
 }
 
 /// Runs a recipe; what `out` already holds of it is kept.
@@ -72,7 +84,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         report,
         rows: Vec::new(),
         sites: Vec::new(),
-        rendered: 0,
+        rendered: Vec::new(),
     };
     for ((scene, _), hint) in scenes.iter().zip(hints) {
         if let Err(stop) = run.scene(scene, hint) {
@@ -112,6 +124,16 @@ fn frames_hint(recipe: &Recipe, keyframes: usize) -> usize {
     chosen * cameras * (1 + recipe.views.other_vehicles)
 }
 
+/// The views that a recipe asks for.
+pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
+    Ok(ViewSettings {
+        rig: recipe.camera_names(),
+        other_vehicles: recipe.views.other_vehicles,
+        scale: recipe.render.scale,
+        spp: recipe.render.spp,
+    })
+}
+
 /// Why a run ends early.
 enum Stop {
     Interrupted,
@@ -135,7 +157,7 @@ struct Run<'a> {
     report: Report,
     rows: Vec<Value>,
     sites: Vec<SiteSummary>,
-    rendered: usize,
+    rendered: Vec<RenderedFrame>,
 }
 
 /// A scene of one variation, ready to be photographed.
@@ -194,7 +216,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), frame_files(self.recipe.render.light))
+        self.output.finished(&key.path(), frame_files(self.recipe.pictures()))
     }
 
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
@@ -203,12 +225,7 @@ impl Run<'_> {
         self.check_cameras(&drive)?;
         let settings = self.settings(scene, variation);
         let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
-        let views = ViewSettings {
-            rig: self.recipe.camera_names(),
-            other_vehicles: self.recipe.views.other_vehicles,
-            scale: self.recipe.render.scale,
-            spp: self.recipe.render.spp,
-        };
+        let views = view_settings(self.recipe)?;
         let keyframes = match &self.recipe.drive {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
@@ -257,13 +274,16 @@ impl Run<'_> {
                 (Some(files), _) => files,
                 (None, Some(built)) => {
                     let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
+                    let mut prepare_s = 0.0;
                     if photographed.as_ref().is_none_or(|(k, ..)| k != keyframe) {
                         let scene = built.site.scene(&built.drive, *keyframe);
+                        let started = Instant::now();
                         let prepared = self.renderer.prepare(&scene)?;
+                        prepare_s = started.elapsed().as_secs_f64();
                         photographed = Some((*keyframe, scene, prepared));
                     }
                     let (_, scene, prepared) = photographed.as_ref().context("the scene was prepared above")?;
-                    self.frame(&key, &built.drive, scene, prepared, shot)?
+                    self.frame(&key, &built.drive, scene, prepared, prepare_s, shot)?
                 }
                 (None, None) => return Err(anyhow::anyhow!("{}: vanished during the run", key.path()).into()),
             };
@@ -280,6 +300,7 @@ impl Run<'_> {
         drive: &Drive,
         scene: &Scene,
         prepared: &trove_render::PreparedScene,
+        prepare_s: f64,
         shot: &Shot,
     ) -> Result<Vec<WrittenFile>, Stop> {
         self.progress.say(&key.path());
@@ -287,8 +308,10 @@ impl Run<'_> {
             self.progress.within(share);
             interrupt::requested()
         };
+        let started = Instant::now();
         let capture = self.renderer.render(prepared, shot, self.recipe.render.light, &within);
         let Some(capture) = capture else { return Err(Stop::Interrupted) };
+        let render_s = started.elapsed().as_secs_f64();
         let moment = &drive.keyframes[key.keyframe];
         let exposure = moment.exposures.iter().find(|e| shot.view == format!("ego.{}", drive.rig[e.camera].name));
         let meta = FrameMeta {
@@ -306,9 +329,9 @@ impl Run<'_> {
         };
         let path = key.path();
         let folder = self.output.root().join(&path);
-        let files = write_frame(&folder, scene, shot, &capture, &meta)?;
+        let files = write_frame(&folder, scene, shot, &capture, &meta, self.recipe.pictures())?;
         self.output.record(&path, &files)?;
-        self.rendered += 1;
+        self.rendered.push(RenderedFrame { path, prepare_s, render_s });
         if interrupt::requested() {
             return Err(Stop::Interrupted);
         }
