@@ -1,5 +1,6 @@
 # Set-up is `make demo`; `make test` runs every test.
 PYTHON ?= python3
+PYTHON_OF_BLENDER ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
@@ -7,7 +8,7 @@ BIN := $(VENV)/bin
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-nuscenes clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-nuscenes bench-cycles bench-clean clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -52,5 +53,19 @@ lint:
 bench-build bench-frame bench-memory: bench-%: install
 	$(BIN)/python benches/bench.py $*
 
+# Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.
+bench-cycles: install .venv-cycles/.installed
+	.venv-cycles/bin/python benches/cycles/bench.py --trove $(BIN)/trove $(CYCLES)
+
+.venv-cycles/.installed: benches/cycles/requirements.txt
+	$(PYTHON_OF_BLENDER) -c '' || { echo "$(PYTHON_OF_BLENDER): expected Python 3.11, for which Blender's bpy is made; install it or set PYTHON_OF_BLENDER" >&2; exit 1; }
+	test -x .venv-cycles/bin/python || $(PYTHON_OF_BLENDER) -m venv .venv-cycles
+	.venv-cycles/bin/python -m pip install --quiet --disable-pip-version-check -r $<
+	touch $@
+
+# How many samples a clean picture needs, and how long they take.
+bench-clean: install
+	$(BIN)/python benches/cycles/clean.py --trove $(BIN)/trove $(CLEAN)
+
 clean:
-	rm -rf target $(VENV) .venv-devkit demo-out
+	rm -rf target $(VENV) .venv-devkit .venv-cycles benches/cycles/.cache demo-out

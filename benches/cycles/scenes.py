@@ -1,0 +1,111 @@
+"""Keyframes of the real data (TROVE_TEST_DATA), rendered by TRoVE."""
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+from PIL import Image
+
+PLACES = {"scene-0103": "boston-seaport", "scene-0061": "singapore-onenorth"}
+VIEW, KEYFRAME = "ego.CAM_FRONT", 1
+
+
+def parser(description):
+    """The options that all measurements share."""
+    made = argparse.ArgumentParser(description=description)
+    made.add_argument("--trove", default="trove", help="the program to measure")
+    made.add_argument("--threads", type=int, default=2)
+    made.add_argument("--scenes", nargs="+", default=list(PLACES), choices=list(PLACES))
+    default = Path(__file__).resolve().parent / ".cache"
+    made.add_argument("--cache", type=Path, default=default, help="folder for references and pictures")
+    return made
+
+
+def data():
+    """The folder of real data."""
+    if "TROVE_TEST_DATA" not in os.environ:
+        raise SystemExit("TROVE_TEST_DATA: expected the folder of real data, found nothing; set it")
+    return Path(os.environ["TROVE_TEST_DATA"]).resolve()
+
+
+class Scene:
+    """One keyframe, one camera, at `scale` times 1600×900."""
+
+    def __init__(self, name, scale, args):
+        self.name, self.scale, self.args = name, scale, args
+        self.folder = (args.cache / f"{name}-{scale:g}").resolve()
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def recipe(self, spp, denoise):
+        path = self.folder / "recipe.toml"
+        path.write_text(
+            f'seed = 7\n[drive]\ndataset = "nuscenes"\nroot = "{data() / "nuscenes"}"\nscenes = ["{self.name}"]\n'
+            f'keyframes = [{KEYFRAME}]\n[map]\nosm = "{data() / "osm" / PLACES[self.name]}.osm"\n'
+            f'[views]\nrig = "{VIEW.removeprefix("ego.")}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
+            f"denoise = {str(denoise).lower()}\nradiance = true\nthreads = {self.args.threads}\n"
+        )
+        return path
+
+    def build(self):
+        """The scene as files for others."""
+        self.glb, self.sky = self.folder / "scene.glb", self.folder / "sky.exr"
+        trove(self.args, "build", self.recipe(1, False), "--out", self.glb, "--environment", self.sky)
+        self.digest = digest([self.glb, self.sky])
+
+    def ours(self, spp, denoise):
+        """Radiance, seconds of rendering with all labels, seconds of preparing."""
+        out = self.folder / "ours"
+        shutil.rmtree(out, ignore_errors=True)
+        report = json.loads(trove(self.args, "generate", self.recipe(spp, denoise), "--out", out, "--json"))
+        (timing,) = report["timings"]
+        frame = out / timing["path"]
+        table = json.loads((frame / "frame.json").read_text())
+        assert table["denoised"] == denoise, "the denoiser is missing: see trove doctor"
+        self.exposure_ev = table["exposure_ev"]
+        self.classes = np.asarray(Image.open(frame / "class.png"))
+        self.names = [row["name"] for row in json.loads((out / "manifest.json").read_text())["classes"]]
+        return radiance(frame / "radiance.exr"), timing["render_seconds"], timing["prepare_seconds"]
+
+    def reference(self, spp):
+        """The undenoised reference with its exposure and classes, kept as long as scene and program stay the same."""
+        program = digest(programs(self.args.trove))
+        kept = self.folder / f"ours-{spp}-{self.digest}-{program}.npz"
+        if not kept.exists():
+            picture, *_ = self.ours(spp, False)
+            np.savez(kept, picture=picture, exposure_ev=self.exposure_ev, classes=self.classes, names=self.names)
+        return np.load(kept)
+
+
+def trove(args, *words):
+    """Runs the program and returns what it printed."""
+    done = subprocess.run([args.trove, *map(str, words)], capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(done.stderr)
+    return done.stdout
+
+
+def programs(trove_command):
+    """The files that a trove program consists of: the Python module beside it, or itself."""
+    command = Path(shutil.which(trove_command) or trove_command).resolve()
+    return sorted(command.parent.parent.glob("lib/python*/site-packages/trove/_trove*")) or [command]
+
+
+def digest(paths):
+    hashed = hashlib.sha256()
+    for path in paths:
+        hashed.update(Path(path).read_bytes())
+    return hashed.hexdigest()[:12]
+
+
+def radiance(path):
+    """The R, G, B channels of an EXR file, height × width × 3."""
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        channels = file.channels()
+        ending = {name.rsplit(".", 1)[-1]: channel.pixels for name, channel in channels.items()}
+        return np.stack([ending[name] for name in "RGB"], axis=-1).astype(np.float32)
