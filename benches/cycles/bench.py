@@ -17,10 +17,10 @@ IN_CYCLES = Path(__file__).resolve().parent / "in_cycles.py"
 
 def arguments():
     parser = scenes.parser(__doc__)
-    parser.add_argument("--scale", type=float, default=0.3, help="of 1600×900")
+    parser.add_argument("--scale", type=float, default=0.2, help="of 1600×900")
     parser.add_argument("--ours", type=int, nargs="+", default=[1, 4, 16, 64], help="samples a pixel")
     parser.add_argument("--cycles", type=int, nargs="+", default=[4, 16, 64], help="samples a pixel")
-    parser.add_argument("--adaptive", type=int, nargs="+", default=[16, 64, 256], help="most samples a pixel, adaptive")
+    parser.add_argument("--adaptive", type=int, nargs="+", default=[64, 256], help="most samples a pixel, adaptive")
     parser.add_argument("--reference", type=int, default=1024, help="samples a pixel of both references")
     parser.add_argument("--quick", action="store_true", help="tiny and rough: to see that it works")
     args = parser.parse_args()

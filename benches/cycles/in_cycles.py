@@ -109,6 +109,8 @@ class Surface:
         transmission = self.extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0)
         passing = self.extensions.get("KHR_materials_diffuse_transmission", {}).get("diffuseTransmissionFactor", 0.0)
         ior = self.extensions.get("KHR_materials_ior", {}).get("ior", 1.5)
+        sheen = self.extensions.get("KHR_materials_sheen", {})
+        sheen_color = sheen.get("sheenColorFactor", [0.0] * 3)
         coat = self.extensions.get("KHR_materials_clearcoat", {})
         strength = self.extensions.get("KHR_materials_emissive_strength", {}).get("emissiveStrength", 1.0)
         f0 = ((ior - 1.0) / (ior + 1.0)) ** 2
@@ -127,6 +129,9 @@ class Surface:
             "IOR": (1.0 + math.sqrt(f0)) / (1.0 - math.sqrt(f0)),
             "Coat_Weight": coat.get("clearcoatFactor", 0.0),
             "Coat_Roughness": coat.get("clearcoatRoughnessFactor", 0.0),
+            "Sheen_Weight": max(sheen_color),
+            "Sheen_Roughness": sheen.get("sheenRoughnessFactor", 0.0),
+            "Sheen_Tint": [*(c / max(*sheen_color, 1e-6) for c in sheen_color), 1.0],
             "Emission_Color": [*self.row.get("emissiveFactor", [0.0] * 3), 1.0],
             "Emission_Strength": strength,
         }
