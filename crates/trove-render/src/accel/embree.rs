@@ -2,7 +2,7 @@
 //! are as they are.
 
 use std::collections::BTreeMap;
-use std::ffi::c_void;
+use std::ffi::{c_int, c_void};
 use std::path::PathBuf;
 use std::ptr;
 use std::sync::{Arc, OnceLock};
@@ -10,8 +10,10 @@ use std::sync::{Arc, OnceLock};
 use glam::Affine3A;
 use trove_model::Mesh;
 
-use super::embree_api::{self as api, Api, Context, FilterArguments, Handle, QueryArguments, RawHit, RawRay, RayHit};
-use super::{Accept, Hit, Placed, Ray};
+use super::embree_api::{
+    self as api, Api, Context, FilterArguments, Handle, Packet, PacketHits, PacketRays, QueryArguments, RawHit, RawRay, RayHit,
+};
+use super::{Accept, Hit, PACKET, Placed, Ray};
 use crate::RenderError;
 use crate::cache::Cache;
 
@@ -112,7 +114,7 @@ impl Kernel {
         let accel = self.build(&[at(1.0), at(3.0)]);
         let ray = Ray::new(glam::Vec3::new(0.25, 0.5, 0.0), glam::Vec3::Z);
         let mut asked = [false; 2];
-        let hit = accel.intersect(&ray, &mut |hit| {
+        let hit = accel.intersect(&ray, &mut |_, hit| {
             asked[hit.instance as usize & 1] = true;
             hit.instance == 1
         });
@@ -197,35 +199,48 @@ fn attach_mesh(scene: &BuiltScene, mesh: &Mesh, tested: bool, id: u32) {
 }
 
 /// What the filter is given: the caller's closure, and the instance where Embree does not know it.
-struct Question<'a, 'b> {
-    accept: &'a mut Accept<'b>,
+struct Question<'a> {
+    accept: Accept<'a>,
     instance: Option<u32>,
 }
 
-/// Puts a candidate to the closure.
+/// Puts candidates to the closure.
 ///
 /// # Safety
-/// To be called by Embree with a context made by [`arguments`].
+/// To be called by Embree with a context made by [`context`].
 unsafe extern "C" fn filter(arguments: *const FilterArguments) {
-    // SAFETY: Embree passes valid pointers to one ray and one hit (N = 1, because only single rays are traced), and the
-    // context that the query was made with, whose `user` points to a `Question` that outlives the query.
+    // SAFETY: Embree passes valid pointers, and the context that the query was made with, whose `user` points to a
+    // `Question` that outlives the query.
     let (arguments, question) = unsafe {
         let arguments = &*arguments;
-        (arguments, &mut *(*arguments.context).user.cast::<Question<'_, '_>>())
+        (arguments, &mut *(*arguments.context).user.cast::<Question<'_>>())
     };
-    // SAFETY: as above.
-    let (ray, raw) = unsafe { (&*arguments.ray, &*arguments.hit) };
-    let hit = hit_of(raw, ray.t_max, question.instance);
-    if !(question.accept)(&hit) {
-        // SAFETY: `valid` points to one number.
-        unsafe { *arguments.valid = 0 };
+    let n = arguments.n as usize;
+    for lane in 0..n {
+        // SAFETY: `valid` points to n numbers, `ray` to 12 · n and `hit` to at least 8 · n of four bytes.
+        unsafe {
+            let valid = arguments.valid.add(lane);
+            if *valid == 0 {
+                continue;
+            }
+            let ray = |field: usize| *arguments.ray.add(field * n + lane);
+            let hit = |field: usize| *arguments.hit.add(field * n + lane);
+            // Fields are numbered as `RawRay` and `RawHit` list them.
+            let t = f32::from_bits(ray(8));
+            let (u, v) = (f32::from_bits(hit(3)), f32::from_bits(hit(4)));
+            let hit = hit_of(t, u, v, [hit(5), hit(6), hit(7)], question.instance);
+            if !(question.accept)(ray(10) as usize, &hit) {
+                *valid = 0;
+            }
+        }
     }
 }
 
-fn hit_of(raw: &RawHit, t: f32, instance: Option<u32>) -> Hit {
+/// From Embree's numbers for triangle, geometry and instance.
+fn hit_of(t: f32, u: f32, v: f32, [triangle, geometry, instance]: [u32; 3], known: Option<u32>) -> Hit {
     // Triangles of the top scene are attached to it by the instance's index.
-    let found = if raw.instance == api::INVALID_ID { raw.geometry } else { raw.instance };
-    Hit { t, instance: instance.unwrap_or(found), triangle: raw.primitive, u: raw.u, v: raw.v }
+    let found = if instance == api::INVALID_ID { geometry } else { instance };
+    Hit { t, instance: known.unwrap_or(found), triangle, u, v }
 }
 
 fn raw_ray(ray: &Ray) -> RawRay {
@@ -241,13 +256,32 @@ fn raw_ray(ray: &Ray) -> RawRay {
     }
 }
 
-fn context(question: &mut Question<'_, '_>) -> Context {
+/// Which rays of a packet are there (−1).
+#[repr(align(64))]
+struct Valid([c_int; PACKET]);
+
+fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
+    let of = |field: fn(&Ray) -> f32| std::array::from_fn(|i| rays.get(i).map_or(0.0, field));
+    let packet = PacketRays {
+        origin: [of(|r| r.origin.x), of(|r| r.origin.y), of(|r| r.origin.z)],
+        t_min: of(|r| r.t_min),
+        direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
+        time: [0.0; PACKET],
+        t_max: of(|r| r.t_max),
+        mask: [u32::MAX; PACKET],
+        id: std::array::from_fn(|i| i as u32),
+        flags: [0; PACKET],
+    };
+    (Valid(std::array::from_fn(|i| if i < rays.len() { -1 } else { 0 })), packet)
+}
+
+fn context(question: &mut Question<'_>) -> Context {
     Context { ids: [api::INVALID_ID; 4], user: ptr::from_mut(question).cast::<c_void>() }
 }
 
-fn arguments(context: &mut Context) -> QueryArguments {
+fn arguments(context: &mut Context, flags: c_int) -> QueryArguments {
     QueryArguments {
-        flags: 0,
+        flags,
         features: api::FEATURES_ALL,
         context,
         filter: Some(filter),
@@ -257,7 +291,7 @@ fn arguments(context: &mut Context) -> QueryArguments {
 }
 
 impl BuiltScene {
-    fn intersect(&self, ray: &Ray, mut accept: Accept<'_>, instance: Option<u32>) -> Option<Hit> {
+    fn intersect(&self, ray: &Ray, accept: Accept<'_>, instance: Option<u32>) -> Option<Hit> {
         let hit = RawHit {
             normal: [0.0; 3],
             u: 0.0,
@@ -267,12 +301,15 @@ impl BuiltScene {
             instance: api::INVALID_ID,
         };
         let mut ray_hit = RayHit { ray: raw_ray(ray), hit, room: [api::INVALID_ID; 4] };
-        let mut question = Question { accept: &mut accept, instance };
+        let mut question = Question { accept, instance };
         let mut context = context(&mut question);
-        let mut arguments = arguments(&mut context);
+        let mut arguments = arguments(&mut context, 0);
         // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
         unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, &mut arguments) };
-        (ray_hit.hit.geometry != api::INVALID_ID).then(|| hit_of(&ray_hit.hit, ray_hit.ray.t_max, instance))
+        let hit = &ray_hit.hit;
+        (hit.geometry != api::INVALID_ID).then(|| {
+            hit_of(ray_hit.ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], instance)
+        })
     }
 }
 
@@ -281,14 +318,48 @@ impl Accel {
         self.top.intersect(ray, accept, None)
     }
 
-    pub(super) fn occluded(&self, ray: &Ray, mut accept: Accept<'_>) -> bool {
+    pub(super) fn occluded(&self, ray: &Ray, accept: Accept<'_>) -> bool {
         let mut raw = raw_ray(ray);
-        let mut question = Question { accept: &mut accept, instance: None };
+        let mut question = Question { accept, instance: None };
         let mut context = context(&mut question);
-        let mut arguments = arguments(&mut context);
+        let mut arguments = arguments(&mut context, 0);
         // SAFETY: as for `intersect`.
         unsafe { (self.top.device.api.occluded1)(self.top.handle, &mut raw, &mut arguments) };
         raw.t_max == f32::NEG_INFINITY
+    }
+
+    pub(super) fn intersect_packet(&self, rays: &[Ray], hits: &mut [Option<Hit>; PACKET], accept: Accept<'_>) {
+        const NONE: [u32; PACKET] = [api::INVALID_ID; PACKET];
+        let nothing = PacketHits {
+            normal: [[0.0; PACKET]; 3],
+            u: [0.0; PACKET],
+            v: [0.0; PACKET],
+            primitive: NONE,
+            geometry: NONE,
+            instance: NONE,
+        };
+        let (valid, ray) = packet(rays);
+        let mut packet = Packet { ray, hit: nothing, room: NONE };
+        let mut question = Question { accept, instance: None };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, api::QUERY_COHERENT);
+        // SAFETY: as for `intersect`; `valid` has a number for each ray and is as aligned as Embree demands.
+        unsafe { (self.top.device.api.intersect16)(valid.0.as_ptr(), self.top.handle, &mut packet, &mut arguments) };
+        for (i, hit) in hits.iter_mut().enumerate() {
+            let found = [packet.hit.primitive[i], packet.hit.geometry[i], packet.hit.instance[i]];
+            *hit = (found[1] != api::INVALID_ID)
+                .then(|| hit_of(packet.ray.t_max[i], packet.hit.u[i], packet.hit.v[i], found, None));
+        }
+    }
+
+    pub(super) fn occluded_packet(&self, rays: &[Ray], occluded: &mut [bool; PACKET], accept: Accept<'_>) {
+        let (valid, mut packet) = packet(rays);
+        let mut question = Question { accept, instance: None };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, api::QUERY_COHERENT);
+        // SAFETY: as for `intersect_packet`.
+        unsafe { (self.top.device.api.occluded16)(valid.0.as_ptr(), self.top.handle, &mut packet, &mut arguments) };
+        *occluded = packet.t_max.map(|t| t == f32::NEG_INFINITY);
     }
 
     pub(super) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use libloading::Library;
 
+use super::PACKET;
 use crate::shared_library::shared_library;
 
 pub(super) type Handle = *mut c_void;
@@ -23,6 +24,7 @@ pub(super) const SCENE_ROBUST: c_int = 1 << 2;
 pub(super) const SCENE_FILTER_IN_ARGUMENTS: c_int = 1 << 3;
 pub(super) const QUALITY_MEDIUM: c_int = 1;
 pub(super) const FEATURES_ALL: c_int = -1;
+pub(super) const QUERY_COHERENT: c_int = 1 << 16;
 pub(super) const INVALID_ID: u32 = u32::MAX;
 const PROPERTY_VERSION: [c_int; 3] = [1, 2, 3];
 
@@ -60,6 +62,39 @@ pub(super) struct RawHit {
     pub(super) instance: u32,
 }
 
+/// `RTCRayHit16` up to the first instance's ids, with room for the fields that builds with instance arrays have; a field
+/// of all rays lies together.
+#[repr(C, align(64))]
+pub(super) struct Packet {
+    pub(super) ray: PacketRays,
+    pub(super) hit: PacketHits,
+    pub(super) room: [u32; PACKET],
+}
+
+/// `RTCRay16`.
+#[repr(C, align(64))]
+pub(super) struct PacketRays {
+    pub(super) origin: [[f32; PACKET]; 3],
+    pub(super) t_min: [f32; PACKET],
+    pub(super) direction: [[f32; PACKET]; 3],
+    pub(super) time: [f32; PACKET],
+    pub(super) t_max: [f32; PACKET],
+    pub(super) mask: [u32; PACKET],
+    pub(super) id: [u32; PACKET],
+    pub(super) flags: [u32; PACKET],
+}
+
+/// `RTCHit16` up to the first instance's ids.
+#[repr(C, align(64))]
+pub(super) struct PacketHits {
+    pub(super) normal: [[f32; PACKET]; 3],
+    pub(super) u: [f32; PACKET],
+    pub(super) v: [f32; PACKET],
+    pub(super) primitive: [u32; PACKET],
+    pub(super) geometry: [u32; PACKET],
+    pub(super) instance: [u32; PACKET],
+}
+
 /// `RTCRayQueryContext` with room behind it, and what the filter needs.
 #[repr(C)]
 pub(super) struct Context {
@@ -73,8 +108,9 @@ pub(super) struct FilterArguments {
     pub(super) valid: *mut c_int,
     pub(super) geometry_user: *mut c_void,
     pub(super) context: *mut Context,
-    pub(super) ray: *const RawRay,
-    pub(super) hit: *const RawHit,
+    /// `n` rays: their first fields, then their second ones, and so on; so too the hits.
+    pub(super) ray: *const u32,
+    pub(super) hit: *const u32,
     pub(super) n: u32,
 }
 
@@ -112,6 +148,8 @@ shared_library! {
     attach_by_id = b"rtcAttachGeometryByID": fn(Handle, Handle, u32);
     intersect1 = b"rtcIntersect1": fn(Handle, *mut RayHit, *mut QueryArguments);
     occluded1 = b"rtcOccluded1": fn(Handle, *mut RawRay, *mut QueryArguments);
+    intersect16 = b"rtcIntersect16": fn(*const c_int, Handle, *mut Packet, *mut QueryArguments);
+    occluded16 = b"rtcOccluded16": fn(*const c_int, Handle, *mut PacketRays, *mut QueryArguments);
 }
 
 impl Api {

@@ -56,8 +56,12 @@ pub(crate) struct Hit {
     pub(crate) v: f32,
 }
 
-/// Decides whether a hit on a tested instance counts; called in no particular order, perhaps twice for one hit.
-pub(crate) type Accept<'a> = &'a mut dyn FnMut(&Hit) -> bool;
+/// Decides whether a hit on a tested instance counts, given the index of the ray among those traced together; called in
+/// no particular order, perhaps twice for one hit.
+pub(crate) type Accept<'a> = &'a mut dyn FnMut(usize, &Hit) -> bool;
+
+/// Most rays that are traced together.
+pub(crate) const PACKET: usize = 16;
 
 /// What the kernel must know of an instance.
 #[derive(Clone)]
@@ -117,6 +121,30 @@ impl Accel {
         match self {
             Self::Embree(accel) => accel.intersect(ray, accept),
             Self::Obvhs(accel) => accel.intersect(ray, accept),
+        }
+    }
+
+    /// The nearest hits of up to [`PACKET`] rays that start and run alike, in `hits`.
+    pub(crate) fn intersect_packet(&self, rays: &[Ray], hits: &mut [Option<Hit>; PACKET], accept: Accept<'_>) {
+        match self {
+            Self::Embree(accel) => accel.intersect_packet(rays, hits, accept),
+            Self::Obvhs(accel) => {
+                for (lane, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+                    *hit = accel.intersect(ray, &mut |_, hit| accept(lane, hit));
+                }
+            }
+        }
+    }
+
+    /// Whether any hit counts, for each of up to [`PACKET`] rays that run alike, in `occluded`.
+    pub(crate) fn occluded_packet(&self, rays: &[Ray], occluded: &mut [bool; PACKET], accept: Accept<'_>) {
+        match self {
+            Self::Embree(accel) => accel.occluded_packet(rays, occluded, accept),
+            Self::Obvhs(accel) => {
+                for (lane, (ray, occluded)) in rays.iter().zip(occluded).enumerate() {
+                    *occluded = accel.occluded(ray, &mut |_, hit| accept(lane, hit));
+                }
+            }
         }
     }
 

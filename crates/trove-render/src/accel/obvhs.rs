@@ -97,7 +97,7 @@ impl Top {
                 return f32::INFINITY;
             };
             let hit = Hit { t, instance, triangle: self.bottom.bvh.primitive_indices[index], u, v };
-            if self.tested && !accept(&hit) {
+            if self.tested && !accept(0, &hit) {
                 return f32::INFINITY;
             }
             nearest = Some(hit);

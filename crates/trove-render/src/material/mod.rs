@@ -99,6 +99,11 @@ impl PreparedMaterial {
         self.has_cutout() || self.transmission > 0.0
     }
 
+    /// Whether light that comes from behind is scattered to the front.
+    pub(crate) fn is_translucent(&self) -> bool {
+        self.translucency > 0.0
+    }
+
     /// Whether it has holes.
     pub(crate) fn has_cutout(&self) -> bool {
         self.cutout.is_some()

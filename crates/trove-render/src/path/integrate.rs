@@ -1,10 +1,10 @@
-//! One path.
+//! One path and what happens at its vertices.
 
 use glam::Vec3;
-use trove_model::InstanceId;
 
 use crate::PreparedScene;
-use crate::accel::Ray;
+use crate::accel::{Hit, Ray};
+use crate::light::LightSample;
 use crate::material::Bsdf;
 use crate::prepare::Surface;
 use crate::sampling::{Sampler, power_heuristic};
@@ -50,119 +50,170 @@ impl Sample {
     }
 }
 
-/// Light along a path, kept below what a sample may bring.
-struct Gathered {
+/// A path under way.
+pub(crate) struct Path {
+    pub(crate) ray: Ray,
+    cone: Cone,
+    sampler: Sampler,
+    throughput: Vec3,
+    /// Times that it has scattered.
+    pub(crate) bounce: u32,
+    passages: u32,
+    /// Where it last scattered; `None` before.
+    scattered: Option<Scattered>,
     radiance: Vec3,
-    /// What a white surface has in this light.
-    scale: f32,
+    guide: Option<(Vec3, Vec3)>,
+    guide_filter: Vec3,
 }
 
-impl Gathered {
-    fn add(&mut self, light: Vec3, bounce: u32) {
-        let most = self.scale * if bounce <= 1 { MOST_DIRECT } else { MOST_INDIRECT };
+impl Path {
+    /// From the eye.
+    pub(crate) fn new(ray: Ray, cone: Cone, sampler: Sampler) -> Self {
+        Self {
+            ray,
+            cone,
+            sampler,
+            throughput: Vec3::ONE,
+            bounce: 0,
+            passages: 0,
+            scattered: None,
+            radiance: Vec3::ZERO,
+            guide: None,
+            guide_filter: Vec3::ONE,
+        }
+    }
+
+    /// Adds light that came over `bounce` surfaces, kept below what a sample may bring where a white surface has `scale`.
+    pub(crate) fn gather(&mut self, light: Vec3, bounce: u32, scale: f32) {
+        let most = scale * if bounce <= 1 { MOST_DIRECT } else { MOST_INDIRECT };
         let largest = light.max_element();
         // NaN would spread over the picture when it is filtered.
         if largest.is_finite() {
             self.radiance += if largest > most { light * (most / largest) } else { light };
         }
     }
+
+    /// What it brought, once it has ended.
+    pub(crate) fn sample(&self) -> Sample {
+        let (albedo, normal) = self.guide.unwrap_or((Vec3::ONE, Vec3::ZERO));
+        Sample { radiance: self.radiance, albedo, normal }
+    }
 }
 
-/// Follows one path from the eye.
-pub(crate) fn radiance(
-    scene: &PreparedScene,
-    mut ray: Ray,
-    mut cone: Cone,
-    carrier: Option<InstanceId>,
-    sampler: &mut Sampler,
-    rays: &mut u64,
-) -> Sample {
-    let mut gathered = Gathered { radiance: Vec3::ZERO, scale: scene.lights.scale() };
-    let mut guide: Option<(Vec3, Vec3)> = None;
-    let mut guide_filter = Vec3::ONE;
-    let mut throughput = Vec3::ONE;
-    // Where the path last scattered and the density of the direction it took; `None` before.
-    let mut scattered: Option<(Vec3, f32)> = None;
-    let (mut bounce, mut passages) = (0, 0);
+/// The last vertex at which a path scattered.
+struct Scattered {
+    point: Vec3,
+    /// The side that light was asked for, as for `Lights::sample_rest`.
+    lit_side: Vec3,
+    /// Density of the direction that it took.
+    pdf: f32,
+}
 
-    loop {
-        *rays += 1;
-        let found = if bounce == 0 { scene.intersect_past(&ray, carrier) } else { scene.intersect(&ray) };
-        let Some(hit) = found else {
-            // The sky, unless light sampling would have found it better.
-            let weight = scattered.map_or(1.0, |(_, pdf)| power_heuristic(pdf, scene.lights.pdf(ray.direction)));
-            gathered.add(throughput * scene.lights.radiance(ray.direction, cone.spread_rad) * weight, bounce);
-            guide = guide.or(Some((guide_filter, Vec3::ZERO)));
-            break;
+/// Light that reaches a path if nothing is in the way.
+pub(crate) struct Shadow {
+    /// Index of the path.
+    pub(crate) path: u32,
+    pub(crate) ray: Ray,
+    pub(crate) light: Vec3,
+    pub(crate) bounce: u32,
+}
+
+/// Where a path's ray has arrived.
+pub(crate) struct Vertex<'a> {
+    pub(crate) scene: &'a PreparedScene,
+    /// Index of the path.
+    pub(crate) index: u32,
+    pub(crate) shadows: &'a mut Vec<Shadow>,
+}
+
+impl Vertex<'_> {
+    /// Gathers light, asks for more behind shadow rays, and sends the path on; false when it has ended.
+    pub(crate) fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
+        let lights = &self.scene.lights;
+        let Some(hit) = hit else {
+            let direction = path.ray.direction;
+            // Weighed against finding the same light by light sampling.
+            let weight = |other: f32| path.scattered.as_ref().map_or(1.0, |s| power_heuristic(s.pdf, other));
+            let sun = lights.sun_radiance(direction) * weight(lights.sun_pdf(direction));
+            let other = if sky_nee(path.bounce.saturating_sub(1)) { lights.pdf_rest(direction) } else { 0.0 };
+            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * weight(other);
+            path.gather(path.throughput * (sun + sky), path.bounce, lights.scale());
+            path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
+            return false;
         };
-        let surface = Surface::new(scene, &hit, &ray);
-        let material = scene.material_of(&hit);
-        cone.width_m += cone.spread_rad * hit.t;
+        let surface = Surface::new(self.scene, &hit, &path.ray);
+        let material = self.scene.material_of(&hit);
+        path.cone.width_m += path.cone.spread_rad * hit.t;
 
         if material.emission != Vec3::ZERO {
-            let weight = scattered.map_or(1.0, |(from, pdf)| {
-                let other = scene.lights.emitter_pdf(hit.instance, hit.triangle, from, surface.point);
-                power_heuristic(pdf, other)
+            let weight = path.scattered.as_ref().map_or(1.0, |s| {
+                let other =
+                    lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
+                power_heuristic(s.pdf, other)
             });
-            gathered.add(throughput * material.emission * weight, bounce);
+            path.gather(path.throughput * material.emission * weight, path.bounce, lights.scale());
         }
 
-        let [l0, l1, l2, dither] = sampler.next4();
-        let bsdf = material.shade(&surface, cone.width_m * SHARPNESS, dither);
-        if guide.is_none() && (!bsdf.is_mirror || bounce >= 2) {
-            guide = Some((guide_filter * bsdf.albedo, surface.shading));
+        let [u_light, dither] = path.sampler.next2();
+        let bsdf = material.shade(&surface, path.cone.width_m * SHARPNESS, dither);
+        if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2) {
+            path.guide = Some((path.guide_filter * bsdf.albedo, surface.shading));
         }
 
-        gathered.add(throughput * direct(scene, &surface, &bsdf, [l0, l1, l2], rays), bounce + 1);
+        let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
+        let on_sun = path.sampler.next2();
+        self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
+        if sky_nee(path.bounce) {
+            let [u0, u1] = path.sampler.next2();
+            self.ask(path, &surface, &bsdf, lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]));
+        }
 
-        let [u_lobe, u0, u1, u_roulette] = sampler.next4();
-        let Some(next) = bsdf.sample([u_lobe, u0, u1]) else { break };
+        let [u_lobe, u_roulette] = path.sampler.next2();
+        let [u0, u1] = path.sampler.next2();
+        let Some(next) = bsdf.sample([u_lobe, u0, u1]) else { return false };
         let Some(pdf) = next.pdf else {
             // Straight through glass: the path goes on as if nothing had happened.
-            passages += 1;
-            if passages > MAX_PASSAGES {
-                break;
+            path.passages += 1;
+            path.throughput *= next.weight;
+            if path.guide.is_none() {
+                path.guide_filter *= next.weight.min(Vec3::ONE);
             }
-            throughput *= next.weight;
-            if guide.is_none() {
-                guide_filter *= next.weight.min(Vec3::ONE);
-            }
-            ray = Ray::new(surface.leave(next.wi), next.wi);
-            continue;
+            path.ray = Ray::new(surface.leave(next.wi), next.wi);
+            return path.passages <= MAX_PASSAGES;
         };
 
-        bounce += 1;
-        if bounce > MAX_BOUNCES {
-            break;
-        }
-        throughput *= next.weight;
-        if bounce >= ROULETTE_FROM {
-            let survival = throughput.max_element().min(0.95);
+        path.bounce += 1;
+        path.throughput *= next.weight;
+        if path.bounce >= ROULETTE_FROM {
+            let survival = path.throughput.max_element().min(0.95);
             if u_roulette >= survival {
-                break;
+                return false;
             }
-            throughput /= survival;
+            path.throughput /= survival;
         }
-        scattered = Some((surface.point, pdf));
-        cone.spread_rad += next.spread_rad;
-        ray = Ray::new(surface.leave(next.wi), next.wi);
+        path.scattered = Some(Scattered { point: surface.point, lit_side, pdf });
+        path.cone.spread_rad += next.spread_rad;
+        path.ray = Ray::new(surface.leave(next.wi), next.wi);
+        path.bounce <= *MAXB
     }
-    let (albedo, normal) = guide.unwrap_or((Vec3::ONE, Vec3::ZERO));
-    Sample { radiance: gathered.radiance, albedo, normal }
+
+    /// Asks for light that a surface sends on straight from where a light sample lies.
+    fn ask(&mut self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) {
+        let Some(light) = light else { return };
+        let (f, pdf_bsdf) = bsdf.eval(light.wi);
+        if f == Vec3::ZERO {
+            return;
+        }
+        let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
+        let ray = Ray { t_max, ..Ray::new(surface.leave(light.wi), light.wi) };
+        let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
+        let light = path.throughput * f * light.radiance * weight;
+        self.shadows.push(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 });
+    }
 }
 
-/// Light that a surface sends on straight from a lamp, the sky or the sun, by one light sample.
-fn direct(scene: &PreparedScene, surface: &Surface, bsdf: &Bsdf, u: [f32; 3], rays: &mut u64) -> Vec3 {
-    let Some(light) = scene.lights.sample(surface.point, u) else { return Vec3::ZERO };
-    let (f, pdf_bsdf) = bsdf.eval(light.wi);
-    if f == Vec3::ZERO {
-        return Vec3::ZERO;
-    }
-    *rays += 1;
-    let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
-    let share = scene.transmittance(&Ray { t_max, ..Ray::new(surface.leave(light.wi), light.wi) });
-    if share == Vec3::ZERO {
-        return Vec3::ZERO;
-    }
-    f * light.radiance * share * (power_heuristic(light.pdf, pdf_bsdf) / light.pdf)
+static NEE: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| std::env::var("NEE").map_or(0, |s| s.parse().unwrap()));
+static MAXB: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| std::env::var("MAXB").map_or(6, |s| s.parse().unwrap()));
+fn sky_nee(bounce: u32) -> bool {
+    *NEE & (1 << bounce.min(2)) != 0
 }

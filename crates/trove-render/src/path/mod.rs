@@ -1,6 +1,7 @@
 //! Light carried along random paths from the eye: unidirectional path tracing with light sampling.
 
 mod integrate;
+mod wave;
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
@@ -11,7 +12,8 @@ use trove_model::{Raster, Shot};
 use crate::PreparedScene;
 use crate::accel::Ray;
 use crate::sampling::{Sampler, tent};
-use integrate::{Cone, Sample};
+use integrate::{Cone, Path, Sample};
+use wave::Wave;
 
 /// Side of the squares that threads work on, pixels.
 const TILE_PX: u32 = 16;
@@ -37,18 +39,13 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     // Every pixel depends on the seed and its place alone, so the threads may take the tiles in any order.
     let traced: Option<Vec<Vec<Sample>>> = (0..tiles)
         .into_par_iter()
-        .map(|tile| {
+        .map_init(Wave::default, |wave, tile| {
             if stop(done.load(Ordering::Relaxed) as f32 / tiles as f32) {
                 return None;
             }
             let (x0, y0) = (tile as u32 % columns * TILE_PX, tile as u32 / columns * TILE_PX);
-            let mut pixels = Vec::with_capacity((TILE_PX * TILE_PX) as usize);
-            let mut count = 0;
-            for y in y0..(y0 + TILE_PX).min(height) {
-                for x in x0..(x0 + TILE_PX).min(width) {
-                    pixels.push(trace_pixel(scene, shot, x, y, &mut count));
-                }
-            }
+            let pixels = trace_tile(wave, scene, shot, [x0, y0], [TILE_PX.min(width - x0), TILE_PX.min(height - y0)]);
+            let count = std::mem::take(&mut wave.rays);
             rays.fetch_add(count, Ordering::Relaxed);
             done.fetch_add(1, Ordering::Relaxed);
             Some(pixels)
@@ -70,20 +67,32 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     Some(buffers)
 }
 
-/// The mean of a pixel's samples.
-fn trace_pixel(scene: &PreparedScene, shot: &Shot, x: u32, y: u32, rays: &mut u64) -> Sample {
+/// The means of the samples of a tile's pixels, row by row.
+fn trace_tile(wave: &mut Wave, scene: &PreparedScene, shot: &Shot, [x0, y0]: [u32; 2], [width, height]: [u32; 2]) -> Vec<Sample> {
     let spp = shot.spp.max(1);
-    let mut sum = Sample::default();
+    let log2_count = spp.next_power_of_two().ilog2();
+    let mut sums = vec![Sample::default(); (width * height) as usize];
+    // Squares of 4×4 pixels, one after the other, whose rays run alike.
+    let mut order: Vec<[u32; 2]> = (0..width * height).map(|i| [i % width, i / width]).collect();
+    order.sort_by_key(|[x, y]| (y / 4, x / 4));
     for index in 0..spp {
-        let mut sampler = Sampler::new(shot.seed, x, y, index);
-        let u = sampler.next4();
-        // The reconstruction filter is drawn, not splatted: no pixel writes into another.
-        let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
-            + DVec2::new(f64::from(tent(u[0])), f64::from(tent(u[1])));
-        let (ray, cone) = camera_ray(shot, pixel);
-        sum.add(&integrate::radiance(scene, ray, cone, shot.carrier, &mut sampler, rays));
+        wave.paths.clear();
+        wave.paths.extend(order.iter().map(|&[x, y]| {
+            let [x, y] = [x0 + x, y0 + y];
+            let mut sampler = Sampler::new(shot.seed, [x, y], index, log2_count);
+            let u = sampler.next2();
+            // The reconstruction filter is drawn, not splatted: no pixel writes into another.
+            let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
+                + DVec2::new(f64::from(tent(u[0])), f64::from(tent(u[1])));
+            let (ray, cone) = camera_ray(shot, pixel);
+            Path::new(ray, cone, sampler)
+        }));
+        wave.run(scene, shot.carrier);
+        for (path, [x, y]) in wave.paths.iter().zip(&order) {
+            sums[(y * width + x) as usize].add(&path.sample());
+        }
     }
-    sum.divided(spp as f32)
+    sums.into_iter().map(|sum| sum.divided(spp as f32)).collect()
 }
 
 /// The ray through a position in the image and the cone that a pixel sees.

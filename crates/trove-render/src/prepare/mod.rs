@@ -9,7 +9,7 @@ use glam::{Affine3A, DAffine3, Mat3A, Vec3};
 use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject};
 
 use crate::RenderError;
-use crate::accel::{Accel, Hit, Kernel, Placed, Ray};
+use crate::accel::{Accel, Hit, Kernel, PACKET, Placed, Ray};
 use crate::light::{LastSurroundings, Lights};
 use crate::material::PreparedMaterial;
 use crate::texture::Textures;
@@ -70,7 +70,7 @@ impl PreparedScene {
 
     /// The nearest surface; cut-out holes are not there.
     pub(crate) fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.accel.intersect(ray, &mut |hit| self.is_there(hit))
+        self.accel.intersect(ray, &mut |_, hit| self.is_there(hit))
     }
 
     /// The same as if the instance `carrier` were not there.
@@ -78,29 +78,63 @@ impl PreparedScene {
         let mut ray = *ray;
         loop {
             let hit = self.intersect(&ray)?;
-            if carrier.is_none_or(|id| id.0 == 0 || self.instances[hit.instance as usize].id != id) {
+            if !self.is_carrier(&hit, carrier) {
                 return Some(hit);
             }
             ray.t_min = hit.t * (1.0 + 1e-6) + 1e-6;
         }
     }
 
+    fn is_carrier(&self, hit: &Hit, carrier: Option<InstanceId>) -> bool {
+        carrier.is_some_and(|id| id.0 != 0 && self.instances[hit.instance as usize].id == id)
+    }
+
     /// The nearest surface of one instance, as if nothing else were there.
     pub(crate) fn intersect_instance(&self, ray: &Ray, instance: u32) -> Option<Hit> {
-        self.accel.intersect_instance(ray, instance, &mut |hit| self.is_there(hit))
+        self.accel.intersect_instance(ray, instance, &mut |_, hit| self.is_there(hit))
+    }
+
+    /// The nearest surfaces of rays that run alike, as if the instance `carrier` were not there.
+    pub(crate) fn intersect_packet(&self, rays: &[Ray], carrier: Option<InstanceId>, hits: &mut [Option<Hit>; PACKET]) {
+        self.accel.intersect_packet(rays, hits, &mut |_, hit| self.is_there(hit));
+        for (ray, hit) in rays.iter().zip(hits) {
+            if hit.is_some_and(|h| self.is_carrier(&h, carrier)) {
+                *hit = self.intersect_past(ray, carrier);
+            }
+        }
+    }
+
+    /// What passes along rays that run alike: light is multiplied by 0 behind anything opaque, tinted behind thin glass.
+    pub(crate) fn shade_packet(&self, rays: &[Ray], light: &mut [Vec3; PACKET]) {
+        let mut blocked = [false; PACKET];
+        self.accel.occluded_packet(rays, &mut blocked, &mut |lane, hit| {
+            self.is_there(hit) && {
+                light[lane] *= self.straight_through(hit, &rays[lane]);
+                light[lane] == Vec3::ZERO
+            }
+        });
+        for (light, blocked) in light.iter_mut().zip(blocked) {
+            if blocked {
+                *light = Vec3::ZERO;
+            }
+        }
     }
 
     /// The share of light that passes along a ray: 0 behind anything opaque, tinted behind thin glass.
     pub(crate) fn transmittance(&self, ray: &Ray) -> Vec3 {
         let mut share = Vec3::ONE;
-        let blocked = self.accel.occluded(ray, &mut |hit| {
-            if !self.is_there(hit) {
-                return false;
+        let blocked = self.accel.occluded(ray, &mut |_, hit| {
+            self.is_there(hit) && {
+                share *= self.straight_through(hit, ray);
+                share == Vec3::ZERO
             }
-            share *= self.material_of(hit).straight_through(self.geometric_normal(hit).dot(ray.direction));
-            share == Vec3::ZERO
         });
         if blocked { Vec3::ZERO } else { share }
+    }
+
+    /// The share of light that a surface lets straight through.
+    fn straight_through(&self, hit: &Hit, ray: &Ray) -> Vec3 {
+        self.material_of(hit).straight_through(self.geometric_normal(hit).dot(ray.direction))
     }
 
     /// Material at a hit.

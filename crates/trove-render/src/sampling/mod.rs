@@ -1,35 +1,12 @@
 //! Random numbers for a pixel and what directions are drawn with them.
 
+mod sampler;
+
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use glam::Vec3;
-use trove_model::Seed;
 
-/// The numbers of one sample of one pixel: an Owen-scrambled Sobol sequence (Burley 2020), four dimensions at a time.
-pub(crate) struct Sampler {
-    index: u32,
-    seed: u32,
-    set: u32,
-}
-
-impl Sampler {
-    /// For the `index`-th sample of pixel (x, y).
-    pub(crate) fn new(seed: Seed, x: u32, y: u32, index: u32) -> Self {
-        let bits = seed.nth((u64::from(y) << 32) | u64::from(x)).0;
-        // The sequence has 2¹⁶ points; further samples start another one.
-        let seed = (bits ^ (bits >> 32)) as u32 ^ (index >> 16).wrapping_mul(0x9e37_79b9);
-        Self { index: index & 0xffff, seed, set: 0 }
-    }
-
-    /// The next four numbers in [0, 1).
-    pub(crate) fn next4(&mut self) -> [f32; 4] {
-        let sets = sobol_burley::NUM_DIMENSION_SETS_4D;
-        let seed = self.seed.wrapping_add((self.set / sets).wrapping_mul(0x85eb_ca6b));
-        let four = sobol_burley::sample_4d(self.index, self.set % sets, seed);
-        self.set += 1;
-        four
-    }
-}
+pub(crate) use sampler::Sampler;
 
 /// A position drawn with the tent filter of radius 1 (Pharr et al. 2023, A.4.1), from −1 to 1.
 pub(crate) fn tent(u: f32) -> f32 {

@@ -1,0 +1,92 @@
+//! Paths of neighbouring pixels that advance together, so that their rays may be traced together.
+
+use glam::Vec3;
+use trove_model::InstanceId;
+
+use super::integrate::{Path, Shadow, Vertex};
+use crate::PreparedScene;
+use crate::accel::{Hit, PACKET};
+
+/// Paths under way, with room that is used again and again.
+#[derive(Default)]
+pub(super) struct Wave {
+    /// In an order in which [`PACKET`] successive ones start alike.
+    pub(super) paths: Vec<Path>,
+    active: Vec<u32>,
+    going: Vec<u32>,
+    shadows: Vec<Shadow>,
+    /// Rays traced so far.
+    pub(super) rays: u64,
+}
+
+impl Wave {
+    /// Follows all paths to their ends.
+    pub(super) fn run(&mut self, scene: &PreparedScene, carrier: Option<InstanceId>) {
+        self.active.clear();
+        self.active.extend(0..self.paths.len() as u32);
+        let mut alike = true;
+        while !self.active.is_empty() {
+            self.going.clear();
+            for group in self.active.chunks(PACKET) {
+                let mut hits = [None; PACKET];
+                intersect(scene, carrier, &self.paths, group, alike, &mut hits);
+                self.rays += group.len() as u64;
+                for (&index, hit) in group.iter().zip(hits) {
+                    let path = &mut self.paths[index as usize];
+                    let mut vertex = Vertex { scene, index, shadows: &mut self.shadows };
+                    if vertex.advance(path, hit) {
+                        self.going.push(index);
+                    }
+                }
+            }
+            self.light(scene, alike);
+            std::mem::swap(&mut self.active, &mut self.going);
+            alike = false;
+        }
+    }
+
+    /// Brings light to the paths from lamps, sky and sun where nothing is in the way.
+    fn light(&mut self, scene: &PreparedScene, alike: bool) {
+        self.rays += self.shadows.len() as u64;
+        for group in self.shadows.chunks(PACKET) {
+            let mut light = [Vec3::ZERO; PACKET];
+            light.iter_mut().zip(group).for_each(|(light, shadow)| *light = shadow.light);
+            if alike {
+                let mut rays = [group[0].ray; PACKET];
+                rays.iter_mut().zip(group).for_each(|(ray, shadow)| *ray = shadow.ray);
+                scene.shade_packet(&rays[..group.len()], &mut light);
+            } else {
+                for (light, shadow) in light.iter_mut().zip(group) {
+                    *light *= scene.transmittance(&shadow.ray);
+                }
+            }
+            for (light, shadow) in light.into_iter().zip(group) {
+                self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
+            }
+        }
+        self.shadows.clear();
+    }
+}
+
+/// What the rays of a group of paths meet.
+fn intersect(
+    scene: &PreparedScene,
+    carrier: Option<InstanceId>,
+    paths: &[Path],
+    group: &[u32],
+    alike: bool,
+    hits: &mut [Option<Hit>; PACKET],
+) {
+    let ray = |&index: &u32| paths[index as usize].ray;
+    if alike {
+        let mut rays = [ray(&group[0]); PACKET];
+        rays.iter_mut().zip(group).for_each(|(to, index)| *to = ray(index));
+        scene.intersect_packet(&rays[..group.len()], carrier, hits);
+        return;
+    }
+    for (hit, index) in hits.iter_mut().zip(group) {
+        let path = &paths[*index as usize];
+        let from_eye = path.bounce == 0;
+        *hit = if from_eye { scene.intersect_past(&path.ray, carrier) } else { scene.intersect(&path.ray) };
+    }
+}
