@@ -118,12 +118,21 @@ pub(crate) struct Shadow {
     pub(crate) bounce: u32,
 }
 
+/// Shadow rays to trace.
+#[derive(Default)]
+pub(crate) struct Shadows {
+    /// All in nearly the same direction.
+    pub(crate) to_sun: Vec<Shadow>,
+    /// To the sky and to lamps.
+    pub(crate) to_rest: Vec<Shadow>,
+}
+
 /// Where a path's ray has arrived.
 pub(crate) struct Vertex<'a> {
     pub(crate) scene: &'a PreparedScene,
     /// Index of the path.
     pub(crate) index: u32,
-    pub(crate) shadows: &'a mut Vec<Shadow>,
+    pub(crate) shadows: &'a mut Shadows,
 }
 
 impl Vertex<'_> {
@@ -162,10 +171,13 @@ impl Vertex<'_> {
 
         let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
         let on_sun = path.sampler.next2();
-        self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
+        let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
+        self.shadows.to_sun.extend(shadow);
         if sky_nee(path.bounce) {
             let [u0, u1] = path.sampler.next2();
-            self.ask(path, &surface, &bsdf, lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]));
+            let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
+            let shadow = self.ask(path, &surface, &bsdf, light);
+            self.shadows.to_rest.extend(shadow);
         }
 
         let [u_lobe, u_roulette] = path.sampler.next2();
@@ -197,18 +209,18 @@ impl Vertex<'_> {
         path.bounce <= *MAXB
     }
 
-    /// Asks for light that a surface sends on straight from where a light sample lies.
-    fn ask(&mut self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) {
-        let Some(light) = light else { return };
+    /// The ray that asks for light which a surface sends on straight from where a light sample lies.
+    fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) -> Option<Shadow> {
+        let light = light?;
         let (f, pdf_bsdf) = bsdf.eval(light.wi);
         if f == Vec3::ZERO {
-            return;
+            return None;
         }
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
         let ray = Ray { t_max, ..Ray::new(surface.leave(light.wi), light.wi) };
         let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
-        self.shadows.push(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 });
+        Some(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 })
     }
 }
 

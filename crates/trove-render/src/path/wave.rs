@@ -3,7 +3,7 @@
 use glam::Vec3;
 use trove_model::InstanceId;
 
-use super::integrate::{Path, Shadow, Vertex};
+use super::integrate::{Path, Shadow, Shadows, Vertex};
 use crate::PreparedScene;
 use crate::accel::{Hit, PACKET};
 
@@ -14,7 +14,7 @@ pub(super) struct Wave {
     pub(super) paths: Vec<Path>,
     active: Vec<u32>,
     going: Vec<u32>,
-    shadows: Vec<Shadow>,
+    shadows: Shadows,
     /// Rays traced so far.
     pub(super) rays: u64,
 }
@@ -47,24 +47,27 @@ impl Wave {
 
     /// Brings light to the paths from lamps, sky and sun where nothing is in the way.
     fn light(&mut self, scene: &PreparedScene, alike: bool) {
-        self.rays += self.shadows.len() as u64;
-        for group in self.shadows.chunks(PACKET) {
+        let mut gather = |shadow: &Shadow, light: Vec3| {
+            self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
+        };
+        for shadow in &self.shadows.to_rest {
+            gather(shadow, shadow.light * scene.transmittance(&shadow.ray));
+        }
+        for group in self.shadows.to_sun.chunks(PACKET) {
+            if !alike {
+                group.iter().for_each(|shadow| gather(shadow, shadow.light * scene.transmittance(&shadow.ray)));
+                continue;
+            }
             let mut light = [Vec3::ZERO; PACKET];
             light.iter_mut().zip(group).for_each(|(light, shadow)| *light = shadow.light);
-            if alike {
-                let mut rays = [group[0].ray; PACKET];
-                rays.iter_mut().zip(group).for_each(|(ray, shadow)| *ray = shadow.ray);
-                scene.shade_packet(&rays[..group.len()], &mut light);
-            } else {
-                for (light, shadow) in light.iter_mut().zip(group) {
-                    *light *= scene.transmittance(&shadow.ray);
-                }
-            }
-            for (light, shadow) in light.into_iter().zip(group) {
-                self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
-            }
+            let mut rays = [group[0].ray; PACKET];
+            rays.iter_mut().zip(group).for_each(|(ray, shadow)| *ray = shadow.ray);
+            scene.shade_packet(&rays[..group.len()], &mut light);
+            group.iter().zip(light).for_each(|(shadow, light)| gather(shadow, light));
         }
-        self.shadows.clear();
+        self.rays += (self.shadows.to_sun.len() + self.shadows.to_rest.len()) as u64;
+        self.shadows.to_sun.clear();
+        self.shadows.to_rest.clear();
     }
 }
 
