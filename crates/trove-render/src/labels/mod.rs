@@ -15,6 +15,7 @@ use trove_model::{Class, Labels, Raster, Shot};
 
 use crate::PreparedScene;
 use crate::accel::Ray;
+use crate::prepare::Carrier;
 use flow::Neighbour;
 
 /// Index of no instance.
@@ -38,8 +39,9 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
         Neighbour::new(scene, shot, shot.world_from_camera_next, |i| i.world_from_mesh_next),
         Neighbour::new(scene, shot, shot.world_from_camera_previous, |i| i.world_from_mesh_previous),
     ];
+    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
     let centre = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let row = |y: u32| (0..width).map(|x| pixel(scene, shot, &neighbours, centre(x, y))).collect::<Vec<_>>();
+    let row = |y: u32| (0..width).map(|x| pixel(scene, shot, &carrier, &neighbours, centre(x, y))).collect::<Vec<_>>();
     let rows: Option<Vec<Vec<Pixel>>> = (0..height).into_par_iter().map(|y| (!stop()).then(|| row(y))).collect();
     let pixels = rows?.into_iter().flatten().collect();
 
@@ -58,9 +60,15 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
     })
 }
 
-fn pixel(scene: &PreparedScene, shot: &Shot, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {
+fn pixel(
+    scene: &PreparedScene,
+    shot: &Shot,
+    carrier: &Carrier,
+    neighbours: &[Neighbour; 2],
+    centre: DVec2,
+) -> Pixel {
     let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
-    let Some(hit) = scene.intersect_past(&ray(shot, direction), shot.carrier) else {
+    let Some(hit) = scene.intersect_past(&carrier.past(ray(shot, direction)), carrier) else {
         let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));
         return Pixel { instance: NOTHING, depth_m: f32::INFINITY, normal: [0.0; 3], flow_forward, flow_backward };
     };

@@ -11,6 +11,7 @@ use trove_model::{Raster, Shot};
 
 use crate::PreparedScene;
 use crate::accel::Ray;
+use crate::prepare::Carrier;
 use crate::sampling::{Sampler, tent};
 use integrate::{Cone, Path, Sample};
 use wave::Wave;
@@ -33,6 +34,7 @@ pub(crate) struct Buffers {
 pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> bool + Sync)) -> Option<Buffers> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
     let (columns, rows) = (width.div_ceil(TILE_PX), height.div_ceil(TILE_PX));
+    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
     let tiles = columns as usize * rows as usize;
     let (done, rays) = (AtomicUsize::new(0), AtomicU64::new(0));
 
@@ -44,7 +46,7 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
                 return None;
             }
             let (x0, y0) = (tile as u32 % columns * TILE_PX, tile as u32 / columns * TILE_PX);
-            let pixels = trace_tile(wave, scene, shot, [x0, y0], [TILE_PX.min(width - x0), TILE_PX.min(height - y0)]);
+            let pixels = trace_tile(wave, scene, shot, &carrier, [x0, y0], [TILE_PX.min(width - x0), TILE_PX.min(height - y0)]);
             let count = std::mem::take(&mut wave.rays);
             rays.fetch_add(count, Ordering::Relaxed);
             done.fetch_add(1, Ordering::Relaxed);
@@ -68,7 +70,7 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
 }
 
 /// The means of the samples of a tile's pixels, row by row.
-fn trace_tile(wave: &mut Wave, scene: &PreparedScene, shot: &Shot, [x0, y0]: [u32; 2], [width, height]: [u32; 2]) -> Vec<Sample> {
+fn trace_tile(wave: &mut Wave, scene: &PreparedScene, shot: &Shot, carrier: &Carrier, [x0, y0]: [u32; 2], [width, height]: [u32; 2]) -> Vec<Sample> {
     let spp = shot.spp.max(1);
     let log2_count = spp.next_power_of_two().ilog2();
     let mut sums = vec![Sample::default(); (width * height) as usize];
@@ -85,9 +87,9 @@ fn trace_tile(wave: &mut Wave, scene: &PreparedScene, shot: &Shot, [x0, y0]: [u3
             let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
                 + DVec2::new(f64::from(tent(u[0])), f64::from(tent(u[1])));
             let (ray, cone) = camera_ray(shot, pixel);
-            Path::new(ray, cone, sampler)
+            Path::new(carrier.past(ray), cone, sampler)
         }));
-        wave.run(scene, shot.carrier);
+        wave.run(scene, carrier);
         for (path, [x, y]) in wave.paths.iter().zip(&order) {
             sums[(y * width + x) as usize].add(&path.sample());
         }

@@ -1,11 +1,11 @@
 //! Paths of neighbouring pixels that advance together, so that their rays may be traced together.
 
 use glam::Vec3;
-use trove_model::InstanceId;
 
 use super::integrate::{Path, Shadow, Shadows, Vertex};
 use crate::PreparedScene;
 use crate::accel::{Hit, PACKET};
+use crate::prepare::Carrier;
 
 /// Paths under way, with room that is used again and again.
 #[derive(Default)]
@@ -21,7 +21,7 @@ pub(super) struct Wave {
 
 impl Wave {
     /// Follows all paths to their ends.
-    pub(super) fn run(&mut self, scene: &PreparedScene, carrier: Option<InstanceId>) {
+    pub(super) fn run(&mut self, scene: &PreparedScene, carrier: &Carrier) {
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         let mut alike = true;
@@ -74,7 +74,7 @@ impl Wave {
 /// What the rays of a group of paths meet.
 fn intersect(
     scene: &PreparedScene,
-    carrier: Option<InstanceId>,
+    carrier: &Carrier,
     paths: &[Path],
     group: &[u32],
     alike: bool,

@@ -1,5 +1,6 @@
 //! A scene made ready for rays: checked, its textures filtered, its acceleration structure built.
 
+mod carrier;
 mod check;
 mod surface;
 
@@ -14,6 +15,7 @@ use crate::light::{LastSurroundings, Lights};
 use crate::material::PreparedMaterial;
 use crate::texture::Textures;
 
+pub(crate) use carrier::Carrier;
 pub(crate) use surface::Surface;
 
 /// A scene that can be rendered: from here on nothing can fail.
@@ -73,20 +75,16 @@ impl PreparedScene {
         self.accel.intersect(ray, &mut |_, hit| self.is_there(hit))
     }
 
-    /// The same as if the instance `carrier` were not there.
-    pub(crate) fn intersect_past(&self, ray: &Ray, carrier: Option<InstanceId>) -> Option<Hit> {
+    /// The same as if the carrier were not there.
+    pub(crate) fn intersect_past(&self, ray: &Ray, carrier: &Carrier) -> Option<Hit> {
         let mut ray = *ray;
         loop {
             let hit = self.intersect(&ray)?;
-            if !self.is_carrier(&hit, carrier) {
+            if !carrier.is_hit(self, &hit) {
                 return Some(hit);
             }
             ray.t_min = hit.t * (1.0 + 1e-6) + 1e-6;
         }
-    }
-
-    fn is_carrier(&self, hit: &Hit, carrier: Option<InstanceId>) -> bool {
-        carrier.is_some_and(|id| id.0 != 0 && self.instances[hit.instance as usize].id == id)
     }
 
     /// The nearest surface of one instance, as if nothing else were there.
@@ -94,11 +92,11 @@ impl PreparedScene {
         self.accel.intersect_instance(ray, instance, &mut |_, hit| self.is_there(hit))
     }
 
-    /// The nearest surfaces of rays that run alike, as if the instance `carrier` were not there.
-    pub(crate) fn intersect_packet(&self, rays: &[Ray], carrier: Option<InstanceId>, hits: &mut [Option<Hit>; PACKET]) {
+    /// The nearest surfaces of rays that run alike, as if the carrier were not there.
+    pub(crate) fn intersect_packet(&self, rays: &[Ray], carrier: &Carrier, hits: &mut [Option<Hit>; PACKET]) {
         self.accel.intersect_packet(rays, hits, &mut |_, hit| self.is_there(hit));
         for (ray, hit) in rays.iter().zip(hits) {
-            if hit.is_some_and(|h| self.is_carrier(&h, carrier)) {
+            if hit.is_some_and(|h| carrier.is_hit(self, &h)) {
                 *hit = self.intersect_past(ray, carrier);
             }
         }
