@@ -11,7 +11,8 @@ use glam::Affine3A;
 use trove_model::Mesh;
 
 use super::embree_api::{
-    self as api, Api, Context, FilterArguments, Handle, Packet, PacketHits, PacketRays, QueryArguments, RawHit, RawRay, RayHit,
+    self as api, Api, Context, FilterArguments, Handle, Packet, PacketHits, PacketRays, QueryArguments, RawHit, RawRay,
+    RayHit,
 };
 use super::{Accept, Hit, PACKET, Placed, Ray};
 use crate::RenderError;
@@ -307,9 +308,8 @@ impl BuiltScene {
         // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
         unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, &mut arguments) };
         let hit = &ray_hit.hit;
-        (hit.geometry != api::INVALID_ID).then(|| {
-            hit_of(ray_hit.ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], instance)
-        })
+        (hit.geometry != api::INVALID_ID)
+            .then(|| hit_of(ray_hit.ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], instance))
     }
 }
 

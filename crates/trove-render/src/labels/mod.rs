@@ -60,13 +60,7 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
     })
 }
 
-fn pixel(
-    scene: &PreparedScene,
-    shot: &Shot,
-    carrier: &Carrier,
-    neighbours: &[Neighbour; 2],
-    centre: DVec2,
-) -> Pixel {
+fn pixel(scene: &PreparedScene, shot: &Shot, carrier: &Carrier, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {
     let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
     let Some(hit) = scene.intersect_past(&carrier.past(ray(shot, direction)), carrier) else {
         let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));

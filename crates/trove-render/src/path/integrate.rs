@@ -144,8 +144,7 @@ impl Vertex<'_> {
             // Weighed against finding the same light by light sampling.
             let weight = |other: f32| path.scattered.as_ref().map_or(1.0, |s| power_heuristic(s.pdf, other));
             let sun = lights.sun_radiance(direction) * weight(lights.sun_pdf(direction));
-            let other = if sky_nee(path.bounce.saturating_sub(1)) { lights.pdf_rest(direction) } else { 0.0 };
-            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * weight(other);
+            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * weight(lights.pdf_rest(direction));
             path.gather(path.throughput * (sun + sky), path.bounce, lights.scale());
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
             return false;
@@ -156,8 +155,7 @@ impl Vertex<'_> {
 
         if material.emission != Vec3::ZERO {
             let weight = path.scattered.as_ref().map_or(1.0, |s| {
-                let other =
-                    lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
+                let other = lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
                 power_heuristic(s.pdf, other)
             });
             path.gather(path.throughput * material.emission * weight, path.bounce, lights.scale());
@@ -173,12 +171,10 @@ impl Vertex<'_> {
         let on_sun = path.sampler.next2();
         let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
         self.shadows.to_sun.extend(shadow);
-        if sky_nee(path.bounce) {
-            let [u0, u1] = path.sampler.next2();
-            let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
-            let shadow = self.ask(path, &surface, &bsdf, light);
-            self.shadows.to_rest.extend(shadow);
-        }
+        let [u0, u1] = path.sampler.next2();
+        let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
+        let shadow = self.ask(path, &surface, &bsdf, light);
+        self.shadows.to_rest.extend(shadow);
 
         let [u_lobe, u_roulette] = path.sampler.next2();
         let [u0, u1] = path.sampler.next2();
@@ -206,7 +202,7 @@ impl Vertex<'_> {
         path.scattered = Some(Scattered { point: surface.point, lit_side, pdf });
         path.cone.spread_rad += next.spread_rad;
         path.ray = Ray::new(surface.leave(next.wi), next.wi);
-        path.bounce <= *MAXB
+        path.bounce <= MAX_BOUNCES
     }
 
     /// The ray that asks for light which a surface sends on straight from where a light sample lies.
@@ -222,10 +218,4 @@ impl Vertex<'_> {
         let light = path.throughput * f * light.radiance * weight;
         Some(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 })
     }
-}
-
-static NEE: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| std::env::var("NEE").map_or(0, |s| s.parse().unwrap()));
-static MAXB: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| std::env::var("MAXB").map_or(6, |s| s.parse().unwrap()));
-fn sky_nee(bounce: u32) -> bool {
-    *NEE & (1 << bounce.min(2)) != 0
 }

@@ -46,7 +46,8 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
                 return None;
             }
             let (x0, y0) = (tile as u32 % columns * TILE_PX, tile as u32 / columns * TILE_PX);
-            let pixels = trace_tile(wave, scene, shot, &carrier, [x0, y0], [TILE_PX.min(width - x0), TILE_PX.min(height - y0)]);
+            let pixels =
+                trace_tile(wave, scene, shot, &carrier, [x0, y0], [TILE_PX.min(width - x0), TILE_PX.min(height - y0)]);
             let count = std::mem::take(&mut wave.rays);
             rays.fetch_add(count, Ordering::Relaxed);
             done.fetch_add(1, Ordering::Relaxed);
@@ -70,7 +71,14 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
 }
 
 /// The means of the samples of a tile's pixels, row by row.
-fn trace_tile(wave: &mut Wave, scene: &PreparedScene, shot: &Shot, carrier: &Carrier, [x0, y0]: [u32; 2], [width, height]: [u32; 2]) -> Vec<Sample> {
+fn trace_tile(
+    wave: &mut Wave,
+    scene: &PreparedScene,
+    shot: &Shot,
+    carrier: &Carrier,
+    [x0, y0]: [u32; 2],
+    [width, height]: [u32; 2],
+) -> Vec<Sample> {
     let spp = shot.spp.max(1);
     let log2_count = spp.next_power_of_two().ilog2();
     let mut sums = vec![Sample::default(); (width * height) as usize];
