@@ -195,41 +195,6 @@ impl Lights {
     pub(crate) fn sky_radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
         self.around.dome.radiance(direction, spread_rad)
     }
-
-    /// Draws a light (first number) and a direction to it (the other two).
-    pub(crate) fn sample(&self, point: Vec3, u: [f32; 3]) -> Option<LightSample> {
-        let share = self.sun_share();
-        if u[0] < share {
-            let sun = self.sample_sun([u[1], u[2]])?;
-            let radiance = sun.radiance + self.sky_radiance(sun.wi, WIDE_RAD);
-            return Some(LightSample { radiance, pdf: self.pdf(sun.wi), ..sun });
-        }
-        let rest = self.sample_rest(point, Vec3::ZERO, [(u[0] - share) / (1.0 - share), u[1], u[2]])?;
-        if rest.distance.is_finite() {
-            return Some(LightSample { pdf: rest.pdf * (1.0 - share), ..rest });
-        }
-        Some(LightSample { radiance: rest.radiance + self.sun_radiance(rest.wi), pdf: self.pdf(rest.wi), ..rest })
-    }
-
-    fn sun_share(&self) -> f32 {
-        if self.around.sun.is_some() { 0.5 } else { 0.0 }
-    }
-
-    /// Radiance of the environment with the sun's disk in it, for a ray that stands for a cone of `spread_rad`.
-    pub(crate) fn radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
-        self.sky_radiance(direction, spread_rad) + self.sun_radiance(direction)
-    }
-
-    /// Density over solid angle with which [`Self::sample`] draws a direction of the environment.
-    pub(crate) fn pdf(&self, direction: Vec3) -> f32 {
-        self.sun_share() * self.sun_pdf(direction) + (1.0 - self.sun_share()) * self.pdf_rest(direction)
-    }
-
-    /// Density over solid angle, seen from `point`, with which [`Self::sample`] draws the point `on_light` of an
-    /// emitting triangle; 0 where the triangle is never drawn.
-    pub(crate) fn emitter_pdf(&self, instance: u32, triangle: u32, point: Vec3, on_light: Vec3) -> f32 {
-        (1.0 - self.sun_share()) * self.pdf_rest_emitter(instance, triangle, point, Vec3::ZERO, on_light)
-    }
 }
 
 /// Brightness of a colour (Rec. 709).
