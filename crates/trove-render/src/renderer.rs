@@ -107,7 +107,7 @@ impl Renderer {
                 };
                 stats.denoised = clean.is_some();
                 let radiance = clean.unwrap_or(buffers.radiance);
-                let (srgb, exposure_ev) = film::develop(&radiance, &shot.exposure);
+                let (srgb, exposure_ev) = film::develop(&radiance, shot);
                 Some(Color { radiance, srgb, exposure_ev })
             } else {
                 None

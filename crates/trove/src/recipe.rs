@@ -1,11 +1,15 @@
 //! What a user asks for: the TOML recipe.
 
+mod camera;
+
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_write::Pictures;
+
+pub use camera::CameraSection;
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -27,6 +31,9 @@ pub struct Recipe {
     /// Cameras.
     #[serde(default)]
     pub views: ViewsSection,
+    /// What the pictures are taken with.
+    #[serde(default)]
+    pub camera: CameraSection,
     /// Sky.
     #[serde(default)]
     pub light: LightSection,
@@ -278,6 +285,7 @@ impl Recipe {
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
+        self.camera.check()?;
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;

@@ -1,17 +1,18 @@
 //! Light carried along random paths from the eye: unidirectional path tracing with light sampling.
 
+mod camera;
 mod integrate;
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-use glam::{DVec2, Vec3};
+use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{Raster, Shot};
 
 use crate::PreparedScene;
-use crate::accel::Ray;
 use crate::sampling::{Sampler, tent};
-use integrate::{Cone, Sample};
+use camera::camera_ray;
+use integrate::Sample;
 
 /// Side of the squares that threads work on, pixels.
 const TILE_PX: u32 = 16;
@@ -80,17 +81,9 @@ fn trace_pixel(scene: &PreparedScene, shot: &Shot, x: u32, y: u32, rays: &mut u6
         // The reconstruction filter is drawn, not splatted: no pixel writes into another.
         let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
             + DVec2::new(f64::from(tent(u[0])), f64::from(tent(u[1])));
-        let (ray, cone) = camera_ray(shot, pixel);
+        // Where the lens shows nothing the picture is black.
+        let Some((ray, cone)) = camera_ray(shot, pixel, u[2]) else { continue };
         sum.add(&integrate::radiance(scene, ray, cone, shot.carrier, &mut sampler, rays));
     }
     sum.divided(spp as f32)
-}
-
-/// The ray through a position in the image and the cone that a pixel sees.
-fn camera_ray(shot: &Shot, pixel: DVec2) -> (Ray, Cone) {
-    let direction_camera = shot.lens.unproject(pixel);
-    let length = direction_camera.length();
-    let direction: Vec3 = shot.world_from_camera.vector(direction_camera / length).as_vec3();
-    let spread_rad = (1.0 / (shot.lens.fx_px * shot.lens.fy_px).sqrt() / length) as f32;
-    (Ray::new(shot.world_from_camera.translation.as_vec3(), direction), Cone { width_m: 0.0, spread_rad })
 }
