@@ -35,4 +35,4 @@ pub use agreement::{Agreement, agreement};
 pub use error::BuildError;
 pub use light::LightChoice;
 pub use site::{BuildSettings, Site, area, build};
-pub use views::{ViewSettings, place_drive, shots};
+pub use views::{ALL_CAMERAS, LensChange, ViewSettings, place_drive, shots};

@@ -323,7 +323,7 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let drive = testing::drive();
             let site = pool.install(|| site(5));
-            let views = ViewSettings { rig: None, other_vehicles: 2, scale: 0.5, spp: 1 };
+            let views = ViewSettings { other_vehicles: 2, scale: 0.5, spp: 1, ..ViewSettings::default() };
             let scene = site.scene(&drive, 4);
             format!(
                 "{:?} {:?}",

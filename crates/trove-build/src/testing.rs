@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, Camera, Cuboid, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane, LaneMap,
-    Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed,
+    Asset, AssetLibrary, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane,
+    LaneMap, Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed,
     SidewalkSides, Slot, StreetMap, Track,
 };
 
@@ -89,7 +89,15 @@ pub(crate) fn drive() -> Drive {
         let forward = DQuat::from_mat3(&DMat3::from_cols(-DVec3::Y, -DVec3::Z, DVec3::X));
         Pose::<Ego, Camera>::new(DQuat::from_rotation_z(yaw) * forward, DVec3::new(1.7, 0.0, 1.5))
     };
-    let lens = Lens { width_px: 160, height_px: 90, fx_px: 126.0, fy_px: 126.0, cx_px: 80.0, cy_px: 45.0 };
+    let lens = Lens {
+        width_px: 160,
+        height_px: 90,
+        fx_px: 126.0,
+        fy_px: 126.0,
+        cx_px: 80.0,
+        cy_px: 45.0,
+        distortion: Distortion::None,
+    };
     let camera = |name: &str, yaw| RigCamera { name: name.into(), lens, ego_from_camera: camera_from(yaw) };
     let rig = vec![camera("CAM_BACK", std::f64::consts::PI), camera("CAM_FRONT", 0.0)];
     let path = |k: usize| Pose::from_yaw(0.0, DVec3::new(5.0 * k as f64, 0.0, 0.0));

@@ -79,6 +79,8 @@ pub struct ObjectLabel {
 pub struct CaptureStats {
     /// Rays traced, of all sorts.
     pub rays: u64,
+    /// Samples of a pixel, mean over the picture.
+    pub spp: f64,
     /// Whether the denoiser ran.
     pub denoised: bool,
 }

@@ -34,7 +34,7 @@ pub use frames::{Body, Camera, Ego, Frame, Pose, Sensor, World};
 pub use height_field::HeightField;
 pub use kind::Kind;
 pub use lane_map::{Lane, LaneMap};
-pub use lens::Lens;
+pub use lens::{Distortion, Lens};
 pub use light::{Environment, EnvironmentMap, Light, PhysicalSky};
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
@@ -44,7 +44,7 @@ pub use raster::Raster;
 pub use report::{Entry, Measurement, Outcome, Report};
 pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed};
-pub use shot::{ExposureRule, Shot};
+pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
 pub use street_map::{
     Building, Furniture, FurnitureKind, Land, LandKind, Road, RoadKind, RoofShape, SidewalkSides, StreetMap,
 };

@@ -17,6 +17,92 @@ pub enum ExposureRule {
     },
 }
 
+/// Which light becomes white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhiteBalance {
+    /// That of the picture, as far as a camera's automatic goes.
+    Auto,
+    /// Daylight (D65): colours stay as they are.
+    Daylight,
+}
+
+/// What becomes of the light behind the lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// Brightness.
+    pub exposure: ExposureRule,
+    /// Colour.
+    pub white_balance: WhiteBalance,
+    /// Faults of lens, sensor and encoding; `None` for a perfect one.
+    pub sensor: Option<SensorModel>,
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        let exposure = ExposureRule::Auto { compensation_ev: 0.0 };
+        Self { exposure, white_balance: WhiteBalance::Auto, sensor: None }
+    }
+}
+
+/// What a real camera adds to a picture; labels know nothing of it. Pixels are the picture's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorModel {
+    /// Electrons that a pixel holds at white; shot noise is that of counting them. More than 0.
+    pub full_well_e: f64,
+    /// Standard deviation of what reading adds, electrons.
+    pub read_noise_e: f64,
+    /// Share of the light that is lost in the corners, 0 to less than 1.
+    pub vignetting: f64,
+    /// Standard deviation of the lens's and the pixel's blur, pixels.
+    pub blur_px: f64,
+    /// How much farther out red lies than green in the corners, and green than blue, pixels.
+    pub chromatic_aberration_px: f64,
+    /// Quality of the JPEG that the picture passes through on its way to a file, 1 to 100; `None` for none.
+    pub jpeg_quality: Option<u8>,
+}
+
+impl SensorModel {
+    /// A car's camera by day: a 1/1.8″ CMOS sensor with pixels of 4.5 µm and a fixed lens (data sheets of such sensors give
+    /// 8 to 12 thousand electrons and 5 to 25 electrons of noise).
+    pub const AUTOMOTIVE: Self = Self {
+        full_well_e: 8400.0,
+        read_noise_e: 12.0,
+        vignetting: 0.2,
+        blur_px: 0.5,
+        chromatic_aberration_px: 0.4,
+        jpeg_quality: Some(90),
+    };
+}
+
+/// When the sensor's rows see light, and how far the neighbouring keyframes are in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shutter {
+    /// Time for which every row is exposed, seconds; 0 is an instant.
+    pub exposure_s: f64,
+    /// From the first row's exposure to the last one's, seconds; 0 is a global shutter.
+    pub readout_s: f64,
+    /// From the previous keyframe's picture to this one, seconds, more than 0; infinite where there is none.
+    pub since_previous_s: f64,
+    /// From this picture to the next keyframe's, seconds, more than 0; infinite where there is none.
+    pub until_next_s: f64,
+}
+
+impl Shutter {
+    /// Everything at once; keyframes half a second apart.
+    pub const INSTANT: Self = Self { exposure_s: 0.0, readout_s: 0.0, since_previous_s: 0.5, until_next_s: 0.5 };
+
+    /// Whether a picture is taken all at once.
+    pub fn is_instant(&self) -> bool {
+        self.exposure_s == 0.0 && self.readout_s == 0.0
+    }
+
+    /// Seconds after the exposure's middle at which a ray leaves: `row` is its place in the picture from top (0) to
+    /// bottom (1), `within` its place in the row's exposure (0 to 1).
+    pub fn time_s(&self, row: f64, within: f64) -> f64 {
+        (row - 0.5) * self.readout_s + (within - 0.5) * self.exposure_s
+    }
+}
+
 /// A camera at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
@@ -30,14 +116,74 @@ pub struct Shot {
     pub world_from_camera_previous: Option<Pose<World, Camera>>,
     /// The same camera at the next keyframe; `None` where there is none, and forward flow is not defined.
     pub world_from_camera_next: Option<Pose<World, Camera>>,
-    /// Time, nanoseconds since 1970 UTC.
+    /// Time of the exposure's middle, to which pose and labels belong, nanoseconds since 1970 UTC.
     pub time_ns: i64,
-    /// Samples a pixel.
+    /// When light is gathered for the picture around that time.
+    pub shutter: Shutter,
+    /// Samples a pixel; where `noise` is more than 0 the most that a pixel may get.
     pub spp: u32,
-    /// Brightness.
-    pub exposure: ExposureRule,
+    /// Mean error, as a share of brightness, at which a few neighbouring pixels have had enough samples; 0: all get
+    /// `spp`.
+    pub noise: f32,
+    /// From light to picture.
+    pub film: Film,
     /// Source of all randomness in the picture.
     pub seed: Seed,
     /// The object that carries the camera: camera and label rays pass through it, its shadow and reflection stay.
     pub carrier: Option<InstanceId>,
+}
+
+impl Shot {
+    /// The camera's pose `time_s` seconds after the exposure's middle: it moves evenly between the keyframes, and as
+    /// between the others where one is missing; without any it stands still.
+    pub fn world_from_camera_at(&self, time_s: f64) -> Pose<World, Camera> {
+        let towards = |other: &Pose<World, Camera>, share: f64| self.world_from_camera.interpolate(other, share);
+        let next = self.world_from_camera_next.map(|p| towards(&p, time_s / self.shutter.until_next_s));
+        let previous = self.world_from_camera_previous.map(|p| towards(&p, -time_s / self.shutter.since_previous_s));
+        let (first, second) = if time_s >= 0.0 { (next, previous) } else { (previous, next) };
+        first.or(second).unwrap_or(self.world_from_camera)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::Distortion;
+
+    #[test]
+    fn a_camera_moves_evenly_and_on_where_a_keyframe_is_missing() {
+        let at = |yaw_rad: f64, x: f64| Pose::from_yaw(yaw_rad, DVec3::X * x);
+        let mut shot = Shot {
+            view: "v".into(),
+            lens: Lens {
+                width_px: 1,
+                height_px: 1,
+                fx_px: 1.0,
+                fy_px: 1.0,
+                cx_px: 0.5,
+                cy_px: 0.5,
+                distortion: Distortion::None,
+            },
+            world_from_camera: at(0.0, 0.0),
+            world_from_camera_previous: None,
+            world_from_camera_next: Some(at(0.4, 5.0)),
+            time_ns: 0,
+            shutter: Shutter { exposure_s: 0.01, readout_s: 0.03, ..Shutter::INSTANT },
+            spp: 1,
+            noise: 0.0,
+            film: Film::default(),
+            seed: Seed(0),
+            carrier: None,
+        };
+        assert_eq!(shot.shutter.time_s(0.5, 0.5), 0.0);
+        assert!((shot.shutter.time_s(1.0, 1.0) - 0.02).abs() < 1e-12);
+        for time_s in [-0.02, 0.02] {
+            let pose = shot.world_from_camera_at(time_s);
+            assert!((pose.translation.x - 10.0 * time_s).abs() < 1e-9 && (pose.yaw_rad() - 0.8 * time_s).abs() < 1e-5);
+        }
+        shot.world_from_camera_previous = Some(at(0.0, -1.0));
+        assert!((shot.world_from_camera_at(-0.05).translation.x + 0.1).abs() < 1e-9);
+    }
 }

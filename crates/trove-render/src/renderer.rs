@@ -101,13 +101,14 @@ impl Renderer {
             let color = if light {
                 let buffers = path::trace(scene, shot, &stop)?;
                 stats.rays = buffers.rays;
+                stats.spp = buffers.spp;
                 let clean = match &self.denoiser {
                     Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal),
                     Err(_) => None,
                 };
                 stats.denoised = clean.is_some();
                 let radiance = clean.unwrap_or(buffers.radiance);
-                let (srgb, exposure_ev) = film::develop(&radiance, &shot.exposure);
+                let (srgb, exposure_ev) = film::develop(&radiance, shot);
                 Some(Color { radiance, srgb, exposure_ev })
             } else {
                 None

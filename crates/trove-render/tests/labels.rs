@@ -6,12 +6,20 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Body, Camera, Class, Cuboid, Environment, EnvironmentMap, ExposureRule, Instance, InstanceId, Kind, Labels, Lens,
-    Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Scene, SceneObject, Seed, Shot, World,
+    Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Kind, Labels,
+    Lens, Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
 };
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 
-const LENS: Lens = Lens { width_px: 80, height_px: 60, fx_px: 60.0, fy_px: 62.0, cx_px: 41.3, cy_px: 28.6 };
+const LENS: Lens = Lens {
+    width_px: 80,
+    height_px: 60,
+    fx_px: 60.0,
+    fy_px: 62.0,
+    cx_px: 41.3,
+    cy_px: 28.6,
+    distortion: Distortion::None,
+};
 
 /// Far from the origin, where single precision has coarse steps.
 const PLACE: DVec3 = DVec3::new(812.3, -1033.7, 14.0);
@@ -24,7 +32,7 @@ fn the_ground_has_the_depth_normal_and_flow_of_a_plane() {
     let labels = look(&scene(vec![stuff(GROUND, PLACE)]), &shot);
     let (mut seen, mut worst_depth, mut worst_flow) = (0, 0.0f64, 0.0f64);
     for (x, y, centre) in centres() {
-        let direction = shot.world_from_camera.vector(LENS.unproject(centre));
+        let direction = shot.world_from_camera.vector(at_depth_one(centre));
         let depth = -1.6 / direction.z;
         if direction.z >= 0.0 || depth > 100.0 {
             continue;
@@ -53,7 +61,7 @@ fn a_ball_has_the_depth_and_the_normals_of_a_ball() {
     let labels = look(&scene(vec![stuff(BALL, centre)]), &shot);
     let mut seen = 0;
     for (x, y, pixel) in centres() {
-        let direction = shot.world_from_camera.vector(LENS.unproject(pixel));
+        let direction = shot.world_from_camera.vector(at_depth_one(pixel));
         // |direction · t − to_centre| = 1
         let (a, b, to_centre) = (direction.length_squared(), direction.dot(centre - PLACE), centre - PLACE);
         let root = b * b - a * (to_centre.length_squared() - 1.0);
@@ -82,7 +90,7 @@ fn a_moving_box_flows_with_its_tracks_and_the_sky_with_the_cameras_turn() {
     let labels = look(&scene(vec![moving]), &shot);
     for (x, y, centre) in centres() {
         let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
-        let direction = shot.world_from_camera.vector(LENS.unproject(centre));
+        let direction = shot.world_from_camera.vector(at_depth_one(centre));
         let next_from_world = shot.world_from_camera_next.unwrap().inverse();
         let then = if *labels.instance.at(x, y) == 1 {
             assert!(labels.flow_backward.at(x, y)[0].is_nan(), "it was not there");
@@ -142,6 +150,114 @@ fn a_box_across_the_border_is_truncated_and_one_outside_is_not_listed() {
 }
 
 #[test]
+fn a_fisheye_sees_beside_itself_and_nothing_outside_its_image_circle() {
+    // Equidistant, 190° in a circle of radius 29.5 px: θ (1 − θ² / (3 θ_max²)) grows until θ_max.
+    let most = 95f64.to_radians();
+    let distortion = Distortion::kannala_brandt(&[-1.0 / (3.0 * most * most)]).unwrap();
+    let f = 29.5 / (most * 2.0 / 3.0);
+    let lens = Lens { fx_px: f, fy_px: f, cx_px: 40.0, cy_px: 30.0, distortion, ..LENS };
+    let beside = [PLACE + DVec3::new(-4.0, 0.0, 0.0), PLACE + DVec3::new(5.0, -0.3, 0.0)];
+    let scene = scene(vec![object(1, beside[0], 1.0), object(2, beside[1], 1.0)]);
+    let labels = look(&scene, &Shot { lens, ..shot(PLACE) });
+    let (mut outside, mut seen) = (0, 0);
+    for (x, y, centre) in centres() {
+        let Some(direction) = lens.unproject(centre) else {
+            outside += 1;
+            assert!(centre.distance(DVec2::new(40.0, 30.0)) > 29.4);
+            assert_eq!((*labels.class.at(x, y), *labels.instance.at(x, y)), (Class::Void.id(), 0));
+            assert_eq!((*labels.depth_m.at(x, y), *labels.normal.at(x, y)), (f32::INFINITY, [0.0; 3]));
+            assert!(labels.flow_forward.at(x, y)[0].is_nan());
+            continue;
+        };
+        if *labels.instance.at(x, y) == 1 {
+            seen += 1;
+            // The cube's near face lies 3.5 m to the left, where depth is what the axis says, behind it negative.
+            let expected = direction.z * -3.5 / direction.x;
+            assert!((f64::from(*labels.depth_m.at(x, y)) - expected).abs() < 1e-3 || direction.z > 0.14);
+        }
+    }
+    assert!(outside > 1900 && seen > 20, "{outside} {seen}");
+    assert_eq!(labels.objects.iter().map(|o| o.id.0).collect::<Vec<_>>(), [1, 2]);
+    for object in &labels.objects {
+        assert_eq!((object.visible_px, object.visible_box), (object.amodal_px, object.amodal_box));
+    }
+}
+
+#[test]
+fn colour_is_sheared_by_a_rolling_shutter_and_labels_are_not() {
+    // A pole far ahead, the camera turning left: each row sees it where the camera looks by then.
+    let mut pole = object(1, PLACE + DVec3::Y * 20.0, 1.0);
+    let size = DVec3::new(1.0, 1.0, 60.0);
+    pole.world_from_mesh = DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, PLACE + DVec3::Y * 20.0);
+    pole.world_from_mesh_next = Some(pole.world_from_mesh);
+    pole.world_from_mesh_previous = Some(pole.world_from_mesh);
+    let mut scene = scene(vec![pole]);
+    scene.materials[0].base_color = Vec3::ZERO;
+    let (yaw_rate, readout_s) = (0.8, 0.2);
+    let turned = |angle: f64| {
+        let now = shot(PLACE).world_from_camera;
+        Pose::new(DQuat::from_rotation_z(angle) * now.rotation, now.translation)
+    };
+    let shutter = Shutter { readout_s, ..Shutter::INSTANT };
+    let rolling = Shot {
+        world_from_camera_next: Some(turned(0.5 * yaw_rate)),
+        world_from_camera_previous: Some(turned(-0.5 * yaw_rate)),
+        shutter,
+        spp: 16,
+        ..shot(PLACE)
+    };
+    // Where the dark pole's middle is in each row.
+    let column = |shot: &Shot, y: u32| {
+        let radiance = colour(&scene, shot);
+        let dark = |x: u32| f64::from((1.0 - radiance.at(x, y)[1]).max(0.0));
+        let whole: f64 = (0..80).map(dark).sum();
+        (0..80).map(|x| (f64::from(x) + 0.5) * dark(x)).sum::<f64>() / whole
+    };
+    let sheared = column(&rolling, 59) - column(&rolling, 0);
+    // From the first row's centre to the last one's; turning left moves the picture to the right.
+    let angle = |y: f64| yaw_rate * readout_s * (y / 60.0 - 0.5);
+    let expected = LENS.fx_px * (angle(59.5).tan() - angle(0.5).tan());
+    assert!((sheared - expected).abs() < 0.35, "{sheared} px instead of {expected}");
+    let still = Shot { shutter: Shutter::INSTANT, ..rolling.clone() };
+    assert_eq!(format!("{:?}", look(&scene, &rolling)), format!("{:?}", look(&scene, &still)));
+}
+
+#[test]
+fn an_edge_is_blurred_as_wide_as_the_camera_turns_while_it_is_exposed() {
+    // The left half of the view is dark.
+    let mut wall = object(1, PLACE + DVec3::new(-50.0, 20.0, 0.0), 1.0);
+    let size = DVec3::new(100.0, 0.1, 80.0);
+    wall.world_from_mesh =
+        DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, PLACE + DVec3::new(-50.0, 20.0, 0.0));
+    let mut scene = scene(vec![wall]);
+    scene.materials[0].base_color = Vec3::ZERO;
+    let now = shot(PLACE).world_from_camera;
+    let turned = Pose::new(DQuat::from_rotation_z(0.5) * now.rotation, now.translation);
+    let exposed = |exposure_s: f64| Shot {
+        world_from_camera_next: Some(turned),
+        shutter: Shutter { exposure_s, ..Shutter::INSTANT },
+        spp: 64,
+        ..shot(PLACE)
+    };
+    // The standard deviation of the edge's position, by what its derivative weighs.
+    let width = |exposure_s: f64| {
+        let radiance = colour(&scene, &exposed(exposure_s));
+        let light = |x: u32| (0..60).map(|y| f64::from(radiance.at(x, y)[1])).sum::<f64>();
+        let steps: Vec<f64> = (0..79).map(|x| light(x + 1) - light(x)).collect();
+        let moment = |p: i32, about: f64| {
+            steps.iter().enumerate().map(|(x, step)| (x as f64 - about).powi(p) * step).sum::<f64>()
+                / steps.iter().sum::<f64>()
+        };
+        moment(2, moment(1, 0.0)).sqrt()
+    };
+    // 1 rad/s for 0.2 s is 12 px at the middle; an even blur of w has a deviation of w / √12, the filter adds its own.
+    let (sharp, blurred) = (width(0.0), width(0.2));
+    let added = (blurred * blurred - sharp * sharp).sqrt() * 12f64.sqrt();
+    assert!((added - 12.0).abs() < 0.7, "{added} px instead of 12");
+    assert_eq!(format!("{:?}", look(&scene, &exposed(0.2))), format!("{:?}", look(&scene, &exposed(0.0))));
+}
+
+#[test]
 fn one_thread_and_two_give_the_same_labels() {
     let boxes = (1..20).map(|i| {
         let angle = f64::from(i) * 2.4;
@@ -163,8 +279,21 @@ fn labels(scene: &Scene, shot: &Shot, threads: usize) -> Labels {
     renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
 }
 
+fn colour(scene: &Scene, shot: &Shot) -> Raster<[f32; 3]> {
+    let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: false, threads: 2, search: Vec::new() };
+    let renderer = Renderer::new(&options).unwrap();
+    let prepared = renderer.prepare(scene).unwrap();
+    renderer.render(&prepared, shot, true, &|_| false).unwrap().color.unwrap().radiance
+}
+
 fn objects(instances: Vec<Instance>) -> Vec<ObjectLabel> {
     look(&scene(instances), &shot(PLACE)).objects
+}
+
+/// The point in Camera with z = 1 that a pixel shows.
+fn at_depth_one(pixel: DVec2) -> DVec3 {
+    let direction = LENS.unproject(pixel).unwrap();
+    direction / direction.z
 }
 
 fn centres() -> impl Iterator<Item = (u32, u32, DVec2)> {
@@ -182,8 +311,10 @@ fn shot(position: DVec3) -> Shot {
         world_from_camera_previous: None,
         world_from_camera_next: None,
         time_ns: 0,
+        shutter: Shutter::INSTANT,
         spp: 1,
-        exposure: ExposureRule::Fixed { ev: 0.0 },
+        noise: 0.0,
+        film: Film::default(),
         seed: Seed(1),
         carrier: None,
     }

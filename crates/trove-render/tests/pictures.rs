@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, vec2, vec3};
 use trove_model::{
-    Camera, Class, ColorSpace, Environment, EnvironmentMap, ExposureRule, Instance, InstanceId, Lens, Light, Material,
-    Mesh, Pose, Raster, Scene, Seed, Shot, Texture, World,
+    Camera, Class, ColorSpace, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light,
+    Material, Mesh, Pose, Raster, Scene, Seed, Shot, Shutter, Texture, World,
 };
 use trove_render::{KernelChoice, RenderError, Renderer, RendererOptions};
 
@@ -146,13 +146,23 @@ fn shot(spp: u32, half_width: f64) -> Shot {
     let north = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, -DVec3::Z, DVec3::Y));
     Shot {
         view: "test".into(),
-        lens: Lens { width_px: 16, height_px: 16, fx_px: f, fy_px: f, cx_px: 8.0, cy_px: 8.0 },
+        lens: Lens {
+            width_px: 16,
+            height_px: 16,
+            fx_px: f,
+            fy_px: f,
+            cx_px: 8.0,
+            cy_px: 8.0,
+            distortion: Distortion::None,
+        },
         world_from_camera: Pose::<World, Camera>::new(north, DVec3::new(0.0, -4.0, 0.0)),
         world_from_camera_previous: None,
         world_from_camera_next: None,
         time_ns: 0,
+        shutter: Shutter::INSTANT,
         spp,
-        exposure: ExposureRule::Fixed { ev: 0.0 },
+        noise: 0.0,
+        film: Film::default(),
         seed: Seed(1),
         carrier: None,
     }

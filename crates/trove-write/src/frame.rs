@@ -7,7 +7,7 @@ use trove_model::{Capture, Color, Ego, InstanceId, Labels, MapProjection, Pose, 
 
 use crate::files::FolderInTheMaking;
 use crate::frame_table::frame_table;
-use crate::{WriteError, WrittenFile, exr_file, png_file};
+use crate::{WriteError, WrittenFile, exr_file, jpeg, png_file};
 
 /// Everything in `frame.json` that a shot, a scene and a capture do not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +92,11 @@ pub fn write_frame(
         if pictures == Pictures::WithRadiance {
             folder.add("radiance.exr", &exr_file::encode("radiance.exr", &color.radiance, ["R", "G", "B"])?)?;
         }
-        folder.add("rgb.png", &png_file::rgb("rgb.png", width, height, &color.srgb.data)?)?;
+        let worn = match shot.film.sensor.and_then(|sensor| sensor.jpeg_quality) {
+            Some(quality) => &jpeg::worn("rgb.png", width, height, &color.srgb.data, quality)?,
+            None => &color.srgb.data,
+        };
+        folder.add("rgb.png", &png_file::rgb("rgb.png", width, height, worn)?)?;
     }
     folder.add("class.png", &png_file::grey("class.png", width, height, &labels.class.data)?)?;
     folder.add("instance.png", &png_file::grey16("instance.png", width, height, &instances)?)?;

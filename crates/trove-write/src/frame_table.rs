@@ -7,6 +7,8 @@
 //! | `view`, `time_ns` | the camera (`ego.CAM_FRONT`) and its own time, which differs from the keyframe's |
 //! | `source_token`, `source_image` | the recorded picture that the view clones; empty where it clones none |
 //! | `width_px`, `height_px`, `intrinsics` | image size and K (3×3, rows first); pixel centres are at .5 |
+//! | `lens_model`, `distortion` | `pinhole`, `brown-conrady` (k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ in OpenCV's order) or `kannala-brandt` (a fisheye: k₁ k₂ k₃ k₄) |
+//! | `exposure_s`, `readout_s` | for how long a row is exposed and how long after the first row the last one is; `world_from_camera`, `time_ns` and all labels belong to the middle of it all |
 //! | `world_from_camera` | 4×4, rows first: takes a point in Camera (x right, y down, z forward) to World (x east, y north, z up, metres) |
 //! | `world_from_camera_rotation_wxyz`, `world_from_camera_translation_m` | the same as a unit quaternion, w first, and the camera's position |
 //! | `world_from_camera_previous`, `…_next` | the same camera at the neighbouring keyframes, which flow leads to; null where there is none |
@@ -60,6 +62,10 @@ struct FrameTable<'a> {
     width_px: u32,
     height_px: u32,
     intrinsics: [[f64; 3]; 3],
+    lens_model: &'static str,
+    distortion: Vec<f64>,
+    exposure_s: f64,
+    readout_s: f64,
     world_from_camera: Matrix4,
     world_from_camera_rotation_wxyz: [f64; 4],
     world_from_camera_translation_m: [f64; 3],
@@ -131,6 +137,10 @@ pub(crate) fn frame_table(
         width_px: lens.width_px,
         height_px: lens.height_px,
         intrinsics: [[lens.fx_px, 0.0, lens.cx_px], [0.0, lens.fy_px, lens.cy_px], [0.0, 0.0, 1.0]],
+        lens_model: lens.distortion.name(),
+        distortion: lens.distortion.coefficients(),
+        exposure_s: shot.shutter.exposure_s,
+        readout_s: shot.shutter.readout_s,
         world_from_camera: matrix(pose.affine()),
         world_from_camera_rotation_wxyz: [pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z],
         world_from_camera_translation_m: pose.translation.to_array(),

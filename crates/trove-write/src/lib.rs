@@ -10,6 +10,7 @@ mod files;
 mod frame;
 mod frame_table;
 pub mod gltf;
+mod jpeg;
 mod png_file;
 
 pub use error::WriteError;

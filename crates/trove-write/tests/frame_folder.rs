@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use trove_model::{
-    Capture, CaptureStats, Class, Color, Cuboid, Environment, ExposureRule, Instance, InstanceId, Kind, Labels, Lens,
-    Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Film, Instance, InstanceId, Kind, Labels,
+    Lens, Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    Shutter,
 };
 use trove_write::{FrameMeta, Pictures, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
 
@@ -51,13 +52,23 @@ fn scene() -> Scene {
 fn shot() -> Shot {
     Shot {
         view: "ego.CAM_FRONT".into(),
-        lens: Lens { width_px: W, height_px: H, fx_px: 40.1, fy_px: 40.2, cx_px: 24.3, cy_px: 10.4 },
+        lens: Lens {
+            width_px: W,
+            height_px: H,
+            fx_px: 40.1,
+            fy_px: 40.2,
+            cx_px: 24.3,
+            cy_px: 10.4,
+            distortion: Distortion::kannala_brandt(&[0.01]).unwrap(),
+        },
         world_from_camera: Pose::from_yaw(0.3, DVec3::new(1.0, 2.0, 3.0)),
         world_from_camera_previous: None,
         world_from_camera_next: Some(Pose::from_yaw(0.3, DVec3::new(1.5, 2.0, 3.0))),
         time_ns: 1_533_151_603_512_404_000,
+        shutter: Shutter::INSTANT,
         spp: 4,
-        exposure: ExposureRule::Auto { compensation_ev: 0.0 },
+        noise: 0.0,
+        film: Film::default(),
         seed: Seed(u64::MAX),
         carrier: None,
     }
@@ -88,7 +99,7 @@ fn capture() -> Capture {
         srgb: Raster::from_fn(W, H, |x, y| [x as u8, y as u8, 200]),
         exposure_ev: -0.7,
     };
-    Capture { color: Some(color), labels, stats: CaptureStats { rays: 1, denoised: false } }
+    Capture { color: Some(color), labels, stats: CaptureStats { rays: 1, spp: 1.0, denoised: false } }
 }
 
 fn meta() -> FrameMeta {
@@ -165,6 +176,10 @@ fn the_table_says_where_camera_and_objects_are() {
     let text = fs::read_to_string(dir.join("frame.json")).unwrap();
     let table: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(table["intrinsics"], serde_json::json!([[40.1, 0.0, 24.3], [0.0, 40.2, 10.4], [0.0, 0.0, 1.0]]));
+    assert_eq!(
+        (&table["lens_model"], &table["distortion"]),
+        (&"kannala-brandt".into(), &serde_json::json!([0.01, 0.0, 0.0, 0.0]))
+    );
     assert_eq!(table["world_from_camera"][0][3], 1.0);
     assert!((table["world_from_camera"][0][1].as_f64().unwrap() + 0.3f64.sin()).abs() < 1e-12);
     assert_eq!(table["time_ns"], 1_533_151_603_512_404_000i64);

@@ -104,6 +104,7 @@ fn shot() -> Shot {
         world_from_camera_next: None,
         time_ns: 0,
         spp: 1,
+        noise: 0.0,
         exposure: ExposureRule::Fixed { ev: 0.0 },
         seed: Seed(0),
         carrier: Some(InstanceId(7)),

@@ -1,11 +1,15 @@
 //! What a user asks for: the TOML recipe.
 
+mod camera;
+
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_write::Pictures;
+
+pub use camera::CameraSection;
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -27,6 +31,9 @@ pub struct Recipe {
     /// Cameras.
     #[serde(default)]
     pub views: ViewsSection,
+    /// What the pictures are taken with.
+    #[serde(default)]
+    pub camera: CameraSection,
     /// Sky.
     #[serde(default)]
     pub light: LightSection,
@@ -156,8 +163,10 @@ pub struct LightSection {
 pub struct RenderSection {
     /// Of the dataset's own resolution.
     pub scale: f64,
-    /// Samples a pixel.
+    /// Samples a pixel; the most that one may get where `noise` is more than 0.
     pub spp: u32,
+    /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
+    pub noise: f32,
     /// Whether noise is removed.
     pub denoise: bool,
     /// False: labels only.
@@ -197,7 +206,7 @@ impl Default for LightSection {
 
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: 1.0, spp: 64, denoise: true, light: true, radiance: false, threads: 0 }
+        Self { scale: 1.0, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
     }
 }
 
@@ -274,10 +283,12 @@ impl Recipe {
         let (render, assets) = (&self.render, &self.assets);
         check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
+        check("render.noise", render.noise, (0.0..1.0).contains(&render.noise), "0 to less than 1")?;
         ensure!(
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
+        self.camera.check()?;
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;

@@ -1,7 +1,7 @@
 //! The rig on other vehicles of the scene.
 
 use glam::DVec3;
-use trove_model::{Cuboid, Drive, Ego, ExposureRule, Kind, ObjectBox, Outcome, Pose, Report, Seed, Shot, World};
+use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, Seed, Shot, World};
 
 use super::{ViewSettings, shot_seed};
 use crate::moments::{next, previous};
@@ -87,18 +87,21 @@ fn rig_shots(
     let Some(now) = world_from_rig(Some(keyframe)) else { return Vec::new() };
     let before = world_from_rig(previous(drive, keyframe));
     let after = world_from_rig(next(drive, keyframe));
+    let times_ns = [previous(drive, keyframe), next(drive, keyframe)].map(|k| Some(drive.keyframes[k?].time_ns));
     let cameras = drive.rig.iter().filter(|c| views.wants(&c.name));
     cameras
         .map(|camera| {
             let view = format!("v{number}.{}", camera.name);
             Shot {
-                lens: views.lens(&camera.lens),
+                lens: views.lens(&camera.name, &camera.lens),
                 world_from_camera: now * camera.ego_from_camera,
                 world_from_camera_previous: before.map(|rig| rig * camera.ego_from_camera),
                 world_from_camera_next: after.map(|rig| rig * camera.ego_from_camera),
                 time_ns: moment.time_ns,
+                shutter: views.shutter(moment.time_ns, times_ns),
                 spp: views.spp,
-                exposure: ExposureRule::Auto { compensation_ev: 0.0 },
+                noise: views.noise,
+                film: views.film,
                 seed: shot_seed(seed, keyframe, &view),
                 carrier: Some(track_id(track)),
                 view,

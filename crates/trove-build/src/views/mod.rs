@@ -3,7 +3,9 @@
 mod carriers;
 mod place;
 
-use trove_model::{Drive, ExposureRule, Lens, Outcome, Pose, Report, Seed, Shot};
+use std::collections::BTreeMap;
+
+use trove_model::{Distortion, Drive, Film, Lens, Outcome, Report, Seed, Shot, Shutter};
 
 pub use place::place_drive;
 
@@ -14,7 +16,7 @@ use crate::site::Site;
 pub(crate) const PLACE_DATASET: &str = "place";
 
 /// Which pictures are taken of a keyframe.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ViewSettings {
     /// Names of cameras; `None` is all.
     pub rig: Option<Vec<String>>,
@@ -22,8 +24,30 @@ pub struct ViewSettings {
     pub other_vehicles: usize,
     /// Of the dataset's own resolution.
     pub scale: f64,
-    /// Samples a pixel.
+    /// Samples a pixel, or the most of them.
     pub spp: u32,
+    /// As in [`Shot::noise`].
+    pub noise: f32,
+    /// Lenses in place of the recorded ones, by the camera's name; [`ALL_CAMERAS`] is for those that are not named.
+    pub lenses: BTreeMap<String, LensChange>,
+    /// Time for which a row of the sensor is exposed, seconds.
+    pub exposure_s: f64,
+    /// From the first row's exposure to the last one's, seconds.
+    pub readout_s: f64,
+    /// From light to picture.
+    pub film: Film,
+}
+
+/// The name under which [`ViewSettings::lenses`] holds the lens of all cameras without one of their own.
+pub const ALL_CAMERAS: &str = "all";
+
+/// Another lens before a recorded camera's sensor; size and principal point stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensChange {
+    /// Focal length along x and y in pixels of the recording; `None` leaves it.
+    pub focal_px: Option<f64>,
+    /// Distortion.
+    pub distortion: Distortion,
 }
 
 impl ViewSettings {
@@ -31,8 +55,23 @@ impl ViewSettings {
         self.rig.as_ref().is_none_or(|names| names.iter().any(|n| n == camera))
     }
 
-    fn lens(&self, lens: &Lens) -> Lens {
-        if self.scale == 1.0 { *lens } else { lens.scaled(self.scale) }
+    fn lens(&self, camera: &str, recorded: &Lens) -> Lens {
+        let mut lens = *recorded;
+        if let Some(change) = self.lenses.get(camera).or_else(|| self.lenses.get(ALL_CAMERAS)) {
+            lens.distortion = change.distortion;
+            (lens.fx_px, lens.fy_px) = change.focal_px.map_or((lens.fx_px, lens.fy_px), |f| (f, f));
+        }
+        if self.scale == 1.0 { lens } else { lens.scaled(self.scale) }
+    }
+
+    /// `neighbours_ns` are the times of the previous and the next keyframe's picture.
+    fn shutter(&self, time_ns: i64, neighbours_ns: [Option<i64>; 2]) -> Shutter {
+        let [since_previous_s, until_next_s] = neighbours_ns.map(|other_ns| {
+            let apart_ns = other_ns.map_or(0, |other_ns| other_ns.abs_diff(time_ns));
+            // Without a neighbour, or with one at the same time, there is no motion to scale.
+            if apart_ns == 0 { f64::INFINITY } else { apart_ns as f64 * 1e-9 }
+        });
+        Shutter { exposure_s: self.exposure_s, readout_s: self.readout_s, since_previous_s, until_next_s }
     }
 }
 
@@ -59,18 +98,23 @@ pub fn shots(
             continue;
         }
         let at = |k: Option<usize>| {
-            let exposure = drive.keyframes[k?].exposures.iter().find(|e| e.camera == exposure.camera)?;
-            Some(exposure.world_from_camera()).filter(Pose::is_finite)
+            let other = drive.keyframes[k?].exposures.iter().find(|e| e.camera == exposure.camera)?;
+            Some((other.world_from_camera(), other.time_ns)).filter(|(pose, _)| pose.is_finite())
         };
+        let neighbours = [at(previous(drive, keyframe)), at(next(drive, keyframe))];
+        let [before, after] = neighbours.map(|n| n.map(|(pose, _)| pose));
+        let times_ns = neighbours.map(|n| n.map(|(_, time_ns)| time_ns));
         let view = format!("ego.{}", camera.name);
         shots.push(Shot {
-            lens: views.lens(&exposure.lens),
+            lens: views.lens(&camera.name, &exposure.lens),
             world_from_camera,
-            world_from_camera_previous: at(previous(drive, keyframe)),
-            world_from_camera_next: at(next(drive, keyframe)),
+            world_from_camera_previous: before,
+            world_from_camera_next: after,
             time_ns: exposure.time_ns,
+            shutter: views.shutter(exposure.time_ns, times_ns),
             spp: views.spp,
-            exposure: ExposureRule::Auto { compensation_ev: 0.0 },
+            noise: views.noise,
+            film: views.film,
             seed: shot_seed(seed, keyframe, &view),
             carrier: Some(site.ego_id(drive)),
             view,
@@ -96,7 +140,7 @@ mod tests {
     }
 
     fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
-        let views = ViewSettings { rig: None, other_vehicles: 2, scale: 0.5, spp: 1 };
+        let views = ViewSettings { other_vehicles: 2, scale: 0.5, spp: 1, ..ViewSettings::default() };
         shots(&testing::drive(), site, keyframe, &views, Seed(seed), &Report::default())
     }
 

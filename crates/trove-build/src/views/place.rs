@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
-    Bounds, Camera, Drive, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome, Pose, Report, RigCamera,
-    Road, Seed, StreetMap, World,
+    Bounds, Camera, Distortion, Drive, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome, Pose, Report,
+    RigCamera, Road, Seed, StreetMap, World,
 };
 
 use super::PLACE_DATASET;
@@ -134,7 +134,15 @@ fn rig() -> Vec<RigCamera> {
     let ahead = DQuat::from_mat3(&DMat3::from_cols(-DVec3::Y, -DVec3::Z, DVec3::X));
     let camera = |(name, heading_deg, [x, y], focal_px): (&str, f64, [f64; 2], f64)| RigCamera {
         name: name.into(),
-        lens: Lens { width_px: 1600, height_px: 900, fx_px: focal_px, fy_px: focal_px, cx_px: 800.0, cy_px: 450.0 },
+        lens: Lens {
+            width_px: 1600,
+            height_px: 900,
+            fx_px: focal_px,
+            fy_px: focal_px,
+            cx_px: 800.0,
+            cy_px: 450.0,
+            distortion: Distortion::None,
+        },
         ego_from_camera: Pose::<Ego, Camera>::new(
             DQuat::from_rotation_z(heading_deg.to_radians()) * ahead,
             DVec3::new(x, y, WIDE.1),

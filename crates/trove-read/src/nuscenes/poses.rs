@@ -1,7 +1,7 @@
 //! nuScenes' poses and lenses, in ours.
 
 use glam::{DQuat, DVec3};
-use trove_model::{Frame, Lens, Pose};
+use trove_model::{Distortion, Frame, Lens, Pose};
 
 /// Beyond this from a map's origin nothing is a position: 1000 km, metres.
 pub(super) const FARTHEST_M: f64 = 1e6;
@@ -28,7 +28,7 @@ pub(super) fn lens(width: i64, height: i64, matrix: &[Vec<f64>]) -> Result<Lens,
         return Err("camera without usable intrinsics");
     }
     // As the devkit's `box_in_image`, this takes the image to span 0 to its width: pixel centres are at .5.
-    Ok(Lens { width_px, height_px, fx_px, fy_px, cx_px, cy_px })
+    Ok(Lens { width_px, height_px, fx_px, fy_px, cx_px, cy_px, distortion: Distortion::None })
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::PreparedScene;
 use crate::prepare::PreparedInstance;
 
 /// Flow that is not defined.
-const NONE: [f32; 2] = [f32::NAN; 2];
+pub(super) const NONE: [f32; 2] = [f32::NAN; 2];
 
 /// The next or the previous keyframe.
 pub(super) struct Neighbour {

@@ -18,13 +18,16 @@ use crate::accel::Ray;
 use crate::prepare::Carrier;
 use flow::Neighbour;
 
-/// Index of no instance.
-const NOTHING: u32 = u32::MAX;
+/// Indices of no instance: the sky, and what lies outside the lens's image circle.
+const SKY: u32 = u32::MAX;
+const OUTSIDE: u32 = u32::MAX - 1;
 
 /// Everything that one pixel shows.
 struct Pixel {
-    /// Index into the scene's instances, or [`NOTHING`].
+    /// Index into the scene's instances, [`SKY`] or [`OUTSIDE`].
     instance: u32,
+    /// From the camera, infinite where there is nothing.
+    range_m: f64,
     depth_m: f32,
     normal: [f32; 3],
     flow_forward: [f32; 2],
@@ -47,7 +50,8 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
 
     let instance = |index: u32| scene.instances.get(index as usize);
     let shown = Raster { width, height, data: pixels };
-    let class = shown.map(|p| instance(p.instance).map_or(Class::Sky, |i| i.class).id());
+    let elsewhere = |p: &Pixel| if p.instance == OUTSIDE { Class::Void } else { Class::Sky };
+    let class = shown.map(|p| instance(p.instance).map_or(elsewhere(p), |i| i.class).id());
     let objects = objects::list(scene, shot, &shown, stop)?;
     Some(Labels {
         class,
@@ -61,20 +65,35 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
 }
 
 fn pixel(scene: &PreparedScene, shot: &Shot, carrier: &Carrier, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {
-    let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
+    let empty = Pixel {
+        instance: OUTSIDE,
+        range_m: f64::INFINITY,
+        depth_m: f32::INFINITY,
+        normal: [0.0; 3],
+        flow_forward: flow::NONE,
+        flow_backward: flow::NONE,
+    };
+    let Some(direction_camera) = shot.lens.unproject(centre) else { return empty };
+    let direction = shot.world_from_camera.vector(direction_camera);
     let Some(hit) = scene.intersect_past(&carrier.past(ray(shot, direction)), carrier) else {
         let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));
-        return Pixel { instance: NOTHING, depth_m: f32::INFINITY, normal: [0.0; 3], flow_forward, flow_backward };
+        return Pixel { instance: SKY, flow_forward, flow_backward, ..empty };
     };
     let origin = shot.world_from_camera.translation;
     let seen = geometry::seen(scene, &hit, origin, direction);
-    let point = origin + direction * seen.depth_m;
+    let point = origin + direction * seen.range_m;
     let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow(centre, hit.instance, point));
-    let normal = shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array();
-    Pixel { instance: hit.instance, depth_m: seen.depth_m as f32, normal, flow_forward, flow_backward }
+    Pixel {
+        instance: hit.instance,
+        range_m: seen.range_m,
+        depth_m: (seen.range_m * direction_camera.z) as f32,
+        normal: shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array(),
+        flow_forward,
+        flow_backward,
+    }
 }
 
-/// The ray of a direction whose z in Camera is 1, so that distances along it are depths.
+/// The ray of a unit direction.
 fn ray(shot: &Shot, direction_world: DVec3) -> Ray {
     Ray::new(shot.world_from_camera.translation.as_vec3(), direction_world.as_vec3())
 }

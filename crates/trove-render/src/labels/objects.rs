@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
 
-use super::{NOTHING, Pixel, outline, ray};
+use super::{Pixel, outline, ray};
 use crate::PreparedScene;
 use crate::prepare::PreparedInstance;
 
@@ -41,8 +41,9 @@ pub(super) fn list(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<ObjectLabel>> {
     let mut visible = vec![Extent::default(); scene.instances.len()];
-    for (i, pixel) in shown.data.iter().enumerate().filter(|(_, pixel)| pixel.instance != NOTHING) {
-        let extent = &mut visible[pixel.instance as usize];
+    for (i, pixel) in shown.data.iter().enumerate() {
+        // Sky and void are no instances.
+        let Some(extent) = visible.get_mut(pixel.instance as usize) else { continue };
         *extent = extent.and(Extent::of(i as u32 % shown.width, i as u32 / shown.width));
     }
     let mut objects: Vec<ObjectLabel> = (0..scene.instances.len())
@@ -96,11 +97,14 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usiz
         return Extent::default();
     };
     // Where something farther than all of it is seen, the instance is not: no ray is needed.
-    let may_hide = |pixel: &Pixel| pixel.instance != index as u32 && f64::from(pixel.depth_m) <= farthest_m;
+    let may_hide = |pixel: &Pixel| pixel.instance != index as u32 && pixel.range_m <= farthest_m;
     let is_hidden = |x: u32, y: u32| {
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let direction = shot.world_from_camera.vector(shot.lens.unproject(centre));
-        may_hide(shown.at(x, y)) && scene.intersect_instance(&ray(shot, direction), index as u32).is_some()
+        let seen = |direction| {
+            let ray = ray(shot, shot.world_from_camera.vector(direction));
+            scene.intersect_instance(&ray, index as u32).is_some()
+        };
+        may_hide(shown.at(x, y)) && shot.lens.unproject(centre).is_some_and(seen)
     };
     (around.min[1]..=around.max[1])
         .into_par_iter()
@@ -111,13 +115,13 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usiz
         .reduce(Extent::default, Extent::and)
 }
 
-/// Corners of the box around an instance's mesh in Camera, and the greatest depth among them; `None` for an empty mesh.
+/// Corners of the box around an instance's mesh in Camera, and the greatest distance among them; `None` for an empty mesh.
 fn bounds_camera(instance: &PreparedInstance, shot: &Shot) -> Option<([DVec3; 8], f64)> {
     let (low, high) = instance.mesh.bounds()?;
     let (middle_mesh, size_m) = ((low + high).as_dvec3() * 0.5, (high - low).as_dvec3());
     let around_middle = Cuboid { world_from_body: Pose::IDENTITY, size_m };
     let camera_from_mesh = shot.world_from_camera.inverse().affine() * instance.world_from_mesh_f64;
     let corners = around_middle.corners_world().map(|corner| camera_from_mesh.transform_point3(middle_mesh + corner));
-    let farthest_m = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+    let farthest_m = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
     Some((corners, farthest_m))
 }

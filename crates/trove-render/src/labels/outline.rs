@@ -1,7 +1,7 @@
 //! Boxes as the camera sees them.
 
-use glam::{DVec2, DVec3};
-use trove_model::{Lens, PixelBox};
+use glam::{DMat3, DVec2, DVec3};
+use trove_model::{Distortion, Lens, PixelBox};
 
 /// What lies nearer than this is cut off before it is projected, metres.
 const NEAR_M: f64 = 0.05;
@@ -10,14 +10,69 @@ const NEAR_M: f64 = 0.05;
 const EDGES: [[usize; 2]; 12] =
     [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
 
-/// Pixel positions of the corners of the part of a box that lies in front of the camera; empty where none does.
+/// Curved edges are followed so that neighbouring points are at most this far apart, pixels, …
+const STEP_PX: f64 = 8.0;
+/// … and halved at least and at most so often.
+const MIN_HALVINGS: u32 = 3;
+const MAX_HALVINGS: u32 = 12;
+/// Points that stand for a lens's rim.
+const RIM_POINTS: i32 = 64;
+
+/// Pixel positions along the edges of the part of a box that the camera can see, whose hull is the box's outline; empty
+/// where there is none.
+///
+/// A lens that sees less than a half-space cuts the box in front of the camera. What lies outside a lens's reach is
+/// drawn in to its rim.
 pub(super) fn project(lens: &Lens, corners_camera: &[DVec3; 8]) -> Vec<DVec2> {
-    let kept = corners_camera.iter().copied().filter(|p| p.z >= NEAR_M);
-    let cut = EDGES.iter().filter_map(|&[i, j]| {
-        let (a, b) = (corners_camera[i], corners_camera[j]);
-        ((a.z < NEAR_M) != (b.z < NEAR_M)).then(|| a.lerp(b, (NEAR_M - a.z) / (b.z - a.z)).with_z(NEAR_M))
-    });
-    kept.chain(cut).filter_map(|p| lens.project(p)).collect()
+    let is_straight = lens.distortion == Distortion::None;
+    let sees_behind = lens.distortion.sees_behind();
+    let mut points = Vec::new();
+    for [i, j] in EDGES {
+        let whole = [corners_camera[i], corners_camera[j]];
+        let Some(ends) = (if sees_behind { Some(whole) } else { before_camera(whole) }) else { continue };
+        let pixels = ends.map(|p| lens.project_onto_rim(p));
+        points.extend(pixels);
+        if !is_straight {
+            follow(lens, ends, pixels, MAX_HALVINGS, &mut points);
+        }
+    }
+    if sees_behind && is_crossed_behind(corners_camera) {
+        // Its edges do not go around all that it covers, for it goes on behind the camera.
+        let rim = |i: i32| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(RIM_POINTS));
+        points.extend((0..RIM_POINTS).map(|i| lens.project_onto_rim((rim(i) * 1e-9).extend(-1.0))));
+    }
+    points
+}
+
+/// The part of an edge in front of the camera.
+fn before_camera([a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    let cut = |a: DVec3, b: DVec3| {
+        if a.z >= NEAR_M { a } else { a.lerp(b, (NEAR_M - a.z) / (b.z - a.z)).with_z(NEAR_M) }
+    };
+    (a.z >= NEAR_M || b.z >= NEAR_M).then(|| [cut(a, b), cut(b, a)])
+}
+
+/// Adds points between the ends of an edge.
+fn follow(lens: &Lens, [a, b]: [DVec3; 2], [pixel_a, pixel_b]: [DVec2; 2], halvings: u32, points: &mut Vec<DVec2>) {
+    if halvings == 0 || (MAX_HALVINGS - halvings >= MIN_HALVINGS && pixel_a.distance(pixel_b) <= STEP_PX) {
+        return;
+    }
+    let middle = a.midpoint(b);
+    let pixel = lens.project_onto_rim(middle);
+    follow(lens, [a, middle], [pixel_a, pixel], halvings - 1, points);
+    points.push(pixel);
+    follow(lens, [middle, b], [pixel, pixel_b], halvings - 1, points);
+}
+
+/// Whether the viewing axis meets a box behind the camera.
+fn is_crossed_behind(corners_camera: &[DVec3; 8]) -> bool {
+    let [corner, x, y, z] = [0, 1, 3, 4].map(|i| corners_camera[i]);
+    let box_from_camera = DMat3::from_cols(x - corner, y - corner, z - corner).inverse();
+    let (start, way) = (box_from_camera * -corner, box_from_camera * DVec3::NEG_Z);
+    // In coordinates in which the box is the unit cube.
+    let (to_low, to_high) = (-start / way, (1.0 - start) / way);
+    let (enters, leaves) = (to_low.min(to_high).max_element().max(0.0), to_low.max(to_high).min_element());
+    box_from_camera.is_finite() && enters <= leaves
 }
 
 /// The pixels whose centres lie in the smallest rectangle around some points; `None` outside the image.
@@ -92,7 +147,15 @@ fn area(polygon: &[DVec2]) -> f64 {
 mod tests {
     use super::*;
 
-    const LENS: Lens = Lens { width_px: 100, height_px: 80, fx_px: 50.0, fy_px: 50.0, cx_px: 50.0, cy_px: 40.0 };
+    const LENS: Lens = Lens {
+        width_px: 100,
+        height_px: 80,
+        fx_px: 50.0,
+        fy_px: 50.0,
+        cx_px: 50.0,
+        cy_px: 40.0,
+        distortion: Distortion::None,
+    };
 
     fn cube(centre: DVec3, side: f64) -> [DVec3; 8] {
         let signs =
@@ -117,6 +180,25 @@ mod tests {
         assert!(truncation(&LENS, around) > 0.9);
         assert!(project(&LENS, &cube(DVec3::Z * -6.0, 2.0)).is_empty());
         assert_eq!(pixels_around(&LENS, &[]), None);
+    }
+
+    #[test]
+    fn a_fisheyes_outline_holds_all_of_a_box_wherever_it_is() {
+        let fisheye = Distortion::kannala_brandt(&[-0.02, -0.002]).unwrap();
+        let lens = Lens { width_px: 200, height_px: 200, cx_px: 100.0, cy_px: 100.0, distortion: fisheye, ..LENS };
+        for i in 0..60u32 {
+            let (angle, turn) = (f64::from(i) * 0.05, f64::from(i) * 2.4);
+            let across = DVec2::from_angle(turn) * angle.sin();
+            let corners = cube(across.extend(angle.cos()) * 3.0, 2.5);
+            let points = project(&lens, &corners);
+            let (low, high) = (points.iter().copied().reduce(DVec2::min), points.iter().copied().reduce(DVec2::max));
+            let (low, high) = (low.unwrap() - 0.1, high.unwrap() + 0.1);
+            for (j, k, l) in (0..8u32).flat_map(|j| (0..64u32).map(move |k| (j, k / 8, k % 8))) {
+                let share = DVec3::new(f64::from(j), f64::from(k), f64::from(l)) / 7.0;
+                let Some(p) = lens.project(corners[0] + (corners[6] - corners[0]) * share) else { continue };
+                assert!(p.cmpge(low).all() && p.cmple(high).all(), "{i}: {p} outside {low} {high}");
+            }
+        }
     }
 
     #[test]

@@ -12,6 +12,8 @@ use crate::prepare::Carrier;
 pub(super) struct Wave {
     /// In an order in which [`PACKET`] successive ones start alike.
     pub(super) paths: Vec<Path>,
+    /// Where in its tile each path's pixel is.
+    pub(super) places: Vec<usize>,
     active: Vec<u32>,
     going: Vec<u32>,
     shadows: Shadows,

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
-use trove_build::{BuildSettings, LightChoice, Site, ViewSettings};
+use trove_build::{ALL_CAMERAS, BuildSettings, LightChoice, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
@@ -131,6 +131,11 @@ pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         other_vehicles: recipe.views.other_vehicles,
         scale: recipe.render.scale,
         spp: recipe.render.spp,
+        noise: recipe.render.noise,
+        lenses: recipe.camera.lenses()?,
+        exposure_s: recipe.camera.exposure_s,
+        readout_s: recipe.camera.readout_s,
+        film: recipe.camera.film(),
     })
 }
 
@@ -245,10 +250,12 @@ impl Run<'_> {
 
     /// The cameras that the recipe names are cameras of the drive.
     fn check_cameras(&self, drive: &Drive) -> Result<()> {
-        for name in self.recipe.camera_names().unwrap_or_default() {
+        let in_views = self.recipe.camera_names().unwrap_or_default().into_iter().map(|name| ("views.rig", name));
+        let with_lens = self.recipe.camera.lens.keys().filter(|name| *name != ALL_CAMERAS);
+        for (key, name) in in_views.chain(with_lens.map(|name| ("camera.lens", name.clone()))) {
             if drive.rig.iter().all(|camera| camera.name != name) {
                 let known: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
-                bail!("views.rig: expected cameras out of {}, found {name}", known.join(", "));
+                bail!("{key}: expected cameras out of {}, found {name}", known.join(", "));
             }
         }
         Ok(())

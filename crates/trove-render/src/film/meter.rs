@@ -1,0 +1,132 @@
+//! What a camera's automatics find in a picture: how bright it is and which light is in it.
+
+use trove_model::Raster;
+
+use super::luminance;
+
+/// Steps of the metering histogram in a stop, and the stops that it spans around 1.
+const STEPS_PER_STOP: f64 = 32.0;
+const SPAN_STOPS: f64 = 24.0;
+
+/// The metered mean of the lower part of a picture becomes this radiance: what the same measurement gives on
+/// photographs of sunny streets with little shade; the sunlit road then comes out at 100 to 120 of 255.
+const METERED_TO: f64 = 0.16;
+
+/// Shares of the metered pixels that are left out at the dark and at the bright end.
+const TRIM: [f64; 2] = [0.05, 0.05];
+
+/// Colours that may be grey under the light that is looked for differ from it by so much, stops between two channels.
+const GREY_STOPS: f64 = 0.4;
+/// Each round looks around the light that the last one found: light by light a sunset is reached.
+const ROUNDS: usize = 8;
+/// Fewer greys than this share of the pixels tell nothing.
+const FEWEST: f64 = 0.05;
+/// Share of the light's colour that is taken away, in stops; people expect an evening to stay a little warm.
+const CORRECTED: f64 = 0.8;
+/// The farthest that red or blue are turned up or down against green, stops.
+const MOST_STOPS: f64 = 1.0;
+
+/// The exposure that brings the lower two thirds of a picture, where the sky is not, to middle brightness: the mean in
+/// stops, pixels counting twice as much in the middle as at the sides, without the darkest and the brightest twentieth.
+/// 0 for a black picture.
+pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
+    let (width, height) = (radiance.width as usize, radiance.height as usize);
+    let mut histogram = vec![0u64; (SPAN_STOPS * STEPS_PER_STOP) as usize];
+    for y in height / 3..height {
+        for x in 0..width {
+            let stops = f64::from(luminance(radiance.data[y * width + x])).log2() + SPAN_STOPS / 2.0;
+            if stops.is_finite() {
+                let bin = ((stops * STEPS_PER_STOP).max(0.0) as usize).min(histogram.len() - 1);
+                let from_middle = (2 * x + 1).abs_diff(width);
+                histogram[bin] += (2 * width - from_middle) as u64;
+            }
+        }
+    }
+    // Whole numbers, so that the sum does not depend on an order.
+    let total: u64 = histogram.iter().sum();
+    let (low, high) = ((total as f64 * TRIM[0]) as u64, total - (total as f64 * TRIM[1]) as u64);
+    let (mut before, mut kept, mut weighted) = (0u64, 0u64, 0u64);
+    for (bin, &count) in histogram.iter().enumerate() {
+        let inside = (before + count).min(high).saturating_sub(before.max(low));
+        kept += inside;
+        weighted += inside * (2 * bin as u64 + 1);
+        before += count;
+    }
+    if kept == 0 {
+        return 0.0;
+    }
+    let mean_stops = weighted as f64 / kept as f64 / (2.0 * STEPS_PER_STOP) - SPAN_STOPS / 2.0;
+    METERED_TO.log2() - mean_stops
+}
+
+/// Gains of red, green and blue that make grey of what is grey in the lower two thirds of a picture, as far as a
+/// camera goes; brightness stays as it is.
+///
+/// Near-greys are averaged, starting from daylight (the grey-world assumption, kept to colours that may be grey, so that
+/// a meadow or a red bus does not count).
+pub(super) fn white_balance(radiance: &Raster<[f32; 3]>) -> [f32; 3] {
+    let lower = &radiance.data[radiance.width as usize * (radiance.height as usize / 3)..];
+    // Red and blue against green, stops.
+    let stops = |rgb: &[f32; 3]| [0, 2].map(|c| f64::from(rgb[c] / rgb[1]).log2());
+    let colours: Vec<[f64; 2]> = lower.iter().map(stops).filter(|s| s.iter().all(|s| s.is_finite())).collect();
+    let mut light = [0.0; 2];
+    for _ in 0..ROUNDS {
+        let (mut sum, mut count) = ([0.0; 2], 0usize);
+        for colour in &colours {
+            let [red, blue] = [colour[0] - light[0], colour[1] - light[1]];
+            // A leaf is less red and less blue than green: light goes from red to blue, hardly ever to green.
+            if red.abs() < GREY_STOPS && blue.abs() < GREY_STOPS && (red + blue).abs() < GREY_STOPS {
+                sum = [sum[0] + red, sum[1] + blue];
+                count += 1;
+            }
+        }
+        if (count as f64) < FEWEST * colours.len() as f64 || count == 0 {
+            break;
+        }
+        light = [light[0] + sum[0] / count as f64, light[1] + sum[1] / count as f64];
+    }
+    let [red, blue] = light.map(|stops| (-CORRECTED * stops).clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32);
+    let gains = [red, 1.0, blue];
+    gains.map(|gain| gain / luminance(gains))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn street(light: [f32; 3]) -> Raster<[f32; 3]> {
+        Raster::from_fn(60, 30, |x, y| {
+            let reflects = match (x % 4, y < 10) {
+                (_, true) => [0.3, 0.5, 1.0],
+                (0, _) => [0.05, 0.1, 0.03],
+                (1, _) => [0.3, 0.3, 0.3],
+                _ => [0.1, 0.1, 0.1],
+            };
+            [0, 1, 2].map(|c| reflects[c] * light[c])
+        })
+    }
+
+    #[test]
+    fn daylight_is_left_alone_whatever_the_sky_and_the_leaves_are_like() {
+        for gain in white_balance(&street([1.0; 3])) {
+            assert!((gain - 1.0).abs() < 0.01, "{gain}");
+        }
+    }
+
+    #[test]
+    fn an_evenings_light_becomes_nearly_white() {
+        let light = [1.5, 1.0, 0.6];
+        let gains = white_balance(&street(light));
+        let [r, g, b] = [0, 1, 2].map(|c| gains[c] * light[c]);
+        assert!((r / g).log2() > 0.05 && (r / g).log2() < 0.2, "{}", r / g);
+        assert!((b / g).log2() < -0.05 && (b / g).log2() > -0.2, "{}", b / g);
+        assert!((luminance(gains) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_picture_without_greys_or_light_is_left_alone() {
+        assert_eq!(white_balance(&Raster::filled(8, 8, [0.02, 0.3, 0.02])), [1.0; 3]);
+        assert_eq!(white_balance(&Raster::filled(8, 8, [0.0; 3])), [1.0; 3]);
+        assert_eq!(white_balance(&Raster::filled(0, 0, [0.0; 3])), [1.0; 3]);
+    }
+}

@@ -1,0 +1,168 @@
+//! The faults of a real camera: what the lens does to the light, and the noise of counting it.
+
+use rayon::prelude::*;
+use trove_model::{Random, Raster, Seed, SensorModel};
+
+use super::tone::WHITE;
+
+/// Electrons from which on their count is drawn from a normal distribution, which is near enough then.
+const MANY: f64 = 40.0;
+
+/// Light behind the lens: darker and with fringes of colour in the corners, slightly blurred.
+pub(super) fn optics(radiance: &Raster<[f32; 3]>, sensor: &SensorModel) -> Raster<[f32; 3]> {
+    let middle = [f64::from(radiance.width) * 0.5, f64::from(radiance.height) * 0.5];
+    let corner = middle[0].hypot(middle[1]);
+    // cos⁴ of an angle whose tangent grows with the distance from the middle.
+    let fall = (1.0 - sensor.vignetting).powf(-0.5) - 1.0;
+    // Red, green and blue are pictures of slightly different size.
+    let shift = sensor.chromatic_aberration_px / corner;
+    let rows = (0..radiance.height).into_par_iter().map(|y| {
+        let pixel = |x: u32| {
+            let from_middle = [f64::from(x) + 0.5 - middle[0], f64::from(y) + 0.5 - middle[1]];
+            let r = from_middle[0].hypot(from_middle[1]) / corner;
+            let light = (1.0 + fall * r * r).powi(-2) as f32;
+            [1.0 - shift, 1.0, 1.0 + shift].map(|s| [0, 1].map(|i| middle[i] + s * from_middle[i])).map(|p| (p, light))
+        };
+        let channel = |([x, y], light): ([f64; 2], f32), c: usize| light * between(radiance, x, y, c);
+        let colour = |x: u32| {
+            let [r, g, b] = pixel(x);
+            [channel(r, 0), channel(g, 1), channel(b, 2)]
+        };
+        (0..radiance.width).map(colour).collect::<Vec<_>>()
+    });
+    let data = rows.flatten_iter().collect();
+    let seen = Raster { width: radiance.width, height: radiance.height, data };
+    if sensor.blur_px > 0.0 { blurred(&seen, sensor.blur_px) } else { seen }
+}
+
+/// One channel at a position between pixel centres, linearly; beyond the border it goes on as at it.
+fn between(picture: &Raster<[f32; 3]>, x: f64, y: f64, channel: usize) -> f32 {
+    let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
+    let (u, v) = ((x - 0.5 - left) as f32, (y - 0.5 - top) as f32);
+    let column = |x: f64| x.clamp(0.0, f64::from(picture.width - 1)) as u32;
+    let row = |y: f64| y.clamp(0.0, f64::from(picture.height - 1)) as u32;
+    let at = |x: f64, y: f64| picture.at(column(x), row(y))[channel];
+    let along = |y: f64| at(left, y) * (1.0 - u) + at(left + 1.0, y) * u;
+    along(top) * (1.0 - v) + along(top + 1.0) * v
+}
+
+/// Convolved with a Gaussian, first along rows, then along columns.
+fn blurred(picture: &Raster<[f32; 3]>, sigma_px: f64) -> Raster<[f32; 3]> {
+    let reach = (3.0 * sigma_px).ceil() as i64;
+    let weights: Vec<f64> = (-reach..=reach).map(|i| (-0.5 * (i as f64 / sigma_px).powi(2)).exp()).collect();
+    let whole: f64 = weights.iter().sum();
+    let along = |from: &Raster<[f32; 3]>, step: [i64; 2]| {
+        let last = [i64::from(from.width) - 1, i64::from(from.height) - 1];
+        let pixel = |x: u32, y: u32| {
+            let mut sum = [0.0f32; 3];
+            for (i, weight) in (-reach..=reach).zip(&weights) {
+                let at = |p: u32, axis: usize| (i64::from(p) + i * step[axis]).clamp(0, last[axis]) as u32;
+                let colour = from.at(at(x, 0), at(y, 1));
+                (0..3).for_each(|c| sum[c] += (weight / whole) as f32 * colour[c]);
+            }
+            sum
+        };
+        let rows = (0..from.height).into_par_iter().map(|y| (0..from.width).map(|x| pixel(x, y)).collect::<Vec<_>>());
+        Raster { width: from.width, height: from.height, data: rows.flatten_iter().collect() }
+    };
+    along(&along(picture, [1, 0]), [0, 1])
+}
+
+/// What the sensor counts of an exposed pixel, in the exposure's unit: shot and read noise, and no more than the well
+/// holds. `index` is the pixel's place in its picture.
+pub(super) fn counted(exposed: [f32; 3], sensor: &SensorModel, seed: Seed, index: usize) -> [f32; 3] {
+    let mut random = seed.nth(index as u64).random();
+    let per_unit = sensor.full_well_e / f64::from(WHITE);
+    exposed.map(|light| {
+        let counted = poisson(f64::from(light) * per_unit, &mut random).min(sensor.full_well_e);
+        ((counted + sensor.read_noise_e * random.normal()) / per_unit).max(0.0) as f32
+    })
+}
+
+/// A draw from the Poisson distribution.
+fn poisson(mean: f64, random: &mut Random) -> f64 {
+    if mean >= MANY {
+        return (mean + mean.sqrt() * random.normal()).round().max(0.0);
+    }
+    // Inversion: the chances of 0, 1, 2 … are gone through until the drawn number is used up.
+    let (mut left, mut chance, mut count) = (random.unit(), (-mean).exp(), 0.0);
+    while left >= chance && count < 10.0 * MANY {
+        left -= chance;
+        count += 1.0;
+        chance *= mean / count;
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: SensorModel = SensorModel {
+        full_well_e: 3000.0,
+        read_noise_e: 0.0,
+        vignetting: 0.0,
+        blur_px: 0.0,
+        chromatic_aberration_px: 0.0,
+        jpeg_quality: None,
+    };
+
+    #[test]
+    fn light_is_counted_with_the_noise_of_its_electrons_and_of_reading() {
+        for (light, sensor) in [
+            (0.01, PLAIN),
+            (0.3, PLAIN),
+            (1.0, SensorModel { read_noise_e: 25.0, ..PLAIN }),
+            (0.3, SensorModel::AUTOMOTIVE),
+        ] {
+            let n = 20_000;
+            let draws: Vec<f64> =
+                (0..n).map(|i| f64::from(counted([light as f32; 3], &sensor, Seed(3), i)[1])).collect();
+            let mean = draws.iter().sum::<f64>() / n as f64;
+            let variance = draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n as f64;
+            let per_unit = sensor.full_well_e / f64::from(WHITE);
+            let expected = (light * per_unit + sensor.read_noise_e.powi(2)) / (per_unit * per_unit);
+            assert!((mean / light - 1.0).abs() < 0.01, "{mean} instead of {light}");
+            assert!((variance / expected - 1.0).abs() < 0.04, "{variance} instead of {expected} at {light}");
+        }
+        assert_eq!(counted([0.0; 3], &PLAIN, Seed(1), 0), [0.0; 3]);
+        assert!(counted([50.0; 3], &PLAIN, Seed(1), 0).iter().all(|&c| (c - WHITE).abs() < 1e-5));
+    }
+
+    #[test]
+    fn corners_lose_their_share_of_light_and_the_middle_none() {
+        let lit = optics(&Raster::filled(41, 31, [1.0; 3]), &SensorModel { vignetting: 0.3, ..PLAIN });
+        assert!((lit.at(20, 15)[0] - 1.0).abs() < 1e-4);
+        // The corner pixel's centre is half a pixel inside the corner.
+        assert!((lit.at(0, 0)[1] - 0.7).abs() < 0.02, "{}", lit.at(0, 0)[1]);
+    }
+
+    #[test]
+    fn a_point_becomes_a_spot_of_the_given_width_that_keeps_its_light() {
+        let mut dark = Raster::filled(21, 21, [0.0; 3]);
+        *dark.at_mut(10, 10) = [1.0; 3];
+        let spot = optics(&dark, &SensorModel { blur_px: 1.2, ..PLAIN });
+        let moment = |f: &dyn Fn(f64) -> f64| {
+            (0..441).map(|i| f(f64::from(i % 21) - 10.0) * f64::from(spot.data[i as usize][0])).sum::<f64>()
+        };
+        assert!((moment(&|_| 1.0) - 1.0).abs() < 1e-5);
+        assert!((moment(&|x| x * x).sqrt() - 1.2).abs() < 0.03, "{}", moment(&|x| x * x).sqrt());
+    }
+
+    #[test]
+    fn red_lies_outside_blue_in_the_corners() {
+        // A bright ring of radius 15 px about the middle.
+        let ring = Raster::from_fn(61, 61, |x, y| {
+            let r = (f64::from(x) - 30.0).hypot(f64::from(y) - 30.0);
+            [(-(r - 25.0).powi(2) / 8.0).exp() as f32; 3]
+        });
+        let seen = optics(&ring, &SensorModel { chromatic_aberration_px: 2.0, ..PLAIN });
+        let radius = |c: usize| {
+            let row = || (31..61u32).map(|x| (f64::from(x) - 30.0, f64::from(seen.at(x, 30)[c])));
+            row().map(|(r, light)| r * light).sum::<f64>() / row().map(|(_, light)| light).sum::<f64>()
+        };
+        // 25 px of the corner's 43 px away: 58 % of the shift.
+        assert!((radius(0) - radius(1) - 1.16).abs() < 0.1, "{} {}", radius(0), radius(1));
+        assert!((radius(1) - radius(2) - 1.16).abs() < 0.1, "{} {}", radius(1), radius(2));
+    }
+}

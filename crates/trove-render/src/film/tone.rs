@@ -1,0 +1,52 @@
+//! The camera's response: from exposed light to encoded brightness.
+//!
+//! Fitted to the six photographs of nuScenes' scene-0061: their shadows are as bright as the sRGB encoding alone would make
+//! them, their skies and clouds are held back, and their colours are paler than the things that they show.
+
+use super::luminance;
+
+/// Exposed radiance that just becomes white: four and a half stops above a grey card.
+pub(super) const WHITE: f32 = 4.0;
+
+/// Share of brightness that is mixed into every channel: a camera's colour filters overlap.
+const FADE: f32 = 0.2;
+
+/// 8-bit sRGB of an exposed colour.
+pub(super) fn srgb(exposed: [f32; 3]) -> [u8; 3] {
+    let faded = FADE * luminance(exposed);
+    exposed.map(|c| (encoded(held_back((1.0 - FADE) * c + faded)) * 255.0 + 0.5) as u8)
+}
+
+/// Bright light brought below 1, which it reaches at [`WHITE`]; the dark stays as it is (Reinhard et al. 2002, eq. 4).
+fn held_back(exposed: f32) -> f32 {
+    exposed * (1.0 + exposed / (WHITE * WHITE)) / (1.0 + exposed)
+}
+
+/// sRGB's encoding (IEC 61966-2-1).
+fn encoded(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grey_card_becomes_middle_grey_and_white_is_white() {
+        let shown = |value: f32| srgb([value; 3])[0];
+        assert_eq!(shown(0.0), 0);
+        assert!(shown(0.18).abs_diff(110) < 3, "{}", shown(0.18));
+        assert_eq!((shown(WHITE), shown(f32::MAX)), (255, 255));
+        let shades: Vec<u8> = (0..40).map(|i| shown((i as f32 * 0.3 - 9.0).exp2())).collect();
+        assert!(shades.is_sorted(), "{shades:?}");
+    }
+
+    #[test]
+    fn bright_colours_fade_towards_white() {
+        let mixed = |gain: f32| {
+            let [r, _, b] = srgb([0.4 * gain, 0.05 * gain, 0.02 * gain]);
+            f32::from(b) / f32::from(r)
+        };
+        assert!(mixed(16.0) > 1.5 * mixed(1.0), "{} {}", mixed(16.0), mixed(1.0));
+    }
+}
