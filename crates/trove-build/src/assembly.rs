@@ -17,6 +17,9 @@ use crate::stock::Stock;
 const TREMOR_M: f64 = 0.02;
 const TREMOR_RAD: f64 = 0.005;
 
+/// What gets farther than this does not stand.
+const LEAVES_M: f64 = 1.0;
+
 /// A recorded object with its asset, ready to be put into a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Actor {
@@ -25,7 +28,8 @@ pub(crate) struct Actor {
     /// The asset's id.
     pub asset: String,
     mesh: usize,
-    materials: Vec<usize>,
+    /// Of each slot.
+    pub materials: Vec<usize>,
     /// By keyframe, in the order of time.
     poses: Vec<(usize, ActorPose)>,
 }
@@ -44,6 +48,12 @@ impl Actor {
     pub(crate) fn at(&self, keyframe: usize) -> Option<&ActorPose> {
         let found = self.poses.binary_search_by_key(&keyframe, |(k, _)| *k).ok()?;
         Some(&self.poses[found].1)
+    }
+
+    /// Whether it is somewhere else at some time.
+    pub(crate) fn moves(&self) -> bool {
+        let places = || self.poses.iter().map(|(_, pose)| pose.cuboid.world_from_body.translation);
+        places().next().is_some_and(|first| places().any(|place| place.distance(first) > LEAVES_M))
     }
 
     /// Its instance at a keyframe, with the motion to and from the neighbouring ones.

@@ -33,6 +33,6 @@ mod views;
 
 pub use agreement::{Agreement, agreement};
 pub use error::BuildError;
-pub use light::LightChoice;
+pub use light::{LightChoice, Moment, SkyChoice};
 pub use site::{BuildSettings, Site, area, build};
 pub use views::{ALL_CAMERAS, LensChange, ViewSettings, place_drive, shots};

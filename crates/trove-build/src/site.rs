@@ -14,7 +14,7 @@ use crate::clearance::Clearance;
 use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::kerbs::Kerbs;
-use crate::light::{LightChoice, light};
+use crate::light::{LightChoice, light, switch_on};
 use crate::moments::{next, previous};
 use crate::placement::{Stand, cast};
 use crate::scenery::Scenery;
@@ -104,7 +104,7 @@ pub fn build(
 
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
     let mut assembly = Assembly::default();
-    let actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
+    let mut actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
     let mut next_id = actors.len() as u32 + 1;
     for piece in surfaces.pieces.iter().chain(&buildings.pieces) {
         assembly.piece(piece, &mut next_id);
@@ -114,8 +114,10 @@ pub fn build(
     for scenery in plants.iter().chain(&furniture) {
         assembly.scenery(scenery, &mut next_id);
     }
+    let light = light(drive, bounds, &settings.light, seed.child("light"));
+    switch_on(&light, &mut assembly.stock, actors.iter_mut().flatten());
     Ok(Site {
-        light: light(drive, bounds, &settings.light, seed.child("light")),
+        light,
         provenance: assembly.provenance(drive, map),
         ground,
         stock: assembly.stock,
@@ -255,7 +257,7 @@ mod tests {
     use crate::views::{ViewSettings, shots};
 
     fn settings(seed: u64) -> BuildSettings {
-        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::CaptureTime }
+        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::default() }
     }
 
     fn site(seed: u64) -> Site {

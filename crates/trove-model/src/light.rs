@@ -53,3 +53,30 @@ pub struct EnvironmentMap {
     /// Radiance, row by row.
     pub rgb: Vec<[f32; 3]>,
 }
+
+impl EnvironmentMap {
+    /// The same surroundings turned counter-clockwise seen from above, by the nearest whole number of columns.
+    pub fn turned(mut self, degrees: f64) -> Self {
+        let width = self.width as usize;
+        let columns = (degrees / 360.0 * width as f64).round() as i64;
+        // Columns run clockwise.
+        let shift = columns.rem_euclid(width.max(1) as i64) as usize;
+        self.rgb.chunks_mut(width.max(1)).filter(|row| row.len() == width).for_each(|row| row.rotate_left(shift));
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_turned_by_a_quarter_shows_in_the_north_what_was_in_the_east() {
+        let row: Vec<[f32; 3]> = (0..8).map(|x| [x as f32; 3]).collect();
+        let map = EnvironmentMap { name: String::new(), width: 8, height: 4, rgb: row.repeat(4) };
+        let turned = map.clone().turned(90.0);
+        // East is the fifth column's left edge, north the third's.
+        assert_eq!(turned.rgb[8 + 2], map.rgb[8 + 4]);
+        assert_eq!(turned.turned(270.0), map);
+    }
+}

@@ -191,7 +191,7 @@ fn the_table_says_where_camera_and_objects_are() {
     let north = object["world_from_body"][1][0].as_f64().unwrap();
     assert!((north - 1.0).abs() < 1e-12, "the bicycle faces north");
     assert_eq!(object["truncation"].to_string(), "0.1", "floats are as short as they can be");
-    assert_eq!(text.lines().count(), 30, "one line a field and an object:\n{text}");
+    assert_eq!(text.lines().count(), 34, "one line a field and an object:\n{text}");
 }
 
 #[test]

@@ -9,8 +9,8 @@ use glam::{DAffine3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::validation::Validate;
 use serde_json::Value;
 use trove_model::{
-    Class, ColorSpace, Cuboid, Environment, EnvironmentMap, ExposureRule, Instance, InstanceId, Kind, Lens, Light,
-    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Seed, Shot, Texture,
+    Class, ColorSpace, Cuboid, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Kind, Lens, Light,
+    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Seed, Shot, Shutter, Texture,
 };
 use trove_write::gltf::{GlbStats, SunLight, write_environment, write_glb};
 
@@ -98,14 +98,23 @@ fn scene() -> Scene {
 fn shot() -> Shot {
     Shot {
         view: "ego.CAM_FRONT".into(),
-        lens: Lens { width_px: 1600, height_px: 900, fx_px: 1250.0, fy_px: 1250.0, cx_px: 816.0, cy_px: 491.0 },
+        lens: Lens {
+            width_px: 1600,
+            height_px: 900,
+            fx_px: 1250.0,
+            fy_px: 1250.0,
+            cx_px: 816.0,
+            cy_px: 491.0,
+            distortion: Distortion::None,
+        },
         world_from_camera: Pose::from_yaw(0.0, DVec3::new(1.0, 2.0, 3.0)),
         world_from_camera_previous: None,
         world_from_camera_next: None,
         time_ns: 0,
+        shutter: Shutter::INSTANT,
         spp: 1,
         noise: 0.0,
-        exposure: ExposureRule::Fixed { ev: 0.0 },
+        film: Film::default(),
         seed: Seed(0),
         carrier: Some(InstanceId(7)),
     }

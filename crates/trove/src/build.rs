@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
-use trove_build::{BuildSettings, LightChoice};
+use trove_build::BuildSettings;
 use trove_model::{Environment, Report, Seed};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
@@ -37,7 +37,7 @@ pub(crate) fn run(
     let settings = BuildSettings {
         seed: Seed(recipe.seed).child(name).nth(0),
         top_k: recipe.assets.top_k,
-        light: sources.environment.clone().map_or(LightChoice::CaptureTime, LightChoice::Map),
+        light: sources.light(0)?,
     };
     let started = std::time::Instant::now();
     let site = trove_build::build(&drive, map.as_ref(), &trove_assets::library(), &settings, &report)?;

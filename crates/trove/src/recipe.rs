@@ -1,6 +1,7 @@
 //! What a user asks for: the TOML recipe.
 
 mod camera;
+mod light;
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use trove_write::Pictures;
 
 pub use camera::CameraSection;
+pub use light::LightSection;
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -149,14 +151,6 @@ pub enum Rig {
     Named(Vec<String>),
 }
 
-/// `[light]`
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LightSection {
-    /// `capture-time`, `random`, or the path of an `.hdr` or `.exr` file.
-    pub environment: String,
-}
-
 /// `[render]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
@@ -195,12 +189,6 @@ impl Default for AssetsSection {
 impl Default for ViewsSection {
     fn default() -> Self {
         Self { rig: Rig::All, other_vehicles: 0 }
-    }
-}
-
-impl Default for LightSection {
-    fn default() -> Self {
-        Self { environment: "capture-time".into() }
     }
 }
 
@@ -289,6 +277,7 @@ impl Recipe {
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
         self.camera.check()?;
+        self.light.check()?;
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;

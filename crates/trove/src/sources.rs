@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
+use trove_build::LightChoice;
 use trove_model::{Drive, EnvironmentMap, Outcome, Report, StreetMap};
 use trove_read::nuscenes::NuScenes;
 use trove_read::{environment, osm};
@@ -16,7 +17,7 @@ pub(crate) struct Sources<'a> {
     recipe: &'a Recipe,
     dataset: Option<NuScenes>,
     /// The picture of the sky, where one is asked for.
-    pub(crate) environment: Option<Arc<EnvironmentMap>>,
+    environment: Option<Arc<EnvironmentMap>>,
 }
 
 impl<'a> Sources<'a> {
@@ -26,8 +27,17 @@ impl<'a> Sources<'a> {
             Some(section) => Some(open_dataset(section, &recipe.at(&section.root), report)?),
             None => None,
         };
-        let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?.map(Arc::new);
+        let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?;
+        let environment = environment.map(|map| Arc::new(map.turned(recipe.light.rotation_deg)));
         Ok(Self { recipe, dataset, environment })
+    }
+
+    /// Where the light of a variation comes from.
+    pub(crate) fn light(&self, variation: u32) -> Result<LightChoice> {
+        match &self.environment {
+            Some(map) => Ok(LightChoice::Map(map.clone())),
+            None => Ok(LightChoice::Sky(self.recipe.light.sky(variation)?)),
+        }
     }
 
     /// Names of the scenes that the recipe asks for, with the number of their keyframes as far as it is known.

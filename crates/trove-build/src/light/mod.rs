@@ -1,11 +1,13 @@
 //! Sun and sky of the recording's place and time.
 
+mod lamps;
 mod solar;
 
 use std::sync::Arc;
 
 use trove_model::{Bounds, Drive, Environment, EnvironmentMap, Light, PhysicalSky, Random, Seed};
 
+pub(crate) use lamps::switch_on;
 use solar::to_sun;
 
 /// How much light the ground reflects on average: asphalt and concrete with some green.
@@ -14,56 +16,81 @@ const GROUND_ALBEDO: f64 = 0.2;
 const MIN_SUN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// Nearer to the equator the air is humid all year.
 const HUMID_LAT_DEG: f64 = 20.0;
-/// Turbidities of humid air, and of fair weather elsewhere.
-const HUMID_TURBIDITY: [f64; 2] = [4.0, 6.0];
-const FAIR_TURBIDITY: [f64; 2] = [3.0, 4.0];
+/// Turbidities of humid air, and of fair weather elsewhere: skies as pale as those of the recordings.
+const HUMID_TURBIDITY: [f64; 2] = [5.0, 7.5];
+const FAIR_TURBIDITY: [f64; 2] = [3.0, 4.5];
+/// Fair weather: what cars with cameras are mostly sent out in.
+const FAIR_CLOUDS: [f64; 2] = [0.15, 0.4];
 const DAY_NS: i64 = 86_400_000_000_000;
 
 /// Where the light comes from.
 #[derive(Clone, Debug)]
 pub enum LightChoice {
-    /// Sun and sky of the recording's place and time, with a haze and clouds that are drawn.
-    CaptureTime,
-    /// The same place at another time of that day with the sun at least 10° high, other haze, other clouds.
-    Random,
+    /// Sun and sky of the place.
+    Sky(SkyChoice),
     /// A photographed sky.
     Map(Arc<EnvironmentMap>),
 }
 
+/// Sun and sky of the place: when, and what is known of the weather; what is not is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SkyChoice {
+    /// When.
+    pub moment: Moment,
+    /// Linke turbidity, 1.7 (crystal clear) to 10 (hazy).
+    pub turbidity: Option<f64>,
+    /// Mean reflectance of the ground, 0 to 1.
+    pub ground_albedo: Option<f64>,
+    /// Share of the sky that is clouded, 0 to 1.
+    pub clouds: Option<f64>,
+}
+
+/// A time for the sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Moment {
+    /// The recording's, with fair weather.
+    #[default]
+    Capture,
+    /// Nanoseconds since 1970 UTC, with fair weather.
+    At(i64),
+    /// Another time of the recording's day with the sun at least 10° high, in any weather.
+    Drawn,
+}
+
+impl Default for LightChoice {
+    /// Sun and sky of the recording's place and time.
+    fn default() -> Self {
+        Self::Sky(SkyChoice::default())
+    }
+}
+
 /// The light of a place.
 pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: Seed) -> Light {
+    let choice = match choice {
+        LightChoice::Map(map) => return Light { environment: Environment::Map(map.clone()) },
+        LightChoice::Sky(sky) => sky,
+    };
     let time_ns = drive.keyframes.first().map_or(0, |k| k.time_ns);
     let (lat_deg, lon_deg) = drive.projection.geo_from_world(bounds.centre());
+    let [clear, hazy] = if lat_deg.abs() < HUMID_LAT_DEG { HUMID_TURBIDITY } else { FAIR_TURBIDITY };
     let mut random = seed.child("sky").random();
-    let environment = match choice {
-        LightChoice::Map(map) => Environment::Map(map.clone()),
-        LightChoice::CaptureTime => {
-            // Fair weather: what cars with cameras are mostly sent out in.
-            let [clear, hazy] = if lat_deg.abs() < HUMID_LAT_DEG { HUMID_TURBIDITY } else { FAIR_TURBIDITY };
-            let turbidity = random.range(clear, hazy);
-            let cloud_cover = random.range(0.15, 0.4);
-            let to_sun = to_sun(time_ns, lat_deg, lon_deg);
-            Environment::Sky(PhysicalSky {
-                to_sun,
-                turbidity,
-                ground_albedo: GROUND_ALBEDO,
-                cloud_cover,
-                cloud_seed: random.bits(),
-            })
-        }
-        LightChoice::Random => {
-            let turbidity = random.range(2.0, 6.0);
-            let cloud_cover = random.range(0.0, 0.7);
-            let to_sun = daytime_sun(time_ns, lat_deg, lon_deg, &mut random);
-            Environment::Sky(PhysicalSky {
-                to_sun,
-                turbidity,
-                ground_albedo: GROUND_ALBEDO,
-                cloud_cover,
-                cloud_seed: random.bits(),
-            })
-        }
+    let (turbidity, [fewest, most]) = match choice.moment {
+        Moment::Capture | Moment::At(_) => (random.range(clear, hazy), FAIR_CLOUDS),
+        Moment::Drawn => (random.range(2.0, hazy), [0.0, 1.0]),
     };
+    let cloud_cover = random.range(fewest, most);
+    let to_sun = match choice.moment {
+        Moment::Capture => to_sun(time_ns, lat_deg, lon_deg),
+        Moment::At(time_ns) => to_sun(time_ns, lat_deg, lon_deg),
+        Moment::Drawn => daytime_sun(time_ns, lat_deg, lon_deg, &mut random),
+    };
+    let environment = Environment::Sky(PhysicalSky {
+        to_sun,
+        turbidity: choice.turbidity.unwrap_or(turbidity),
+        ground_albedo: choice.ground_albedo.unwrap_or(GROUND_ALBEDO),
+        cloud_cover: choice.clouds.unwrap_or(cloud_cover),
+        cloud_seed: random.bits(),
+    });
     Light { environment }
 }
 
@@ -81,10 +108,12 @@ mod tests {
     use super::*;
     use crate::testing;
 
-    fn sky(choice: &LightChoice, seed: Seed) -> PhysicalSky {
+    const DRAWN: SkyChoice = SkyChoice { moment: Moment::Drawn, turbidity: None, ground_albedo: None, clouds: None };
+
+    fn sky(choice: SkyChoice, seed: Seed) -> PhysicalSky {
         let drive = testing::drive();
         let bounds = Bounds::square(glam::DVec2::ZERO, 600.0);
-        match light(&drive, bounds, choice, seed).environment {
+        match light(&drive, bounds, &LightChoice::Sky(choice), seed).environment {
             Environment::Sky(sky) => sky,
             Environment::Map(_) => panic!("a sky was asked for"),
         }
@@ -92,15 +121,22 @@ mod tests {
 
     #[test]
     fn a_drawn_sun_stands_at_least_ten_degrees_high_and_differs_by_seed() {
-        let suns: Vec<f64> = (0..20).map(|i| sky(&LightChoice::Random, Seed(i)).to_sun.z).collect();
+        let suns: Vec<f64> = (0..20).map(|i| sky(DRAWN, Seed(i)).to_sun.z).collect();
         assert!(suns.iter().all(|z| *z >= MIN_SUN_RAD.sin()));
         assert!(suns.iter().any(|z| (z - suns[0]).abs() > 0.2));
     }
 
     #[test]
     fn the_sun_at_capture_does_not_depend_on_the_seed() {
-        let (a, b) = (sky(&LightChoice::CaptureTime, Seed(1)), sky(&LightChoice::CaptureTime, Seed(2)));
+        let (a, b) = (sky(SkyChoice::default(), Seed(1)), sky(SkyChoice::default(), Seed(2)));
         assert_eq!(a.to_sun, b.to_sun);
         assert_ne!(a.cloud_seed, b.cloud_seed);
+    }
+
+    #[test]
+    fn what_is_given_is_taken_and_changes_nothing_else() {
+        let drawn = sky(DRAWN, Seed(3));
+        let given = sky(SkyChoice { clouds: Some(1.0), turbidity: Some(2.5), ..DRAWN }, Seed(3));
+        assert_eq!(given, PhysicalSky { cloud_cover: 1.0, turbidity: 2.5, ..drawn });
     }
 }

@@ -86,6 +86,38 @@ mod tests {
     }
 
     #[test]
+    fn the_sun_is_in_the_zenith_where_the_almanac_has_it() {
+        // Equinoxes and solstices of 2019 (UTC, to the minute) give the declination; the equation of time, to some
+        // seconds, gives the longitude over which the sun stands.
+        for (unix_s, declination_deg, equation_min) in [
+            (1_553_119_080, 0.0, -7.42),    // March 20, 21:58
+            (1_561_132_440, 23.435, -1.82), // June 21, 15:54
+            (1_569_225_000, 0.0, 7.48),     // September 23, 07:50
+            (1_576_988_340, -23.435, 1.70), // December 22, 04:19
+        ] {
+            let hours = f64::from(unix_s % 86_400) / 3600.0;
+            let lon_deg = -15.0 * (hours - 12.0 + equation_min / 60.0);
+            let (height, _) = sun_deg(i64::from(unix_s), declination_deg, lon_deg);
+            assert!(height > 89.9, "{unix_s}: {height}");
+        }
+    }
+
+    #[test]
+    fn at_noon_it_stands_south_in_the_north_and_north_in_the_south() {
+        // The equation of time is longest on November 3 (16 min 26 s) and February 11 (−14 min 14 s).
+        for (unix_s, lat_deg, lon_deg, height_deg, azimuth_deg) in [
+            (1_572_781_414, 51.4779, 0.0, 90.0 - 51.4779 - 15.05, 180.0), // Greenwich, 2019-11-03 11:43:34
+            (1_549_887_254, 51.4779, 0.0, 90.0 - 51.4779 - 14.02, 180.0), // Greenwich, 2019-02-11 12:14:14
+            (1_572_745_414, -33.8568, 150.0, 90.0 - 33.8568 + 14.92, 0.0), // 150° E, ten hours before Greenwich
+        ] {
+            let (height, azimuth) = sun_deg(unix_s, lat_deg, lon_deg);
+            let off = (azimuth - azimuth_deg + 180.0).rem_euclid(360.0) - 180.0;
+            assert!(off.abs() < 0.1, "{unix_s}: {azimuth}");
+            assert!((height - height_deg).abs() < 0.1, "{unix_s}: {height} instead of {height_deg}");
+        }
+    }
+
+    #[test]
     fn recordings_have_their_sun_on_the_right_side() {
         // scene-0061: Singapore, 2018-07-24 11:28:47 +0800, an hour and three quarters before noon by the sun.
         let (height, azimuth) = sun_deg(1_532_402_927, 1.299, 103.788);

@@ -135,7 +135,7 @@ mod tests {
     use crate::{BuildSettings, LightChoice, build};
 
     fn site() -> Site {
-        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::CaptureTime };
+        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::default() };
         build(&testing::drive(), None, &testing::library(), &settings, &Report::default()).unwrap()
     }
 

@@ -33,6 +33,9 @@ const BITE: [f32; 2] = [0.36, 0.2];
 /// Extinction of a full cloud, 1/m: one sees some forty metres into it.
 const EXTINCTION: f32 = 0.035;
 
+/// Clouds are lost where they are this many times as far as the haze lets see.
+const SEEN_TO: f32 = 1.4;
+
 /// Rays end where this little light still passes.
 const OPAQUE: f32 = 0.02;
 
@@ -153,7 +156,8 @@ impl Clouds {
             behind
         } else {
             // Haze lies before the clouds, and has the colour of the sky there.
-            let seen = (-reach / self.haze_m).exp();
+            let hazes = reach / self.haze_m;
+            let seen = (-hazes).exp() * (1.0 - smoothstep(0.7 * SEEN_TO, SEEN_TO, hazes));
             light * seen + air * opacity * (1.0 - seen) + behind * passed
         };
         broken.lerp(deck, self.closed)
@@ -164,7 +168,7 @@ impl Clouds {
         if direction.z <= 0.0 {
             return (Vec3::ZERO, 1.0, 0.0);
         }
-        let (mut t, end) = (BASE_M / direction.z, ((BASE_M + TOPS_M) / direction.z).min(2.0 * self.haze_m));
+        let (mut t, end) = (BASE_M / direction.z, ((BASE_M + TOPS_M) / direction.z).min(SEEN_TO * self.haze_m));
         let (mut light, mut passed, mut reach) = (Vec3::ZERO, 1.0f32, 0.0f32);
         let phases = phases(direction.dot(self.to_sun));
         let mut lit = Vec3::ZERO;

@@ -21,7 +21,7 @@ const STANDS_OUT: f32 = 20.0;
 const BELONGS: f32 = 4.0;
 
 /// The sun gives at least this share of the light; a lamp on the horizon gives less.
-const LEAST_SHARE: f32 = 0.04;
+const LEAST_SHARE: f32 = 0.01;
 
 /// A sun that was taken out of a map.
 pub(super) struct SunInMap {

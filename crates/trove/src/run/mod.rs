@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
-use trove_build::{ALL_CAMERAS, BuildSettings, LightChoice, Site, ViewSettings};
+use trove_build::{ALL_CAMERAS, BuildSettings, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
@@ -228,7 +228,7 @@ impl Run<'_> {
         let report = Report::default();
         let (drive, map) = self.sources.drive(scene, &report)?;
         self.check_cameras(&drive)?;
-        let settings = self.settings(scene, variation);
+        let settings = self.settings(scene, variation)?;
         let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
         let views = view_settings(self.recipe)?;
         let keyframes = match &self.recipe.drive {
@@ -261,15 +261,10 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn settings(&self, scene: &str, variation: u32) -> BuildSettings {
-        let light = match (&self.sources.environment, self.recipe.light.environment.as_str()) {
-            (Some(map), _) => LightChoice::Map(map.clone()),
-            // The recording's own light is one; further variations are to differ in it.
-            (None, "capture-time") if variation == 0 => LightChoice::CaptureTime,
-            (None, _) => LightChoice::Random,
-        };
+    fn settings(&self, scene: &str, variation: u32) -> Result<BuildSettings> {
+        let light = self.sources.light(variation)?;
         let seed = Seed(self.recipe.seed).child(scene).nth(u64::from(variation));
-        BuildSettings { seed, top_k: self.recipe.assets.top_k, light }
+        Ok(BuildSettings { seed, top_k: self.recipe.assets.top_k, light })
     }
 
     /// Renders what is missing of a scene and collects the rows of all its frames.

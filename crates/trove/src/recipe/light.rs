@@ -1,0 +1,129 @@
+//! `[light]`: sun and sky.
+
+use anyhow::{Context, Result, ensure};
+use serde::{Deserialize, Serialize};
+use trove_build::{Moment, SkyChoice};
+
+use super::check;
+
+/// `[light]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LightSection {
+    /// `capture-time`, `random`, or the path of an `.hdr` or `.exr` file.
+    pub environment: String,
+    /// Turns the file's surroundings counter-clockwise seen from above.
+    pub rotation_deg: f64,
+    /// Another time than the recording's, RFC 3339: `2018-08-01T15:26:00Z`.
+    pub time: Option<String>,
+    /// Linke turbidity; drawn without it.
+    pub turbidity: Option<f64>,
+    /// Mean reflectance of the ground, for the light that clouds and sky get back.
+    pub ground_albedo: Option<f64>,
+    /// Share of the sky that is clouded; drawn without it.
+    pub clouds: Option<f64>,
+}
+
+impl Default for LightSection {
+    fn default() -> Self {
+        Self {
+            environment: "capture-time".into(),
+            rotation_deg: 0.0,
+            time: None,
+            turbidity: None,
+            ground_albedo: None,
+            clouds: None,
+        }
+    }
+}
+
+impl LightSection {
+    /// The sky of a variation: the recording's own light is one; further variations differ in it.
+    pub fn sky(&self, variation: u32) -> Result<SkyChoice> {
+        let moment = match self.time_ns()? {
+            Some(time_ns) => Moment::At(time_ns),
+            None if self.environment == "capture-time" && variation == 0 => Moment::Capture,
+            None => Moment::Drawn,
+        };
+        let Self { turbidity, ground_albedo, clouds, .. } = *self;
+        Ok(SkyChoice { moment, turbidity, ground_albedo, clouds })
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        self.time_ns()?;
+        check("light.rotation_deg", self.rotation_deg, self.rotation_deg.is_finite(), "a finite number")?;
+        let is_within = |value: Option<f64>, low: f64, high: f64| value.is_none_or(|v| (low..=high).contains(&v));
+        let shown = |value: Option<f64>| value.unwrap_or_default();
+        check("light.turbidity", shown(self.turbidity), is_within(self.turbidity, 1.7, 10.0), "1.7 to 10")?;
+        check("light.ground_albedo", shown(self.ground_albedo), is_within(self.ground_albedo, 0.0, 1.0), "0 to 1")?;
+        check("light.clouds", shown(self.clouds), is_within(self.clouds, 0.0, 1.0), "0 to 1")?;
+        let is_file = !matches!(self.environment.as_str(), "capture-time" | "random");
+        let of_sky = self.time.is_some() || self.turbidity.or(self.ground_albedo).or(self.clouds).is_some();
+        ensure!(
+            !(is_file && of_sky),
+            "light: time, turbidity, ground_albedo and clouds are those of a computed sky; remove them or the file \
+             {:?} in light.environment",
+            self.environment
+        );
+        ensure!(
+            is_file || self.rotation_deg == 0.0,
+            "light.rotation_deg: only a file can be turned; the computed sun stands where it stood"
+        );
+        Ok(())
+    }
+
+    /// Nanoseconds since 1970 UTC.
+    fn time_ns(&self) -> Result<Option<i64>> {
+        let Some(text) = &self.time else { return Ok(None) };
+        let wrong = || format!("light.time: expected a time such as \"2018-08-01T15:26:00Z\", found {text:?}");
+        let parsed: toml::value::Datetime = text.parse().with_context(wrong)?;
+        let (Some(date), Some(time), Some(offset)) = (parsed.date, parsed.time, parsed.offset) else {
+            anyhow::bail!("{} (date, time, and Z or an offset such as +08:00)", wrong());
+        };
+        let offset_min = match offset {
+            toml::value::Offset::Z => 0,
+            toml::value::Offset::Custom { minutes } => i64::from(minutes),
+        };
+        let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
+        let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
+        Ok(Some((days * 86_400 + of_day_s - offset_min * 60) * 1_000_000_000))
+    }
+}
+
+/// Days since 1970-01-01 of a Gregorian date, with years that start in March so that the leap day comes last.
+fn days_from_civil(year: i64, month: i64, day: i64) -> i64 {
+    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
+    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_read_with_their_offset() {
+        for (text, seconds) in [
+            ("1970-01-01T00:00:00Z", 0),
+            ("2018-08-01T15:26:00Z", 1_533_137_160),
+            ("2018-08-01T11:26:00-04:00", 1_533_137_160),
+            ("2000-02-29T23:59:59Z", 951_868_799),
+        ] {
+            let section = LightSection { time: Some(text.into()), ..LightSection::default() };
+            assert_eq!(section.time_ns().unwrap(), Some(seconds * 1_000_000_000), "{text}");
+        }
+        for text in ["noon", "2018-08-01", "2018-08-01T15:26:00"] {
+            let section = LightSection { time: Some(text.into()), ..LightSection::default() };
+            assert!(section.check().unwrap_err().to_string().contains("light.time"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_file_has_no_weather_and_a_sky_no_rotation() {
+        let file = LightSection { environment: "sky.hdr".into(), ..LightSection::default() };
+        assert!(LightSection { rotation_deg: 30.0, ..file.clone() }.check().is_ok());
+        assert!(LightSection { clouds: Some(0.3), ..file }.check().is_err());
+        assert!(LightSection { rotation_deg: 30.0, ..LightSection::default() }.check().is_err());
+        assert!(LightSection { turbidity: Some(0.5), ..LightSection::default() }.check().is_err());
+    }
+}
