@@ -30,9 +30,11 @@ mod surroundings;
 mod testing;
 mod vegetation;
 mod views;
+mod weather;
 
 pub use agreement::{Agreement, agreement};
 pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use site::{BuildSettings, Site, area, build};
 pub use views::{ALL_CAMERAS, LensChange, ViewSettings, place_drive, shots};
+pub use weather::Weather;

@@ -21,6 +21,7 @@ use crate::scenery::Scenery;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
 use crate::vegetation::vegetation;
+use crate::weather::Weather;
 use crate::{buildings, ground, roads};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
@@ -44,6 +45,8 @@ pub struct BuildSettings {
     pub top_k: usize,
     /// Where the light comes from.
     pub light: LightChoice,
+    /// What weather has done to its surfaces.
+    pub weather: Weather,
 }
 
 /// The static place of one drive and variation: ground, roads, buildings, plants, furniture, with the objects' assets
@@ -114,6 +117,7 @@ pub fn build(
     for scenery in plants.iter().chain(&furniture) {
         assembly.scenery(scenery, &mut next_id);
     }
+    settings.weather.treat(&mut assembly);
     let light = light(drive, bounds, &settings.light, seed.child("light"));
     switch_on(&light, &mut assembly.stock, actors.iter_mut().flatten());
     Ok(Site {
@@ -257,7 +261,7 @@ mod tests {
     use crate::views::{ViewSettings, shots};
 
     fn settings(seed: u64) -> BuildSettings {
-        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::default() }
+        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::default(), weather: Weather::default() }
     }
 
     fn site(seed: u64) -> Site {

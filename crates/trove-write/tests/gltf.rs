@@ -69,6 +69,9 @@ fn scene() -> Scene {
         emission: Vec3::new(4.0, 2.0, 0.0),
         coat: 1.0,
         transmission: 0.5,
+        sheen: 0.5,
+        translucency: 0.3,
+        dirt: 0.25,
         base_color_map: Some(texture("asphalt", 255)),
         ..Material::default()
     };
@@ -235,6 +238,11 @@ fn materials_keep_what_gltf_can_say() {
     assert_eq!(lamp["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"], 4.0);
     assert_eq!(lamp["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"], 1.0);
     assert_eq!(lamp["extensions"]["KHR_materials_transmission"]["transmissionFactor"], 0.5);
+    assert_eq!(lamp["extensions"]["KHR_materials_sheen"]["sheenColorFactor"], serde_json::json!([0.375, 0.375, 0.375]));
+    let behind = &lamp["extensions"]["KHR_materials_diffuse_transmission"];
+    assert!((behind["diffuseTransmissionFactor"].as_f64().unwrap() - 0.3).abs() < 1e-6);
+    assert_eq!(behind["diffuseTransmissionColorTexture"], lamp["pbrMetallicRoughness"]["baseColorTexture"]);
+    assert_eq!(lamp["extras"]["dirt"], 0.25);
     let used: Vec<&str> = root["extensionsUsed"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
     assert!(used.is_sorted() && used.contains(&"KHR_texture_transform"));
     assert_eq!(root["images"].as_array().unwrap().len(), 3, "the same picture is embedded once");

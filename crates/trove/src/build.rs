@@ -38,6 +38,7 @@ pub(crate) fn run(
         seed: Seed(recipe.seed).child(name).nth(0),
         top_k: recipe.assets.top_k,
         light: sources.light(0)?,
+        weather: recipe.weather(),
     };
     let started = std::time::Instant::now();
     let site = trove_build::build(&drive, map.as_ref(), &trove_assets::library(), &settings, &report)?;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
+use trove_build::Weather;
 use trove_write::Pictures;
 
 pub use camera::CameraSection;
@@ -39,6 +40,9 @@ pub struct Recipe {
     /// Sky.
     #[serde(default)]
     pub light: LightSection,
+    /// Rain and dirt.
+    #[serde(default)]
+    pub weather: WeatherSection,
     /// Pictures.
     #[serde(default)]
     pub render: RenderSection,
@@ -151,16 +155,24 @@ pub enum Rig {
     Named(Vec<String>),
 }
 
+/// `[weather]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WeatherSection {
+    /// 0 (dry) to 1 (after heavy rain).
+    pub wetness: f64,
+    /// 0 (washed) to 1 (as streets are).
+    pub dirt: f64,
+}
+
 /// `[render]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RenderSection {
     /// Of the dataset's own resolution.
     pub scale: f64,
-    /// Samples a pixel; the most that one may get where `noise` is more than 0.
+    /// Samples a pixel.
     pub spp: u32,
-    /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
-    pub noise: f32,
     /// Whether noise is removed.
     pub denoise: bool,
     /// False: labels only.
@@ -192,9 +204,16 @@ impl Default for ViewsSection {
     }
 }
 
+impl Default for WeatherSection {
+    fn default() -> Self {
+        let Weather { dirt, wetness } = Weather::default();
+        Self { wetness, dirt }
+    }
+}
+
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: 1.0, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
+        Self { scale: 1.0, spp: 64, denoise: true, light: true, radiance: false, threads: 0 }
     }
 }
 
@@ -271,13 +290,15 @@ impl Recipe {
         let (render, assets) = (&self.render, &self.assets);
         check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
-        check("render.noise", render.noise, (0.0..1.0).contains(&render.noise), "0 to less than 1")?;
         ensure!(
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
         self.camera.check()?;
         self.light.check()?;
+        for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
+            check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
+        }
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
@@ -307,6 +328,11 @@ impl Recipe {
             (true, false) => Pictures::Developed,
             (true, true) => Pictures::WithRadiance,
         }
+    }
+
+    /// What weather has done to the place.
+    pub fn weather(&self) -> Weather {
+        Weather { dirt: self.weather.dirt, wetness: self.weather.wetness }
     }
 
     /// The cameras that are asked for; `None` for all.
@@ -397,6 +423,7 @@ mod tests {
             ("[render]\nspp = 0\n", "render.spp: expected 1 to 65536, found 0"),
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[variations]\ncount = 0\n", "variations.count"),
+            ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
             ("[assets]\nlibraries = [\"mine\"]\n", "\"mine\" is not known"),
         ] {
             let message = error(&format!("{DRIVE}{text}"));

@@ -117,7 +117,13 @@ impl Wardrobe {
     /// Adds the slots to a model, tops and bottoms in the colours given or in everyone's.
     pub(crate) fn new(model: &mut Model, tops: &[Vec3], bottoms: &[Vec3]) -> Self {
         let mut slot = |name: &str, paints: &[Vec3], roughness: f32| {
-            model.slot(Material::plain(name, paints[paints.len() / 2], roughness), paints)
+            let cloth = matches!(name, "top" | "bottom");
+            let material = Material {
+                sheen: if cloth { 0.6 } else { 0.0 },
+                subsurface: if name == "skin" { 0.7 } else { 0.0 },
+                ..Material::plain(name, paints[paints.len() / 2], roughness)
+            };
+            model.slot(material, paints)
         };
         let or = |given: &[Vec3], usual: &[Vec3]| if given.is_empty() { usual.to_vec() } else { given.to_vec() };
         Self {

@@ -1,13 +1,16 @@
 //! What street furniture is made of, and how its parts are laid.
 
+use std::sync::LazyLock;
+
 use glam::{Mat3, Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::Material;
+use trove_model::{Mapping, Material};
 
 use crate::shape::Shape;
+use crate::surfaces;
 
 /// Galvanised steel.
 pub(super) fn galvanised() -> Material {
-    Material { metalness: 0.6, ..Material::plain("galvanised steel", vec3(0.36, 0.37, 0.38), 0.5) }
+    Material { metalness: 0.6, dirt: 0.4, ..Material::plain("galvanised steel", vec3(0.36, 0.37, 0.38), 0.5) }
 }
 
 /// Brushed stainless steel.
@@ -17,12 +20,12 @@ pub(super) fn stainless() -> Material {
 
 /// Painted metal.
 pub(super) fn painted(color: Vec3) -> Material {
-    Material::plain("paint", color, 0.42)
+    Material { dirt: 0.4, ..Material::plain("paint", color, 0.42) }
 }
 
 /// Plastic that has stood in the sun.
 pub(super) fn plastic(color: Vec3) -> Material {
-    Material::plain("plastic", color, 0.5)
+    Material { dirt: 0.6, ..Material::plain("plastic", color, 0.5) }
 }
 
 /// Black rubber.
@@ -35,9 +38,13 @@ pub(super) fn timber() -> Material {
     Material::plain("timber", vec3(0.21, 0.125, 0.065), 0.7)
 }
 
-/// Cast concrete.
+/// Cast concrete, of which no two pieces look alike.
 pub(super) fn concrete() -> Material {
-    Material::plain("concrete", vec3(0.31, 0.3, 0.28), 0.88)
+    static CONCRETE: LazyLock<Material> = LazyLock::new(|| {
+        let cast = surfaces::concrete(vec3(0.31, 0.3, 0.28), [2.0, 2.0], 0.0, 35).material("concrete/cast", 2);
+        Material { mapping: Mapping::Triplanar, dirt: 0.6, ..cast }
+    });
+    CONCRETE.clone()
 }
 
 /// A thin clear pane.

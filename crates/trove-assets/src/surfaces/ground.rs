@@ -29,7 +29,7 @@ pub(super) fn asphalt(kind: Wear) -> Canvas {
     let (stones, grain, blotch, stain) =
         (noise(0.014, 1), noise(0.05, 2), noise(1.5, 3).field(3), noise(0.6, 4).field(3));
     let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6).field(3), noise(1.7, 7));
-    let warm = vec3(1.03, 1.0, 0.955);
+    let warm = vec3(1.015, 1.0, 0.98);
     let mut canvas = Canvas::new([1024, 1024], size, |p| {
         let stone = stones.near(p);
         let broad = blotch.at(p);

@@ -14,10 +14,11 @@ mod wall;
 
 use glam::{Vec3, vec2, vec3};
 use rayon::prelude::*;
-use trove_model::{Surface, SurfaceKind};
+use trove_model::{Surface, SurfaceKind, Tiling};
 
 pub(crate) use canvas::{Canvas, Texel};
 pub(crate) use noise::{Noise, hash, step};
+pub(crate) use paving::concrete;
 
 use facade::Facade;
 use ground::Wear;
@@ -52,6 +53,14 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
         }
     };
     let mut material = canvas.material(id, 2);
+    material.dirt = dirt(*kind);
+    // What has no joints, windows or patches that would be cut.
+    if ["asphalt/new", "asphalt/worn", "concrete/", "grass/", "soil/", "gravel/", "flat-roof/gravel"]
+        .iter()
+        .any(|name| id.starts_with(name))
+    {
+        material.tiling = Tiling::Stochastic;
+    }
     if matches!(kind, SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow) {
         material.alpha_cutoff = 0.5;
     }
@@ -61,21 +70,32 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
     Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells }
 }
 
+/// How much of what weather and wheels bring stays on a surface.
+fn dirt(kind: SurfaceKind) -> f32 {
+    match kind {
+        SurfaceKind::Asphalt | SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow => 0.7,
+        SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete | SurfaceKind::FlatRoof => 0.6,
+        SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor => 0.5,
+        SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel | SurfaceKind::RoofTiles => 0.4,
+        SurfaceKind::Water => 0.0,
+    }
+}
+
 /// Roads, paths and land.
 fn ground_recipes() -> Vec<Recipe> {
     use SurfaceKind::*;
-    // Asphalt that has greyed over the years reflects 12 to 20 %, new asphalt about 7 %.
-    let worn = Wear { binder: 0.15, stone: 0.24, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
+    // Asphalt that has greyed over the years reflects 15 to 20 %, after its first year about 11 %.
+    let worn = Wear { binder: 0.18, stone: 0.27, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
     let green = vec3(0.075, 0.115, 0.028);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
         plain("asphalt/new", Asphalt, || {
-            let new = Wear { binder: 0.065, stone: 0.12, worn: 0.15, cracks: 0.0, patches: false, seed: 1 };
+            let new = Wear { binder: 0.11, stone: 0.18, worn: 0.2, cracks: 0.0, patches: false, seed: 1 };
             ground::asphalt(new)
         }),
         plain("asphalt/worn", Asphalt, move || ground::asphalt(worn)),
         plain("asphalt/patched", Asphalt, move || {
-            ground::asphalt(Wear { binder: 0.13, stone: 0.22, cracks: 0.6, patches: true, seed: 3, ..worn })
+            ground::asphalt(Wear { binder: 0.165, stone: 0.25, cracks: 0.6, patches: true, seed: 3, ..worn })
         }),
         plain("marking/white", MarkingWhite, || ground::marking(vec3(0.62, 0.62, 0.6), 11)),
         plain("marking/yellow", MarkingYellow, || ground::marking(vec3(0.56, 0.33, 0.035), 12)),

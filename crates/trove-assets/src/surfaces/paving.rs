@@ -119,7 +119,7 @@ pub(super) fn herringbone(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Plain concrete, cast in fields of `size_m`.
-pub(super) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32) -> Canvas {
+pub(crate) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32) -> Canvas {
     let area = Vec2::from_array(size_m);
     let cement = Cement::new(area, color, seed);
     Canvas::new([512, 512], size_m, |p| {

@@ -83,23 +83,26 @@ impl Palette {
     /// Adds the slots to a model.
     pub(crate) fn new(model: &mut Model, paints: &[Vec3], second: &[Vec3]) -> Self {
         let paint_of = |name: &str, paints: &[Vec3]| Material {
-            roughness: 0.45,
             coat: 1.0,
+            // Passenger cars are mostly metallic; what carries goods is not.
+            flakes: if paints == FLEET { 0.5 } else { 0.0 },
+            dirt: 0.5,
             ..Material::plain(name, paints.first().copied().unwrap_or(Vec3::splat(0.7)), 0.45)
         };
         let metal = |name: &str, grey: f32, roughness: f32| Material {
             metalness: 1.0,
+            dirt: 0.5,
             ..Material::plain(name, Vec3::splat(grey), roughness)
         };
         let lens = |name: &str, color: Vec3| Material { coat: 1.0, ..Material::plain(name, color, 0.25) };
         let mut slot = |material| model.slot(material, &[]);
         Self {
-            trim: slot(Material::plain("black plastic", Vec3::splat(0.022), 0.55)),
+            trim: slot(Material { dirt: 0.6, ..Material::plain("black plastic", Vec3::splat(0.022), 0.55) }),
             glass: slot(Material {
                 transmission: 0.92,
                 ..Material::plain("tinted glass", vec3(0.42, 0.47, 0.46), 0.02)
             }),
-            rubber: slot(Material::plain("tyre", Vec3::splat(0.024), 0.85)),
+            rubber: slot(Material { dirt: 0.7, ..Material::plain("tyre", Vec3::splat(0.024), 0.85) }),
             rim: slot(metal("alloy", 0.55, 0.32)),
             chrome: slot(metal("chrome", 0.7, 0.12)),
             lamp: slot(Material { metalness: 0.75, coat: 1.0, ..Material::plain("lamp", vec3(0.75, 0.78, 0.8), 0.15) }),

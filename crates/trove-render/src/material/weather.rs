@@ -89,8 +89,8 @@ impl Weather {
 /// Level ground: broad tones of wear and dust, blotches of oil.
 fn stain(at: Vec2, dirt: f32, p: &mut Parameters) {
     let (broad, fine) = (field(at / 61.0), field(vec2(at.y, -at.x) / 9.0));
-    let tone = 0.36 * (broad - 0.5) + 0.2 * (fine - 0.5);
-    let oil = step(0.86, 0.97, fine) * step(0.35, 0.8, broad);
+    let tone = 0.45 * (broad - 0.5) + 0.3 * (fine - 0.5);
+    let oil = step(0.84, 0.95, fine) * step(0.3, 0.7, broad);
     p.base_color *= (1.0 + dirt * tone) * (1.0 - 0.4 * dirt * oil);
     p.alpha *= 1.0 - 0.3 * dirt * oil;
 }

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::Vec3;
 use serde_json::{Value, json};
-use trove_model::{Material, Scene, Texture};
+use trove_model::{ColorSpace, Mapping, Material, Scene, Texture};
 
 use super::Binary;
 use crate::{WriteError, png_file};
@@ -22,7 +23,9 @@ impl Materials {
         let mut lists =
             Self { materials: Vec::new(), textures: Vec::new(), images: Vec::new(), extensions: BTreeSet::new() };
         let mut texture_of: BTreeMap<&str, usize> = BTreeMap::new();
-        for texture in scene.materials.iter().flat_map(Material::textures) {
+        let with_maps = scene.materials.iter().filter(|m| m.mapping == Mapping::Uv);
+        let maps = with_maps.flat_map(|m| [&m.base_color_map, &m.orm_map, &m.normal_map]).flatten();
+        for texture in maps {
             if !texture_of.contains_key(texture.name.as_str()) {
                 let view = binary.add(&encode_texture(texture)?, None);
                 lists.images.push(json!({ "name": texture.name, "mimeType": "image/png", "bufferView": view }));
@@ -37,7 +40,10 @@ impl Materials {
         Ok(lists)
     }
 
+    /// One material; glTF knows no textures without coordinates, so those are replaced by their mean.
     fn material(&mut self, material: &Material, texture_of: &BTreeMap<&str, usize>) -> Value {
+        let plain = (material.mapping == Mapping::Triplanar).then(|| without_maps(material));
+        let material = plain.as_ref().unwrap_or(material);
         let mut reference = |texture: &Texture| {
             let mut info = json!({ "index": texture_of[texture.name.as_str()] });
             let scale = material.uv_scale;
@@ -48,7 +54,7 @@ impl Materials {
             }
             info
         };
-        let [r, g, b] = material.base_color.clamp(glam::Vec3::ZERO, glam::Vec3::ONE).to_array();
+        let [r, g, b] = material.base_color.clamp(Vec3::ZERO, Vec3::ONE).to_array();
         let mut surface = json!({
             "baseColorFactor": [r, g, b, 1.0],
             "roughnessFactor": material.roughness.clamp(0.0, 1.0),
@@ -65,6 +71,7 @@ impl Materials {
         if let Some(map) = &material.normal_map {
             value["normalTexture"] = reference(map);
         }
+        let color_texture = surface.get("baseColorTexture").cloned();
         value["pbrMetallicRoughness"] = surface;
         if material.alpha_cutoff > 0.0 {
             value["alphaMode"] = "MASK".into();
@@ -74,7 +81,7 @@ impl Materials {
         if material.is_emitter() {
             // A factor goes up to 1; the rest is strength.
             let strength = material.emission.max_element().max(1.0);
-            value["emissiveFactor"] = json!((material.emission / strength).max(glam::Vec3::ZERO).to_array());
+            value["emissiveFactor"] = json!((material.emission / strength).max(Vec3::ZERO).to_array());
             if strength > 1.0 {
                 let extension = json!({ "emissiveStrength": strength });
                 extend(&mut value, used, "KHR_materials_emissive_strength", extension);
@@ -92,6 +99,34 @@ impl Materials {
             let extension = json!({ "transmissionFactor": material.transmission.min(1.0) });
             extend(&mut value, used, "KHR_materials_transmission", extension);
         }
+        if material.sheen > 0.0 {
+            // The renderer's fibres are half as colourful as the cloth, and α = ½.
+            let color = material.sheen * (0.5 + 0.5 * material.base_color);
+            let color = color.clamp(Vec3::ZERO, Vec3::ONE).to_array();
+            let extension = json!({ "sheenColorFactor": color, "sheenRoughnessFactor": 0.5_f32.sqrt() });
+            extend(&mut value, used, "KHR_materials_sheen", extension);
+        }
+        if material.translucency > 0.0 {
+            let mut extension = json!({
+                "diffuseTransmissionFactor": material.translucency.min(1.0),
+                "diffuseTransmissionColorFactor": [r, g, b],
+            });
+            if let Some(color) = color_texture {
+                extension["diffuseTransmissionColorTexture"] = color;
+            }
+            extend(&mut value, used, "KHR_materials_diffuse_transmission", extension);
+        }
+        // What glTF has no words for.
+        for (name, amount) in [
+            ("flakes", material.flakes),
+            ("subsurface", material.subsurface),
+            ("dirt", material.dirt),
+            ("wetness", material.wetness),
+        ] {
+            if amount > 0.0 {
+                value["extras"][name] = amount.into();
+            }
+        }
         value
     }
 }
@@ -99,6 +134,28 @@ impl Materials {
 fn extend(value: &mut Value, used: &mut BTreeSet<&'static str>, name: &'static str, extension: Value) {
     value["extensions"][name] = extension;
     used.insert(name);
+}
+
+/// The same in one colour and one roughness.
+fn without_maps(material: &Material) -> Material {
+    let mean = |texture: &Texture| {
+        let linear =
+            |c: u8| (f32::from(c) / 255.0).powf(if texture.color_space == ColorSpace::Srgb { 2.2 } else { 1.0 });
+        let sum: Vec3 = texture.rgba.iter().map(|t| Vec3::new(linear(t[0]), linear(t[1]), linear(t[2]))).sum();
+        sum / texture.rgba.len().max(1) as f32
+    };
+    let color = material.base_color_map.as_deref().map_or(Vec3::ONE, mean);
+    let orm = material.orm_map.as_deref().map_or(Vec3::ONE, mean);
+    Material {
+        base_color: material.base_color * color,
+        roughness: material.roughness * orm.y,
+        metalness: material.metalness * orm.z,
+        base_color_map: None,
+        orm_map: None,
+        normal_map: None,
+        height_map: None,
+        ..material.clone()
+    }
 }
 
 fn encode_texture(texture: &Texture) -> Result<Vec<u8>, WriteError> {

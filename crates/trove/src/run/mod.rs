@@ -131,7 +131,6 @@ pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         other_vehicles: recipe.views.other_vehicles,
         scale: recipe.render.scale,
         spp: recipe.render.spp,
-        noise: recipe.render.noise,
         lenses: recipe.camera.lenses()?,
         exposure_s: recipe.camera.exposure_s,
         readout_s: recipe.camera.readout_s,
@@ -264,7 +263,7 @@ impl Run<'_> {
     fn settings(&self, scene: &str, variation: u32) -> Result<BuildSettings> {
         let light = self.sources.light(variation)?;
         let seed = Seed(self.recipe.seed).child(scene).nth(u64::from(variation));
-        Ok(BuildSettings { seed, top_k: self.recipe.assets.top_k, light })
+        Ok(BuildSettings { seed, top_k: self.recipe.assets.top_k, light, weather: self.recipe.weather() })
     }
 
     /// Renders what is missing of a scene and collects the rows of all its frames.

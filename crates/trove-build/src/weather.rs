@@ -1,0 +1,71 @@
+//! What weather and use leave on the surfaces of a place.
+
+use trove_model::Class;
+
+use crate::assembly::Assembly;
+
+/// How weather has treated a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weather {
+    /// 0 (just washed) to 1: how much of the dirt that materials carry is there.
+    pub dirt: f64,
+    /// 0 (dry) to 1 (after heavy rain): ground and buildings; nothing is known of roofs over them, so all of the ground
+    /// is as wet. Plants and what people bring stay dry.
+    pub wetness: f64,
+}
+
+impl Default for Weather {
+    /// Dry, and as dirty as streets are.
+    fn default() -> Self {
+        Self { dirt: 1.0, wetness: 0.0 }
+    }
+}
+
+impl Weather {
+    /// Treats the materials of a place that has been put together.
+    pub(crate) fn treat(self, assembly: &mut Assembly) {
+        let materials = &mut assembly.stock.materials;
+        for material in materials.iter_mut() {
+            material.dirt *= self.dirt as f32;
+        }
+        for instance in &assembly.fixed {
+            let share = match instance.class {
+                Class::Road | Class::Sidewalk | Class::Building => 1.0,
+                // Grass and soil swallow much of it.
+                Class::Ground => 0.5,
+                _ => continue,
+            };
+            for &index in &instance.materials {
+                materials[index].wetness = (share * self.wetness) as f32;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use trove_model::{Report, Scene, Seed};
+
+    use super::*;
+    use crate::testing;
+    use crate::{BuildSettings, LightChoice, build};
+
+    fn scene(weather: Weather) -> Scene {
+        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::default(), weather };
+        let drive = testing::drive();
+        build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
+    }
+
+    #[test]
+    fn rain_wets_the_road_and_leaves_road_users_dry() {
+        let wetness = |class: Class, weather: Weather| -> Vec<f32> {
+            let scene = scene(weather);
+            let of_class = scene.instances.iter().filter(|i| i.class == class);
+            of_class.flat_map(|i| &i.materials).map(|&m| scene.materials[m].wetness).collect()
+        };
+        let wet = Weather { wetness: 0.7, ..Weather::default() };
+        assert!(wetness(Class::Road, wet).iter().all(|&w| w == 0.7) && !wetness(Class::Road, wet).is_empty());
+        assert!(wetness(Class::Car, wet).iter().all(|&w| w == 0.0) && !wetness(Class::Car, wet).is_empty());
+        assert!(wetness(Class::Road, Weather::default()).iter().all(|&w| w == 0.0));
+    }
+}
