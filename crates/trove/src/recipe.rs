@@ -171,8 +171,10 @@ pub struct WeatherSection {
 pub struct RenderSection {
     /// Of the dataset's own resolution.
     pub scale: f64,
-    /// Samples a pixel.
+    /// Samples a pixel; the most that one may get where `noise` is more than 0.
     pub spp: u32,
+    /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
+    pub noise: f32,
     /// Whether noise is removed.
     pub denoise: bool,
     /// False: labels only.
@@ -213,7 +215,7 @@ impl Default for WeatherSection {
 
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: 1.0, spp: 64, denoise: true, light: true, radiance: false, threads: 0 }
+        Self { scale: 1.0, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
     }
 }
 
@@ -290,6 +292,7 @@ impl Recipe {
         let (render, assets) = (&self.render, &self.assets);
         check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
+        check("render.noise", render.noise, (0.0..1.0).contains(&render.noise), "0 to less than 1")?;
         ensure!(
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"

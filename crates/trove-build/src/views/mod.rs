@@ -24,8 +24,10 @@ pub struct ViewSettings {
     pub other_vehicles: usize,
     /// Of the dataset's own resolution.
     pub scale: f64,
-    /// Samples a pixel.
+    /// Samples a pixel, or the most of them.
     pub spp: u32,
+    /// As in [`Shot::noise`].
+    pub noise: f32,
     /// Lenses in place of the recorded ones, by the camera's name; [`ALL_CAMERAS`] is for those that are not named.
     pub lenses: BTreeMap<String, LensChange>,
     /// Time for which a row of the sensor is exposed, seconds.
@@ -111,6 +113,7 @@ pub fn shots(
             time_ns: exposure.time_ns,
             shutter: views.shutter(exposure.time_ns, times_ns),
             spp: views.spp,
+            noise: views.noise,
             film: views.film,
             seed: shot_seed(seed, keyframe, &view),
             carrier: Some(site.ego_id(drive)),

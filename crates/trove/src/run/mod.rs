@@ -131,6 +131,7 @@ pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         other_vehicles: recipe.views.other_vehicles,
         scale: recipe.render.scale,
         spp: recipe.render.spp,
+        noise: recipe.render.noise,
         lenses: recipe.camera.lenses()?,
         exposure_s: recipe.camera.exposure_s,
         readout_s: recipe.camera.readout_s,
