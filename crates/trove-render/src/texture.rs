@@ -10,7 +10,7 @@ use trove_model::{ColorSpace, Material, Texture};
 
 use crate::cache::Cache;
 
-pub(crate) use opacity::{Coverage, OpacityMask};
+pub(crate) use opacity::OpacityMask;
 
 /// What was made of textures, for all scenes that share them.
 #[derive(Default)]

@@ -11,10 +11,10 @@ mod weather;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use trove_model::{Material, Mesh};
+use trove_model::Material;
 
 use crate::prepare::Surface;
-use crate::texture::{Coverage, MipMap, OpacityMask, Textures};
+use crate::texture::{MipMap, OpacityMask, Textures};
 use bsdf::{Coat, Parameters};
 use texturing::{Spot, Texturing};
 use weather::Weather;
@@ -94,9 +94,9 @@ impl PreparedMaterial {
         }
     }
 
-    /// Whether rays must ask at every hit if they go on.
-    pub(crate) fn lets_light_pass(&self) -> bool {
-        self.has_cutout() || self.transmission > 0.0
+    /// Whether some light goes straight through it.
+    pub(crate) fn is_pane(&self) -> bool {
+        self.transmission > 0.0
     }
 
     /// Whether light that comes from behind is scattered to the front.
@@ -114,18 +114,8 @@ impl PreparedMaterial {
         self.cutout.as_ref().is_none_or(|mask| mask.covers(uv * self.texturing.scale))
     }
 
-    /// What is there of each triangle of a mesh, if it is drawn on all of them.
-    #[expect(dead_code, reason = "the acceleration structure is to ask for it")]
-    pub(crate) fn coverages(&self, mesh: &Mesh) -> Vec<Coverage> {
-        let full = || vec![Coverage::Full; mesh.triangles.len()];
-        self.cutout.as_ref().map_or_else(full, |mask| mask.coverages(mesh, self.texturing.scale))
-    }
-
     /// The share of light that goes straight through a pane at an angle with cosine `cos` to its normal.
     pub(crate) fn straight_through(&self, cos: f32) -> Vec3 {
-        if self.transmission <= 0.0 {
-            return Vec3::ZERO;
-        }
         let split = albedo::split(cos.abs(), alpha(self.roughness));
         let reflected = self.pane_f0() * split.x + split.y;
         self.base_color * ((1.0 - reflected) * self.transmission * (1.0 - self.metalness))

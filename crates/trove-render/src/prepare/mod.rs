@@ -63,7 +63,10 @@ impl PreparedScene {
             .map(|i| Placed {
                 mesh: i.mesh.clone(),
                 world_from_mesh: i.world_from_mesh,
-                tested: i.materials.iter().any(|&m| materials[m as usize].lets_light_pass()),
+                tested: i
+                    .materials
+                    .iter()
+                    .any(|&m| materials[m as usize].is_pane() || materials[m as usize].has_cutout()),
             })
             .collect();
         let (accel, lights) = rayon::join(|| kernel.build(&placed), || Lights::new(scene, last));
@@ -132,7 +135,11 @@ impl PreparedScene {
 
     /// The share of light that a surface lets straight through.
     fn straight_through(&self, hit: &Hit, ray: &Ray) -> Vec3 {
-        self.material_of(hit).straight_through(self.geometric_normal(hit).dot(ray.direction))
+        let material = self.material_of(hit);
+        if !material.is_pane() {
+            return Vec3::ZERO;
+        }
+        material.straight_through(self.geometric_normal(hit).dot(ray.direction))
     }
 
     /// Material at a hit.

@@ -1,7 +1,7 @@
 //! Where a cut-out texture is there: one bit a cell, so that rays need neither its colours nor arithmetic.
 
 use glam::Vec2;
-use trove_model::{Mesh, Texture};
+use trove_model::Texture;
 
 use super::MipMap;
 
@@ -20,17 +20,6 @@ pub(crate) struct OpacityMask {
     /// Bit 8·y + x of a block; rows run up with v.
     blocks: Vec<u64>,
     cutoff: f32,
-}
-
-/// What a cut-out texture leaves of a triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coverage {
-    /// All of it is there.
-    Full,
-    /// Some of it is there, or it was not worth looking.
-    Partial,
-    /// Nothing of it is there.
-    Empty,
 }
 
 impl OpacityMask {
@@ -70,62 +59,12 @@ impl OpacityMask {
         let block = ((y >> 3) << self.row_shift) | (x >> 3);
         self.blocks[block as usize] >> (((y & 7) << 3) | (x & 7)) & 1 != 0
     }
-
-    /// What is there of a triangle with these texture coordinates, never claiming too much.
-    pub(crate) fn coverage(&self, corners: [Vec2; 3]) -> Coverage {
-        let size = Vec2::new(self.width as f32, self.height as f32);
-        let corners = corners.map(|uv| uv * size);
-        let low = corners[0].min(corners[1]).min(corners[2]);
-        let high = corners[0].max(corners[1]).max(corners[2]);
-        // NaN is not worth looking at either.
-        if !((high - low).cmple(size).all()) {
-            return Coverage::Partial;
-        }
-        let mut seen = [false; 2];
-        for y in floor(low.y)..=floor(high.y) {
-            let Some((from, to)) = row_of(corners, y as f32) else { continue };
-            for x in floor(from)..=floor(to) {
-                seen[usize::from(self.bit(x, y))] = true;
-            }
-            if seen == [true; 2] {
-                return Coverage::Partial;
-            }
-        }
-        if seen[1] { Coverage::Full } else { Coverage::Empty }
-    }
-
-    /// What is there of each triangle of a mesh that it is drawn on, texture coordinates times `uv_scale`.
-    pub(crate) fn coverages(&self, mesh: &Mesh, uv_scale: Vec2) -> Vec<Coverage> {
-        if mesh.uvs.is_empty() {
-            let all = if self.covers(Vec2::ZERO) { Coverage::Full } else { Coverage::Empty };
-            return vec![all; mesh.triangles.len()];
-        }
-        mesh.triangles.iter().map(|t| self.coverage(t.map(|i| mesh.uvs[i as usize] * uv_scale))).collect()
-    }
 }
 
 /// The largest whole number that is not above `x`; the library's `floor` is a call on many processors.
 fn floor(x: f32) -> i32 {
     let whole = x as i32;
     whole - i32::from(whole as f32 > x)
-}
-
-/// From where to where a triangle reaches between the heights `y` and `y` + 1.
-fn row_of(corners: [Vec2; 3], y: f32) -> Option<(f32, f32)> {
-    let (mut from, mut to) = (f32::INFINITY, f32::NEG_INFINITY);
-    let mut take = |x: f32| (from, to) = (from.min(x), to.max(x));
-    for i in 0..3 {
-        let (a, b) = (corners[i], corners[(i + 1) % 3]);
-        if (y..=y + 1.0).contains(&a.y) {
-            take(a.x);
-        }
-        for level in [y, y + 1.0] {
-            if (a.y < level) != (b.y < level) {
-                take(a.x + (b.x - a.x) * ((level - a.y) / (b.y - a.y)));
-            }
-        }
-    }
-    (from <= to).then_some((from, to))
 }
 
 #[cfg(test)]
@@ -177,27 +116,5 @@ mod tests {
             let covered = there.count() as f32 / n as f32;
             assert!((covered / share - 1.0).abs() < 0.03, "{covered} instead of {share} at {pixel}");
         }
-    }
-
-    #[test]
-    fn a_triangle_is_full_or_empty_only_if_every_point_of_it_is() {
-        let (texture, map) = leaves(64, 64);
-        let mask = OpacityMask::new(&texture, &map, 0.5);
-        let mut random = Seed(7).random();
-        let mut found = [0; 3];
-        for _ in 0..3000 {
-            let mut unit = || random.unit() as f32;
-            let at = 4.0 * vec2(unit(), unit()) - 2.0;
-            let corners = [(); 3].map(|()| at + 0.3 * vec2(unit(), unit()));
-            let coverage = mask.coverage(corners);
-            found[coverage as usize] += 1;
-            for _ in 0..50 {
-                let (a, b) = (unit(), unit());
-                let (a, b) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
-                let is_there = mask.covers(corners[0] * (1.0 - a - b) + corners[1] * a + corners[2] * b);
-                assert!(coverage == Coverage::Partial || is_there == (coverage == Coverage::Full), "{corners:?}");
-            }
-        }
-        assert!(found.iter().all(|&n| n > 100), "{found:?}");
     }
 }
