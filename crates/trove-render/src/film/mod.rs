@@ -61,6 +61,7 @@ mod tests {
             time_ns: 0,
             shutter: Shutter::INSTANT,
             spp: 1,
+            noise: 0.0,
             film: Film { exposure, white_balance: WhiteBalance::Auto, sensor },
             seed: Seed(1),
             carrier: None,

@@ -143,7 +143,7 @@ impl CameraSection {
                 check(&format!("camera.sensor.{key}"), value, (0.0..=most).contains(&value), &format!("0 to {most}"))
             };
             let full = sensor.full_well_e;
-            check("camera.sensor.full_well_e", full, full >= 1.0 && full <= 1e9, "1 to 1e9")?;
+            check("camera.sensor.full_well_e", full, (1.0..=1e9).contains(&full), "1 to 1e9")?;
             within("read_noise_e", sensor.read_noise_e, 1e6)?;
             within("vignetting", sensor.vignetting, 0.99)?;
             within("blur_px", sensor.blur_px, 20.0)?;
