@@ -6,11 +6,14 @@ use super::luminance;
 
 /// Steps of the metering histogram in a stop, and the stops that it spans around 1.
 const STEPS_PER_STOP: f64 = 32.0;
-const SPAN_STOPS: f64 = 24.0;
+const SPAN_STOPS: f64 = 64.0;
+
+/// The most that a camera exposes by, where the midday sun asks for about 1: a night street stays darker than by day.
+const MOST_EV: f64 = 12.0;
 
 /// The metered mean of the lower part of a picture becomes this radiance: what the same measurement gives on
 /// photographs of sunny streets with little shade; the sunlit road then comes out at 100 to 120 of 255.
-const METERED_TO: f64 = 0.16;
+const METERED_TO: f64 = 0.15;
 
 /// Shares of the metered pixels that are left out at the dark and at the bright end.
 const TRIM: [f64; 2] = [0.05, 0.05];
@@ -57,7 +60,7 @@ pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
         return 0.0;
     }
     let mean_stops = weighted as f64 / kept as f64 / (2.0 * STEPS_PER_STOP) - SPAN_STOPS / 2.0;
-    METERED_TO.log2() - mean_stops
+    (METERED_TO.log2() - mean_stops).min(MOST_EV)
 }
 
 /// Gains of red, green and blue that make grey of what is grey in the lower two thirds of a picture, as far as a
