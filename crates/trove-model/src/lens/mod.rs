@@ -102,17 +102,17 @@ mod tests {
         Lens { width_px, height_px, fx_px, fy_px, cx_px, cy_px, distortion }
     }
 
-    /// Lenses of cars' cameras: KITTI's raw camera 2, Argoverse 2's radial ring camera, the rational model of an Azure Kinect,
-    /// and two fisheyes that see 180° and 190°.
-    fn real() -> [Lens; 5] {
+    /// KITTI's colour camera 2 of 26 September 2011 as published, and typical ones: radial, the rational model, and two
+    /// fisheyes that see 180° and 190°.
+    fn typical() -> [Lens; 5] {
         let brown = |c: &[f64]| Distortion::brown_conrady(c).unwrap();
         let fisheye = |c: &[f64]| Distortion::kannala_brandt(c).unwrap();
         [
             lens(
                 1392,
                 512,
-                [959.791, 956.925, 696.0217, 224.1806],
-                brown(&[-0.369_148_1, 0.196_813, 0.001_353_473, 0.000_567_784_7, -0.067_707_05]),
+                [959.791, 956.9251, 696.0217, 224.1806],
+                brown(&[-0.369_148_1, 0.196_868_1, 0.001_353_473, 0.000_567_758_7, -0.067_707_05]),
             ),
             lens(2048, 1550, [1683.5, 1683.5, 1025.4, 775.9], brown(&[-0.263_6, -0.058_66, 0.0, 0.0, 0.094_4])),
             lens(1280, 960, [913.2, 912.8, 638.4, 483.1], brown(&[0.54, -2.66, 7e-4, -2e-4, 1.53, 0.42, -2.49, 1.46])),
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn a_point_behind_a_pinhole_is_not_seen_and_one_beside_a_fisheye_is() {
         assert_eq!(PINHOLE.project(DVec3::new(0.0, 0.0, -1.0)), None);
-        let fisheye = real()[3];
+        let fisheye = typical()[3];
         // Without coefficients the distance from the middle is the angle itself.
         let beside = fisheye.project(DVec3::new(2.0, 0.0, 0.0)).unwrap();
         assert!((beside.x - 512.0 - 320.0 * std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{beside}");
@@ -133,15 +133,15 @@ mod tests {
 
     #[test]
     fn a_scaled_camera_sees_the_same_directions() {
-        for lens in [PINHOLE].into_iter().chain(real()) {
+        for lens in [PINHOLE].into_iter().chain(typical()) {
             let (small, pixel) = (lens.scaled(0.5), DVec2::new(523.0, 256.0));
             assert!((small.unproject(pixel * 0.5).unwrap() - lens.unproject(pixel).unwrap()).length() < 1e-9);
         }
     }
 
     #[test]
-    fn all_of_a_real_cameras_picture_is_in_its_lens_reach() {
-        for lens in real().iter().take(3) {
+    fn all_of_a_cameras_picture_is_in_its_lens_reach() {
+        for lens in typical().iter().take(3) {
             for (x, y) in (0..=8).flat_map(|x| (0..=8).map(move |y| (f64::from(x) / 8.0, f64::from(y) / 8.0))) {
                 let pixel = DVec2::new(x * f64::from(lens.width_px), y * f64::from(lens.height_px));
                 assert!(lens.unproject(pixel).is_some(), "{lens:?} {pixel}");
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn what_folds_back_into_the_picture_is_not_seen() {
         // OpenCV would put this direction, 63° off the axis, beside one that is 20° off.
-        let kitti = real()[0];
+        let kitti = typical()[0];
         assert_eq!(kitti.project(DVec3::new(2.0, 0.0, 1.0)), None);
         let rim = kitti.project_onto_rim(DVec3::new(2.0, 0.0, 1.0));
         assert!(rim.x > 1300.0, "{rim}");
@@ -175,7 +175,7 @@ mod tests {
     proptest! {
         #[test]
         fn unprojecting_and_projecting_returns_the_pixel(x in 0.0..1.0f64, y in 0.0..1.0f64, far in 0.1..500.0f64) {
-            for lens in [PINHOLE].into_iter().chain(real()) {
+            for lens in [PINHOLE].into_iter().chain(typical()) {
                 let pixel = DVec2::new(x * f64::from(lens.width_px), y * f64::from(lens.height_px));
                 let Some(direction) = lens.unproject(pixel) else { continue };
                 prop_assert!((direction.length() - 1.0).abs() < 1e-12);
