@@ -87,7 +87,8 @@ pub struct Material {
     pub transmission: f32,
     /// 0 to 1: share of diffuse light that comes out on the other side (leaves).
     pub translucency: f32,
-    /// Emitted radiance, W·m⁻²·sr⁻¹ in the renderer's scale (a clear midday sky is about 0.1, see the light's docs).
+    /// Radiance emitted to the side from which a triangle's corners run counter-clockwise, W·m⁻²·sr⁻¹ in the renderer's
+    /// scale (a clear midday sky is about 0.1, see the light's docs).
     pub emission: Vec3,
     /// 0 to 1: what weather, feet and wheels leave: streaks on walls, stains on level ground, dust near the foot.
     pub dirt: f32,

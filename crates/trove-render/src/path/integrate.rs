@@ -153,7 +153,7 @@ impl Vertex<'_> {
         let material = self.scene.material_of(&hit);
         path.cone.width_m += path.cone.spread_rad * hit.t;
 
-        if material.emission != Vec3::ZERO {
+        if material.emission != Vec3::ZERO && surface.is_front {
             let weight = path.scattered.as_ref().map_or(1.0, |s| {
                 let other = lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
                 power_heuristic(s.pdf, other)

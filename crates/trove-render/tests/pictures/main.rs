@@ -1,0 +1,183 @@
+//! Pictures whose radiance is known in closed form, pictures that must be equal, and pictures of small sets that are held
+//! to converged ones.
+
+#![allow(clippy::unwrap_used)] // its functions are tests too
+
+mod converged;
+mod sets;
+mod studio;
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
+use trove_model::{ColorSpace, InstanceId, Material, Mesh, Scene, Shot, Texture};
+use trove_render::{KernelChoice, RenderError, Renderer};
+
+use studio::*;
+
+#[test]
+fn a_white_ball_in_a_white_world_cannot_be_seen() {
+    let white = |roughness: f32| Material::plain("white", Vec3::ONE, roughness);
+    // Layers below others are scaled for one direction alone, which keeps energy to some percent.
+    let sorts = [
+        ("Lambert", Material { ior: 1.0, ..white(1.0) }, 1e-3),
+        ("plaster", white(1.0), 0.01),
+        ("plastic", white(0.3), 0.01),
+        ("metal", Material { metalness: 1.0, ..white(0.5) }, 0.01),
+        ("mirror", Material { metalness: 1.0, ..white(0.0) }, 0.01),
+        ("car paint", Material { coat: 1.0, flakes: 1.0, ..white(0.4) }, 0.03),
+        ("cloth", Material { sheen: 1.0, ..white(1.0) }, 0.03),
+        ("leaf", Material { translucency: 0.5, ..white(0.5) }, 0.02),
+        ("wet stone", Material { wetness: 0.4, ..white(0.8) }, 0.05),
+    ];
+    for (name, material, tolerance) in sorts {
+        let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene(ball(), material), 64, 0.8);
+        let mean = mean(&picture);
+        assert!((mean - 1.0).abs() < tolerance, "{name}: {mean}");
+    }
+}
+
+#[test]
+fn a_grey_ball_in_a_white_world_is_as_bright_as_its_albedo() {
+    let grey = Material { ior: 1.0, ..Material::plain("grey", Vec3::splat(0.5), 1.0) };
+    let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene(ball(), grey), 16, 0.2);
+    // Seen from the front a rough ball is a little darker than from all sides.
+    assert!((mean(&picture) - 0.5).abs() < 0.01, "{}", mean(&picture));
+}
+
+#[test]
+fn a_glowing_room_is_as_bright_as_its_bounces_add_up() {
+    for (albedo, emission) in [(0.2, 0.8), (0.5, 0.25), (0.8, 0.2)] {
+        let glow =
+            Material { emission: Vec3::splat(emission), ior: 1.0, ..Material::plain("glow", Vec3::splat(albedo), 1.0) };
+        let around_camera = DAffine3::from_scale_rotation_translation(DVec3::splat(2.0), DQuat::IDENTITY, EYE);
+        let mut scene = empty(uniform(1.0));
+        put(&mut scene, inside_out(cube()), glow, around_camera);
+        let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene, 64, 0.8);
+        // e / (1 − a) without what comes over more than 6 bounces.
+        let expected = emission / (1.0 - albedo) * (1.0 - albedo.powi(7));
+        assert!((mean(&picture) / expected - 1.0).abs() < 0.01, "{} instead of {expected}", mean(&picture));
+    }
+}
+
+#[test]
+fn a_lamp_shines_forwards_alone() {
+    let lamp = Material { emission: Vec3::ONE, ..Material::plain("lamp", Vec3::ZERO, 1.0) };
+    for kernel in kernels() {
+        let from = |eye: DVec3| take(&renderer(kernel, 1), &scene(wall(), lamp.clone()), &shot(eye, DVec3::ZERO, 0.2));
+        let [front, back] = [EYE, -EYE].map(|eye| mean(&from(eye)));
+        assert!(front > 0.99 && back < 0.2, "{kernel:?}: {front}, {back}");
+    }
+}
+
+#[test]
+fn a_clear_pane_in_a_white_world_cannot_be_seen() {
+    let glass = Material { transmission: 1.0, ..Material::plain("glass", Vec3::ONE, 0.0) };
+    let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene(wall(), glass), 16, 0.2);
+    assert!((mean(&picture) - 1.0).abs() < 0.01, "{}", mean(&picture));
+}
+
+#[test]
+fn light_falls_through_holes_and_not_beside_them() {
+    let mut chequered =
+        Texture { name: "chequered".into(), width: 64, height: 64, rgba: Vec::new(), color_space: ColorSpace::Srgb };
+    // Left half open, right half closed.
+    chequered.rgba = (0..64 * 64).map(|i| [0, 0, 0, if i % 64 < 32 { 0 } else { 255 }]).collect();
+    let leaf = Material {
+        base_color_map: Some(Arc::new(chequered)),
+        alpha_cutoff: 0.5,
+        ior: 1.0,
+        ..Material::plain("leaf", Vec3::ONE, 1.0)
+    };
+    for kernel in kernels() {
+        let picture = look(&renderer(kernel, 1), &scene(wall(), leaf.clone()), 4, 0.2);
+        let (left, right) = (picture.at(2, 8)[0], picture.at(13, 8)[0]);
+        assert!((left - 1.0).abs() < 1e-3 && right < 1e-3, "{kernel:?}: {left}, {right}");
+    }
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_bytes() {
+    for kernel in kernels() {
+        let [one, two] = [1, 2].map(|threads| look(&renderer(kernel, threads), &crowd(), 4, 0.6));
+        assert!(one == two, "{kernel:?}");
+    }
+}
+
+#[test]
+fn all_kernels_see_the_same() {
+    let pictures: Vec<_> = kernels().map(|kernel| look(&renderer(kernel, 2), &crowd(), 16, 0.6)).collect();
+    for other in &pictures[1..] {
+        let pairs = pictures[0].data.iter().flatten().zip(other.data.iter().flatten());
+        let difference: f32 = pairs.map(|(a, b)| (a - b).abs()).sum::<f32>() / other.data.len() as f32;
+        assert!(difference < 0.01, "{difference}");
+    }
+}
+
+#[test]
+fn the_carrier_is_not_seen_by_its_camera() {
+    let mut shot = Shot { spp: 4, ..shot(EYE, DVec3::ZERO, 0.2) };
+    let scene = scene(wall(), Material::plain("black", Vec3::ZERO, 1.0));
+    let renderer = renderer(KernelChoice::Obvhs, 1);
+    let prepared = renderer.prepare(&scene).unwrap();
+    shot.carrier = Some(InstanceId(1));
+    let seen = renderer.render(&prepared, &shot, true, &|_| false).unwrap().color.unwrap().radiance;
+    assert!((mean(&seen) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_mesh_with_nan_is_refused_by_name() {
+    let mut mesh = ball();
+    mesh.positions[3].x = f32::NAN;
+    let refused = renderer(KernelChoice::Obvhs, 1).prepare(&scene(mesh, Material::default()));
+    let Err(RenderError::Scene { place, .. }) = refused else { panic!("accepted") };
+    assert_eq!(place, "mesh 0");
+}
+
+#[test]
+fn an_empty_scene_and_an_empty_mesh_are_no_trouble() {
+    for kernel in kernels() {
+        let renderer = renderer(kernel, 1);
+        let mut nothing = scene(Mesh::default(), Material::default());
+        assert!((mean(&look(&renderer, &nothing, 1, 0.2)) - 1.0).abs() < 1e-3);
+        nothing.instances.clear();
+        assert!((mean(&look(&renderer, &nothing, 1, 0.2)) - 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn a_stopped_picture_is_none() {
+    let renderer = renderer(KernelChoice::Obvhs, 1);
+    let prepared = renderer.prepare(&crowd()).unwrap();
+    assert!(renderer.render(&prepared, &shot(EYE, DVec3::ZERO, 0.6), true, &|_| true).is_none());
+}
+
+/// Where the camera of most tests stands, looking north.
+const EYE: DVec3 = DVec3::new(0.0, -4.0, 0.0);
+
+/// A picture of what is at the origin, `half_width_m` of which are seen to each side.
+fn look(renderer: &Renderer, scene: &Scene, spp: u32, half_width_m: f64) -> Picture {
+    take(renderer, scene, &Shot { spp, ..shot(EYE, DVec3::ZERO, half_width_m) })
+}
+
+/// One thing at the origin in a world that is white all around.
+fn scene(mesh: Mesh, material: Material) -> Scene {
+    let mut scene = empty(uniform(1.0));
+    put(&mut scene, mesh, material, DAffine3::IDENTITY);
+    scene
+}
+
+/// Turned, mirrored and stretched balls.
+fn crowd() -> Scene {
+    let mut scene = scene(ball(), Material { coat: 1.0, ..Material::plain("paint", vec3(0.6, 0.1, 0.1), 0.4) });
+    for i in 1..6u32 {
+        let turn = DQuat::from_rotation_y(f64::from(i));
+        let size = DVec3::new(0.2, 0.3, if i % 2 == 0 { 0.2 } else { -0.4 });
+        let place = DVec3::new(0.2 * f64::from(i) - 0.6, -0.5, 0.3);
+        let mut another = scene.instances[0].clone();
+        another.id = InstanceId(i + 1);
+        another.world_from_mesh = DAffine3::from_scale_rotation_translation(size, turn, place);
+        scene.instances.push(another);
+    }
+    scene
+}
