@@ -29,7 +29,7 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
     for surface in &surfaces {
         *count.entry(surface.kind).or_default() += 1;
         let range = match surface.kind {
-            SurfaceKind::Asphalt => 0.06..0.21,
+            SurfaceKind::Asphalt => 0.06..0.23,
             SurfaceKind::MarkingWhite => 0.35..0.7,
             SurfaceKind::MarkingYellow => 0.15..0.45,
             SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete => 0.12..0.4,

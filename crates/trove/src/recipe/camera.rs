@@ -136,8 +136,11 @@ impl CameraSection {
         }
         stops("camera.compensation_ev", self.compensation_ev)?;
         for (key, seconds) in [("camera.exposure_s", self.exposure_s), ("camera.readout_s", self.readout_s)] {
-            check(key, seconds, (0.0..=0.25).contains(&seconds), "0 to 0.25")?;
+            check(key, seconds, (0.0..=0.1).contains(&seconds), "0 to 0.1")?;
         }
+        // As long as the renderer knows how things move.
+        let open_s = self.exposure_s + self.readout_s;
+        check("camera.exposure_s + camera.readout_s", open_s, open_s <= 0.1, "at most 0.1")?;
         if let Some(sensor) = &self.sensor {
             let within = |key: &str, value: f64, most: f64| {
                 check(&format!("camera.sensor.{key}"), value, (0.0..=most).contains(&value), &format!("0 to {most}"))
@@ -249,14 +252,15 @@ mod tests {
     #[test]
     fn a_value_that_no_camera_has_is_refused() {
         for (text, expect) in [
-            ("[camera]\nexposure_s = 2\n", "camera.exposure_s: expected 0 to 0.25"),
+            ("[camera]\nexposure_s = 2\n", "camera.exposure_s: expected 0 to 0.1"),
+            ("[camera]\nexposure_s = 0.06\nreadout_s = 0.06\n", "expected at most 0.1"),
             ("[camera.sensor]\nvignetting = 1.0\n", "camera.sensor.vignetting"),
             (
                 "[camera.lens.all]\nmodel = \"pinhole\"\ndistortion = [0.1]\n",
                 "camera.lens.all.distortion: expected at most 0",
             ),
             ("[camera.lens.A]\nmodel = \"kannala-brandt\"\nfocal_px = 0\n", "camera.lens.A.focal_px"),
-            ("[camera]\nexposure = 3\n", "did you mean `exposure_ev`?"),
+            ("[camera]\nexposre_ev = 3\n", "did you mean `exposure_ev`?"),
         ] {
             let message = format!("{:#}", camera(text).unwrap_err());
             assert!(message.contains(expect), "{message}");
