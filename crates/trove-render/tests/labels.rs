@@ -29,52 +29,59 @@ fn the_ground_has_the_depth_normal_and_flow_of_a_plane() {
     let mut shot = shot(PLACE + DVec3::Z * 1.6);
     let next = Pose::new(shot.world_from_camera.rotation, PLACE + DVec3::new(0.4, 2.5, 1.6));
     shot.world_from_camera_next = Some(next);
-    let labels = look(&scene(vec![stuff(GROUND, PLACE)]), &shot);
-    let (mut seen, mut worst_depth, mut worst_flow) = (0, 0.0f64, 0.0f64);
-    for (x, y, centre) in centres() {
-        let direction = shot.world_from_camera.vector(at_depth_one(centre));
-        let depth = -1.6 / direction.z;
-        if direction.z >= 0.0 || depth > 100.0 {
-            continue;
+    for labels in by_all_kernels(&scene(vec![stuff(GROUND, PLACE)]), &shot) {
+        let (mut seen, mut worst_depth, mut worst_flow) = (0, 0.0f64, 0.0f64);
+        for (x, y, centre) in centres() {
+            let direction = shot.world_from_camera.vector(at_depth_one(centre));
+            let depth = -1.6 / direction.z;
+            if direction.z >= 0.0 || depth > 100.0 {
+                continue;
+            }
+            seen += 1;
+            worst_depth = worst_depth.max((f64::from(*labels.depth_m.at(x, y)) - depth).abs() / depth.max(1.0));
+            let normal = Vec3::from(*labels.normal.at(x, y));
+            assert!((normal - Vec3::NEG_Y).length() < 1e-5 && normal.is_normalized(), "{normal}");
+            let point = shot.world_from_camera.translation + direction * depth;
+            let then = LENS.project(next.inverse().point(point));
+            let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
+            match then {
+                Some(then) => worst_flow = worst_flow.max((flow - (then - centre)).length() / (then - centre).length()),
+                None => assert!(flow.is_nan()),
+            }
+            assert!(labels.flow_backward.at(x, y)[0].is_nan());
+            assert_eq!(*labels.class.at(x, y), Class::Road.id());
         }
-        seen += 1;
-        worst_depth = worst_depth.max((f64::from(*labels.depth_m.at(x, y)) - depth).abs() / depth.max(1.0));
-        let normal = Vec3::from(*labels.normal.at(x, y));
-        assert!((normal - Vec3::NEG_Y).length() < 1e-5 && normal.is_normalized(), "{normal}");
-        let point = shot.world_from_camera.translation + direction * depth;
-        let then = LENS.project(next.inverse().point(point));
-        let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
-        match then {
-            Some(then) => worst_flow = worst_flow.max((flow - (then - centre)).length() / (then - centre).length()),
-            None => assert!(flow.is_nan()),
-        }
-        assert!(labels.flow_backward.at(x, y)[0].is_nan());
-        assert_eq!(*labels.class.at(x, y), Class::Road.id());
+        assert!(seen > 2000 && worst_depth < 1e-6 && worst_flow < 1e-6, "{seen} pixels, {worst_depth}, {worst_flow}");
     }
-    assert!(seen > 2000 && worst_depth < 1e-6 && worst_flow < 1e-6, "{seen} pixels, {worst_depth}, {worst_flow}");
 }
 
 #[test]
-fn a_ball_has_the_depth_and_the_normals_of_a_ball() {
+fn a_ball_has_the_depth_normals_and_flow_of_a_ball() {
     let centre = PLACE + DVec3::new(0.2, 6.0, 0.1);
-    let shot = shot(PLACE);
-    let labels = look(&scene(vec![stuff(BALL, centre)]), &shot);
-    let mut seen = 0;
-    for (x, y, pixel) in centres() {
-        let direction = shot.world_from_camera.vector(at_depth_one(pixel));
-        // |direction · t − to_centre| = 1
-        let (a, b, to_centre) = (direction.length_squared(), direction.dot(centre - PLACE), centre - PLACE);
-        let root = b * b - a * (to_centre.length_squared() - 1.0);
-        if root < 0.3 {
-            continue; // past it, or so near its rim that the facets show
+    let mut shot = shot(PLACE);
+    let next = Pose::new(shot.world_from_camera.rotation, PLACE + DVec3::new(0.4, 0.5, -0.1));
+    shot.world_from_camera_next = Some(next);
+    for labels in by_all_kernels(&scene(vec![stuff(BALL, centre)]), &shot) {
+        let mut seen = 0;
+        for (x, y, pixel) in centres() {
+            let direction = shot.world_from_camera.vector(at_depth_one(pixel));
+            // |direction · t − to_centre| = 1
+            let (a, b, to_centre) = (direction.length_squared(), direction.dot(centre - PLACE), centre - PLACE);
+            let root = b * b - a * (to_centre.length_squared() - 1.0);
+            if root < 0.3 {
+                continue; // past it, or so near its rim that the facets show
+            }
+            seen += 1;
+            let t = (b - root.sqrt()) / a;
+            assert!((f64::from(*labels.depth_m.at(x, y)) - t).abs() < 1e-4, "{}", *labels.depth_m.at(x, y));
+            let normal = shot.world_from_camera.inverse().vector(direction * t - to_centre).as_vec3();
+            assert!(normal.dot(Vec3::from(*labels.normal.at(x, y))) > 0.9999);
+            let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
+            let expected = LENS.project(next.inverse().point(PLACE + direction * t)).unwrap() - pixel;
+            assert!((flow - expected).length() < 1e-4 * expected.length(), "{flow} instead of {expected}");
         }
-        seen += 1;
-        let t = (b - root.sqrt()) / a;
-        assert!((f64::from(*labels.depth_m.at(x, y)) - t).abs() < 1e-4, "{}", *labels.depth_m.at(x, y));
-        let normal = shot.world_from_camera.inverse().vector(direction * t - to_centre).as_vec3();
-        assert!(normal.dot(Vec3::from(*labels.normal.at(x, y))) > 0.9999);
+        assert!(seen > 200, "{seen}");
     }
-    assert!(seen > 200, "{seen}");
 }
 
 #[test]
@@ -272,10 +279,21 @@ fn look(scene: &Scene, shot: &Shot) -> Labels {
 }
 
 fn labels(scene: &Scene, shot: &Shot, threads: usize) -> Labels {
-    let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: false, threads, search: Vec::new() };
-    let renderer = Renderer::new(&options).unwrap();
+    by(KernelChoice::Obvhs, scene, shot, threads).unwrap()
+}
+
+/// With the built-in kernel, and with Embree where this machine has it.
+fn by_all_kernels(scene: &Scene, shot: &Shot) -> Vec<Labels> {
+    let kernels = [KernelChoice::Obvhs, KernelChoice::Embree];
+    kernels.into_iter().filter_map(|kernel| by(kernel, scene, shot, 2)).collect()
+}
+
+/// `None` where there is no such kernel.
+fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Option<Labels> {
+    let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
+    let renderer = Renderer::new(&RendererOptions { kernel, denoise: false, threads, search }).ok()?;
     let prepared = renderer.prepare(scene).unwrap();
-    renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
+    Some(renderer.render(&prepared, shot, false, &|_| false).unwrap().labels)
 }
 
 fn colour(scene: &Scene, shot: &Shot) -> Raster<[f32; 3]> {

@@ -103,6 +103,8 @@ pub(super) fn irradiance(elevation_rad: f64, turbidity: f64, outside: f32) -> Ve
 
 #[cfg(test)]
 mod tests {
+    use trove_model::Seed;
+
     use super::*;
 
     #[test]
@@ -119,6 +121,25 @@ mod tests {
         assert!((sum / (n * n) as f32 - Vec3::new(3.0, 2.0, 1.0)).length() < 5e-3, "{sum}");
         let beside = (to_sun + to_sun.any_orthonormal_vector() * 1.01 * RADIUS_RAD).normalize();
         assert_eq!((sun.pdf(beside), sun.radiance(beside)), (0.0, Vec3::ZERO));
+    }
+
+    #[test]
+    fn directions_cover_the_disk_evenly() {
+        let to_sun = Vec3::new(-0.2, 0.7, 0.4).normalize();
+        let sun = Sun::new(to_sun, Vec3::ONE).unwrap();
+        // 16 rings of the same solid angle, cut into 16 sectors.
+        let (mut drawn, draws) = ([0.0f64; 256], 100_000);
+        let mut random = Seed(8).random();
+        for _ in 0..draws {
+            let d = sun.draw([random.unit() as f32, random.unit() as f32]);
+            let [x, y] = sun.across.map(|axis| d.dot(axis));
+            let ring = (16.0 * sun.share_of_radius(d).powi(2)) as usize;
+            let sector = ((y.atan2(x) / TAU + 0.5) * 16.0) as usize;
+            drawn[ring.min(15) * 16 + sector.min(15)] += 1.0;
+        }
+        let expected = f64::from(draws) * f64::from(sun.pdf(to_sun) * solid_angle()) / 256.0;
+        let chi2: f64 = drawn.iter().map(|n| (n - expected).powi(2) / expected).sum();
+        assert!(chi2 < 330.52, "χ² = {chi2}"); // 99.9 % of 255 degrees of freedom
     }
 
     #[test]
