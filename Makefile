@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-nuscenes bench-cycles bench-clean clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-nuscenes bench-cycles bench-clean bench-rays clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -62,6 +62,11 @@ bench-cycles: install .venv-cycles/.installed
 	test -x .venv-cycles/bin/python || $(PYTHON_OF_BLENDER) -m venv .venv-cycles
 	.venv-cycles/bin/python -m pip install --quiet --disable-pip-version-check -r $<
 	touch $@
+
+# Rays a second, ours and bare Embree's.
+bench-rays: install
+	TROVE_EMBREE="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')" \
+	cargo run --release -p trove --example ray_rates
 
 # How many samples a clean picture needs, and how long they take.
 bench-clean: install

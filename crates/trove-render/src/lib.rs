@@ -21,5 +21,6 @@ mod texture;
 pub use accel::KernelChoice;
 pub use error::RenderError;
 pub use light::{BakedSky, SUN_RADIUS_RAD, bake_sky};
+pub use path::{RaySeconds, RayTimes};
 pub use prepare::PreparedScene;
 pub use renderer::{Capabilities, Renderer, RendererOptions};

@@ -9,7 +9,7 @@ use crate::accel::{Kernel, KernelChoice};
 use crate::denoise::Denoiser;
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
-use crate::{PreparedScene, RenderError, film, labels, path};
+use crate::{PreparedScene, RayTimes, RenderError, film, labels, path};
 
 /// How to set a renderer up.
 #[derive(Clone, Debug, Default)]
@@ -73,6 +73,11 @@ impl Renderer {
     /// Checks a scene and makes it ready; what it shares with earlier scenes (by `Arc`) is not made again.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
         self.pool.install(|| PreparedScene::new(scene, &self.kernel, &self.textures, &self.surroundings))
+    }
+
+    /// Measures how long the rays of one sample a pixel take one thread, and the bare kernel.
+    pub fn ray_times(&self, scene: &PreparedScene, shot: &Shot) -> RayTimes {
+        self.pool.install(|| path::ray_times(scene, shot))
     }
 
     /// Takes a picture with its labels, or with `light` false the labels alone.

@@ -244,6 +244,15 @@ fn hit_of(t: f32, u: f32, v: f32, [triangle, geometry, instance]: [u32; 3], know
     Hit { t, instance: known.unwrap_or(found), triangle, u, v }
 }
 
+const NO_HIT: RawHit = RawHit {
+    normal: [0.0; 3],
+    u: 0.0,
+    v: 0.0,
+    primitive: api::INVALID_ID,
+    geometry: api::INVALID_ID,
+    instance: api::INVALID_ID,
+};
+
 fn raw_ray(ray: &Ray) -> RawRay {
     RawRay {
         origin: ray.origin.to_array(),
@@ -293,15 +302,7 @@ fn arguments(context: &mut Context, flags: c_int) -> QueryArguments {
 
 impl BuiltScene {
     fn intersect(&self, ray: &Ray, accept: Accept<'_>, instance: Option<u32>) -> Option<Hit> {
-        let hit = RawHit {
-            normal: [0.0; 3],
-            u: 0.0,
-            v: 0.0,
-            primitive: api::INVALID_ID,
-            geometry: api::INVALID_ID,
-            instance: api::INVALID_ID,
-        };
-        let mut ray_hit = RayHit { ray: raw_ray(ray), hit, room: [api::INVALID_ID; 4] };
+        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
         let mut question = Question { accept, instance };
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, 0);
@@ -325,6 +326,22 @@ impl Accel {
         let mut arguments = arguments(&mut context, 0);
         // SAFETY: as for `intersect`.
         unsafe { (self.top.device.api.occluded1)(self.top.handle, &mut raw, &mut arguments) };
+        raw.t_max == f32::NEG_INFINITY
+    }
+
+    pub(super) fn intersect_bare(&self, ray: &Ray) -> Option<Hit> {
+        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
+        // SAFETY: as for `intersect`; without arguments Embree takes its defaults.
+        unsafe { (self.top.device.api.intersect1)(self.top.handle, &mut ray_hit, ptr::null_mut()) };
+        let (hit, t) = (&ray_hit.hit, ray_hit.ray.t_max);
+        (hit.geometry != api::INVALID_ID)
+            .then(|| hit_of(t, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], None))
+    }
+
+    pub(super) fn occluded_bare(&self, ray: &Ray) -> bool {
+        let mut raw = raw_ray(ray);
+        // SAFETY: as for `intersect_bare`.
+        unsafe { (self.top.device.api.occluded1)(self.top.handle, &mut raw, ptr::null_mut()) };
         raw.t_max == f32::NEG_INFINITY
     }
 

@@ -124,6 +124,22 @@ impl Accel {
         }
     }
 
+    /// The nearest hit if all count: the kernel as its makers deliver it, to measure against.
+    pub(crate) fn intersect_bare(&self, ray: &Ray) -> Option<Hit> {
+        match self {
+            Self::Embree(accel) => accel.intersect_bare(ray),
+            Self::Obvhs(accel) => accel.intersect(ray, &mut |_, _| true),
+        }
+    }
+
+    /// Whether there is any hit if all count.
+    pub(crate) fn occluded_bare(&self, ray: &Ray) -> bool {
+        match self {
+            Self::Embree(accel) => accel.occluded_bare(ray),
+            Self::Obvhs(accel) => accel.occluded(ray, &mut |_, _| true),
+        }
+    }
+
     /// The nearest hits of up to [`PACKET`] rays that start and run alike, in `hits`.
     pub(crate) fn intersect_packet(&self, rays: &[Ray], hits: &mut [Option<Hit>; PACKET], accept: Accept<'_>) {
         match self {

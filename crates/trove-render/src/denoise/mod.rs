@@ -12,9 +12,6 @@ use trove_model::Raster;
 use crate::RenderError;
 use api::{Api, Handle};
 
-/// The best of its three qualities: beside a path-traced frame it costs a few seconds, and fine texture shows it.
-const QUALITY: c_int = api::QUALITY_HIGH;
-
 /// Open Image Denoise on the processor.
 pub(crate) struct Denoiser {
     /// The library runs one filter a device at a time; a lock says so here.
@@ -25,6 +22,27 @@ pub(crate) struct Denoiser {
 struct Device {
     api: Api,
     handle: Handle,
+    /// For albedo, normal and colour; made when first used and kept, since making one takes longer than a small picture.
+    filters: [Option<Handle>; 3],
+}
+
+/// What a filter cleans.
+#[derive(Clone, Copy)]
+enum Cleans {
+    Albedo,
+    Normal,
+    Color,
+}
+
+impl Cleans {
+    /// The best of the library's three qualities for the picture, whose fine texture shows it; guides are no better for
+    /// it, and take twice as long.
+    fn quality(self) -> c_int {
+        match self {
+            Self::Color => api::QUALITY_HIGH,
+            Self::Albedo | Self::Normal => api::QUALITY_BALANCED,
+        }
+    }
 }
 
 // SAFETY: a device belongs to no thread, by the library's documentation; it is only used under the lock.
@@ -32,8 +50,11 @@ unsafe impl Send for Device {}
 
 impl Drop for Device {
     fn drop(&mut self) {
-        // SAFETY: the handle came from `new_device` and is released once.
-        unsafe { (self.api.release_device)(self.handle) }
+        // SAFETY: filters and device were made by the library and are released once.
+        unsafe {
+            self.filters.into_iter().flatten().for_each(|filter| (self.api.release_filter)(filter));
+            (self.api.release_device)(self.handle);
+        }
     }
 }
 
@@ -52,7 +73,7 @@ impl Denoiser {
             let problem = api.error(ptr::null_mut()).err();
             return Err(refuse(problem.unwrap_or_else(|| "it has no device for this processor".into())));
         }
-        let device = Device { api, handle };
+        let device = Device { api, handle, filters: [None; 3] };
         let threads = c_int::try_from(threads).unwrap_or(c_int::MAX);
         // SAFETY: the device is alive, and the names are those of its parameters. Threads stay where the system puts
         // them, because others render beside this one.
@@ -84,12 +105,12 @@ impl Denoiser {
         albedo: &Raster<[f32; 3]>,
         normal: &Raster<[f32; 3]>,
     ) -> Option<Raster<[f32; 3]>> {
-        let device = self.device.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut device = self.device.lock().unwrap_or_else(PoisonError::into_inner);
         // Guides carry noise of their own (cut-outs, edges, glass): cleaned first, they may be trusted to the pixel.
-        let clean = || {
-            let albedo = device.run(&[(c"albedo", albedo)], false)?;
-            let normal = device.run(&[(c"normal", normal)], false)?;
-            device.run(&[(c"color", color), (c"albedo", &albedo), (c"normal", &normal)], true)
+        let mut clean = || {
+            let albedo = device.run(Cleans::Albedo, &[(c"albedo", albedo)])?;
+            let normal = device.run(Cleans::Normal, &[(c"normal", normal)])?;
+            device.run(Cleans::Color, &[(c"color", color), (c"albedo", &albedo), (c"normal", &normal)])
         };
         match clean() {
             Ok(picture) => Some(picture),
@@ -103,7 +124,7 @@ impl Denoiser {
 
 impl Device {
     /// One filter over one picture, the first, with guides.
-    fn run(&self, images: &[(&CStr, &Raster<[f32; 3]>)], is_color: bool) -> Result<Raster<[f32; 3]>, String> {
+    fn run(&mut self, what: Cleans, images: &[(&CStr, &Raster<[f32; 3]>)]) -> Result<Raster<[f32; 3]>, String> {
         let (width, height) = (images[0].1.width, images[0].1.height);
         if images.iter().any(|(_, image)| (image.width, image.height) != (width, height)) {
             return Err("pictures of different sizes".into());
@@ -112,14 +133,11 @@ impl Device {
         if output.data.is_empty() {
             return Ok(output);
         }
+        let filter = self.filter(what)?;
         let api = &self.api;
-        // SAFETY: device and filter are alive; names are those of the filter `RT`; every image has width × height
+        // SAFETY: device and filter are alive; every image has width × height
         // pixels of three floats, packed, and outlives the filter, which only writes to `output`.
         unsafe {
-            let filter = (api.new_filter)(self.handle, c"RT".as_ptr());
-            if filter.is_null() {
-                return Err(self.api.error(self.handle).err().unwrap_or_else(|| "no filter `RT`".into()));
-            }
             let set = |name: &CStr, data: *mut [f32; 3]| {
                 let (width, height) = (width as usize, height as usize);
                 let format = api::FORMAT_FLOAT3;
@@ -129,16 +147,32 @@ impl Device {
                 set(name, image.data.as_ptr().cast_mut());
             }
             set(c"output", output.data.as_mut_ptr());
-            (api.set_filter_int)(filter, c"quality".as_ptr(), QUALITY);
-            if is_color {
+            (api.commit_filter)(filter);
+            (api.execute_filter)(filter);
+        }
+        self.api.error(self.handle).map(|()| output)
+    }
+
+    fn filter(&mut self, what: Cleans) -> Result<Handle, String> {
+        if let Some(filter) = self.filters[what as usize] {
+            return Ok(filter);
+        }
+        let api = &self.api;
+        // SAFETY: the device is alive; names are those of the filter `RT`.
+        let filter = unsafe { (api.new_filter)(self.handle, c"RT".as_ptr()) };
+        if filter.is_null() {
+            return Err(api.error(self.handle).err().unwrap_or_else(|| "no filter `RT`".into()));
+        }
+        // SAFETY: as above.
+        unsafe {
+            (api.set_filter_int)(filter, c"quality".as_ptr(), what.quality());
+            if let Cleans::Color = what {
                 (api.set_filter_bool)(filter, c"hdr".as_ptr(), true);
                 (api.set_filter_bool)(filter, c"cleanAux".as_ptr(), true);
             }
-            (api.commit_filter)(filter);
-            (api.execute_filter)(filter);
-            (api.release_filter)(filter);
         }
-        self.api.error(self.handle).map(|()| output)
+        self.filters[what as usize] = Some(filter);
+        Ok(filter)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod camera;
 mod integrate;
+mod rates;
 mod tile;
 mod wave;
 
@@ -12,6 +13,8 @@ use trove_model::{Raster, Shot};
 
 use crate::PreparedScene;
 use crate::prepare::Carrier;
+pub(crate) use rates::ray_times;
+pub use rates::{RaySeconds, RayTimes};
 use tile::{Eye, Tile};
 use wave::Wave;
 

@@ -98,6 +98,25 @@ impl Tile {
 
     /// One more sample for the pixels of some blocks, which so far have had all that any has.
     fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
+        self.start_blocks(eye, wave, blocks);
+        wave.run(eye.scene, eye.carrier);
+        for (path, &place) in wave.paths.iter().zip(&wave.places) {
+            let (pixel, sample) = (&mut self.pixels[place], path.sample());
+            if self.samples % 2 == 1 {
+                pixel.odd += sample.radiance.element_sum();
+            }
+            pixel.sum.add(&sample);
+        }
+        self.samples += 1;
+    }
+
+    /// The paths of one sample of every pixel.
+    pub(super) fn start(&mut self, eye: &Eye<'_>, wave: &mut Wave) {
+        let blocks = self.blocks.clone();
+        self.start_blocks(eye, wave, &blocks);
+    }
+
+    fn start_blocks(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
         let shot = eye.shot;
         let log2_count = shot.spp.max(1).next_power_of_two().ilog2();
         let places = blocks.iter().flat_map(Clone::clone);
@@ -118,15 +137,6 @@ impl Tile {
                 wave.places.push(place);
             }
         }
-        wave.run(eye.scene, eye.carrier);
-        for (path, &place) in wave.paths.iter().zip(&wave.places) {
-            let (pixel, sample) = (&mut self.pixels[place], path.sample());
-            if self.samples % 2 == 1 {
-                pixel.odd += sample.radiance.element_sum();
-            }
-            pixel.sum.add(&sample);
-        }
-        self.samples += 1;
     }
 }
 

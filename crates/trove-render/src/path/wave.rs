@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use super::integrate::{Path, Shadow, Shadows, Vertex};
+use super::integrate::{Path, Shadows, Vertex};
 use crate::PreparedScene;
-use crate::accel::{Hit, PACKET};
+use crate::accel::{Hit, PACKET, Ray};
 use crate::prepare::Carrier;
 
 /// Paths under way, with room that is used again and again.
@@ -49,32 +49,35 @@ impl Wave {
 
     /// Brings light to the paths from lamps, sky and sun where nothing is in the way.
     fn light(&mut self, scene: &PreparedScene, alike: bool) {
-        let mut gather = |shadow: &Shadow, light: Vec3| {
-            self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
-        };
-        for shadow in &self.shadows.to_rest {
-            gather(shadow, shadow.light * scene.transmittance(&shadow.ray));
-        }
-        for group in self.shadows.to_sun.chunks(PACKET) {
-            if !alike {
-                group.iter().for_each(|shadow| gather(shadow, shadow.light * scene.transmittance(&shadow.ray)));
-                continue;
+        for (shadows, alike) in [(&mut self.shadows.to_rest, false), (&mut self.shadows.to_sun, alike)] {
+            self.rays += shadows.len() as u64;
+            for group in shadows.chunks(PACKET) {
+                let mut rays = [group[0].ray; PACKET];
+                let mut light = [Vec3::ZERO; PACKET];
+                for ((shadow, ray), light) in group.iter().zip(&mut rays).zip(&mut light) {
+                    (*ray, *light) = (shadow.ray, shadow.light);
+                }
+                self::light(scene, alike, &rays[..group.len()], &mut light);
+                for (shadow, light) in group.iter().zip(light) {
+                    self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
+                }
             }
-            let mut light = [Vec3::ZERO; PACKET];
-            light.iter_mut().zip(group).for_each(|(light, shadow)| *light = shadow.light);
-            let mut rays = [group[0].ray; PACKET];
-            rays.iter_mut().zip(group).for_each(|(ray, shadow)| *ray = shadow.ray);
-            scene.shade_packet(&rays[..group.len()], &mut light);
-            group.iter().zip(light).for_each(|(shadow, light)| gather(shadow, light));
+            shadows.clear();
         }
-        self.rays += (self.shadows.to_sun.len() + self.shadows.to_rest.len()) as u64;
-        self.shadows.to_sun.clear();
-        self.shadows.to_rest.clear();
+    }
+}
+
+/// Leaves of the light along each ray what nothing keeps back.
+pub(super) fn light(scene: &PreparedScene, alike: bool, rays: &[Ray], light: &mut [Vec3]) {
+    if alike {
+        rays.chunks(PACKET).zip(light.chunks_mut(PACKET)).for_each(|(rays, light)| scene.shade_packet(rays, light));
+    } else {
+        rays.iter().zip(light).for_each(|(ray, light)| *light *= scene.transmittance(ray));
     }
 }
 
 /// What the rays of a group of paths meet.
-fn intersect(
+pub(super) fn intersect(
     scene: &PreparedScene,
     carrier: &Carrier,
     paths: &[Path],

@@ -106,7 +106,7 @@ impl PreparedScene {
     }
 
     /// What passes along rays that run alike: light is multiplied by 0 behind anything opaque, tinted behind thin glass.
-    pub(crate) fn shade_packet(&self, rays: &[Ray], light: &mut [Vec3; PACKET]) {
+    pub(crate) fn shade_packet(&self, rays: &[Ray], light: &mut [Vec3]) {
         let mut blocked = [false; PACKET];
         self.accel.occluded_packet(rays, &mut blocked, &mut |lane, hit| {
             self.is_there(hit) && {
@@ -119,6 +119,16 @@ impl PreparedScene {
                 *light = Vec3::ZERO;
             }
         }
+    }
+
+    /// The nearest triangle, with nothing asked.
+    pub(crate) fn intersect_bare(&self, ray: &Ray) -> Option<Hit> {
+        self.accel.intersect_bare(ray)
+    }
+
+    /// Whether a ray meets any triangle, with nothing asked.
+    pub(crate) fn is_blocked_bare(&self, ray: &Ray) -> bool {
+        self.accel.occluded_bare(ray)
     }
 
     /// The share of light that passes along a ray: 0 behind anything opaque, tinted behind thin glass.

@@ -1,0 +1,110 @@
+//! How fast rays are traced, against the bare kernel.
+
+use std::time::Instant;
+
+use glam::Vec3;
+use trove_model::Shot;
+
+use super::integrate::{Path, Shadows, Vertex};
+use super::tile::{Eye, tiles};
+use super::wave::{self, Wave};
+use crate::PreparedScene;
+use crate::accel::{Hit, PACKET, Ray};
+use crate::prepare::Carrier;
+
+/// Seconds that one thread takes for rays of one sort.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RaySeconds {
+    /// How many rays.
+    pub rays: u64,
+    /// As pictures are traced: in packets where they run alike, with holes and panes.
+    pub renderer: f64,
+    /// One by one, all triangles opaque.
+    pub bare: f64,
+    turn: bool,
+}
+
+/// Seconds that the rays of one sample a pixel take.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RayTimes {
+    /// From the eye.
+    pub camera: RaySeconds,
+    /// From the first surfaces on.
+    pub bounce: RaySeconds,
+    /// From the first surfaces to sun, sky and lamps.
+    pub shadow: RaySeconds,
+}
+
+pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
+    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
+    let eye = Eye { scene, shot, carrier: &carrier };
+    let (mut times, mut wave) = (RayTimes::default(), Wave::default());
+    for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
+        tile.start(&eye, &mut wave);
+        let mut paths = std::mem::take(&mut wave.paths);
+        let hits = intersect(scene, &carrier, &mut times.camera, &paths, true);
+
+        let mut shadows = Shadows::default();
+        let advance = |(index, (path, hit)): (u32, (&mut Path, Option<Hit>))| {
+            Vertex { scene, index, shadows: &mut shadows }.advance(path, hit)
+        };
+        let goes_on: Vec<bool> = (0..).zip(paths.iter_mut().zip(hits)).map(advance).collect();
+        for (list, alike) in [(&shadows.to_sun, true), (&shadows.to_rest, false)] {
+            let rays: Vec<Ray> = list.iter().map(|shadow| shadow.ray).collect();
+            let mut light = vec![Vec3::ONE; rays.len()];
+            times.shadow.take(
+                rays.len(),
+                || wave::light(scene, alike, &rays, &mut light),
+                || rays.iter().filter(|ray| scene.is_blocked_bare(ray)).count(),
+            );
+        }
+        let mut goes_on = goes_on.into_iter();
+        paths.retain(|_| goes_on.next() == Some(true));
+        intersect(scene, &carrier, &mut times.bounce, &paths, false);
+    }
+    times
+}
+
+/// What the paths' rays meet, both ways.
+fn intersect(
+    scene: &PreparedScene,
+    carrier: &Carrier,
+    seconds: &mut RaySeconds,
+    paths: &[Path],
+    alike: bool,
+) -> Vec<Option<Hit>> {
+    let all: Vec<u32> = (0..paths.len() as u32).collect();
+    let mut found = Vec::with_capacity(paths.len());
+    let trace = || {
+        for group in all.chunks(PACKET) {
+            let mut hits = [None; PACKET];
+            wave::intersect(scene, carrier, paths, group, alike, &mut hits);
+            found.extend_from_slice(&hits[..group.len()]);
+        }
+    };
+    seconds.take(paths.len(), trace, || paths.iter().filter(|path| scene.intersect_bare(&path.ray).is_some()).count());
+    found
+}
+
+impl RaySeconds {
+    /// Times both ways of tracing some rays, taking turns in going first, which is to find colder caches.
+    fn take(&mut self, rays: usize, renderer: impl FnOnce(), bare: impl FnOnce() -> usize) {
+        self.rays += rays as u64;
+        self.turn = !self.turn;
+        let (seconds_renderer, seconds_bare) = (&mut self.renderer, &mut self.bare);
+        let mut renderer = Some(|| *seconds_renderer += seconds_of(renderer));
+        if self.turn {
+            renderer.take().into_iter().for_each(|time| time());
+        }
+        *seconds_bare += seconds_of(|| {
+            std::hint::black_box(bare());
+        });
+        renderer.into_iter().for_each(|time| time());
+    }
+}
+
+fn seconds_of(work: impl FnOnce()) -> f64 {
+    let started = Instant::now();
+    work();
+    started.elapsed().as_secs_f64()
+}

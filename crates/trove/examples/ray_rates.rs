@@ -1,0 +1,48 @@
+//! How fast the renderer traces rays against bare Embree on the same rays: `make bench-rays`.
+//!
+//! CAM_FRONT of a keyframe of both sample scenes, one sample a pixel, one thread; the folder of real data is
+//! `TROVE_TEST_DATA`.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use trove_build::{BuildSettings, LightChoice, SkyChoice, ViewSettings, Weather};
+use trove_model::{Report, Seed};
+use trove_read::{nuscenes::NuScenes, osm};
+use trove_render::{KernelChoice, RaySeconds, Renderer, RendererOptions};
+
+fn main() -> Result<()> {
+    let data = PathBuf::from(std::env::var_os("TROVE_TEST_DATA").context("TROVE_TEST_DATA: expected a folder")?);
+    let report = Report::default();
+    let dataset = NuScenes::open(&data.join("nuscenes"), "v1.0-mini", None, &report)?;
+    let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
+    let renderer =
+        Renderer::new(&RendererOptions { kernel: KernelChoice::Embree, denoise: false, threads: 1, search })?;
+    let library = trove_assets::library();
+    for (name, place) in [("scene-0103", "boston-seaport.osm"), ("scene-0061", "singapore-onenorth.osm")] {
+        let drive = dataset.drive(name, &report)?;
+        let area = trove_build::area(&drive).context("nothing was recorded")?;
+        let map = osm::read(&data.join("osm").join(place), &drive.projection, area, &report)?;
+        let settings = BuildSettings {
+            seed: Seed(7),
+            top_k: 3,
+            light: LightChoice::Sky(SkyChoice::default()),
+            weather: Weather::default(),
+        };
+        let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
+        let views = ViewSettings { rig: Some(vec!["CAM_FRONT".into()]), scale: 0.5, spp: 1, ..ViewSettings::default() };
+        let shots = trove_build::shots(&drive, &site, 1, &views, Seed(5), &report);
+        let prepared = renderer.prepare(&site.scene(&drive, 1))?;
+        // The first time warms the caches.
+        renderer.ray_times(&prepared, &shots[0]);
+        let times = renderer.ray_times(&prepared, &shots[0]);
+        for (sort, RaySeconds { rays, renderer, bare, .. }) in
+            [("camera", times.camera), ("bounce", times.bounce), ("shadow", times.shadow)]
+        {
+            let millions = |seconds: f64| rays as f64 / seconds * 1e-6;
+            let (ours, bare) = (millions(renderer), millions(bare));
+            println!("{name} {sort}: {ours:.2} million rays a second, bare {bare:.2}, share {:.2}", ours / bare);
+        }
+    }
+    Ok(())
+}
