@@ -73,6 +73,7 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
             world_from_mesh_next: None,
             object: None,
         }],
+        keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(map.clone()) },
         provenance: Vec::new(),
     };

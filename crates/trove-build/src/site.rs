@@ -15,7 +15,7 @@ use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::kerbs::Kerbs;
 use crate::light::{LightChoice, light, switch_on};
-use crate::moments::{next, previous};
+use crate::moments::{apart_s, next, previous};
 use crate::placement::{Stand, cast};
 use crate::scenery::Scenery;
 use crate::stock::Stock;
@@ -199,6 +199,7 @@ impl Site {
             meshes: self.stock.meshes.clone(),
             materials: self.stock.materials.clone(),
             instances,
+            keyframes_apart_s: neighbours.map(|other| apart_s(drive, keyframe, other)),
             light: self.light.clone(),
             provenance: self.provenance.clone(),
         }

@@ -19,6 +19,9 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// What stands where.
     pub instances: Vec<Instance>,
+    /// From the previous keyframe to this one and from this one to the next, seconds, more than 0; infinite where there is
+    /// none.
+    pub keyframes_apart_s: [f64; 2],
     /// Sky.
     pub light: Light,
     /// Where it came from.

@@ -74,7 +74,8 @@ impl SensorModel {
     };
 }
 
-/// When the sensor's rows see light, and how far the neighbouring keyframes are in time.
+/// When the sensor's rows see light, and how far the neighbouring keyframes are in time. Of exposure and readout together
+/// things move for the middle 0.1 s and stand before and after it; the camera moves all the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
     /// Time for which every row is exposed, seconds; 0 is an instant.

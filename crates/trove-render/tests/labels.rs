@@ -348,6 +348,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         meshes: [ground(), ball(400), cube()].map(Arc::new).to_vec(),
         materials: vec![Material::default()],
         instances,
+        keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(sky)) },
         provenance: Vec::new(),
     }

@@ -44,6 +44,7 @@ fn scene() -> Scene {
         meshes: vec![Arc::new(Mesh::default())],
         materials: vec![],
         instances: vec![instance],
+        keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Sky(sky) },
         provenance: vec![],
     }

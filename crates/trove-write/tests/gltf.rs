@@ -93,6 +93,7 @@ fn scene() -> Scene {
             instance(9, Class::Car, 1, &[0, 2], at(3.0)),
             instance(0, Class::Ground, 2, &[0], DAffine3::IDENTITY),
         ],
+        keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Sky(sky) },
         provenance: vec![Provenance { source: "made up".into(), licence: "MIT".into() }],
     }

@@ -14,7 +14,7 @@ use super::embree_api::{
     self as api, Api, Context, FilterArguments, Handle, Packet, PacketHits, PacketRays, QueryArguments, RawHit, RawRay,
     RayHit,
 };
-use super::{Accept, Hit, PACKET, Placed, Ray};
+use super::{Accept, Hit, Motion, PACKET, Placed, Ray};
 use crate::RenderError;
 use crate::cache::Cache;
 
@@ -109,7 +109,7 @@ impl Kernel {
         });
         let at = |z: f32| Placed {
             mesh: mesh.clone(),
-            world_from_mesh: Affine3A::from_translation(glam::Vec3::Z * z),
+            world_from_mesh: Motion { middle: Affine3A::from_translation(glam::Vec3::Z * z), ends: None },
             tested: true,
         };
         let accel = self.build(&[at(1.0), at(3.0)]);
@@ -131,25 +131,30 @@ impl Kernel {
         placed.iter().for_each(|p| *uses.entry(Arc::as_ptr(&p.mesh)).or_default() += 1);
         for (i, p) in placed.iter().enumerate() {
             // Ground, roads and houses overlap: as instances, a ray would have to enter one after the other.
-            if p.world_from_mesh == Affine3A::IDENTITY && uses[&Arc::as_ptr(&p.mesh)] == 1 {
+            let Motion { middle, ends } = p.world_from_mesh;
+            if middle == Affine3A::IDENTITY && ends.is_none() && uses[&Arc::as_ptr(&p.mesh)] == 1 {
                 attach_mesh(&top, &p.mesh, p.tested, i as u32);
                 bottoms.push(Bottom::InTop { mesh: p.mesh.clone(), tested: p.tested, alone: OnceLock::new() });
                 continue;
             }
             let cache = &self.built[usize::from(p.tested)];
             let bottom = cache.get(&p.mesh, |mesh| build_mesh(&self.device, mesh, p.tested));
-            let columns = p.world_from_mesh.to_cols_array();
-            // SAFETY: all handles are alive; the transform is 12 floats, column by column; ids are distinct.
+            let steps = ends.map_or(vec![middle], |[before, after]| vec![before, middle, after]);
+            // SAFETY: all handles are alive; a transform is 12 floats, column by column; ids are distinct.
             unsafe {
                 let geometry = (api.new_geometry)(self.device.handle, api::GEOMETRY_INSTANCE);
                 (api.set_instanced_scene)(geometry, bottom.handle);
-                let format = api::FORMAT_FLOAT3X4_COLUMN_MAJOR;
-                (api.set_transform)(geometry, 0, format, columns.as_ptr().cast());
+                (api.set_time_steps)(geometry, steps.len() as u32);
+                for (step, world_from_mesh) in (0..).zip(&steps) {
+                    let columns = world_from_mesh.to_cols_array();
+                    let format = api::FORMAT_FLOAT3X4_COLUMN_MAJOR;
+                    (api.set_transform)(geometry, step, format, columns.as_ptr().cast());
+                }
                 (api.commit_geometry)(geometry);
                 (api.attach_by_id)(top.handle, geometry, i as u32);
                 (api.release_geometry)(geometry);
             }
-            bottoms.push(Bottom::Placed(bottom, p.world_from_mesh.inverse()));
+            bottoms.push(Bottom::Placed(bottom, middle.inverse()));
         }
         // SAFETY: the scene is alive and complete.
         unsafe { (api.commit_scene)(top.handle) };
@@ -258,7 +263,7 @@ fn raw_ray(ray: &Ray) -> RawRay {
         origin: ray.origin.to_array(),
         t_min: ray.t_min,
         direction: ray.direction.to_array(),
-        time: 0.0,
+        time: ray.time,
         t_max: ray.t_max,
         mask: u32::MAX,
         id: 0,
@@ -276,7 +281,7 @@ fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
         origin: [of(|r| r.origin.x), of(|r| r.origin.y), of(|r| r.origin.z)],
         t_min: of(|r| r.t_min),
         direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
-        time: [0.0; PACKET],
+        time: of(|r| r.time),
         t_max: of(|r| r.t_max),
         mask: [u32::MAX; PACKET],
         id: std::array::from_fn(|i| i as u32),

@@ -143,6 +143,7 @@ shared_library! {
     new_buffer = b"rtcSetNewGeometryBuffer": fn(Handle, c_int, u32, c_int, usize, usize) -> *mut c_void;
     filter_from_arguments = b"rtcSetGeometryEnableFilterFunctionFromArguments": fn(Handle, bool);
     set_instanced_scene = b"rtcSetGeometryInstancedScene": fn(Handle, Handle);
+    set_time_steps = b"rtcSetGeometryTimeStepCount": fn(Handle, u32);
     set_transform = b"rtcSetGeometryTransform": fn(Handle, u32, c_int, *const c_void);
     commit_geometry = b"rtcCommitGeometry": fn(Handle);
     attach_by_id = b"rtcAttachGeometryByID": fn(Handle, Handle, u32);

@@ -5,16 +5,19 @@
 
 mod embree;
 mod embree_api;
+mod motion;
 mod obvhs;
 mod watertight;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{Affine3A, Vec3};
+use glam::Vec3;
 use trove_model::Mesh;
 
 use crate::RenderError;
+
+pub(crate) use motion::{MIDDLE, Motion, ray_time};
 
 /// Which ray-tracing kernel to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,12 +38,19 @@ pub(crate) struct Ray {
     pub(crate) direction: Vec3,
     pub(crate) t_min: f32,
     pub(crate) t_max: f32,
+    /// As `ray_time` gives it.
+    pub(crate) time: f32,
 }
 
 impl Ray {
-    /// From a point to infinity.
+    /// From a point to infinity, at the moment of the labels.
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
+        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY, time: MIDDLE }
+    }
+
+    /// Another ray of the same time, to infinity.
+    pub(crate) fn then(&self, origin: Vec3, direction: Vec3) -> Self {
+        Self { time: self.time, ..Self::new(origin, direction) }
     }
 }
 
@@ -67,7 +77,7 @@ pub(crate) const PACKET: usize = 16;
 #[derive(Clone)]
 pub(crate) struct Placed {
     pub(crate) mesh: Arc<Mesh>,
-    pub(crate) world_from_mesh: Affine3A,
+    pub(crate) world_from_mesh: Motion,
     /// Its hits are put to `accept`; hits on others always count.
     pub(crate) tested: bool,
 }
@@ -172,7 +182,7 @@ impl Accel {
         }
     }
 
-    /// The nearest hit that counts on one instance, as if nothing else were there.
+    /// The nearest hit that counts on one instance, as if nothing else were there, at the moment of the labels.
     pub(crate) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {
         match self {
             Self::Embree(accel) => accel.intersect_instance(ray, instance, accept),

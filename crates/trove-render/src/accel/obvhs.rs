@@ -13,7 +13,7 @@ use obvhs::triangle::Triangle;
 use trove_model::Mesh;
 
 use super::watertight::Sheared;
-use super::{Accept, Hit, Placed, Ray};
+use super::{Accept, Hit, MIDDLE, Motion, Placed, Ray};
 use crate::cache::Cache;
 
 /// What was built of the meshes so far.
@@ -30,7 +30,9 @@ struct Bottom {
 
 struct Top {
     bottom: Arc<Bottom>,
+    /// At the moment of the labels.
     mesh_from_world: Affine3A,
+    motion: Motion,
     tested: bool,
 }
 
@@ -46,7 +48,8 @@ impl Kernel {
         self.built.make_all(placed.iter().map(|p| &p.mesh), Bottom::new);
         let top = |p: &Placed| Top {
             bottom: self.built.get(&p.mesh, Bottom::new),
-            mesh_from_world: p.world_from_mesh.inverse(),
+            mesh_from_world: p.world_from_mesh.middle.inverse(),
+            motion: p.world_from_mesh,
             tested: p.tested,
         };
         let tops: Vec<Top> = placed.iter().map(top).collect();
@@ -56,9 +59,10 @@ impl Kernel {
     }
 }
 
-/// Box around a placed mesh; an empty mesh gets an empty box, which no ray meets.
+/// Box around a placed mesh wherever it moves; an empty mesh gets an empty box, which no ray meets.
 fn box_world(placed: &Placed) -> Aabb {
-    let points = placed.mesh.positions.iter().map(|&p| placed.world_from_mesh.transform_point3a(p.into()));
+    let at = |m: Affine3A| placed.mesh.positions.iter().map(move |&p| m.transform_point3a(p.into()));
+    let points = placed.world_from_mesh.corners().flat_map(at);
     let mut bounds: Option<Aabb> = None;
     for p in points {
         bounds.get_or_insert(Aabb::from_point(p)).extend(p);
@@ -88,8 +92,10 @@ impl Top {
         if self.bottom.triangles.is_empty() {
             return None;
         }
-        let origin = self.mesh_from_world.transform_point3(ray.origin);
-        let direction = self.mesh_from_world.transform_vector3(ray.direction);
+        let moved = self.motion.ends.is_some() && ray.time != MIDDLE;
+        let mesh_from_world = if moved { self.motion.at(ray.time).inverse() } else { self.mesh_from_world };
+        let origin = mesh_from_world.transform_point3(ray.origin);
+        let direction = mesh_from_world.transform_vector3(ray.direction);
         let sheared = Sheared::new(origin, direction);
         let mut nearest: Option<Hit> = None;
         let mut meet = |ray: &obvhs::ray::Ray, index: usize| {

@@ -238,6 +238,7 @@ mod tests {
             meshes: vec![Arc::new(lamp)],
             materials: vec![Material { emission: Vec3::splat(3.0), ..Material::default() }],
             instances: vec![instance],
+            keyframes_apart_s: [0.5; 2],
             light: Light { environment: Environment::Sky(sky) },
             provenance: Vec::new(),
         }

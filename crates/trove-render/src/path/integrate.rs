@@ -186,7 +186,7 @@ impl Vertex<'_> {
             if path.guide.is_none() {
                 path.guide_filter *= next.weight.min(Vec3::ONE);
             }
-            path.ray = Ray::new(surface.leave(next.wi), next.wi);
+            path.ray = path.ray.then(surface.leave(next.wi), next.wi);
             return path.passages <= MAX_PASSAGES;
         };
 
@@ -201,7 +201,7 @@ impl Vertex<'_> {
         }
         path.scattered = Some(Scattered { point: surface.point, lit_side, pdf });
         path.cone.spread_rad += next.spread_rad;
-        path.ray = Ray::new(surface.leave(next.wi), next.wi);
+        path.ray = path.ray.then(surface.leave(next.wi), next.wi);
         path.bounce <= MAX_BOUNCES
     }
 
@@ -213,7 +213,7 @@ impl Vertex<'_> {
             return None;
         }
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
-        let ray = Ray { t_max, ..Ray::new(surface.leave(light.wi), light.wi) };
+        let ray = Ray { t_max, ..path.ray.then(surface.leave(light.wi), light.wi) };
         let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
         Some(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 })

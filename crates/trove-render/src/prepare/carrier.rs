@@ -1,10 +1,10 @@
 //! The object that carries a camera: its camera's rays pass through it.
 
-use glam::{Affine3A, Vec3, Vec3A};
+use glam::{Vec3, Vec3A};
 use trove_model::InstanceId;
 
 use super::PreparedScene;
-use crate::accel::{Hit, Ray};
+use crate::accel::{Hit, MIDDLE, Motion, Ray};
 
 /// Rays that leave the carrier's box lower than this above its bottom may have met the ground in it.
 const ABOVE_GROUND_M: f32 = 0.3;
@@ -12,8 +12,8 @@ const ABOVE_GROUND_M: f32 = 0.3;
 /// A camera's carrier.
 pub(crate) struct Carrier {
     id: Option<InstanceId>,
-    /// Its box, with the transform to the box's coordinates; `None` where the camera is not in it.
-    around: Option<(Affine3A, [Vec3A; 2])>,
+    /// Its box, with the way of the box's coordinates; `None` where the camera is not in it.
+    around: Option<(Motion, [Vec3A; 2])>,
 }
 
 impl Carrier {
@@ -22,22 +22,24 @@ impl Carrier {
         let id = id.filter(|id| id.0 != 0);
         let around = id.and_then(|id| {
             let mut parts = scene.instances.iter().filter(|i| i.id == id).peekable();
-            let box_from_world = parts.peek()?.world_from_mesh.inverse();
+            let world_from_box = parts.peek()?.world_from_mesh;
+            let box_from_world = world_from_box.middle.inverse();
             let points = parts.flat_map(|i| {
-                let box_from_mesh = box_from_world * i.world_from_mesh;
+                let box_from_mesh = box_from_world * i.at(MIDDLE).0;
                 i.mesh.positions.iter().map(move |&p| box_from_mesh.transform_point3a(p.into()))
             });
             let empty = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
             let [low, high] = points.fold(empty, |[low, high], p| [low.min(p), high.max(p)]);
             let eye = box_from_world.transform_point3a(eye.into());
-            (eye.cmpgt(low) & eye.cmplt(high)).all().then_some((box_from_world, [low, high]))
+            (eye.cmpgt(low) & eye.cmplt(high)).all().then_some((world_from_box, [low, high]))
         });
         Self { id, around }
     }
 
     /// The ray without its way through the carrier, as far as that can be known without tracing it.
     pub(crate) fn past(&self, ray: Ray) -> Ray {
-        let Some((box_from_world, [low, high])) = &self.around else { return ray };
+        let Some((world_from_box, [low, high])) = &self.around else { return ray };
+        let box_from_world = world_from_box.at(ray.time).inverse();
         let origin = box_from_world.transform_point3a(ray.origin.into());
         let direction = box_from_world.transform_vector3a(ray.direction.into());
         let wall = Vec3A::select(direction.cmpge(Vec3A::ZERO), *high, *low);

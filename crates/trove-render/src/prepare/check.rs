@@ -6,6 +6,10 @@ use crate::RenderError;
 
 /// Checks all indices and numbers.
 pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
+    if !scene.keyframes_apart_s.iter().all(|&s| s > 0.0) {
+        let found = format!("{:?}", scene.keyframes_apart_s);
+        return refuse("keyframes_apart_s".into(), "more than 0 seconds", found);
+    }
     for (i, mesh) in scene.meshes.iter().enumerate() {
         if let Some(defect) = mesh.defect() {
             return refuse(format!("mesh {i}"), "a sound mesh", defect);

@@ -6,11 +6,11 @@ mod surface;
 
 use std::sync::Arc;
 
-use glam::{Affine3A, DAffine3, Mat3A, Vec3};
+use glam::{Affine3A, DAffine3, Mat3A, Vec3, Vec3A};
 use trove_model::{Class, InstanceId, Mesh, Scene, SceneObject};
 
 use crate::RenderError;
-use crate::accel::{Accel, Hit, Kernel, PACKET, Placed, Ray};
+use crate::accel::{Accel, Hit, Kernel, MIDDLE, Motion, PACKET, Placed, Ray};
 use crate::light::{LastSurroundings, Lights};
 use crate::material::PreparedMaterial;
 use crate::texture::Textures;
@@ -35,9 +35,9 @@ pub(crate) struct PreparedInstance {
     pub(crate) foot_z: f32,
     /// Index into the scene's materials for each slot.
     pub(crate) materials: Vec<u32>,
-    pub(crate) world_from_mesh: Affine3A,
-    /// Takes normals: the inverse transpose, not normalised, turned so that outside stays outside.
-    pub(crate) world_from_normal: Mat3A,
+    world_from_mesh: Motion,
+    /// As `world_from_normal` gives it at the moment of the labels.
+    world_from_normal: Mat3A,
     /// For flow, in the model's precision.
     pub(crate) world_from_mesh_f64: DAffine3,
     pub(crate) world_from_mesh_previous: Option<DAffine3>,
@@ -149,7 +149,7 @@ impl PreparedScene {
         if !material.is_pane() {
             return Vec3::ZERO;
         }
-        material.straight_through(self.geometric_normal(hit).dot(ray.direction))
+        material.straight_through(self.geometric_normal(hit, ray.time).dot(ray.direction))
     }
 
     /// Material at a hit.
@@ -159,12 +159,13 @@ impl PreparedScene {
         &self.materials[instance.materials[usize::from(slot)] as usize]
     }
 
-    /// Unit normal of the triangle in World, on the side from which its corners run counter-clockwise.
-    pub(crate) fn geometric_normal(&self, hit: &Hit) -> Vec3 {
+    /// Unit normal of the triangle in World at a ray's time, on the side from which its corners run counter-clockwise.
+    fn geometric_normal(&self, hit: &Hit, time: f32) -> Vec3 {
         let instance = &self.instances[hit.instance as usize];
         let [a, b, c] = instance.mesh.triangles[hit.triangle as usize].map(|i| instance.mesh.positions[i as usize]);
         let normal_mesh = (b - a).cross(c - a);
-        (instance.world_from_normal * glam::Vec3A::from(normal_mesh)).normalize_or(glam::Vec3A::Z).into()
+        let (_, world_from_normal) = instance.at(time);
+        (world_from_normal * Vec3A::from(normal_mesh)).normalize_or(Vec3A::Z).into()
     }
 
     fn is_there(&self, hit: &Hit) -> bool {
@@ -176,12 +177,9 @@ impl PreparedScene {
 impl PreparedInstance {
     fn new(scene: &Scene, feet_z: &[f32], instance: &trove_model::Instance) -> Self {
         let m = instance.world_from_mesh;
-        let world_from_mesh = Affine3A::from_cols(
-            m.matrix3.x_axis.as_vec3a(),
-            m.matrix3.y_axis.as_vec3a(),
-            m.matrix3.z_axis.as_vec3a(),
-            m.translation.as_vec3a(),
-        );
+        let neighbours = [instance.world_from_mesh_previous, instance.world_from_mesh_next];
+        let world_from_mesh = Motion::new(m, neighbours, scene.keyframes_apart_s);
+        // Here in the model's precision.
         let cofactor = m.matrix3.inverse().transpose() * m.matrix3.determinant().signum();
         Self {
             id: instance.id,
@@ -200,5 +198,15 @@ impl PreparedInstance {
             world_from_mesh_next: instance.world_from_mesh_next,
             object: instance.object.clone(),
         }
+    }
+
+    /// Takes the mesh's points to World at a ray's time, and its normals: the inverse transpose, not normalised, turned so
+    /// that outside stays outside.
+    pub(crate) fn at(&self, time: f32) -> (Affine3A, Mat3A) {
+        if self.world_from_mesh.ends.is_none() || time == MIDDLE {
+            return (self.world_from_mesh.middle, self.world_from_normal);
+        }
+        let m = self.world_from_mesh.at(time);
+        (m, m.matrix3.inverse().transpose() * m.matrix3.determinant().signum())
     }
 }

@@ -37,9 +37,10 @@ impl Surface {
 
         // The point lies on the triangle, not on the ray: the ray's error grows with distance.
         let point_mesh = a * weights[0] + b * weights[1] + c * weights[2];
-        let point = instance.world_from_mesh.transform_point3a(point_mesh);
+        let (world_from_mesh, world_from_normal) = instance.at(ray.time);
+        let point = world_from_mesh.transform_point3a(point_mesh);
         let (edge_b, edge_c) = (b - a, c - a);
-        let outside = (instance.world_from_normal * edge_b.cross(edge_c)).normalize_or(Vec3A::Z);
+        let outside = (world_from_normal * edge_b.cross(edge_c)).normalize_or(Vec3A::Z);
 
         let wo = -Vec3A::from(ray.direction).normalize();
         let is_front = outside.dot(wo) >= 0.0;
@@ -49,7 +50,7 @@ impl Surface {
             outside
         } else {
             let [na, nb, nc] = corners.map(|i| Vec3A::from(mesh.normals[i as usize]));
-            let normal = instance.world_from_normal * (na * weights[0] + nb * weights[1] + nc * weights[2]);
+            let normal = world_from_normal * (na * weights[0] + nb * weights[1] + nc * weights[2]);
             // A normal that contradicts its triangle is the model's mistake.
             let normal = normal.normalize_or(outside);
             if normal.dot(outside) < 0.0 { -normal } else { normal }
@@ -64,7 +65,7 @@ impl Surface {
             if det.abs() > 1e-12 {
                 let along_u = (edge_b * dc.y - edge_c * db.y) / det;
                 let along_v = (edge_c * db.x - edge_b * dc.x) / det;
-                let world = |v: Vec3A| Vec3::from(instance.world_from_mesh.transform_vector3a(v));
+                let world = |v: Vec3A| Vec3::from(world_from_mesh.transform_vector3a(v));
                 uv_axes = Some([world(along_u), world(along_v)]);
             }
         }

@@ -75,6 +75,7 @@ pub(crate) fn empty(environment: EnvironmentMap) -> Scene {
         meshes: Vec::new(),
         materials: Vec::new(),
         instances: Vec::new(),
+        keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(environment)) },
         provenance: Vec::new(),
     }

@@ -1,0 +1,84 @@
+//! Where an instance is while the shutter is open.
+
+use glam::{Affine3A, DAffine3, DMat3};
+
+/// Motion is known this long before and after the moment of the labels, seconds; beyond it things stand.
+const SPAN_S: f64 = 0.05;
+
+/// A ray's time at the moment of the labels, of 0 (`SPAN_S` before it) to 1 (after it).
+pub(crate) const MIDDLE: f32 = 0.5;
+
+/// A ray's time some seconds after the moment of the labels.
+pub(crate) fn ray_time(seconds: f64) -> f32 {
+    (0.5 + seconds / (2.0 * SPAN_S)).clamp(0.0, 1.0) as f32
+}
+
+/// `world_from_mesh` over time: two straight stretches that meet at the moment of the labels.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion {
+    pub(crate) middle: Affine3A,
+    /// At times 0 and 1; `None` for what stands.
+    pub(crate) ends: Option<[Affine3A; 2]>,
+}
+
+impl Motion {
+    /// From the placements at the previous keyframe and at the next one and their distances in time, seconds; where one
+    /// is missing the motion of the other stretch goes on.
+    pub(crate) fn new(middle: DAffine3, neighbours: [Option<DAffine3>; 2], apart_s: [f64; 2]) -> Self {
+        let towards = |i: usize| {
+            let share = SPAN_S / apart_s[i];
+            let other = neighbours[i]?;
+            let step = DAffine3 {
+                matrix3: (other.matrix3 - middle.matrix3) * share,
+                translation: (other.translation - middle.translation) * share,
+            };
+            (share > 0.0 && other != middle).then_some(step)
+        };
+        let steps = match [towards(0), towards(1)] {
+            [None, None] => None,
+            [Some(before), None] if neighbours[1].is_none() => Some([before, back(before)]),
+            [None, Some(after)] if neighbours[0].is_none() => Some([back(after), after]),
+            steps => Some(steps.map(|step| step.unwrap_or(DAffine3::ZERO))),
+        };
+        let ends = steps.map(|steps| steps.map(|step| single(&end(&middle, step))));
+        Self { middle: single(&middle), ends }
+    }
+
+    /// At a ray's time.
+    pub(crate) fn at(&self, time: f32) -> Affine3A {
+        match self.ends {
+            Some([before, _]) if time < MIDDLE => lerp(&self.middle, &before, 1.0 - 2.0 * time),
+            Some([_, after]) if time > MIDDLE => lerp(&self.middle, &after, 2.0 * time - 1.0),
+            _ => self.middle,
+        }
+    }
+
+    /// Every placement through which it goes lies between these.
+    pub(super) fn corners(&self) -> impl Iterator<Item = Affine3A> {
+        std::iter::once(self.middle).chain(self.ends.into_iter().flatten())
+    }
+}
+
+/// Half a turn between keyframes would squeeze what turns on a straight line: it only moves along.
+fn end(middle: &DAffine3, step: DAffine3) -> DAffine3 {
+    let turned = middle.matrix3 + step.matrix3;
+    let squeezed = turned.determinant() / middle.matrix3.determinant();
+    let matrix3 = if squeezed > 0.5 { turned } else { middle.matrix3 };
+    DAffine3 { matrix3, translation: middle.translation + step.translation }
+}
+
+fn back(step: DAffine3) -> DAffine3 {
+    DAffine3 { matrix3: -step.matrix3, translation: -step.translation }
+}
+
+fn single(m: &DAffine3) -> Affine3A {
+    let DMat3 { x_axis, y_axis, z_axis } = m.matrix3;
+    Affine3A::from_cols(x_axis.as_vec3a(), y_axis.as_vec3a(), z_axis.as_vec3a(), m.translation.as_vec3a())
+}
+
+fn lerp(from: &Affine3A, to: &Affine3A, share: f32) -> Affine3A {
+    Affine3A {
+        matrix3: from.matrix3 * (1.0 - share) + to.matrix3 * share,
+        translation: from.translation * (1.0 - share) + to.translation * share,
+    }
+}
