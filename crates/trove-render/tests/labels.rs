@@ -236,6 +236,7 @@ fn an_edge_is_blurred_as_wide_as_the_camera_turns_while_it_is_exposed() {
     let size = DVec3::new(100.0, 0.1, 80.0);
     wall.world_from_mesh =
         DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, PLACE + DVec3::new(-50.0, 20.0, 0.0));
+    (wall.world_from_mesh_previous, wall.world_from_mesh_next) = (None, None);
     let mut scene = scene(vec![wall]);
     scene.materials[0].base_color = Vec3::ZERO;
     let now = shot(PLACE).world_from_camera;
