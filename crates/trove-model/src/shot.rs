@@ -135,6 +135,25 @@ pub struct Shot {
 }
 
 impl Shot {
+    /// A picture taken in an instant, with one sample a pixel, by a camera that has no neighbouring keyframes and that
+    /// nothing carries.
+    pub fn new(view: &str, lens: Lens, world_from_camera: Pose<World, Camera>) -> Self {
+        Self {
+            view: view.into(),
+            lens,
+            world_from_camera,
+            world_from_camera_previous: None,
+            world_from_camera_next: None,
+            time_ns: 0,
+            shutter: Shutter::INSTANT,
+            spp: 1,
+            noise: 0.0,
+            film: Film::default(),
+            seed: Seed(0),
+            carrier: None,
+        }
+    }
+
     /// The camera's pose `time_s` seconds after the exposure's middle: it moves evenly between the keyframes, and as
     /// between the others where one is missing; without any it stands still.
     pub fn world_from_camera_at(&self, time_s: f64) -> Pose<World, Camera> {
@@ -156,27 +175,19 @@ mod tests {
     #[test]
     fn a_camera_moves_evenly_and_on_where_a_keyframe_is_missing() {
         let at = |yaw_rad: f64, x: f64| Pose::from_yaw(yaw_rad, DVec3::X * x);
+        let lens = Lens {
+            width_px: 1,
+            height_px: 1,
+            fx_px: 1.0,
+            fy_px: 1.0,
+            cx_px: 0.5,
+            cy_px: 0.5,
+            distortion: Distortion::None,
+        };
         let mut shot = Shot {
-            view: "v".into(),
-            lens: Lens {
-                width_px: 1,
-                height_px: 1,
-                fx_px: 1.0,
-                fy_px: 1.0,
-                cx_px: 0.5,
-                cy_px: 0.5,
-                distortion: Distortion::None,
-            },
-            world_from_camera: at(0.0, 0.0),
-            world_from_camera_previous: None,
             world_from_camera_next: Some(at(0.4, 5.0)),
-            time_ns: 0,
             shutter: Shutter { exposure_s: 0.01, readout_s: 0.03, ..Shutter::INSTANT },
-            spp: 1,
-            noise: 0.0,
-            film: Film::default(),
-            seed: Seed(0),
-            carrier: None,
+            ..Shot::new("v", lens, at(0.0, 0.0))
         };
         assert_eq!(shot.shutter.time_s(0.5, 0.5), 0.0);
         assert!((shot.shutter.time_s(1.0, 1.0) - 0.02).abs() < 1e-12);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Kind, Labels,
-    Lens, Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
+    Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Labels, Lens,
+    Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
 };
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 
@@ -322,20 +322,7 @@ fn centres() -> impl Iterator<Item = (u32, u32, DVec2)> {
 /// A camera that looks north.
 fn shot(position: DVec3) -> Shot {
     let rotation = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
-    Shot {
-        view: "test".into(),
-        lens: LENS,
-        world_from_camera: Pose::<World, Camera>::new(rotation, position),
-        world_from_camera_previous: None,
-        world_from_camera_next: None,
-        time_ns: 0,
-        shutter: Shutter::INSTANT,
-        spp: 1,
-        noise: 0.0,
-        film: Film::default(),
-        seed: Seed(1),
-        carrier: None,
-    }
+    Shot { seed: Seed(1), ..Shot::new("test", LENS, Pose::<World, Camera>::new(rotation, position)) }
 }
 
 /// Indices of the test meshes.

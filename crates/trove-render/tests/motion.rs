@@ -163,18 +163,12 @@ fn shot(shutter: Shutter) -> Shot {
     let rotation = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
     let world_from_camera = Pose::new(rotation, PLACE);
     Shot {
-        view: "test".into(),
-        lens: LENS,
-        world_from_camera,
         world_from_camera_previous: Some(world_from_camera),
         world_from_camera_next: Some(world_from_camera),
-        time_ns: 0,
         shutter,
         spp: 16,
-        noise: 0.0,
-        film: Film::default(),
         seed: Seed(1),
-        carrier: None,
+        ..Shot::new("test", LENS, world_from_camera)
     }
 }
 

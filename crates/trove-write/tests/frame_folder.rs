@@ -7,9 +7,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use trove_model::{
-    Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Film, Instance, InstanceId, Kind, Labels,
-    Lens, Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
-    Shutter,
+    Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels, Lens,
+    Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
 use trove_write::{FrameMeta, Pictures, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
 
@@ -51,27 +50,21 @@ fn scene() -> Scene {
 }
 
 fn shot() -> Shot {
+    let lens = Lens {
+        width_px: W,
+        height_px: H,
+        fx_px: 40.1,
+        fy_px: 40.2,
+        cx_px: 24.3,
+        cy_px: 10.4,
+        distortion: Distortion::kannala_brandt(&[0.01]).unwrap(),
+    };
     Shot {
-        view: "ego.CAM_FRONT".into(),
-        lens: Lens {
-            width_px: W,
-            height_px: H,
-            fx_px: 40.1,
-            fy_px: 40.2,
-            cx_px: 24.3,
-            cy_px: 10.4,
-            distortion: Distortion::kannala_brandt(&[0.01]).unwrap(),
-        },
-        world_from_camera: Pose::from_yaw(0.3, DVec3::new(1.0, 2.0, 3.0)),
-        world_from_camera_previous: None,
         world_from_camera_next: Some(Pose::from_yaw(0.3, DVec3::new(1.5, 2.0, 3.0))),
         time_ns: 1_533_151_603_512_404_000,
-        shutter: Shutter::INSTANT,
         spp: 4,
-        noise: 0.0,
-        film: Film::default(),
         seed: Seed(u64::MAX),
-        carrier: None,
+        ..Shot::new("ego.CAM_FRONT", lens, Pose::from_yaw(0.3, DVec3::new(1.0, 2.0, 3.0)))
     }
 }
 

@@ -100,27 +100,18 @@ fn scene() -> Scene {
 }
 
 fn shot() -> Shot {
+    let lens = Lens {
+        width_px: 1600,
+        height_px: 900,
+        fx_px: 1250.0,
+        fy_px: 1250.0,
+        cx_px: 816.0,
+        cy_px: 491.0,
+        distortion: Distortion::None,
+    };
     Shot {
-        view: "ego.CAM_FRONT".into(),
-        lens: Lens {
-            width_px: 1600,
-            height_px: 900,
-            fx_px: 1250.0,
-            fy_px: 1250.0,
-            cx_px: 816.0,
-            cy_px: 491.0,
-            distortion: Distortion::None,
-        },
-        world_from_camera: Pose::from_yaw(0.0, DVec3::new(1.0, 2.0, 3.0)),
-        world_from_camera_previous: None,
-        world_from_camera_next: None,
-        time_ns: 0,
-        shutter: Shutter::INSTANT,
-        spp: 1,
-        noise: 0.0,
-        film: Film::default(),
-        seed: Seed(0),
         carrier: Some(InstanceId(7)),
+        ..Shot::new("ego.CAM_FRONT", lens, Pose::from_yaw(0.0, DVec3::new(1.0, 2.0, 3.0)))
     }
 }
 

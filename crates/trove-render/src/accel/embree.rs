@@ -249,6 +249,12 @@ fn hit_of(t: f32, u: f32, v: f32, [triangle, geometry, instance]: [u32; 3], know
     Hit { t, instance: known.unwrap_or(found), triangle, u, v }
 }
 
+/// What a single ray has met.
+fn found(RayHit { ray, hit, .. }: &RayHit, known: Option<u32>) -> Option<Hit> {
+    (hit.geometry != api::INVALID_ID)
+        .then(|| hit_of(ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], known))
+}
+
 const NO_HIT: RawHit = RawHit {
     normal: [0.0; 3],
     u: 0.0,
@@ -313,9 +319,7 @@ impl BuiltScene {
         let mut arguments = arguments(&mut context, 0);
         // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
         unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, &mut arguments) };
-        let hit = &ray_hit.hit;
-        (hit.geometry != api::INVALID_ID)
-            .then(|| hit_of(ray_hit.ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], instance))
+        found(&ray_hit, instance)
     }
 }
 
@@ -338,9 +342,7 @@ impl Accel {
         let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
         // SAFETY: as for `intersect`; without arguments Embree takes its defaults.
         unsafe { (self.top.device.api.intersect1)(self.top.handle, &mut ray_hit, ptr::null_mut()) };
-        let (hit, t) = (&ray_hit.hit, ray_hit.ray.t_max);
-        (hit.geometry != api::INVALID_ID)
-            .then(|| hit_of(t, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], None))
+        found(&ray_hit, None)
     }
 
     pub(super) fn occluded_bare(&self, ray: &Ray) -> bool {

@@ -14,7 +14,10 @@ use trove_model::{ExposureRule, Raster, Shot, WhiteBalance};
 pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 3]>, f64) {
     let film = &shot.film;
     let radiance = radiance.map(|rgb| rgb.map(|c| if c.is_finite() { c.max(0.0) } else { 0.0 }));
-    let radiance = film.sensor.as_ref().map_or_else(|| radiance.clone(), |model| sensor::optics(&radiance, model));
+    let radiance = match &film.sensor {
+        Some(model) => sensor::optics(&radiance, model),
+        None => radiance,
+    };
     let ev = match film.exposure {
         ExposureRule::Fixed { ev } => ev,
         ExposureRule::Auto { compensation_ev } => meter::exposure_ev(&radiance) + compensation_ev,
@@ -44,27 +47,19 @@ mod tests {
     use trove_model::{Distortion, Film, Lens, Pose, Seed, SensorModel, Shutter};
 
     fn shot(exposure: ExposureRule, sensor: Option<SensorModel>) -> Shot {
+        let lens = Lens {
+            width_px: 60,
+            height_px: 30,
+            fx_px: 30.0,
+            fy_px: 30.0,
+            cx_px: 30.0,
+            cy_px: 15.0,
+            distortion: Distortion::None,
+        };
         Shot {
-            view: "test".into(),
-            lens: Lens {
-                width_px: 60,
-                height_px: 30,
-                fx_px: 30.0,
-                fy_px: 30.0,
-                cx_px: 30.0,
-                cy_px: 15.0,
-                distortion: Distortion::None,
-            },
-            world_from_camera: Pose::IDENTITY,
-            world_from_camera_previous: None,
-            world_from_camera_next: None,
-            time_ns: 0,
-            shutter: Shutter::INSTANT,
-            spp: 1,
-            noise: 0.0,
             film: Film { exposure, white_balance: WhiteBalance::Auto, sensor },
             seed: Seed(1),
-            carrier: None,
+            ..Shot::new("test", lens, Pose::IDENTITY)
         }
     }
 

@@ -36,28 +36,9 @@ pub(crate) fn shot(eye: DVec3, target: DVec3, half_width_m: f64) -> Shot {
     let right = forward.cross(if forward.z.abs() < 0.99 { DVec3::Z } else { DVec3::Y }).normalize();
     let rotation = DQuat::from_mat3(&DMat3::from_cols(right, forward.cross(right), forward));
     let f = 8.0 * eye.distance(target) / half_width_m;
-    Shot {
-        view: "test".into(),
-        lens: Lens {
-            width_px: 16,
-            height_px: 16,
-            fx_px: f,
-            fy_px: f,
-            cx_px: 8.0,
-            cy_px: 8.0,
-            distortion: Distortion::None,
-        },
-        world_from_camera: Pose::<World, Camera>::new(rotation, eye),
-        world_from_camera_previous: None,
-        world_from_camera_next: None,
-        time_ns: 0,
-        shutter: Shutter::INSTANT,
-        spp: 1,
-        noise: 0.0,
-        film: Film::default(),
-        seed: Seed(1),
-        carrier: None,
-    }
+    let lens =
+        Lens { width_px: 16, height_px: 16, fx_px: f, fy_px: f, cx_px: 8.0, cy_px: 8.0, distortion: Distortion::None };
+    Shot { seed: Seed(1), ..Shot::new("test", lens, Pose::<World, Camera>::new(rotation, eye)) }
 }
 
 pub(crate) fn take(renderer: &Renderer, scene: &Scene, shot: &Shot) -> Picture {
