@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane,
     LaneMap, Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed,
-    SidewalkSides, Slot, StreetMap, Track,
+    Slot, StreetMap, Track,
 };
 
 use crate::roads::{self, RoadSurfaces};
@@ -167,20 +167,7 @@ pub(crate) fn drive() -> Drive {
 
 /// A road on the ground of which the map says no more than where it runs.
 pub(crate) fn road(id: i64, kind: RoadKind, points: &[[f64; 2]]) -> Road {
-    Road {
-        id,
-        kind,
-        centreline: points.iter().copied().map(DVec2::from_array).collect(),
-        lanes: None,
-        width_m: None,
-        oneway: false,
-        sidewalk: SidewalkSides::default(),
-        layer: 0,
-        bridge: false,
-        tunnel: false,
-        surface: String::new(),
-        name: String::new(),
-    }
+    Road::new(id, kind, points.iter().copied().map(DVec2::from_array).collect())
 }
 
 /// A map of one road.

@@ -46,5 +46,6 @@ pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed};
 pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
 pub use street_map::{
-    Building, Furniture, FurnitureKind, Land, LandKind, Road, RoadKind, RoofShape, SidewalkSides, StreetMap,
+    Building, Cycleway, Furniture, FurnitureKind, Land, LandKind, LineKind, MapLine, Parking, ParkingOrientation, Road,
+    RoadKind, RoofShape, Sides, SidewalkSides, StreetMap, Turns,
 };

@@ -15,6 +15,8 @@ pub struct StreetMap {
     pub land: Vec<Land>,
     /// Single things.
     pub furniture: Vec<Furniture>,
+    /// Things drawn as lines.
+    pub lines: Vec<MapLine>,
     /// Licence, with whom to name (`© OpenStreetMap contributors, ODbL 1.0`).
     pub licence: String,
 }
@@ -84,6 +86,113 @@ pub struct Road {
     pub surface: String,
     /// Name; empty where it has none.
     pub name: String,
+    /// Lanes of all that run against the way's direction, where tagged; 0 on a one-way street.
+    pub lanes_backward: Option<u32>,
+    /// Where each lane in the way's direction leads, from left to right as driven; empty where not tagged.
+    pub turns_forward: Vec<Turns>,
+    /// The same against the way's direction, from left to right as driven.
+    pub turns_backward: Vec<Turns>,
+    /// What is parked on the left and on the right, seen in the way's direction; `None` where the map does not say.
+    pub parking: Sides<Option<Parking>>,
+    /// Cycle lanes on the left and on the right, seen in the way's direction.
+    pub cycleway: Sides<Option<Cycleway>>,
+    /// Part of a roundabout.
+    pub roundabout: bool,
+    /// A ramp between roads (`*_link`).
+    pub link: bool,
+    /// Stairs.
+    pub steps: bool,
+    /// Has street lamps, where tagged.
+    pub lit: Option<bool>,
+    /// Speed limit, where tagged.
+    pub speed_limit_kmh: Option<f64>,
+}
+
+impl Road {
+    /// A two-way road of which nothing else is known.
+    pub fn new(id: i64, kind: RoadKind, centreline: Vec<DVec2>) -> Self {
+        Self {
+            id,
+            kind,
+            centreline,
+            lanes: None,
+            width_m: None,
+            oneway: false,
+            sidewalk: SidewalkSides::default(),
+            layer: 0,
+            bridge: false,
+            tunnel: false,
+            surface: String::new(),
+            name: String::new(),
+            lanes_backward: None,
+            turns_forward: Vec::new(),
+            turns_backward: Vec::new(),
+            parking: Sides::default(),
+            cycleway: Sides::default(),
+            roundabout: false,
+            link: false,
+            steps: false,
+            lit: None,
+            speed_limit_kmh: None,
+        }
+    }
+}
+
+/// Something for the left and for the right side of a way, seen in its direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sides<T> {
+    /// On the left.
+    pub left: T,
+    /// On the right.
+    pub right: T,
+}
+
+/// Where a lane leads at the next junction (`turn:lanes`); all `false` where it is marked with nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Turns {
+    /// Left, sharply or slightly too.
+    pub left: bool,
+    /// Straight on.
+    pub through: bool,
+    /// Right, sharply or slightly too.
+    pub right: bool,
+    /// Back.
+    pub reverse: bool,
+}
+
+/// How cars stand at the side of a road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // OpenStreetMap's own names
+pub enum ParkingOrientation {
+    Parallel,
+    Diagonal,
+    Perpendicular,
+}
+
+/// Parking at one side of a road (`parking:left` and so on).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parking {
+    /// Cars must not stand here.
+    No,
+    /// On the carriageway, within its width.
+    Lane(ParkingOrientation),
+    /// In bays beside the carriageway.
+    Bays(ParkingOrientation),
+    /// On the kerb or half on it.
+    Kerb(ParkingOrientation),
+}
+
+/// What there is for bicycles at one side of a road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cycleway {
+    /// Nothing.
+    No,
+    /// A marked lane on the carriageway.
+    Lane,
+    /// A path beside the carriageway.
+    Track,
+    /// Symbols on a lane for cars or for buses.
+    Shared,
 }
 
 /// A roof's form.
@@ -133,6 +242,45 @@ pub struct Building {
     pub roof_color: Option<Vec3>,
     /// Name; empty where it has none.
     pub name: String,
+    /// `roof:material`; empty where not tagged.
+    pub roof_material: String,
+    /// Storeys within the roof, where tagged.
+    pub roof_levels: Option<f64>,
+    /// Direction that a skillion roof falls to, radians counter-clockwise from east, where tagged.
+    pub roof_direction_rad: Option<f64>,
+    /// Whether the ridge runs across the longer side (`roof:orientation=across`).
+    pub ridge_across: bool,
+    /// Year in which it was built, where tagged.
+    pub year: Option<i32>,
+    /// A shop, restaurant or the like is in it, by its own tags or by a mapped place within it.
+    pub shop: bool,
+}
+
+impl Building {
+    /// A building of which nothing but the outline is known.
+    pub fn new(id: i64, footprint: Polygon, kind: &str) -> Self {
+        Self {
+            id,
+            footprint,
+            kind: kind.to_owned(),
+            part: false,
+            height_m: None,
+            min_height_m: 0.0,
+            levels: None,
+            roof: None,
+            roof_height_m: None,
+            material: String::new(),
+            color: None,
+            roof_color: None,
+            name: String::new(),
+            roof_material: String::new(),
+            roof_levels: None,
+            roof_direction_rad: None,
+            ridge_across: false,
+            year: None,
+            shop: false,
+        }
+    }
 }
 
 /// What a piece of land is.
@@ -198,4 +346,45 @@ pub struct Furniture {
     pub position: DVec2,
     /// Direction it faces, radians counter-clockwise from east, where tagged.
     pub heading_rad: Option<f64>,
+    /// Height, where tagged.
+    pub height_m: Option<f64>,
+    /// What of its kind it is: a tree's genus, species or `leaf_type`, a sign's text; empty where not tagged.
+    pub detail: String,
+}
+
+impl Furniture {
+    /// A thing of which nothing but kind and place is known.
+    pub fn new(id: i64, kind: FurnitureKind, position: DVec2) -> Self {
+        Self { id, kind, position, heading_rad: None, height_m: None, detail: String::new() }
+    }
+}
+
+/// What a line of the map is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs)] // the names are the definition
+pub enum LineKind {
+    Fence,
+    Wall,
+    Hedge,
+    GuardRail,
+    /// Wires from pole to pole.
+    PowerLine,
+    /// Rails in or beside the street.
+    Tram,
+    Railway,
+}
+
+/// A thing that the map draws as a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapLine {
+    /// OpenStreetMap's id.
+    pub id: i64,
+    /// What it is.
+    pub kind: LineKind,
+    /// At least two vertices, metres.
+    pub line: Vec<DVec2>,
+    /// Height, where tagged.
+    pub height_m: Option<f64>,
+    /// What of its kind it is (`fence_type`, `material`); empty where not tagged.
+    pub detail: String,
 }

@@ -97,24 +97,6 @@ mod tests {
     use std::collections::BTreeMap;
     use trove_model::{Bounds, Building, Material, Polygon, RoofShape, Seed};
 
-    fn building() -> Building {
-        Building {
-            id: 1,
-            footprint: Polygon::default(),
-            kind: "yes".into(),
-            part: false,
-            height_m: None,
-            min_height_m: 0.0,
-            levels: None,
-            roof: None,
-            roof_height_m: None,
-            material: String::new(),
-            color: None,
-            roof_color: None,
-            name: String::new(),
-        }
-    }
-
     fn dress() -> Dress {
         let grid = Grid { bay_m: 3.0, storey_m: 3.2 };
         Dress {
@@ -125,7 +107,7 @@ mod tests {
     }
 
     fn mesh(footprint: Polygon, roof: RoofShape, bottom_m: f64) -> Mesh {
-        let building = building();
+        let building = Building::new(1, Polygon::default(), "yes");
         let footprint = crate::plane::union(&[footprint]).remove(0);
         let volume = Volume { building: &building, footprint, bottom_m, eaves_m: 14.0, top_m: 18.0, roof };
         let house = House { building: &building, volumes: vec![volume] };

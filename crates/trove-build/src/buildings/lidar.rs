@@ -99,22 +99,9 @@ pub(super) fn unmapped(
             format_args!("{:.0}, {:.0}", centre.x, centre.y),
         );
         taken = union(&[taken, vec![footprint.clone()]].concat());
-        built.push(Building {
-            id: FIRST_ID + built.len() as i64,
-            footprint,
-            kind: "yes".into(),
-            part: false,
-            // The beams do not reach the eaves.
-            height_m: Some((storeys * STOREY_M).max(seen_m)),
-            min_height_m: 0.0,
-            levels: None,
-            roof: None,
-            roof_height_m: None,
-            material: String::new(),
-            color: None,
-            roof_color: None,
-            name: String::new(),
-        });
+        // The beams do not reach the eaves.
+        let height_m = Some((storeys * STOREY_M).max(seen_m));
+        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, "yes") });
     }
     report.measure("buildings.from_lidar", built.len() as f64);
     built

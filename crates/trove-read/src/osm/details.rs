@@ -64,9 +64,6 @@ pub(super) fn road(id: i64, kind: RoadKind, mut centreline: Vec<DVec2>, tags: &T
         _ => against,
     };
     Road {
-        id,
-        kind,
-        centreline,
         lanes: count(&["lanes"]).or_else(both),
         width_m: values.number(&["width"], length_m, 0.3..=100.0),
         oneway,
@@ -76,6 +73,7 @@ pub(super) fn road(id: i64, kind: RoadKind, mut centreline: Vec<DVec2>, tags: &T
         tunnel: in_tunnel(tags),
         surface: tags.get("surface").to_owned(),
         name: tags.get("name").to_owned(),
+        ..Road::new(id, kind, centreline)
     }
 }
 
@@ -119,9 +117,6 @@ pub(super) fn building(id: i64, footprint: Polygon, tags: &Tags, report: &Report
             below
         });
     Building {
-        id,
-        footprint,
-        kind: tags.get(if part { "building:part" } else { "building" }).to_owned(),
         part,
         height_m,
         min_height_m: min_height_m.unwrap_or(0.0),
@@ -134,6 +129,7 @@ pub(super) fn building(id: i64, footprint: Polygon, tags: &Tags, report: &Report
         color: values.parsed(&["building:colour", "building:color", "building:facade:colour", "colour"], linear_color),
         roof_color: values.parsed(&["roof:colour", "roof:color"], linear_color),
         name: tags.get("name").to_owned(),
+        ..Building::new(id, footprint, tags.get(if part { "building:part" } else { "building" }))
     }
 }
 

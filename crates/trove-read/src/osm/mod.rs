@@ -45,6 +45,7 @@ pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Repo
     map.buildings.sort_by_key(|building| building.id);
     map.land.sort_by_key(|land| land.id);
     map.furniture.sort_by_key(|furniture| furniture.id);
+    map.lines.sort_by_key(|line| line.id);
     Ok(map)
 }
 

@@ -17,7 +17,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
         let Some(kind) = furniture_kind(&thing.tags) else { continue };
         let Some(position) = places.of(thing.node.id).filter(|p| places.area.contains(*p)) else { continue };
         let heading_rad = heading(thing, kind, directions.get(&thing.node.id).copied(), report);
-        map.furniture.push(Furniture { id: thing.node.id, kind, position, heading_rad });
+        map.furniture.push(Furniture { heading_rad, ..Furniture::new(thing.node.id, kind, position) });
     }
 }
 

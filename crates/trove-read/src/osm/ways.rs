@@ -118,13 +118,13 @@ fn add_way(way: &RawWay, line: &Line, is_edge: bool, places: &Places, map: &mut 
             let points = line.runs.concat();
             let position = points.iter().sum::<DVec2>() / points.len() as f64;
             let inside = places.area.contains(position);
-            map.furniture.extend(inside.then_some(Furniture { id: way.id, kind, position, heading_rad: None }));
+            map.furniture.extend(inside.then(|| Furniture::new(way.id, kind, position)));
             true
         }
         Meaning::TreeRow => {
             note(Outcome::Guessed, "osm: trees of a row, one every eight metres");
             for position in line.runs.iter().flat_map(|run| spaced(run)).filter(|p| places.area.contains(*p)) {
-                map.furniture.push(Furniture { id: way.id, kind: FurnitureKind::Tree, position, heading_rad: None });
+                map.furniture.push(Furniture::new(way.id, FurnitureKind::Tree, position));
             }
             true
         }
