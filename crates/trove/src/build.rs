@@ -1,6 +1,6 @@
 //! `trove build`: the virtual scene alone.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
@@ -9,17 +9,21 @@ use trove_model::{Environment, Report, Seed};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
 
+use crate::overview::Overview;
 use crate::recipe::Recipe;
 use crate::run::{report_json, view_settings};
 use crate::sources::Sources;
 
 /// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
-/// where `environment` is given, its sky as OpenEXR.
+/// where they are asked for, its sky as OpenEXR and a picture from above; `search` is where Embree and the denoiser are
+/// looked for.
 pub(crate) fn run(
     recipe: &Recipe,
     out: &Path,
     keyframe: Option<usize>,
     environment: Option<&Path>,
+    overview: &Overview,
+    search: Vec<PathBuf>,
     as_json: bool,
 ) -> Result<()> {
     let report = Report::default();
@@ -60,6 +64,8 @@ pub(crate) fn run(
         }
     };
     let stats = write_glb(out, &scene, &shots, sun.as_ref())?;
+    let area = trove_build::area(&drive).with_context(|| format!("{name}: nothing was recorded"))?;
+    overview.write(&scene, area, search)?;
     let report = report_json(&report);
     if as_json {
         let printed = json!({

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
 use trove_render::KernelChoice;
 
+use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{Dataset, Recipe};
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
@@ -72,6 +73,8 @@ enum Command {
         /// An .exr file to write the sky to, as a latitude-longitude picture without the sun, which is in the .glb.
         #[arg(long)]
         environment: Option<PathBuf>,
+        #[command(flatten)]
+        overview: Overview,
         /// Prints the report as JSON.
         #[arg(long)]
         json: bool,
@@ -146,8 +149,10 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
     match command {
         Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
         Command::Inspect { root, dataset, version, json } => inspect::run(&root, dataset, version, json).map(|()| 0),
-        Command::Build { recipe, out, keyframe, environment, json } => {
-            build::run(&Recipe::read(&recipe)?, &out, keyframe, environment.as_deref(), json).map(|()| 0)
+        Command::Build { recipe, out, keyframe, environment, overview, json } => {
+            let search = libraries::search(site_packages);
+            let recipe = Recipe::read(&recipe)?;
+            build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
         }
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;

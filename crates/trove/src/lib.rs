@@ -11,6 +11,7 @@ mod inspect;
 mod interrupt;
 mod libraries;
 mod message;
+mod overview;
 mod place;
 mod progress;
 pub mod recipe;
