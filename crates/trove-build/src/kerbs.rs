@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, StreetMap};
+use trove_model::{Bounds, Drive, StreetMap, drives_on_left};
 
-use crate::driving_side::drives_on_left;
 use crate::roads::{Footing, RoadSurfaces};
 use crate::segments::SegmentIndex;
 

@@ -8,7 +8,6 @@ mod assembly;
 mod buildings;
 mod clearance;
 mod distance_field;
-mod driving_side;
 mod error;
 mod furniture;
 mod ground;

@@ -106,6 +106,9 @@ pub struct Road {
     pub lit: Option<bool>,
     /// Speed limit, where tagged.
     pub speed_limit_kmh: Option<f64>,
+    /// How a crossing is marked: `crossing:markings`, else `crossing` (`zebra`, `lines`, `no`, `unmarked`, …); empty where
+    /// not tagged.
+    pub crossing: String,
 }
 
 impl Road {
@@ -134,6 +137,7 @@ impl Road {
             steps: false,
             lit: None,
             speed_limit_kmh: None,
+            crossing: String::new(),
         }
     }
 }
@@ -298,6 +302,8 @@ pub enum LandKind {
     Parking,
     /// Square or pedestrian area.
     Paved,
+    /// Raised above the carriageway within it.
+    TrafficIsland,
     Pitch,
     Construction,
     Residential,
@@ -324,15 +330,26 @@ pub enum FurnitureKind {
     TrafficSignal,
     TrafficSign,
     StopSign,
+    GiveWaySign,
     Crossing,
     Tree,
+    Shrub,
     Bench,
+    PicnicTable,
     Bin,
     Hydrant,
     Bollard,
     BusStop,
     UtilityPole,
     BicycleParking,
+    Mailbox,
+    StreetCabinet,
+    Telephone,
+    AdvertisingColumn,
+    Fountain,
+    Flagpole,
+    /// A cover in the road.
+    Manhole,
 }
 
 /// A single mapped thing.
@@ -348,7 +365,8 @@ pub struct Furniture {
     pub heading_rad: Option<f64>,
     /// Height, where tagged.
     pub height_m: Option<f64>,
-    /// What of its kind it is: a tree's genus, species or `leaf_type`, a sign's text; empty where not tagged.
+    /// What of its kind it is; empty where not tagged. A tree's species or genus, then its `leaf_type` (`Tilia cordata
+    /// broadleaved`); a sign's `traffic_sign`; a crossing's marking (see [`Road::crossing`]); where a lamp is mounted.
     pub detail: String,
 }
 

@@ -39,7 +39,7 @@ pub(super) fn wishes(around: &Surroundings, report: &Report) -> Vec<Wish> {
 fn kind(mapped: FurnitureKind) -> Option<Kind> {
     match mapped {
         FurnitureKind::StreetLamp => Some(Kind::StreetLamp),
-        FurnitureKind::TrafficSign | FurnitureKind::StopSign => Some(Kind::TrafficSign),
+        FurnitureKind::TrafficSign | FurnitureKind::StopSign | FurnitureKind::GiveWaySign => Some(Kind::TrafficSign),
         FurnitureKind::Bench => Some(Kind::Bench),
         FurnitureKind::Bin => Some(Kind::Bin),
         FurnitureKind::Hydrant => Some(Kind::Hydrant),
@@ -47,6 +47,6 @@ fn kind(mapped: FurnitureKind) -> Option<Kind> {
         FurnitureKind::BusStop => Some(Kind::Shelter),
         FurnitureKind::UtilityPole => Some(Kind::UtilityPole),
         FurnitureKind::BicycleParking => Some(Kind::BicycleRack),
-        FurnitureKind::TrafficSignal | FurnitureKind::Crossing | FurnitureKind::Tree => None,
+        _ => None,
     }
 }

@@ -3,11 +3,10 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
     Bounds, Camera, Distortion, Drive, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome, Pose, Report,
-    RigCamera, Road, Seed, StreetMap, World,
+    RigCamera, Road, Seed, StreetMap, World, drives_on_left,
 };
 
 use super::PLACE_DATASET;
-use crate::driving_side::drives_on_left;
 use crate::error::BuildError;
 
 /// At most so many views' positions.

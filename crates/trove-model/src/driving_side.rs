@@ -30,7 +30,7 @@ const RIGHT: [[f64; 4]; 6] = [
 ];
 
 /// Whether traffic keeps left at a place; right where the rectangles do not say.
-pub(crate) fn drives_on_left(lat_deg: f64, lon_deg: f64) -> bool {
+pub fn drives_on_left(lat_deg: f64, lon_deg: f64) -> bool {
     let within = |boxes: &[[f64; 4]]| {
         let holds = |b: &[f64; 4]| lat_deg >= b[0] && lat_deg <= b[2] && lon_deg >= b[1] && lon_deg <= b[3];
         boxes.iter().any(holds)
