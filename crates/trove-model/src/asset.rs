@@ -8,8 +8,9 @@ use crate::{Class, Kind, Material, Mesh};
 
 /// A model.
 ///
-/// Its mesh is in metres, x forward, y left, z up; the origin is the middle of its bounding box in x and y, and the
-/// ground it stands on in z.
+/// Its mesh is in metres, x forward, y left, z up; the origin is the ground it stands on in z, and in x and y the middle
+/// of its bounding box, or the foot of a pole ([`Kind::is_on_pole`]). What is built along lines (fences, walls, guard
+/// rails) is a piece that is repeated along x.
 #[derive(Clone, Debug)]
 pub struct Asset {
     /// Unique in its library (`car/sedan-2`).

@@ -48,18 +48,24 @@ pub enum Kind {
     Bin,
     Bench,
     Shelter,
+    /// What else stands on a sidewalk: mailbox, cabinet, parking meter, planter, table.
+    StreetFurniture,
+    Fence,
+    Wall,
+    GuardRail,
 }
 
 impl Kind {
     /// Every kind.
     #[rustfmt::skip]
-    pub const ALL: [Self; 37] = [
+    pub const ALL: [Self; 41] = [
         Self::Adult, Self::Child, Self::ConstructionWorker, Self::PoliceOfficer, Self::PersonalMobility, Self::Stroller,
         Self::Wheelchair, Self::Animal, Self::Bicycle, Self::BicycleWithRider, Self::Motorcycle, Self::MotorcycleWithRider,
         Self::Car, Self::PoliceCar, Self::Ambulance, Self::Truck, Self::Trailer, Self::ConstructionVehicle, Self::Bus,
         Self::ArticulatedBus, Self::Barrier, Self::TrafficCone, Self::PushablePullable, Self::Debris, Self::BicycleRack,
         Self::Building, Self::Tree, Self::Bush, Self::TrafficSign, Self::TrafficSignal, Self::StreetLamp, Self::UtilityPole,
         Self::Bollard, Self::Hydrant, Self::Bin, Self::Bench, Self::Shelter,
+        Self::StreetFurniture, Self::Fence, Self::Wall, Self::GuardRail,
     ];
 
     /// The class where an asset does not say otherwise.
@@ -79,7 +85,7 @@ impl Kind {
             Self::Truck | Self::Trailer => Class::Truck,
             Self::ConstructionVehicle => Class::Construction,
             Self::Bus | Self::ArticulatedBus => Class::Bus,
-            Self::Barrier => Class::Barrier,
+            Self::Barrier | Self::Fence | Self::Wall | Self::GuardRail => Class::Barrier,
             Self::TrafficCone => Class::TrafficCone,
             Self::Building => Class::Building,
             Self::Tree => Class::Tree,
@@ -96,8 +102,14 @@ impl Kind {
             | Self::BicycleRack
             | Self::Bin
             | Self::Bench
-            | Self::Shelter => Class::Void,
+            | Self::Shelter
+            | Self::StreetFurniture => Class::Void,
         }
+    }
+
+    /// Whether it stands on a pole that is not under the middle of it: its asset's origin is the pole's foot.
+    pub fn is_on_pole(self) -> bool {
+        matches!(self, Self::TrafficSign | Self::TrafficSignal | Self::StreetLamp | Self::UtilityPole)
     }
 
     /// Whether it drives, with a body that follows the ground's slope.

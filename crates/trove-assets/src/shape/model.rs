@@ -43,11 +43,13 @@ impl Model {
         self.mark(&prism.mirrored(), from, to);
     }
 
-    /// The asset: slots without triangles go, the origin comes to the middle of the bounds on the ground.
+    /// The asset: slots without triangles go, the origin comes to the ground, and but for what stands on a pole to the
+    /// middle of the bounds.
     pub(crate) fn asset(self, id: &str, kind: Kind, class: Class) -> Asset {
         let mut mesh = self.shape.into_mesh();
         let (low, high) = mesh.bounds().unwrap_or_default();
-        let origin = vec3((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
+        let middle = if kind.is_on_pole() { Vec3::ZERO } else { (low + high) / 2.0 };
+        let origin = vec3(middle.x, middle.y, low.z);
         mesh.positions.iter_mut().for_each(|p| *p -= origin);
 
         let used: Vec<bool> = (0..self.slots.len()).map(|s| mesh.slots.contains(&(s as u16))).collect();

@@ -6,7 +6,6 @@ mod cones;
 mod finish;
 mod furniture;
 mod lamps;
-mod letters;
 mod signals;
 mod signs;
 

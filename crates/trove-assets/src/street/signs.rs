@@ -3,10 +3,10 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Material};
+use trove_model::{Asset, Class, Kind, Lettering, Material};
 
 use super::finish::{galvanised, painted, polygon, post, rounded, upright};
-use super::letters::Writing;
+
 use crate::shape::{Model, Shape};
 use crate::surfaces::{Canvas, Noise, Texel, hash, step};
 
@@ -115,7 +115,7 @@ fn choose(inside: bool, yes: Vec3, no: Vec3) -> Vec3 {
 }
 
 fn speed_limit(number: &str) -> Picture {
-    let writing = Writing::new(number);
+    let writing = Lettering::new(number);
     Box::new(move |p| {
         let r = p.length();
         let ink = writing.distance(p / vec2(0.19, 0.25)) < 0.12;
@@ -128,7 +128,7 @@ fn no_entry() -> Picture {
 }
 
 fn stop() -> Plate {
-    let writing = Writing::new("STOP");
+    let writing = Lettering::new("STOP");
     let picture = Box::new(move |p: Vec2| {
         // Distance from the middle across the octagon's sides.
         let across = (0..4).map(|k| p.dot(Vec2::from_angle(PI / 4.0 * k as f32)).abs()).fold(0.0, f32::max);
@@ -166,7 +166,7 @@ fn give_way() -> Plate {
 }
 
 fn warning() -> Plate {
-    let writing = Writing::new("!");
+    let writing = Lettering::new("!");
     let first = FRAC_PI_2;
     triangle(
         0.46,
@@ -180,7 +180,7 @@ fn warning() -> Plate {
 }
 
 fn parking() -> Picture {
-    let writing = Writing::new("P");
+    let writing = Lettering::new("P");
     Box::new(move |p| {
         let rim = (vec2(0.3, 0.3) - p.abs()).min_element();
         choose(writing.distance(p / 0.38) < 0.1 || (0.012..0.028).contains(&rim), WHITE, BLUE)
@@ -189,7 +189,7 @@ fn parking() -> Picture {
 
 /// Lines of writing, one below the other, with a thin frame.
 fn lines(ground: Vec3, ink: Vec3, text: &[&str], height_m: f32) -> Picture {
-    let writings: Vec<Writing> = text.iter().map(|t| Writing::new(t)).collect();
+    let writings: Vec<Lettering> = text.iter().map(|t| Lettering::new(t)).collect();
     let pitch = height_m * 2.0;
     let top = pitch * (text.len() as f32 - 1.0) / 2.0;
     Box::new(move |p| {
@@ -220,7 +220,7 @@ fn direction() -> Asset {
         model.add(steel, post(vec3(0.0, y, 0.0), 0.057, 3.6, 16));
     }
     let size = vec2(2.4, 1.5);
-    let words = [Writing::new("CENTRE"), Writing::new("HARBOUR"), Writing::new("AIRPORT")];
+    let words = [Lettering::new("CENTRE"), Lettering::new("HARBOUR"), Lettering::new("AIRPORT")];
     let picture = Box::new(move |p: Vec2| {
         let rim = (size / 2.0 - p.abs()).min_element();
         let rows = words.iter().enumerate().any(|(i, word)| {
