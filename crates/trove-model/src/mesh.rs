@@ -11,6 +11,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex; empty: the mesh's materials have no maps. v runs up the picture.
     pub uvs: Vec<Vec2>,
+    /// What the material's base colour is multiplied by, linear RGB from 0, one a vertex; empty: 1 everywhere.
+    pub tints: Vec<Vec3>,
     /// Indices of vertices.
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle the slot of its material; empty: all in slot 0.
@@ -38,7 +40,7 @@ impl Mesh {
     /// numbers that are not finite.
     pub fn defect(&self) -> Option<String> {
         let n = self.positions.len();
-        for (what, len) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+        for (what, len) in [("normals", self.normals.len()), ("uvs", self.uvs.len()), ("tints", self.tints.len())] {
             if len != 0 && len != n {
                 return Some(format!("{len} {what} for {n} positions"));
             }
@@ -50,12 +52,13 @@ impl Mesh {
             return Some(format!("index {t} of {n} positions"));
         }
         let finite = self.positions.iter().chain(&self.normals).all(|p| p.is_finite())
-            && self.uvs.iter().all(|uv| uv.is_finite());
+            && self.uvs.iter().all(|uv| uv.is_finite())
+            && self.tints.iter().all(|tint| tint.is_finite());
         (!finite).then(|| "a number is not finite".into())
     }
 
     /// Adds another mesh, its slots moved up by `slot_offset`. Both have normals and uvs, or neither has, or the
-    /// missing ones are filled with flat normals and zeros.
+    /// missing ones are filled with flat normals and zeros; missing tints are 1.
     pub fn append(&mut self, other: &Self, slot_offset: u16) {
         let base = self.positions.len() as u32;
         if self.slots.is_empty() {
@@ -73,6 +76,11 @@ impl Mesh {
         if !self.uvs.is_empty() || (self.positions.is_empty() && !other.uvs.is_empty()) {
             let zeros = || vec![Vec2::ZERO; other.positions.len()];
             self.uvs.extend(if other.uvs.is_empty() { zeros() } else { other.uvs.clone() });
+        }
+        if !self.tints.is_empty() || !other.tints.is_empty() {
+            self.tints.resize(self.positions.len(), Vec3::ONE);
+            self.tints.extend(&other.tints);
+            self.tints.resize(self.positions.len() + other.positions.len(), Vec3::ONE);
         }
         self.positions.extend(&other.positions);
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + base)));
@@ -110,6 +118,15 @@ mod tests {
         assert_eq!((mesh.slot(0), mesh.slot(1), mesh.slot_count()), (0, 3, 4));
         assert_eq!(mesh.triangles[1], [3, 4, 5]);
         assert_eq!(mesh.normals.len(), 6);
+    }
+
+    #[test]
+    fn tints_stay_with_their_vertices_and_others_become_white() {
+        let mut mesh = triangle();
+        mesh.append(&Mesh { tints: vec![Vec3::splat(0.5); 3], ..triangle() }, 0);
+        mesh.append(&triangle(), 0);
+        assert_eq!(mesh.defect(), None);
+        assert_eq!([0, 3, 6].map(|i| mesh.tints[i].x), [1.0, 0.5, 1.0]);
     }
 
     #[test]

@@ -207,7 +207,7 @@ impl Shape {
     pub(crate) fn into_mesh(self) -> Mesh {
         let Self { positions, normals, uvs, triangles, slots } = self.without_unused_vertices();
         let uvs = if uvs.iter().all(|&uv| uv == Vec2::ZERO) { Vec::new() } else { uvs };
-        Mesh { positions, normals, uvs, triangles, slots }
+        Mesh { positions, normals, uvs, triangles, slots, ..Mesh::default() }
     }
 
     pub(super) fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2) -> u32 {

@@ -130,7 +130,7 @@ impl PreparedMaterial {
         let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| look_up(map).truncate());
         let (normal, variance) = self.bumped(surface, &spot);
 
-        let base_color = self.base_color * color;
+        let base_color = (self.base_color * color * surface.tint).clamp(Vec3::ZERO, Vec3::ONE);
         let roughness = self.roughness * orm.y;
         let mut p = Parameters {
             base_color,

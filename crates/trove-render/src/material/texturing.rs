@@ -131,6 +131,7 @@ mod tests {
             is_front: true,
             uv: vec2(x, y),
             uv_axes: Some([Vec3::X, Vec3::Y]),
+            tint: Vec3::ONE,
         };
         Texturing { scale: Vec2::splat(0.5), mapping, tiling }.spot(&surface, 0.1, dither)
     }

@@ -181,6 +181,7 @@ mod tests {
             is_front: true,
             uv: Vec2::ZERO,
             uv_axes: None,
+            tint: Vec3::ONE,
         }
     }
 

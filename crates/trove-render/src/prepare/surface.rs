@@ -25,6 +25,8 @@ pub(crate) struct Surface {
     pub(crate) uv: Vec2,
     /// Directions in which u and v grow fastest, per unit of uv; `None` where the mesh has no useful uvs.
     pub(crate) uv_axes: Option<[Vec3; 2]>,
+    /// What the material's base colour is multiplied by.
+    pub(crate) tint: Vec3,
 }
 
 impl Surface {
@@ -69,6 +71,12 @@ impl Surface {
                 uv_axes = Some([world(along_u), world(along_v)]);
             }
         }
+        let tint = if mesh.tints.is_empty() {
+            Vec3::ONE
+        } else {
+            let [ta, tb, tc] = corners.map(|i| mesh.tints[i as usize]);
+            ta * weights[0] + tb * weights[1] + tc * weights[2]
+        };
         Self {
             point: point.into(),
             point_mesh: point_mesh.into(),
@@ -79,6 +87,7 @@ impl Surface {
             is_front,
             uv,
             uv_axes,
+            tint,
         }
     }
 

@@ -83,6 +83,10 @@ impl<'a> Geometry<'a> {
             let uvs = mesh.uvs.iter().flat_map(|uv| [uv.x, 1.0 - uv.y]);
             attributes["TEXCOORD_0"] = self.vertices(uvs, count, "VEC2").into();
         }
+        if !mesh.tints.is_empty() {
+            let tints = mesh.tints.iter().flat_map(|tint| tint.clamp(glam::Vec3::ZERO, glam::Vec3::ONE).to_array());
+            attributes["COLOR_0"] = self.vertices(tints, count, "VEC3").into();
+        }
         let mut slots = Vec::new();
         for slot in 0..mesh.slot_count() as u16 {
             let of_slot = mesh.triangles.iter().enumerate().filter(|(t, _)| mesh.slot(*t) == slot);

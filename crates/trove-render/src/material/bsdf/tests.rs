@@ -19,6 +19,7 @@ fn seen_from(wo: Vec3, p: &Parameters) -> Bsdf {
         is_front: true,
         uv: Vec2::ZERO,
         uv_axes: None,
+        tint: Vec3::ONE,
     };
     Bsdf::new(&surface, Vec3::Z, p)
 }
