@@ -1,8 +1,9 @@
 //! Which piece of the plane is what: carriageway, kerb, pavement.
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, Outcome, Polygon, Report, RoadKind, StreetMap};
+use trove_model::{Bounds, Drive, Outcome, Polygon, Report, RoadKind, StreetMap, drives_on_left};
 
+use super::course::{self, Course};
 use super::evidence::{self, Trace};
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
 use crate::plane::{difference, grown, intersection, rectangle, strip, union};
@@ -48,6 +49,8 @@ pub(super) struct Layout<'a> {
     pub recorded: PlaneRaster,
     /// Road beyond it.
     pub stretches: Vec<Stretch<'a>>,
+    /// Where traffic runs: recorded lanes and stretches.
+    pub courses: Vec<Course>,
     pub carriageway: Vec<Polygon>,
     pub kerb: Vec<Polygon>,
     pub pavement: Vec<Polygon>,
@@ -68,7 +71,8 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     recorded.fill(&drivable, RECORDED);
 
     // Roads of the map where the recording ends, their corners rounded.
-    let stretches = map.map(|m| network::stretches(m, &recorded, bounds, report)).unwrap_or_default();
+    let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
+    let stretches = map.map(|m| network::stretches(m, &recorded, bounds, on_left, report)).unwrap_or_default();
     let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, s.width_m / 2.0)).collect();
     let mapped = closed(&union(&strips), CORNER_M);
     let mut carriageway = union(&[drivable, mapped].concat());
@@ -110,7 +114,8 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let pavement = intersection(&difference(&walked, &stones), &whole);
     let land = difference(&difference(&whole, &stones), &pavement);
     let car_parks = closed(&grown(&union(&parked), CAR_PARK_M), CAR_PARK_M);
-    Layout { recorded, stretches, carriageway, kerb, pavement, land, car_parks }
+    let courses = course::courses(drive, &stretches);
+    Layout { recorded, stretches, courses, carriageway, kerb, pavement, land, car_parks }
 }
 
 /// Whether the recorded traffic left the recorded road for more than it should.

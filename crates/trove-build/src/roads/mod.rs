@@ -1,5 +1,6 @@
 //! Everything that lies on the ground: carriageway with its markings, sidewalks with their kerbs, land.
 
+mod course;
 mod evidence;
 mod land;
 mod layout;

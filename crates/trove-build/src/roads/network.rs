@@ -1,8 +1,9 @@
 //! Carriageways of OpenStreetMap's roads, where the dataset's own map ends.
 
 use glam::DVec2;
-use trove_model::{Bounds, Outcome, Report, Road, RoadKind, StreetMap};
+use trove_model::{Bounds, Outcome, Report, Road, StreetMap};
 
+use super::course::{CrossSection, cross_section};
 use crate::plane_raster::PlaneRaster;
 
 /// Roads are looked at every so many metres.
@@ -19,11 +20,12 @@ pub(super) const RECORDED: u8 = 2;
 /// A street that is wider than this was measured across a square or a car park.
 const WIDEST_M: f64 = 30.0;
 
-/// A stretch of road with its width.
+/// A stretch of road with its lanes and its width from kerb to kerb.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch<'a> {
     pub road: &'a Road,
     pub line: Vec<DVec2>,
+    pub section: CrossSection,
     pub width_m: f64,
 }
 
@@ -32,6 +34,7 @@ pub(super) fn stretches<'a>(
     map: &'a StreetMap,
     recorded: &PlaneRaster,
     bounds: Bounds,
+    on_left: bool,
     report: &Report,
 ) -> Vec<Stretch<'a>> {
     let near = bounds.grown(50.0);
@@ -48,15 +51,15 @@ pub(super) fn stretches<'a>(
         kept
     })) {
         let points = resampled(&road.centreline);
-        let measured = measured_width_m(&points, recorded);
-        let width_m =
-            measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w))).unwrap_or_else(|| usual_width_m(road));
+        let measured = measured_width_m(&points, road.oneway, recorded);
+        let known_m = measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w)));
+        let section = cross_section(road, known_m, on_left);
         for line in beyond(&points, recorded) {
-            if measured.is_none() && road.width_m.is_none() {
+            if known_m.is_none() {
                 let what = "width of a road, from its lanes or kind";
                 report.note(Outcome::Guessed, what, format_args!("osm way {}", road.id));
             }
-            stretches.push(Stretch { road, line, width_m });
+            stretches.push(Stretch { road, line, width_m: section.width_m, section: section.clone() });
         }
     }
     stretches
@@ -77,29 +80,6 @@ fn crosses(a: &Road, b: &Road) -> bool {
     })
 }
 
-/// Carriageway width where nothing tells it, metres.
-fn usual_width_m(road: &Road) -> f64 {
-    let lane_m = match road.kind {
-        RoadKind::Motorway | RoadKind::Trunk => 3.6,
-        RoadKind::Primary | RoadKind::Secondary => 3.4,
-        RoadKind::Service => 2.75,
-        _ => 3.2,
-    };
-    let lanes = road.lanes.filter(|l| (1..=10).contains(l)).map(f64::from);
-    let lanes = lanes.unwrap_or(match (road.kind, road.oneway) {
-        (RoadKind::Motorway | RoadKind::Trunk, _) => 2.0,
-        (RoadKind::Primary | RoadKind::Secondary, true) => 2.0,
-        (RoadKind::Primary, false) => 4.0,
-        (RoadKind::Service, true) => 1.3,
-        // One lane and a row of parked cars.
-        (_, true) => 1.7,
-        (RoadKind::Service, false) => 1.8,
-        _ => 2.0,
-    });
-    // Gutters, a quarter of a metre to each side.
-    (lanes.max(1.0) * lane_m + 0.5).max(3.0)
-}
-
 /// The line with points every [`STEP_M`]; its own vertices stay.
 pub(super) fn resampled(line: &[DVec2]) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = line.first().copied().into_iter().collect();
@@ -111,7 +91,7 @@ pub(super) fn resampled(line: &[DVec2]) -> Vec<DVec2> {
 }
 
 /// The median width of the recorded area along a road, across junctions left out; `None` where they share too little.
-fn measured_width_m(points: &[DVec2], recorded: &PlaneRaster) -> Option<f64> {
+fn measured_width_m(points: &[DVec2], oneway: bool, recorded: &PlaneRaster) -> Option<f64> {
     const SAMPLE_M: f64 = 0.5;
     let reach = |from: DVec2, step: DVec2| {
         (1..60).find(|&i| recorded.at(from + step * f64::from(i)) != RECORDED).map(|i| f64::from(i) * SAMPLE_M)
@@ -121,7 +101,11 @@ fn measured_width_m(points: &[DVec2], recorded: &PlaneRaster) -> Option<f64> {
         .filter(|w| recorded.at(w[0]) == RECORDED)
         .filter_map(|w| {
             let across = (w[1] - w[0]).normalize_or_zero().perp() * SAMPLE_M;
-            Some(reach(w[0], across)? + reach(w[0], -across)?).filter(|&width| width <= WIDEST_M)
+            let (left_m, right_m) = (reach(w[0], across)?, reach(w[0], -across)?);
+            // Far to one side of a one-way road lies the other direction's road.
+            let nearer_m = left_m.min(right_m);
+            let divided = oneway && left_m.max(right_m) > 2.0 * nearer_m;
+            Some(if divided { 2.0 * nearer_m } else { left_m + right_m }).filter(|&width| width <= WIDEST_M)
         })
         .collect();
     widths.sort_by(f64::total_cmp);
@@ -175,6 +159,7 @@ fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
 mod tests {
     use super::*;
     use crate::plane;
+    use trove_model::RoadKind;
 
     fn road(points: &[(f64, f64)]) -> Road {
         let points: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x, y]).collect();
@@ -194,7 +179,7 @@ mod tests {
     fn a_road_goes_on_where_the_recording_ends_with_the_recorded_width() {
         let (raster, bounds) = recorded();
         let map = StreetMap { roads: vec![road(&[(-50.0, 0.0), (150.0, 0.0)])], ..StreetMap::default() };
-        let found = stretches(&map, &raster, bounds, &Report::default());
+        let found = stretches(&map, &raster, bounds, false, &Report::default());
         assert_eq!(found.len(), 1);
         assert!((found[0].width_m - 12.0).abs() <= 1.0, "{}", found[0].width_m);
         assert!(found[0].line[0].x < 100.0 && found[0].line[0].x > 90.0);
@@ -204,7 +189,7 @@ mod tests {
     fn a_road_drawn_beside_the_recorded_one_is_not_built_again() {
         let (raster, bounds) = recorded();
         let map = StreetMap { roads: vec![road(&[(-90.0, 9.0), (90.0, 9.0)])], ..StreetMap::default() };
-        assert!(stretches(&map, &raster, bounds, &Report::default()).is_empty());
+        assert!(stretches(&map, &raster, bounds, false, &Report::default()).is_empty());
     }
 
     #[test]
@@ -214,7 +199,7 @@ mod tests {
         let roads = vec![road(&[(-50.0, 100.0), (50.0, 100.0)]), bridge];
         let report = Report::default();
         let map = StreetMap { roads, ..StreetMap::default() };
-        assert_eq!(stretches(&map, &raster, bounds, &report).len(), 1);
+        assert_eq!(stretches(&map, &raster, bounds, false, &report).len(), 1);
         assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.count == 1));
     }
 }
