@@ -1,0 +1,236 @@
+//! What must hold of every built place. A check returns what is wrong with it, each with its place, in metres.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+use trove_model::{Bounds, Class, Instance, Kind, Report, Scene};
+
+use crate::drawing::{Drawing, Triangle, is_built, triangles};
+use crate::footing::{Ground, Solids, foot_outline, overlap_m};
+
+/// Surfaces nearer to each other than this fight for the same pixels, metres.
+const COPLANAR_M: f64 = 0.0005;
+/// Objects may sink into each other this far, metres.
+const OVERLAP_M: f64 = 0.05;
+/// Wheels and feet are this near to the ground, metres.
+const STANDS_M: f64 = 0.03;
+/// People who were recorded at least this high above the ground stood on something.
+const PLATFORM_M: f64 = 0.5;
+/// Directions in which a place is looked at from its sides.
+const AZIMUTHS: usize = 6;
+
+/// No mesh or placement has a number that is not finite, an index that does not exist, or no place.
+pub(crate) fn numbers(scene: &Scene) -> Vec<String> {
+    let meshes = scene.meshes.iter().enumerate().filter_map(|(i, m)| Some(format!("mesh {i}: {}", m.defect()?)));
+    let placed = scene.instances.iter().filter(|i| !i.world_from_mesh.is_finite());
+    meshes.chain(placed.map(|i| format!("{}: placement is not finite", name(i)))).collect()
+}
+
+/// No two surfaces that face the same way coincide, and no building shows its inside to someone outside.
+pub(crate) fn solids(scene: &Scene, area: Bounds) -> Vec<String> {
+    let all = triangles(scene, |i| is_built(scene, i));
+    let mut wrong = Vec::new();
+    look(scene, &all, area, DVec3::NEG_Z, 0.2, &mut wrong);
+    let buildings = triangles(scene, |i| scene.instances[i].class == Class::Building);
+    for i in 0..AZIMUTHS {
+        let azimuth = std::f64::consts::TAU * (i as f64 + 0.137) / AZIMUTHS as f64;
+        let towards = DVec3::new(azimuth.cos(), azimuth.sin(), -0.05).normalize();
+        look(scene, &buildings, area, towards, 0.4, &mut wrong);
+    }
+    wrong
+}
+
+fn look(scene: &Scene, all: &[Triangle], area: Bounds, towards: DVec3, cell_m: f64, wrong: &mut Vec<String>) {
+    let drawing = Drawing::new(all, area, towards, cell_m);
+    let normals: Vec<DVec3> = all.iter().map(Triangle::normal).collect();
+    let name_of = |triangle: u32| name(&scene.instances[all[triangle as usize].instance]);
+    let mut fights: BTreeMap<String, (usize, DVec3)> = BTreeMap::new();
+    let mut insides: BTreeMap<String, (usize, DVec3)> = BTreeMap::new();
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    for ray in drawing.rays() {
+        for pair in ray.windows(2) {
+            let alike = normals[pair[0].triangle as usize].dot(normals[pair[1].triangle as usize]) > 0.999;
+            if alike && pair[1].depth_m - pair[0].depth_m < COPLANAR_M {
+                let both = format!("{} and {}", name_of(pair[0].triangle), name_of(pair[1].triangle));
+                fights.entry(both).or_insert((0, drawing.point(&pair[0], towards))).0 += 1;
+            }
+        }
+        let first = &ray[0];
+        if scene.instances[all[first.triangle as usize].instance].class == Class::Building {
+            *seen.entry(name_of(first.triangle)).or_default() += 1;
+            if !first.from_front {
+                insides.entry(name_of(first.triangle)).or_insert((0, drawing.point(first, towards))).0 += 1;
+            }
+        }
+    }
+    // A ray in two triangles' common edge meets both.
+    let common = 2;
+    for (what, (rays, at)) in fights.into_iter().filter(|(_, (rays, _))| *rays > common) {
+        wrong.push(format!("{what} coincide over {:.2} m², such as at {at:.2}", rays as f64 * cell_m * cell_m));
+    }
+    for (what, (rays, at)) in insides {
+        if rays as f64 > 2.0 + 0.002 * seen[&what] as f64 {
+            let area_m2 = rays as f64 * cell_m * cell_m;
+            wrong.push(format!("{what} shows {area_m2:.2} m² of its inside towards {towards:.2}, such as at {at:.2}"));
+        }
+    }
+}
+
+/// Everything that stands does so on the ground: vehicles and people within 3 cm, other things without a gap.
+pub(crate) fn standing(scene: &Scene) -> Vec<String> {
+    let ground = Ground::new(scene);
+    let mut wrong = Vec::new();
+    for (instance, kind) in objects(scene).filter(|(_, kind)| *kind != Kind::Building) {
+        for foot in feet(scene, instance, kind) {
+            let Some(surface_m) = ground.height_near_m(foot) else {
+                wrong.push(format!("{} at {foot:.2} has no ground below it", name(instance)));
+                continue;
+            };
+            let above_m = foot.z - surface_m;
+            // Someone recorded on a platform is left there.
+            if is_recorded(instance) && kind.class() == Class::Human && above_m > PLATFORM_M {
+                continue;
+            }
+            let touches = kind.is_vehicle() || kind.class() == Class::Human;
+            if above_m > STANDS_M || (touches && above_m < -STANDS_M) {
+                wrong.push(format!("{} stands {above_m:.3} m above the ground at {foot:.2}", name(instance)));
+                break;
+            }
+        }
+    }
+    wrong
+}
+
+/// Where an object touches the ground: the wheels of a vehicle, else its lowest point.
+fn feet(scene: &Scene, instance: &Instance, kind: Kind) -> Vec<DVec3> {
+    let mesh = &scene.meshes[instance.mesh];
+    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+    let middle = (low + high) / 2.0;
+    let lowest = |front: Option<bool>, left: Option<bool>| {
+        let there = mesh
+            .positions
+            .iter()
+            .filter(|p| front.is_none_or(|f| (p.x > middle.x) == f) && left.is_none_or(|l| (p.y > middle.y) == l));
+        let lowest = there.min_by(|a, b| a.z.total_cmp(&b.z))?;
+        (lowest.z < low.z + 0.03).then(|| instance.world_from_mesh.transform_point3(lowest.as_dvec3()))
+    };
+    let wheels: &[(Option<bool>, Option<bool>)] = if !kind.is_vehicle() {
+        &[(None, None)]
+    } else if matches!(kind.class(), Class::CycleRider | Class::MotorcycleRider) {
+        &[(Some(true), None), (Some(false), None)]
+    } else {
+        &[(Some(true), Some(true)), (Some(true), Some(false)), (Some(false), Some(true)), (Some(false), Some(false))]
+    };
+    wheels.iter().filter_map(|&(front, left)| lowest(front, left)).collect()
+}
+
+/// No plant and no piece of furniture stands on a carriageway.
+pub(crate) fn lanes(scene: &Scene) -> Vec<String> {
+    let ground = Ground::new(scene);
+    let mut wrong = Vec::new();
+    for (instance, _) in made_up(scene) {
+        let foot =
+            foot_outline(scene, instance).iter().sum::<DVec2>() / foot_outline(scene, instance).len().max(1) as f64;
+        let at = foot.extend(instance.world_from_mesh.translation.z);
+        if ground.class_near(at) == Some(Class::Road) {
+            wrong.push(format!("{} stands on the road at {at:.2}", name(instance)));
+        }
+    }
+    wrong
+}
+
+/// No body is more than 5 cm inside a building or another body: at the height of people's knees to their heads.
+pub(crate) fn bodies(scene: &Scene) -> Vec<String> {
+    let solids = Solids::new(scene);
+    let mut wrong = Vec::new();
+    let outlines: Vec<(usize, Vec<DVec2>)> = scene
+        .instances
+        .iter()
+        .enumerate()
+        .filter(|(_, i)| i.object.as_ref().is_some_and(|o| o.kind != Kind::Building))
+        .map(|(index, instance)| (index, foot_outline(scene, instance)))
+        .filter(|(_, outline)| outline.len() > 2)
+        .collect();
+    for (index, outline) in &outlines {
+        let instance = &scene.instances[*index];
+        let z = instance.world_from_mesh.translation.z + 1.0;
+        if let Some(&corner) = outline.iter().find(|p| solids.is_inside(p.extend(z), OVERLAP_M)) {
+            wrong.push(format!("{} is inside a building at {corner:.2}", name(instance)));
+        }
+    }
+    let mut near: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (k, (_, outline)) in outlines.iter().enumerate() {
+        let low = outline.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = outline.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        for x in (low.x / 4.0).floor() as i64..=(high.x / 4.0).floor() as i64 {
+            for y in (low.y / 4.0).floor() as i64..=(high.y / 4.0).floor() as i64 {
+                near.entry([x, y]).or_default().push(k);
+            }
+        }
+    }
+    let mut pairs: Vec<[usize; 2]> = Vec::new();
+    for bucket in near.values() {
+        for (i, &a) in bucket.iter().enumerate() {
+            pairs.extend(bucket[i + 1..].iter().map(|&b| [a.min(b), a.max(b)]));
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    for [a, b] in pairs {
+        let [first, second] = [a, b].map(|k| &scene.instances[outlines[k].0]);
+        let apart_m = (first.world_from_mesh.translation.z - second.world_from_mesh.translation.z).abs();
+        // What was recorded may overlap as it was annotated, and plants grow into each other.
+        let excused = (is_recorded(first) && is_recorded(second)) || (is_plant(first) && is_plant(second));
+        if excused || apart_m > 2.0 {
+            continue;
+        }
+        let depth_m = overlap_m(&outlines[a].1, &outlines[b].1);
+        if depth_m > OVERLAP_M {
+            let at = first.world_from_mesh.translation;
+            wrong.push(format!("{} and {} overlap by {depth_m:.2} m at {at:.2}", name(first), name(second)));
+        }
+    }
+    wrong
+}
+
+/// At least 98 of 100 ways and relations of the map were used or are in the report.
+pub(crate) fn accounted(report: &Report) -> Vec<String> {
+    let measured: BTreeMap<String, f64> = report.measurements().into_iter().map(|m| (m.name, m.value)).collect();
+    let mut wrong = Vec::new();
+    for what in ["ways", "relations"] {
+        let value = |name: &str| measured.get(&format!("osm.{what}_{name}")).copied();
+        match (value("in_area"), value("accounted").or(value("used"))) {
+            (Some(all), Some(known)) if known < 0.98 * all => {
+                wrong.push(format!("{known} of {all} {what} are used or reported"));
+            }
+            (Some(_), Some(_)) => {}
+            _ => wrong.push(format!("{what} are not counted")),
+        }
+    }
+    wrong
+}
+
+fn objects(scene: &Scene) -> impl Iterator<Item = (&Instance, Kind)> {
+    scene.instances.iter().filter_map(|i| Some((i, i.object.as_ref()?.kind)))
+}
+
+/// Plants and furniture: what nobody recorded.
+fn made_up(scene: &Scene) -> impl Iterator<Item = (&Instance, Kind)> {
+    objects(scene).filter(|(i, kind)| *kind != Kind::Building && !is_recorded(i))
+}
+
+fn is_recorded(instance: &Instance) -> bool {
+    instance.object.as_ref().is_some_and(|o| !o.category.is_empty())
+}
+
+fn is_plant(instance: &Instance) -> bool {
+    matches!(instance.class, Class::Tree | Class::Bush)
+}
+
+fn name(instance: &Instance) -> String {
+    match &instance.object {
+        Some(object) if object.asset.is_empty() => format!("{:?} {}", object.kind, instance.id.0),
+        Some(object) => format!("{} {}", object.asset, instance.id.0),
+        None => instance.class.row().name.to_owned(),
+    }
+}

@@ -1,0 +1,153 @@
+//! Made-up places in three parts of the world, and the real ones of `TROVE_TEST_DATA`: what must hold of all of them.
+
+#![allow(clippy::unwrap_used)] // all of this is tests
+
+mod checks;
+mod cover;
+mod drawing;
+mod footing;
+mod made_up;
+
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+use glam::DVec2;
+use trove_build::{BuildSettings, LightChoice, SkyChoice, Weather};
+use trove_model::{AssetLibrary, Bounds, Drive, MapProjection, Report, Scene, Seed, StreetMap};
+use trove_read::{nuscenes::NuScenes, osm};
+
+/// A place that has been built.
+struct Place {
+    name: String,
+    drive: Drive,
+    map: StreetMap,
+    report: Report,
+    scene: Scene,
+}
+
+fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
+    let settings = BuildSettings {
+        seed: Seed(7),
+        top_k: 3,
+        light: LightChoice::Sky(SkyChoice::default()),
+        weather: Weather::default(),
+    };
+    static LIBRARY: LazyLock<AssetLibrary> = LazyLock::new(trove_assets::library);
+    let site = trove_build::build(&drive, Some(&map), &LIBRARY, &settings, &report).unwrap();
+    let scene = site.scene(&drive, drive.keyframes.len() / 4);
+    Place { name: name.into(), drive, map, report, scene }
+}
+
+/// Everything that must hold; prints at most a few of each kind.
+fn check(place: &Place) -> Vec<String> {
+    let checks: [(&str, Vec<String>); 5] = [
+        ("numbers", checks::numbers(&place.scene)),
+        ("solids", checks::solids(&place.scene, trove_build::area(&place.drive).unwrap())),
+        ("standing", checks::standing(&place.scene)),
+        ("lanes", checks::lanes(&place.scene)),
+        ("bodies", checks::bodies(&place.scene)),
+    ];
+    let mut wrong = Vec::new();
+    for (check, found) in checks {
+        let total = found.len();
+        wrong.extend(found.into_iter().take(12).map(|w| format!("{} {check} ({total}): {w}", place.name)));
+    }
+    wrong
+}
+
+fn assert_sound(place: &Place, also: Vec<String>) {
+    let mut wrong = check(place);
+    wrong.extend(also.into_iter().map(|w| format!("{}: {w}", place.name)));
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+fn made_up_place(name: &str, lat_deg: f64, lon_deg: f64, slope: f64) -> Place {
+    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
+    let (map, report) = (made_up::town(), Report::default());
+    let mut drive = trove_build::place_drive(&map, projection, name, 240.0, 0, Seed(3), &report).unwrap();
+    for keyframe in &mut drive.keyframes {
+        let rise_m = slope * keyframe.world_from_ego.translation.x;
+        keyframe.world_from_ego.translation.z += rise_m;
+        for exposure in &mut keyframe.exposures {
+            exposure.world_from_ego.translation.z += rise_m;
+        }
+    }
+    build(name, drive, map, report)
+}
+
+#[test]
+fn a_town_in_europe_is_sound() {
+    assert_sound(&made_up_place("europe", 52.5, 13.4, 0.0), Vec::new());
+}
+
+#[test]
+fn a_town_on_a_slope_in_the_tropics_that_drives_on_the_left_is_sound() {
+    assert_sound(&made_up_place("tropics", 1.3, 103.8, 0.05), Vec::new());
+}
+
+#[test]
+fn a_town_in_north_america_is_sound() {
+    assert_sound(&made_up_place("america", 42.35, -71.05, -0.03), Vec::new());
+}
+
+/// The folder of real data; `None`, with a word about it, where there is none.
+fn data() -> Option<PathBuf> {
+    let data = std::env::var_os("TROVE_TEST_DATA").map(PathBuf::from);
+    if data.is_none() {
+        eprintln!("skipped: TROVE_TEST_DATA is not set");
+    }
+    data
+}
+
+fn recorded_place(scene: &str, file: &str) -> Option<Place> {
+    let data = data()?;
+    let report = Report::default();
+    let dataset = NuScenes::open(&data.join("nuscenes"), "v1.0-mini", None, &report).unwrap();
+    let drive = dataset.drive(scene, &report).unwrap();
+    let area = trove_build::area(&drive).unwrap();
+    let map = osm::read(&data.join("osm").join(file), &drive.projection, area, &report).unwrap();
+    Some(build(scene, drive, map, report))
+}
+
+fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Option<Place> {
+    let data = data()?;
+    let report = Report::default();
+    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
+    let area = Bounds::square(DVec2::ZERO, 300.0);
+    let map = osm::read(&data.join("osm").join(file), &projection, area, &report).unwrap();
+    let drive = trove_build::place_drive(&map, projection, name, 300.0, 0, Seed(7), &report).unwrap();
+    Some(build(name, drive, map, report))
+}
+
+fn assert_real(place: Option<Place>) {
+    let Some(place) = place else { return };
+    let mut wrong = checks::accounted(&place.report);
+    wrong.extend(cover::road(&place.scene, &place.drive));
+    wrong.extend(cover::buildings(&place.scene, &place.drive, &place.map));
+    assert_sound(&place, wrong);
+}
+
+#[test]
+fn boston_as_recorded_is_sound() {
+    assert_real(recorded_place("scene-0103", "boston-seaport.osm"));
+}
+
+#[test]
+fn singapore_as_recorded_is_sound() {
+    assert_real(recorded_place("scene-0061", "singapore-onenorth.osm"));
+}
+
+#[test]
+fn neukolln_is_sound() {
+    assert_real(mapped_place("neukolln", "neukolln.osm", 52.4735, 13.4394));
+}
+
+#[test]
+fn taipei_is_sound() {
+    assert_real(mapped_place("taipei", "taipei.osm", 25.0522, 121.5227));
+}
+
+#[test]
+fn monaco_is_sound() {
+    assert_real(mapped_place("monaco", "monaco-latest.osm.pbf", 43.7396, 7.4275));
+}
