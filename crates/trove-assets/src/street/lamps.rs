@@ -7,7 +7,7 @@ use super::finish::{bar, concrete, galvanised, glass, painted, post, rubber, tim
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
-    vec![curved(), straight(), historic(), wooden_pole(), concrete_pole()]
+    vec![curved(), straight(), cobra(), mast(), post_top(), historic(), wooden_pole(), concrete_pole()]
 }
 
 fn lamp(model: Model, id: &str) -> Asset {
@@ -60,6 +60,67 @@ fn straight() -> Asset {
     lamp(model, "lamp/straight")
 }
 
+/// An aluminium pole with a truss arm and a flat oval head, as along American streets.
+fn cobra() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    let head = model.slot(painted(Vec3::splat(0.3)), &[]);
+    let lens = model.slot(lens(), &[]);
+    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.11), (Vec3::Z * 8.8, 0.065)], 14));
+    model.add(steel, bar(vec3(0.0, 0.0, 0.03), vec3(0.4, 0.4, 0.06)));
+    model.add(steel, bar(vec3(-0.1, 0.0, 0.6), vec3(0.02, 0.12, 0.3)));
+    let upper = |t: f32| vec3(2.4 * t, 0.0, 8.7 + 0.55 * (t * 1.4).sin());
+    let lower = |t: f32| vec3(2.4 * t, 0.0, 8.1 + 1.14 * (t * 1.57).sin() - 0.1 * t);
+    for side in [&upper as &dyn Fn(f32) -> Vec3, &lower] {
+        let path: Vec<Vec3> = (0..=8).map(|i| side(i as f32 / 8.0)).collect();
+        model.add(steel, Shape::tube(&path, 0.026, 9));
+    }
+    for t in [0.3, 0.55] {
+        model.add(steel, Shape::tube(&[upper(t), lower(t)], 0.015, 6));
+    }
+    let end = upper(1.0);
+    model.add(head, Shape::ellipsoid(vec3(0.4, 0.17, 0.1), 20).moved(end + vec3(0.3, 0.0, -0.01)));
+    model.add(lens, Shape::ellipsoid(vec3(0.22, 0.14, 0.09), 16).moved(end + vec3(0.36, 0.0, -0.05)));
+    lamp(model, "lamp/cobra")
+}
+
+/// A tall tapered mast with a long bare arm, as over wide roads.
+fn mast() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    let head = model.slot(painted(Vec3::splat(0.35)), &[]);
+    let lens = model.slot(lens(), &[]);
+    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.12), (Vec3::Z * 10.0, 0.06)], 14));
+    model.add(steel, bar(vec3(0.0, 0.0, 0.015), vec3(0.4, 0.4, 0.03)));
+    model.add(steel, bar(vec3(0.105, 0.0, 0.75), vec3(0.02, 0.13, 0.5)));
+    let arm = |t: f32| vec3(2.0 * t, 0.0, 9.9 + 0.35 * t);
+    model.add(steel, Shape::tapered_tube(&[(arm(0.0), 0.045), (arm(1.0), 0.03)], 10));
+    model.add(head, bar(arm(1.0) + vec3(0.25, 0.0, 0.02), vec3(0.62, 0.3, 0.09)));
+    model.add(lens, bar(arm(1.0) + vec3(0.28, 0.0, -0.03), vec3(0.45, 0.24, 0.015)));
+    lamp(model, "lamp/mast")
+}
+
+/// A low post with its light on top, as in side streets and parks.
+fn post_top() -> Asset {
+    let mut model = Model::default();
+    let grey = vec3(0.09, 0.095, 0.1);
+    let paint = model.slot(painted(grey), &[grey, Vec3::splat(0.03), vec3(0.02, 0.05, 0.035)]);
+    let lens = model.slot(lens(), &[]);
+    model.add(
+        paint,
+        Shape::tapered_tube(
+            &[(Vec3::ZERO, 0.07), (Vec3::Z * 1.1, 0.07), (Vec3::Z * 1.15, 0.045), (Vec3::Z * 4.6, 0.04)],
+            14,
+        ),
+    );
+    model.add(paint, bar(vec3(0.07, 0.0, 0.6), vec3(0.012, 0.08, 0.4)));
+    let bowl = [(0.06, 4.6), (0.2, 4.68), (0.24, 4.95), (0.0, 4.95)];
+    model.add(lens, Shape::lathe(&bowl.map(|(r, z)| vec2(r, z)), 20));
+    let cap = [(0.0, 4.95), (0.36, 4.95), (0.34, 5.0), (0.12, 5.12), (0.0, 5.14)];
+    model.add(paint, Shape::lathe(&cap.map(|(r, z)| vec2(r, z)), 24));
+    lamp(model, "lamp/post-top")
+}
+
 /// A cast-iron post with a lantern.
 fn historic() -> Asset {
     let mut model = Model::default();
@@ -108,6 +169,9 @@ fn historic() -> Asset {
     lamp(model, "lamp/historic")
 }
 
+/// Wires hang where a pole has parts of this material.
+const INSULATOR: &str = "insulator";
+
 fn pole(model: Model, id: &str) -> Asset {
     model.asset(id, Kind::UtilityPole, Class::TrafficSign)
 }
@@ -117,7 +181,7 @@ fn wooden_pole() -> Asset {
     let mut model = Model::default();
     let wood = model.slot(timber(), &[]);
     let steel = model.slot(galvanised(), &[]);
-    let clay = model.slot(painted(vec3(0.14, 0.06, 0.035)), &[]);
+    let clay = model.slot(Material { name: INSULATOR.into(), ..painted(vec3(0.14, 0.06, 0.035)) }, &[]);
     model.add(wood, Shape::tapered_tube(&[(Vec3::ZERO, 0.16), (Vec3::Z * 10.0, 0.1)], 14));
     for z in [9.6, 8.7] {
         model.add(wood, bar(vec3(0.12, 0.0, z), vec3(0.1, 2.3, 0.12)));
@@ -140,7 +204,7 @@ fn concrete_pole() -> Asset {
     let mut model = Model::default();
     let body = model.slot(concrete(), &[]);
     let steel = model.slot(galvanised(), &[]);
-    let black = model.slot(rubber(), &[]);
+    let black = model.slot(Material { name: INSULATOR.into(), ..rubber() }, &[]);
     model.add(body, Shape::tapered_tube(&[(Vec3::ZERO, 0.17), (Vec3::Z * 9.0, 0.1)], 16));
     for z in [8.3, 8.7] {
         model.add(steel, post(vec3(0.0, 0.0, z), 0.125, 0.05, 16));

@@ -3,7 +3,9 @@
 mod barriers;
 mod carts;
 mod cones;
+mod fences;
 mod finish;
+mod fittings;
 mod furniture;
 mod lamps;
 mod signals;
@@ -17,6 +19,8 @@ pub(crate) fn assets() -> Vec<Asset> {
         barriers::assets(),
         carts::assets(),
         cones::assets(),
+        fences::assets(),
+        fittings::assets(),
         furniture::assets(),
         lamps::assets(),
         signals::assets(),
@@ -39,7 +43,7 @@ mod tests {
             (Kind::TrafficCone, 3), (Kind::Barrier, 5), (Kind::PushablePullable, 3), (Kind::Debris, 3),
             (Kind::BicycleRack, 1), (Kind::TrafficSign, 6), (Kind::TrafficSignal, 2), (Kind::StreetLamp, 3),
             (Kind::UtilityPole, 1), (Kind::Bollard, 2), (Kind::Hydrant, 1), (Kind::Bin, 2), (Kind::Bench, 2),
-            (Kind::Shelter, 1),
+            (Kind::Shelter, 1), (Kind::StreetFurniture, 10), (Kind::Fence, 6), (Kind::Wall, 3), (Kind::GuardRail, 3),
         ];
         for (kind, least) in wanted {
             let found = assets.iter().filter(|a| a.kind == kind).count();
@@ -77,9 +81,13 @@ mod tests {
     }
 
     #[test]
-    fn a_signal_has_one_kind_of_lamp_lit() {
+    fn those_on_foot_walk_while_the_traffic_beside_them_waits() {
         for asset in assets().iter().filter(|a| a.kind == Kind::TrafficSignal) {
-            assert_eq!(asset.slots.iter().filter(|s| s.material.is_emitter()).count(), 1, "{}", asset.id);
+            let lit: Vec<glam::Vec3> =
+                asset.slots.iter().map(|s| s.material.emission).filter(|e| e.x + e.y > 0.0).collect();
+            let [traffic, walkers] = lit[..] else { panic!("{}: {lit:?}", asset.id) };
+            assert_eq!(traffic.x > traffic.y, asset.id.ends_with("red"), "{}", asset.id);
+            assert_eq!(walkers.x > 2.0 * walkers.y, asset.id.ends_with("green"), "{}", asset.id);
         }
     }
 }

@@ -1,18 +1,49 @@
-//! Traffic signals; their lamps look along x.
+//! Traffic signals: heads that look along x at the traffic that comes, on poles and arms, and for those who cross the
+//! road beside them a head that looks over it.
 
-use glam::{Vec3, vec2, vec3};
+use std::f32::consts::{FRAC_PI_2, PI};
+
+use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material};
 
 use super::finish::{bar, galvanised, painted, plastic, polygon, post, upright};
 use crate::shape::{Model, Shape};
 
+/// How a signal is built.
+#[derive(Clone, Copy)]
+struct Make {
+    id: &'static str,
+    /// Reach of its arm; 0 for heads on the pole alone.
+    arm_m: f32,
+    /// Heads lie along the arm, as in eastern Asia.
+    lying: bool,
+    /// A board behind every head.
+    board: bool,
+    /// The head for pedestrians shows a hand, as in America.
+    hand: bool,
+}
+
+#[rustfmt::skip]
+const MAKES: [Make; 5] = [
+    Make { id: "post", arm_m: 0.0, lying: false, board: false, hand: false },
+    Make { id: "arm", arm_m: 5.0, lying: false, board: true, hand: false },
+    Make { id: "us-arm", arm_m: 6.0, lying: false, board: true, hand: true },
+    Make { id: "us-long-arm", arm_m: 9.5, lying: false, board: true, hand: true },
+    Make { id: "lying-arm", arm_m: 6.0, lying: true, board: false, hand: false },
+];
+
+/// All makes for both sides of traffic, with the traffic's lamp red or green: `signal/us-arm/right/red`. An arm reaches to
+/// the middle of the road: towards −y where traffic keeps right.
 pub(super) fn assets() -> Vec<Asset> {
-    vec![
-        on_pole("signal/pole-red", Lamp::Red),
-        on_pole("signal/pole-green", Lamp::Green),
-        on_arm("signal/arm-red", Lamp::Red),
-        on_arm("signal/arm-green", Lamp::Green),
-    ]
+    let each = |make: Make| {
+        [("right", 1.0), ("left", -1.0)].into_iter().flat_map(move |(name, side)| {
+            [Lamp::Red, Lamp::Green].map(|lit| {
+                let state = if lit == Lamp::Red { "red" } else { "green" };
+                signal(&format!("signal/{}/{name}/{state}", make.id), make, side, lit)
+            })
+        })
+    };
+    MAKES.into_iter().flat_map(each).collect()
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -32,13 +63,16 @@ impl Lamp {
     }
 
     fn material(self, lit: bool) -> Material {
-        // A lit signal outshines a sunlit white wall about twofold.
-        let color = self.color();
-        if lit {
-            Material { emission: color * 4.0, ..plastic(color) }
-        } else {
-            Material::plain("unlit lamp", color * 0.12 + 0.012, 0.2)
-        }
+        lamp(self.color(), lit)
+    }
+}
+
+/// A lit signal outshines a sunlit white wall about twofold.
+fn lamp(color: Vec3, lit: bool) -> Material {
+    if lit {
+        Material { emission: color * 4.0, ..plastic(color) }
+    } else {
+        Material::plain("unlit lamp", color * 0.12 + 0.012, 0.2)
     }
 }
 
@@ -57,24 +91,31 @@ impl Slots {
     }
 }
 
-/// Three lamps under hoods before a board, the middle one at a point.
-fn head(model: &mut Model, slots: &Slots, at: Vec3) {
-    let board = upright(Shape::extruded(&super::finish::rounded(vec2(0.62, 1.32), 0.08), 0.012));
-    let rim = upright(Shape::extruded(&super::finish::rounded(vec2(0.66, 1.36), 0.1), 0.006));
-    model.add(slots.rim, rim.moved(at + vec3(-0.012, 0.0, 0.0)));
-    model.add(slots.black, board.moved(at + vec3(-0.004, 0.0, 0.0)));
-    model.add(slots.black, bar(at + vec3(-0.02, 0.0, 0.0), vec3(0.22, 0.33, 1.02)));
+/// Three lamps under hoods, the middle one at a point: the red one on top, or towards `-side` where they lie.
+fn head(model: &mut Model, slots: &Slots, make: Make, side: f32, at: Vec3) {
+    // The body stands, or lies with its top to the side where red is.
+    let lay = |shape: Shape| {
+        if make.lying { shape.turned(Quat::from_rotation_x(side * FRAC_PI_2)) } else { shape }
+    };
+    if make.board {
+        let board = upright(Shape::extruded(&super::finish::rounded(vec2(0.62, 1.32), 0.08), 0.012));
+        let rim = upright(Shape::extruded(&super::finish::rounded(vec2(0.66, 1.36), 0.1), 0.006));
+        model.add(slots.rim, lay(rim).moved(at + vec3(-0.012, 0.0, 0.0)));
+        model.add(slots.black, lay(board).moved(at + vec3(-0.004, 0.0, 0.0)));
+    }
+    model.add(slots.black, lay(bar(Vec3::ZERO, vec3(0.22, 0.33, 1.02))).moved(at + vec3(-0.02, 0.0, 0.0)));
     for (i, &lamp) in slots.lamps.iter().enumerate() {
-        let centre = at + vec3(0.09, 0.0, 0.32 * (1.0 - i as f32));
-        let lens = upright(Shape::lathe(&[vec2(0.105, 0.0), vec2(0.075, 0.02), vec2(0.0, 0.032)], 24));
+        let along = 0.32 * (1.0 - i as f32);
+        let centre = at + if make.lying { vec3(0.09, -side * along, 0.0) } else { vec3(0.09, 0.0, along) };
+        let lens = upright(Shape::lathe(&[vec2(0.105, 0.0), vec2(0.075, 0.02), vec2(0.0, 0.032)], 20));
         model.add(lamp, lens.moved(centre));
-        let ring = upright(Shape::extruded(&polygon(24, 0.12, 0.0), 0.01));
+        let ring = upright(Shape::extruded(&polygon(20, 0.12, 0.0), 0.01));
         model.add(slots.black, ring.moved(centre - Vec3::X * 0.008));
         // The hood covers the upper three quarters and slants forward.
         let row = |x: f32, radius: f32| -> Vec<Vec3> {
-            (0..=14)
+            (0..=12)
                 .map(|k| {
-                    let angle = -0.7 + (std::f32::consts::PI + 1.4) * k as f32 / 14.0;
+                    let angle = -0.7 + (PI + 1.4) * k as f32 / 12.0;
                     let reach = x * (0.55 + 0.45 * angle.sin().max(-0.6));
                     centre + vec3(reach, radius * angle.cos(), radius * angle.sin())
                 })
@@ -84,45 +125,86 @@ fn head(model: &mut Model, slots: &Slots, at: Vec3) {
     }
 }
 
-fn foot(model: &mut Model, steel: u16, radius_m: f32, height_m: f32) {
-    let path = [(Vec3::ZERO, radius_m), (Vec3::Z * height_m, radius_m * 0.8)];
-    model.add(steel, Shape::tapered_tube(&path, 16));
-    model.add(steel, bar(vec3(0.0, 0.0, 0.015), vec3(0.34, 0.34, 0.03)));
+/// Flat parts of a sign for pedestrians, a height of about 0.2, seen along x.
+fn figure(parts: &[[Vec2; 2]], width: f32) -> Shape {
+    let limb = |&[a, b]: &[Vec2; 2]| {
+        let side = (b - a).normalize_or(Vec2::Y).perp() * width / 2.0;
+        upright(Shape::flat(&[a + side, a - side, b - side, b + side]))
+    };
+    Shape::join(parts.iter().map(limb))
 }
 
-/// On a pole of its own, with a push button.
-fn on_pole(id: &str, lit: Lamp) -> Asset {
+fn man(walking: bool) -> Shape {
+    let stride = if walking { 0.04 } else { 0.014 };
+    let hip = vec2(0.0, -0.01);
+    let limbs = [
+        [hip, vec2(-stride, -0.095)],
+        [hip, vec2(stride, -0.095)],
+        [vec2(0.0, -0.015), vec2(0.0, 0.05)],
+        [vec2(-stride, 0.0), vec2(0.0, 0.045)],
+        [vec2(stride, 0.0), vec2(0.0, 0.045)],
+    ];
+    let head = upright(Shape::flat(&polygon(10, 0.018, 0.0))).moved(vec3(0.0, 0.0, 0.08));
+    figure(&limbs, 0.024).and(head)
+}
+
+fn hand() -> Shape {
+    let finger = |x: f32, top: f32| [vec2(x, 0.0), vec2(x, top)];
+    let fingers = [finger(-0.04, 0.07), finger(-0.013, 0.09), finger(0.013, 0.085), finger(0.04, 0.065)];
+    let thumb = [vec2(0.035, -0.04), vec2(0.075, 0.02)];
+    let palm = upright(Shape::flat(&[vec2(-0.05, 0.0), vec2(-0.045, -0.09), vec2(0.045, -0.09), vec2(0.05, 0.0)]));
+    figure(&[fingers.as_slice(), &[thumb]].concat(), 0.02).and(palm)
+}
+
+/// The head for those who cross while this traffic waits, its back at a point; it looks along `turn`.
+fn walkers(model: &mut Model, black: u16, make: Make, may_walk: bool, at: Vec3, turn: Quat) {
+    let [stand, walk] =
+        if make.hand { [vec3(0.6, 0.16, 0.01), vec3(0.5, 0.5, 0.5)] } else { [Lamp::Red.color(), Lamp::Green.color()] };
+    let [stand, walk] = [(stand, !may_walk), (walk, may_walk)].map(|(c, lit)| model.slot(lamp(c, lit), &[]));
+    let waiting = if make.hand { hand() } else { man(false) };
+    for (z, slot, sign) in [(0.14, stand, waiting), (-0.14, walk, man(true))] {
+        let place = |shape: Shape| shape.turned(turn).moved(at + Vec3::Z * z);
+        model.add(black, place(bar(vec3(0.1, 0.0, 0.0), vec3(0.18, 0.29, 0.275))));
+        model.add(black, place(bar(vec3(0.23, 0.0, 0.13), vec3(0.12, 0.28, 0.012))));
+        model.add(slot, place(sign.moved(Vec3::X * 0.192)));
+    }
+}
+
+/// A pole with a head and a push button, and an arm over the road with one or two heads.
+fn signal(id: &str, make: Make, side: f32, lit: Lamp) -> Asset {
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     let slots = Slots::new(&mut model, lit);
-    foot(&mut model, steel, 0.06, 3.3);
-    for z in [2.45, 3.05] {
-        model.add(steel, bar(vec3(0.08, 0.0, z), vec3(0.14, 0.05, 0.05)));
+    let long = make.arm_m > 0.0;
+    let (radius_m, height_m) = if long { (0.13, 6.3) } else { (0.06, 3.4) };
+    let foot = [(Vec3::ZERO, radius_m), (Vec3::Z * height_m, radius_m * 0.75)];
+    model.add(steel, Shape::tapered_tube(&foot, 16));
+    let plate_m = 0.2 + 2.0 * radius_m;
+    model.add(steel, bar(vec3(0.0, 0.0, 0.015), vec3(plate_m, plate_m, 0.03)));
+    for z in [2.5, 3.0] {
+        model.add(steel, bar(vec3(0.09 + radius_m / 2.0, 0.0, z), vec3(0.16, 0.05, 0.05)));
     }
-    head(&mut model, &slots, vec3(0.22, 0.0, 2.75));
+    let standing = Make { lying: false, board: make.board && !long, ..make };
+    head(&mut model, &slots, standing, side, vec3(0.19 + radius_m, 0.0, 2.75));
     let amber = model.slot(plastic(vec3(0.55, 0.33, 0.02)), &[]);
-    model.add(amber, bar(vec3(0.09, 0.0, 1.1), vec3(0.09, 0.12, 0.2)));
-    model.asset(id, Kind::TrafficSignal, Class::TrafficSign)
-}
-
-/// On an arm over the road towards −y (to the left of who drives towards it), with a second head on the pole.
-fn on_arm(id: &str, lit: Lamp) -> Asset {
-    let mut model = Model::default();
-    let steel = model.slot(galvanised(), &[]);
-    let slots = Slots::new(&mut model, lit);
-    foot(&mut model, steel, 0.12, 6.2);
-    let bend = |t: f32| vec3(0.0, -0.5 - 5.0 * t, 5.95 + 0.35 * (t * 1.6).sin());
-    let arm: Vec<(Vec3, f32)> = std::iter::once((vec3(0.0, 0.0, 5.75), 0.075))
-        .chain((0..=8).map(|i| i as f32 / 8.0).map(|t| (bend(t), 0.07 - 0.025 * t)))
-        .collect();
-    model.add(steel, Shape::tapered_tube(&arm, 12));
-    for t in [0.5, 0.97] {
-        let at = bend(t);
-        model.add(steel, bar(at + vec3(0.07, 0.0, 0.0), vec3(0.14, 0.06, 0.06)));
-        head(&mut model, &slots, at + vec3(0.18, 0.0, 0.0));
+    let over_road = Quat::from_rotation_z(-side * FRAC_PI_2);
+    let button = over_road * vec3(radius_m + 0.03, 0.0, 0.0);
+    model.add(amber, bar(button + vec3(0.0, 0.0, 1.1), vec3(0.1, 0.1, 0.19)));
+    let at = over_road * vec3(radius_m, 0.0, 0.0) + Vec3::Z * 2.6;
+    walkers(&mut model, slots.black, make, lit == Lamp::Red, at, over_road);
+    if long {
+        let bend = |t: f32| vec3(0.0, -side * (0.4 + (make.arm_m - 0.4) * t), 5.75 + 0.4 * (t * 1.6).sin());
+        let arm: Vec<(Vec3, f32)> = std::iter::once((vec3(0.0, 0.0, 5.6), 0.085))
+            .chain((0..=8).map(|i| i as f32 / 8.0).map(|t| (bend(t), 0.08 - 0.035 * t)))
+            .collect();
+        model.add(steel, Shape::tapered_tube(&arm, 12));
+        model.add(steel, post(vec3(0.0, 0.0, height_m), 0.1, 0.03, 16));
+        let places: &[f32] = if make.arm_m > 8.0 { &[0.55, 0.95] } else { &[0.93] };
+        for &t in places {
+            let at = bend(t);
+            model.add(steel, bar(at + vec3(0.07, 0.0, 0.0), vec3(0.14, 0.06, 0.06)));
+            head(&mut model, &slots, make, side, at + vec3(0.18, 0.0, 0.0));
+        }
     }
-    model.add(steel, bar(vec3(0.12, 0.0, 2.75), vec3(0.14, 0.05, 0.05)));
-    head(&mut model, &slots, vec3(0.26, 0.0, 2.75));
-    model.add(steel, post(vec3(0.0, 0.0, 6.2), 0.1, 0.03, 16));
     model.asset(id, Kind::TrafficSignal, Class::TrafficSign)
 }

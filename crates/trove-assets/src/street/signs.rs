@@ -2,7 +2,8 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use glam::{Vec2, Vec3, vec2, vec3};
+use glam::{Quat, Vec2, Vec3, vec2, vec3};
+use rayon::prelude::*;
 use trove_model::{Asset, Class, Kind, Lettering, Material};
 
 use super::finish::{galvanised, painted, polygon, post, rounded, upright};
@@ -14,7 +15,6 @@ const WHITE: Vec3 = vec3(0.66, 0.66, 0.65);
 const RED: Vec3 = vec3(0.44, 0.018, 0.022);
 const BLUE: Vec3 = vec3(0.018, 0.075, 0.3);
 const GREEN: Vec3 = vec3(0.012, 0.13, 0.06);
-const AMBER: Vec3 = vec3(0.62, 0.33, 0.015);
 const BLACK: Vec3 = vec3(0.022, 0.022, 0.022);
 
 /// What is painted on a face: a point (metres from the face's middle) to a colour.
@@ -29,24 +29,44 @@ struct Plate {
     picture: Picture,
 }
 
+/// Limits on round signs, in km/h or (in Britain) mph, and on America's, in mph.
+const DISC_LIMITS: [u32; 14] = [5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130];
+const BOARD_LIMITS: [u32; 13] = [10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70];
+
+/// `sign/us/…` after the Manual on Uniform Traffic Control Devices, the others after the Vienna Convention.
 pub(super) fn assets() -> Vec<Asset> {
-    vec![
-        sign("sign/speed-limit", vec![disc(0.32, 2.5, speed_limit("50"))]),
-        sign("sign/speed-limit-40", vec![disc(0.32, 2.5, speed_limit("40"))]),
-        sign("sign/stop", vec![stop()]),
-        sign("sign/give-way", vec![give_way()]),
-        sign("sign/no-entry", vec![disc(0.32, 2.5, no_entry())]),
-        sign("sign/parking", vec![board(vec2(0.6, 0.6), 2.45, parking())]),
-        sign("sign/warning", vec![warning()]),
-        sign(
-            "sign/pedestrians",
-            vec![
-                board(vec2(0.75, 0.8), 2.35, lines(WHITE, BLACK, &["PEDESTRIANS", "USE", "CROSSING"], 0.075)),
-                board(vec2(0.75, 0.2), 1.83, arrow(AMBER, BLACK, 0.0)),
-            ],
-        ),
-        direction(),
-    ]
+    let discs = DISC_LIMITS
+        .par_iter()
+        .map(|limit| sign(&format!("sign/disc/speed-{limit}"), vec![disc(0.32, 2.5, speed_limit(&limit.to_string()))]));
+    let boards = BOARD_LIMITS.par_iter().map(|limit| {
+        sign(&format!("sign/us/speed-{limit}"), vec![board(vec2(0.61, 0.76), 2.45, us_speed_limit(&limit.to_string()))])
+    });
+    #[rustfmt::skip]
+    let others: [fn() -> Asset; 21] = [
+        || sign("sign/us/stop", vec![stop()]),
+        || sign("sign/us/yield", vec![give_way(true)]),
+        || sign("sign/us/one-way-left", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(PI))]),
+        || sign("sign/us/one-way-right", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(0.0))]),
+        || sign("sign/us/do-not-enter", vec![board(vec2(0.76, 0.76), 2.4, do_not_enter())]),
+        || sign("sign/us/no-parking", vec![board(vec2(0.3, 0.46), 2.3, us_no_parking())]),
+        || sign("sign/us/crossing", vec![us_crossing()]),
+        || sign("sign/us/bus-stop", vec![board(vec2(0.46, 0.61), 2.45, bus("BUS STOP", BLUE, WHITE))]),
+        || sign("sign/stop", vec![stop()]),
+        || sign("sign/give-way", vec![give_way(false)]),
+        || sign("sign/no-entry", vec![disc(0.32, 2.5, no_entry())]),
+        || sign("sign/no-stopping", vec![disc(0.28, 2.4, no_stopping(true))]),
+        || sign("sign/no-parking", vec![disc(0.28, 2.4, no_stopping(false))]),
+        || sign("sign/one-way", vec![board(vec2(0.6, 0.6), 2.45, one_way())]),
+        || sign("sign/parking", vec![board(vec2(0.6, 0.6), 2.45, parking())]),
+        || sign("sign/crossing", vec![board(vec2(0.6, 0.6), 2.45, crossing())]),
+        || sign("sign/warning", vec![warning()]),
+        || sign("sign/bus-stop", vec![board(vec2(0.4, 0.55), 2.6, bus("BUS", vec3(0.55, 0.4, 0.02), BLACK))]),
+        || sign("sign/haltestelle", vec![disc(0.25, 2.6, haltestelle())]),
+        direction,
+        street_name,
+    ];
+    let others = others.par_iter().map(|sign| sign());
+    discs.chain(boards).chain(others).collect()
 }
 
 fn sign(id: &str, plates: Vec<Plate>) -> Asset {
@@ -90,7 +110,7 @@ pub(super) fn face(size_m: Vec2) -> Shape {
 
 /// A picture with grime and fading.
 fn weathered(size_m: Vec2, picture: Picture) -> Canvas {
-    let px = (size_m / size_m.max_element() * 256.0).as_uvec2().max(glam::UVec2::splat(64));
+    let px = (size_m / size_m.max_element() * 192.0).as_uvec2().max(glam::UVec2::splat(48));
     let grime = Noise::new(size_m, 0.2, 77);
     let texel_m = size_m / px.as_vec2() / 4.0;
     Canvas::new(px.to_array(), size_m.to_array(), move |p| {
@@ -153,16 +173,16 @@ fn triangle(radius: f32, first_rad: f32, picture: Picture) -> Plate {
     Plate { outline, size_m: Vec2::splat(2.0 * radius), up_m: 2.45, picture }
 }
 
-fn give_way() -> Plate {
+/// With a word in it or without.
+fn give_way(word: bool) -> Plate {
     let first = -FRAC_PI_2;
-    triangle(
-        0.48,
-        first,
-        Box::new(move |p| {
-            let depth = inside_triangle(p, 0.48, first);
-            choose(depth < 0.015, WHITE, choose(depth < 0.085, RED, WHITE))
-        }),
-    )
+    let (writing, rim) = (Lettering::new(if word { "YIELD" } else { "" }), if word { 0.1 } else { 0.085 });
+    let picture = move |p: Vec2| {
+        let depth = inside_triangle(p, 0.48, first);
+        let ink = writing.distance((p - vec2(0.0, 0.09)) / 0.075) < 0.11;
+        choose(depth < 0.015, WHITE, choose(depth < rim || ink, RED, WHITE))
+    };
+    triangle(0.48, first, Box::new(picture))
 }
 
 fn warning() -> Plate {
@@ -179,25 +199,154 @@ fn warning() -> Plate {
     )
 }
 
+fn us_speed_limit(number: &str) -> Picture {
+    let words = [("SPEED", 0.25, 0.1), ("LIMIT", 0.09, 0.1), (number, -0.16, 0.26)]
+        .map(|(text, up, height)| (Lettering::new(text), up, height));
+    Box::new(move |p| {
+        let rim = (vec2(0.305, 0.38) - p.abs()).min_element();
+        let ink =
+            words.iter().any(|(w, up, height)| w.distance((p - vec2(0.0, *up)) / (vec2(0.85, 1.0) * *height)) < 0.1);
+        choose(ink || (0.012..0.022).contains(&rim), BLACK, WHITE)
+    })
+}
+
+/// A white arrow on black, with the words in it.
+fn us_one_way(turn_rad: f32) -> Picture {
+    let writing = Lettering::new("ONE WAY");
+    Box::new(move |p| {
+        let q = Vec2::from_angle(-turn_rad).rotate(p);
+        let arrow = (q.y.abs() < 0.06 && (-0.4..0.27).contains(&q.x)) || (q.x > 0.2 && q.y.abs() < (0.41 - q.x) * 0.62);
+        let ink = writing.distance((p + vec2(0.05 * turn_rad.cos(), 0.0)) / vec2(0.062, 0.075)) < 0.12;
+        choose(arrow && !ink, WHITE, BLACK)
+    })
+}
+
+fn do_not_enter() -> Picture {
+    let words = [("DO NOT", 0.2), ("ENTER", -0.2)].map(|(text, up)| (Lettering::new(text), up));
+    Box::new(move |p| {
+        let bar = p.x.abs() < 0.28 && p.y.abs() < 0.055;
+        let ink = words.iter().any(|(w, up)| w.distance((p - vec2(0.0, *up)) / 0.085) < 0.12);
+        choose(p.length() < 0.37 && !bar && !ink, RED, WHITE)
+    })
+}
+
+fn us_no_parking() -> Picture {
+    let words = [("NO", 0.13), ("PARKING", 0.02)].map(|(text, up)| (Lettering::new(text), up));
+    Box::new(move |p| {
+        let rim = (vec2(0.15, 0.23) - p.abs()).min_element();
+        let big = words[0].0.distance((p - vec2(0.0, words[0].1)) / 0.09) < 0.12;
+        let small = words[1].0.distance((p - vec2(0.0, words[1].1)) / vec2(0.036, 0.055)) < 0.13;
+        let arrow = p.x.abs() < 0.1 && (p.y + 0.12).abs() < 0.01
+            || (0.06..0.11).contains(&p.x.abs()) && (p.y + 0.12).abs() < (0.11 - p.x.abs()) * 0.7;
+        choose(big || small || arrow || (0.008..0.014).contains(&rim), RED, WHITE)
+    })
+}
+
+/// Distance to someone who walks, one unit high.
+fn walker(p: Vec2) -> f32 {
+    const LIMBS: [[[f32; 2]; 2]; 7] = [
+        [[0.0, 0.22], [0.02, -0.02]],
+        [[0.02, -0.02], [0.14, -0.24]],
+        [[0.14, -0.24], [0.13, -0.46]],
+        [[0.02, -0.02], [-0.08, -0.24]],
+        [[-0.08, -0.24], [-0.2, -0.45]],
+        [[0.0, 0.2], [0.18, 0.02]],
+        [[0.0, 0.2], [-0.17, 0.0]],
+    ];
+    let limb = |[a, b]: [[f32; 2]; 2]| {
+        let (a, b) = (Vec2::from_array(a), Vec2::from_array(b));
+        let t = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        p.distance(a.lerp(b, t)) - 0.045
+    };
+    LIMBS.into_iter().map(limb).fold(p.distance(vec2(0.0, 0.38)) - 0.085, f32::min)
+}
+
+/// A diamond in fluorescent yellow-green.
+fn us_crossing() -> Plate {
+    let green = vec3(0.4, 0.55, 0.02);
+    let picture = move |p: Vec2| {
+        let depth = 0.53 - p.x.abs() - p.y.abs();
+        choose(walker(p / 0.6) < 0.0 || (0.02..0.04).contains(&depth), BLACK, green)
+    };
+    Plate { outline: polygon(4, 0.53, 0.0), size_m: Vec2::splat(1.06), up_m: 2.5, picture: Box::new(picture) }
+}
+
+/// Someone on stripes in a white triangle on blue.
+fn crossing() -> Picture {
+    Box::new(|p| {
+        let depth = inside_triangle(p + vec2(0.0, 0.06), 0.29, FRAC_PI_2);
+        let stripes = p.y < -0.12 && (p.x * 14.0).rem_euclid(1.0) < 0.5;
+        let ink = walker((p + vec2(0.0, 0.015)) / 0.26) < 0.0 || stripes;
+        choose(depth > 0.0, choose(ink, BLACK, WHITE), BLUE)
+    })
+}
+
+/// A red ring on blue, crossed twice where nobody may even stop.
+fn no_stopping(twice: bool) -> Picture {
+    Box::new(move |p| {
+        let r = p.length();
+        let [down, up] = [(p.x + p.y).abs(), (p.x - p.y).abs()];
+        let red = r > 0.215 || down < 0.04 || (twice && up < 0.04);
+        choose(r > 0.27, WHITE, choose(red, RED, BLUE))
+    })
+}
+
+/// A white arrow that points up on blue.
+fn one_way() -> Picture {
+    Box::new(|p| {
+        let shaft = p.x.abs() < 0.06 && (-0.23..0.05).contains(&p.y);
+        let head = (0.03..0.24).contains(&p.y) && p.x.abs() < (0.24 - p.y) * 0.8;
+        let rim = (vec2(0.3, 0.3) - p.abs()).min_element();
+        choose(shaft || head || (0.012..0.026).contains(&rim), WHITE, BLUE)
+    })
+}
+
+/// A bus from its side over a word.
+fn bus(word: &str, ground: Vec3, ink: Vec3) -> Picture {
+    let writing = Lettering::new(word);
+    Box::new(move |p| {
+        let q = p - vec2(0.0, 0.07);
+        let body = q.x.abs() < 0.15 && q.y.abs() < 0.07;
+        let windows = q.x.abs() < 0.135 && (0.005..0.05).contains(&q.y) && (q.x * 22.0).rem_euclid(1.0) > 0.14;
+        let wheels = vec2(q.x.abs() - 0.09, q.y + 0.075).length() < 0.028;
+        let width = 0.17 / writing.width().max(1.0) * 2.0;
+        let written = writing.distance((p + vec2(0.0, 0.15)) / vec2(width.min(0.07), 0.07)) < 0.12;
+        choose((body && !windows) || wheels || written, ink, ground)
+    })
+}
+
+/// A green H in a green ring on yellow.
+fn haltestelle() -> Picture {
+    let writing = Lettering::new("H");
+    Box::new(move |p| {
+        let ring = (0.185..0.225).contains(&p.length());
+        choose(ring || writing.distance(p / 0.2) < 0.13, GREEN, vec3(0.62, 0.45, 0.01))
+    })
+}
+
+/// A post with two crossing plates, blank: the builder writes on the sides of slot `street name along x` and `… along y`.
+fn street_name() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    model.add(steel, post(Vec3::ZERO, 0.032, 2.95, 14));
+    let size = vec2(0.96, 0.2);
+    for (name, up_m, turn) in [("along x", 2.6, FRAC_PI_2), ("along y", 2.82, 0.0)] {
+        let slot = model.slot(Material::plain(&format!("street name {name}"), WHITE, 0.35), &[]);
+        for back in [0.0, PI] {
+            let side = face(size).moved(Vec3::X * 0.008).turned(Quat::from_rotation_z(turn + back));
+            model.add(slot, side.moved(Vec3::Z * up_m));
+        }
+        let plate = Shape::block(vec3(0.015, size.x, size.y)).turned(Quat::from_rotation_z(turn));
+        model.add(steel, plate.moved(Vec3::Z * up_m));
+    }
+    model.asset("sign/street-name", Kind::TrafficSign, Class::TrafficSign)
+}
+
 fn parking() -> Picture {
     let writing = Lettering::new("P");
     Box::new(move |p| {
         let rim = (vec2(0.3, 0.3) - p.abs()).min_element();
         choose(writing.distance(p / 0.38) < 0.1 || (0.012..0.028).contains(&rim), WHITE, BLUE)
-    })
-}
-
-/// Lines of writing, one below the other, with a thin frame.
-fn lines(ground: Vec3, ink: Vec3, text: &[&str], height_m: f32) -> Picture {
-    let writings: Vec<Lettering> = text.iter().map(|t| Lettering::new(t)).collect();
-    let pitch = height_m * 2.0;
-    let top = pitch * (text.len() as f32 - 1.0) / 2.0;
-    Box::new(move |p| {
-        let written = writings
-            .iter()
-            .enumerate()
-            .any(|(i, w)| w.distance((p - vec2(0.0, top - pitch * i as f32)) / vec2(height_m * 0.72, height_m)) < 0.11);
-        choose(written, ink, ground)
     })
 }
 

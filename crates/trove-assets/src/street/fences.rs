@@ -1,0 +1,291 @@
+//! Fences, walls and guard rails: a piece of each, repeated along x by who builds. A post stands at the piece's beginning,
+//! and y is across; the side towards +y is the outer one.
+
+use std::sync::LazyLock;
+
+use glam::{Quat, Vec2, Vec3, vec2, vec3};
+use trove_model::{Asset, Class, Kind, Mapping, Material};
+
+use super::finish::{bar, concrete, galvanised, painted, plastic, rubber, timber};
+use crate::shape::{Model, Shape};
+use crate::surfaces::{Canvas, Noise, Texel, hash};
+
+/// `-far` pieces are for where a camera sees no bars.
+pub(super) fn assets() -> Vec<Asset> {
+    vec![
+        chain_link(),
+        bars(true),
+        bars(false),
+        wood(),
+        panels(),
+        hoarding(),
+        site_fence(),
+        wall("wall/concrete", concrete(), 2.0, 0.2),
+        wall("wall/brick", brick(), 2.4, 0.24),
+        wall("wall/stone", stone(), 2.2, 0.35),
+        w_beam(),
+        railing("guard-rail/railing", galvanised(), &[]),
+        railing("guard-rail/railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]),
+        parapet(),
+    ]
+}
+
+const GREEN: Vec3 = vec3(0.02, 0.085, 0.045);
+
+fn fence(model: Model, id: &str) -> Asset {
+    model.asset(id, Kind::Fence, Class::Barrier)
+}
+
+/// Something long from x = 0 to `length_m`.
+fn rail(length_m: f32, y: f32, z: f32, size: Vec2) -> Shape {
+    Shape::block(vec3(length_m, size.x, size.y)).moved(vec3(length_m / 2.0, y, z))
+}
+
+/// A standing bar, its left edge at x.
+fn standing(x: f32, y: f32, low_m: f32, high_m: f32, size: Vec2) -> Shape {
+    Shape::block(vec3(size.x, size.y, high_m - low_m)).moved(vec3(x + size.x / 2.0, y, (low_m + high_m) / 2.0))
+}
+
+/// Both sides of an upright sheet in the x–z plane, uvs in metres.
+fn sheet(length_m: f32, y: f32, low_m: f32, high_m: f32) -> Shape {
+    let corners = [vec2(0.0, low_m), vec2(length_m, low_m), vec2(length_m, high_m), vec2(0.0, high_m)];
+    let front = Shape::flat(&corners).turned(Quat::from_rotation_x(std::f32::consts::FRAC_PI_2));
+    front.clone().and(front.inside_out()).moved(Vec3::Y * y)
+}
+
+/// Wires that cross at right angles, upright or on their corners.
+fn netting(name: &str, color: Vec3, cell: Vec2, wire_m: f32, slanting: bool) -> Material {
+    let size = cell * 4.0;
+    let px = (size / size.max_element() * 128.0).as_uvec2().to_array();
+    let canvas = Canvas::new(px, size.to_array(), |p| {
+        let q = if slanting { vec2(p.x / cell.x + p.y / cell.y, p.x / cell.x - p.y / cell.y) } else { p / cell };
+        let off = (q - q.round()).abs() * if slanting { cell / std::f32::consts::SQRT_2 } else { cell };
+        let alpha = if off.min_element() < wire_m / 2.0 { 1.0 } else { 0.0 };
+        Texel { alpha, ..Texel::new(Vec3::ONE, 0.5) }
+    });
+    Material {
+        base_color_map: Some(canvas.color(name)),
+        alpha_cutoff: 0.4,
+        metalness: 0.4,
+        dirt: 0.4,
+        uv_scale: 1.0 / size,
+        ..Material::plain(name, color, 0.5)
+    }
+}
+
+fn chain_link() -> Asset {
+    let mut model = Model::default();
+    let zinc = vec3(0.36, 0.37, 0.38);
+    let paints = [zinc, GREEN, zinc];
+    let steel = model.slot(galvanised(), &paints);
+    let net = model.slot(netting("chain link", zinc, vec2(0.07, 0.07), 0.009, true), &paints);
+    let length_m = 2.5;
+    model.add(net, sheet(length_m, 0.025, 0.04, 1.78));
+    model.add(steel, Shape::tube(&[vec3(0.03, 0.0, 0.0), vec3(0.03, 0.0, 1.85)], 0.03, 10));
+    for z in [0.08, 1.76] {
+        model.add(steel, Shape::tube(&[vec3(0.0, 0.0, z), vec3(length_m, 0.0, z)], 0.016, 6));
+    }
+    fence(model, "fence/chain-link")
+}
+
+/// Upright bars between two rails; from afar a stripe for three of them.
+fn bars(near: bool) -> Asset {
+    let mut model = Model::default();
+    let black = Vec3::splat(0.022);
+    let paint = model.slot(painted(black), &[black, black, GREEN, vec3(0.13, 0.135, 0.14)]);
+    let length_m = 2.4;
+    model.add(paint, standing(0.0, 0.0, 0.0, 1.32, Vec2::splat(0.06)));
+    for z in [0.14, 1.12] {
+        model.add(paint, rail(length_m, 0.0, z, vec2(0.025, 0.04)));
+    }
+    let (count, width_m) = if near { (20, 0.018) } else { (6, 0.06) };
+    for i in 1..count {
+        let x = 0.02 + length_m * i as f32 / count as f32;
+        model.add(paint, standing(x, 0.0, 0.08, 1.22, vec2(width_m, 0.018)));
+    }
+    fence(model, if near { "fence/bars" } else { "fence/bars-far" })
+}
+
+/// Boards side by side on two rails.
+fn wood() -> Asset {
+    let mut model = Model::default();
+    let grey = vec3(0.21, 0.125, 0.065);
+    let boards =
+        model.slot(Material { dirt: 0.6, ..timber() }, &[grey, vec3(0.2, 0.17, 0.14), vec3(0.13, 0.07, 0.035)]);
+    let length_m = 2.0;
+    model.add(boards, standing(0.0, -0.05, 0.0, 1.65, Vec2::splat(0.09)));
+    for z in [0.35, 1.35] {
+        model.add(boards, rail(length_m, -0.03, z, vec2(0.04, 0.09)));
+    }
+    for i in 0..16 {
+        let lift = 0.012 * (hash(i, 3, 5) - 0.5);
+        let x = length_m * i as f32 / 16.0 + 0.004;
+        model.add(boards, standing(x, 0.0, 0.05, 1.72 + lift, vec2(length_m / 16.0 - 0.008, 0.02)));
+    }
+    fence(model, "fence/wood")
+}
+
+/// Closed panels between posts.
+fn panels() -> Asset {
+    let mut model = Model::default();
+    let grey = vec3(0.17, 0.175, 0.18);
+    let steel = model.slot(galvanised(), &[]);
+    let panel = model.slot(painted(grey), &[grey, GREEN, vec3(0.32, 0.31, 0.28)]);
+    model.add(steel, standing(0.0, 0.0, 0.0, 1.85, Vec2::splat(0.07)));
+    for i in 0..6 {
+        model.add(panel, rail(2.4, 0.0, 0.2 + 0.29 * i as f32, vec2(0.035, 0.28)));
+    }
+    fence(model, "fence/panel")
+}
+
+/// Corrugated sheets around a building site.
+fn hoarding() -> Asset {
+    let mut model = Model::default();
+    let white = vec3(0.5, 0.5, 0.48);
+    let sheet =
+        model.slot(painted(white), &[white, vec3(0.03, 0.12, 0.07), vec3(0.04, 0.1, 0.24), vec3(0.38, 0.38, 0.37)]);
+    let steel = model.slot(galvanised(), &[]);
+    let (length_m, waves) = (2.4, 12);
+    let row = |z: f32| -> Vec<Vec3> {
+        let at = |i: usize| i as f32 / (4 * waves) as f32;
+        let depth = |i: usize| if i % 4 < 2 { 0.0 } else { 0.025 };
+        (0..=4 * waves).map(|i| vec3(length_m * at(i), depth(i), z)).collect()
+    };
+    let front = Shape::sheet(&[row(0.03), row(2.1)]);
+    model.add(sheet, front.clone().and(front.inside_out()));
+    for z in [0.12, 1.1, 2.05] {
+        model.add(steel, rail(length_m, 0.045, z, vec2(0.03, 0.06)));
+    }
+    model.add(steel, standing(0.0, 0.07, 0.0, 2.12, Vec2::splat(0.06)));
+    fence(model, "fence/hoarding")
+}
+
+/// A movable steel fence on concrete feet.
+fn site_fence() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    let zinc = vec3(0.36, 0.37, 0.38);
+    let net = model.slot(netting("wire mesh", zinc, vec2(0.1, 0.2), 0.008, false), &[]);
+    let feet = model.slot(concrete(), &[]);
+    let length_m = 3.5;
+    model.add(net, sheet(length_m, 0.0, 0.14, 1.98));
+    for x in [0.021, length_m - 0.021] {
+        model.add(steel, Shape::tube(&[vec3(x, 0.0, 0.05), vec3(x, 0.0, 2.0)], 0.021, 8));
+    }
+    for z in [0.16, 1.98] {
+        model.add(steel, Shape::tube(&[vec3(0.0, 0.0, z), vec3(length_m, 0.0, z)], 0.016, 8));
+    }
+    model.add(feet, bar(vec3(0.115, 0.0, 0.07), vec3(0.23, 0.7, 0.14)));
+    fence(model, "fence/site")
+}
+
+/// A wall under a coping.
+fn wall(id: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
+    let mut model = Model::default();
+    let body = model.slot(Material { dirt: 0.8, ..body }, &[]);
+    let coping = model.slot(concrete(), &[]);
+    let length_m = 2.0;
+    model.add(body, rail(length_m, 0.0, (height_m - 0.08) / 2.0, vec2(thick_m, height_m - 0.08)));
+    let half = thick_m / 2.0 + 0.04;
+    let profile = [vec2(-half, 0.0), vec2(half, 0.0), vec2(half, 0.05), vec2(0.0, 0.08), vec2(-half, 0.05)];
+    model.add(coping, along_x(&profile, length_m).moved(Vec3::Z * (height_m - 0.08)));
+    model.asset(id, Kind::Wall, Class::Barrier)
+}
+
+/// A (y, z) profile, counter-clockwise seen from +x, swept from x = 0.
+fn along_x(profile: &[Vec2], length_m: f32) -> Shape {
+    super::finish::upright(Shape::extruded(profile, length_m))
+}
+
+/// Bricks in a running bond, and stones laid as they came.
+fn masonry(name: &str, unit: Vec2, size: Vec2, color: impl Fn(f32) -> Vec3, joint: Vec3) -> Material {
+    let grime = Noise::new(size, 0.5, 12);
+    let (across, rows) = ((size.x / unit.x).round() as i32, (size.y / unit.y).round() as i32);
+    let canvas = Canvas::new([256, 256], size.to_array(), |p| {
+        let row = (p.y / unit.y).floor() as i32;
+        let x = p.x / unit.x + 0.5 * (row % 2) as f32;
+        let within = vec2(x.fract() * unit.x, (p.y / unit.y).fract() * unit.y);
+        let edge = within.min(unit - within).min_element();
+        let shade = 1.0 + 0.25 * grime.fbm(p, 3);
+        let drawn = hash((x.floor() as i32).rem_euclid(across), row.rem_euclid(rows), 7);
+        let mut texel = Texel::new(if edge < 0.006 { joint } else { color(drawn) } * shade, 0.85);
+        texel.height_m = (edge / 0.01).min(1.0) * 0.008;
+        texel
+    });
+    Material { mapping: Mapping::Triplanar, ..canvas.material(name, 2) }
+}
+
+fn brick() -> Material {
+    static BRICK: LazyLock<Material> = LazyLock::new(|| {
+        let red = |drawn: f32| vec3(0.27, 0.085, 0.05).lerp(vec3(0.16, 0.06, 0.045), drawn);
+        masonry("brick wall", vec2(0.25, 0.0833), vec2(2.0, 2.0), red, vec3(0.33, 0.31, 0.28))
+    });
+    BRICK.clone()
+}
+
+fn stone() -> Material {
+    static STONE: LazyLock<Material> = LazyLock::new(|| {
+        let grey = |drawn: f32| vec3(0.34, 0.31, 0.26).lerp(vec3(0.22, 0.21, 0.2), drawn);
+        masonry("stone wall", vec2(0.5, 0.25), vec2(2.0, 2.0), grey, vec3(0.2, 0.19, 0.17))
+    });
+    STONE.clone()
+}
+
+fn guard_rail(model: Model, id: &str) -> Asset {
+    model.asset(id, Kind::GuardRail, Class::Barrier)
+}
+
+/// A W-shaped steel beam on posts; traffic runs on its −y side.
+fn w_beam() -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(galvanised(), &[]);
+    let length_m = 2.0;
+    let waves = [
+        (0.0, 0.45),
+        (-0.05, 0.49),
+        (-0.08, 0.53),
+        (-0.05, 0.57),
+        (-0.01, 0.605),
+        (-0.05, 0.64),
+        (-0.08, 0.68),
+        (-0.05, 0.72),
+        (0.0, 0.76),
+    ];
+    let front: Vec<Vec2> = waves.iter().rev().map(|&(y, z)| vec2(y, z)).collect();
+    let back = front.iter().rev().map(|p| *p + vec2(0.006, 0.0));
+    let profile: Vec<Vec2> = front.iter().copied().chain(back).collect();
+    model.add(steel, along_x(&profile, length_m));
+    model.add(steel, standing(0.0, 0.08, 0.0, 0.72, vec2(0.07, 0.12)));
+    let amber = model.slot(plastic(vec3(0.6, 0.3, 0.02)), &[]);
+    model.add(amber, bar(vec3(0.035, -0.02, 0.605), vec3(0.05, 0.03, 0.05)));
+    guard_rail(model, "guard-rail/w-beam")
+}
+
+/// Tubes that keep those on foot from the road.
+fn railing(id: &str, material: Material, paints: &[Vec3]) -> Asset {
+    let mut model = Model::default();
+    let steel = model.slot(material, paints);
+    let length_m = 2.0;
+    for z in [0.18, 1.02] {
+        model.add(steel, Shape::tube(&[vec3(0.0, 0.0, z), vec3(length_m, 0.0, z)], 0.022, 8));
+    }
+    model.add(steel, Shape::tube(&[vec3(0.025, 0.0, 0.0), vec3(0.025, 0.0, 1.02)], 0.025, 8));
+    for i in 1..13 {
+        let x = length_m * i as f32 / 13.0;
+        model.add(steel, Shape::tube(&[vec3(x, 0.0, 0.18), vec3(x, 0.0, 1.02)], 0.007, 5));
+    }
+    guard_rail(model, id)
+}
+
+/// A concrete parapet as on bridges.
+fn parapet() -> Asset {
+    let mut model = Model::default();
+    let body = model.slot(concrete(), &[]);
+    let dark = model.slot(rubber(), &[]);
+    let length_m = 3.0;
+    let profile =
+        [vec2(-0.2, 0.0), vec2(0.2, 0.0), vec2(0.2, 0.86), vec2(-0.06, 0.86), vec2(-0.1, 0.3), vec2(-0.2, 0.08)];
+    model.add(body, along_x(&profile, length_m));
+    model.add(dark, standing(0.0, 0.0, 0.1, 0.85, vec2(0.012, 0.402)));
+    guard_rail(model, "guard-rail/parapet")
+}
