@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 use proptest::prelude::*;
-use trove_model::{Bounds, FurnitureKind, LandKind, MapProjection, Outcome, Report, RoadKind, RoofShape, StreetMap};
+use trove_model::{
+    Bounds, Cycleway, FurnitureKind, LandKind, LineKind, MapProjection, Outcome, Parking, ParkingOrientation, Report,
+    RoadKind, RoofShape, StreetMap, Turns,
+};
 use trove_read::{ReadError, osm};
 
 const ORIGIN: MapProjection = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
@@ -103,6 +106,87 @@ fn a_road_has_what_its_tags_say() {
 }
 
 #[test]
+fn lanes_parking_and_cycle_lanes_are_those_of_each_side() {
+    let tags = "highway=secondary_link|lanes=3|lanes:forward=2|turn:lanes:forward=left;through&#124;right\
+                |parking:left=street_side|parking:left:orientation=diagonal|parking:right=no|cycleway:right=lane\
+                |lit=yes|maxspeed=30 mph|oneway=";
+    let content = squares()
+        + &way(1, &[1, 2, 3], &format!("{tags}no"))
+        + &way(2, &[1, 2, 3], &format!("{tags}-1").replace("turn:lanes:forward", "turn:lanes"))
+        + &way(3, &[1, 2], "highway=residential|parking:lane:both=parallel|parking:lane:both:parallel=half_on_kerb")
+        + &way(4, &[1, 2], "highway=residential|oneway=yes|cycleway=opposite_lane|turn:lanes=up|lit=maybe")
+        + &way(5, &[1, 2], "highway=steps");
+    let (map, report) = read(&content);
+    let [both, against, old, one_way, steps] = &map.roads[..] else { panic!("{:?}", map.roads) };
+    let (left_or_on, right) =
+        (Turns { left: true, through: true, ..Turns::default() }, Turns { right: true, ..Turns::default() });
+    assert_eq!((both.lanes, both.lanes_backward, both.link, both.lit), (Some(3), Some(1), true, Some(true)));
+    assert_eq!((&both.turns_forward, &both.turns_backward), (&vec![left_or_on, right], &vec![]));
+    assert_eq!(both.parking.left, Some(Parking::Bays(ParkingOrientation::Diagonal)));
+    assert_eq!((both.parking.right, both.cycleway.right), (Some(Parking::No), Some(Cycleway::Lane)));
+    assert!((both.speed_limit_kmh.unwrap() - 48.28).abs() < 0.01);
+    // Drawn the other way, left is right.
+    assert_eq!((&against.turns_forward, against.lanes_backward), (&vec![left_or_on, right], Some(0)));
+    assert_eq!((against.parking.left, against.parking.right), (both.parking.right, both.parking.left));
+    assert_eq!(against.cycleway.left, Some(Cycleway::Lane));
+    assert_eq!(old.parking.left, Some(Parking::Kerb(ParkingOrientation::Parallel)));
+    assert_eq!((one_way.cycleway.left, one_way.cycleway.right), (Some(Cycleway::Lane), None));
+    assert!(steps.steps);
+    for what in ["turn:lanes that cannot be used", "lit that cannot be used"] {
+        assert!(noted(&report, Outcome::Dropped, what), "{what}: {:?}", report.entries());
+    }
+}
+
+#[test]
+fn roofs_dates_and_shops_are_read() {
+    let tags =
+        "building=yes|roof:material=roof_tiles|roof:levels=2|roof:direction=S|roof:orientation=across|start_date=C19";
+    let shop = |tags: &str| {
+        let place = format!("node id='9' lat='{}' lon='{}'", 5.0 * METRE_DEG, -0.5 * METRE_DEG);
+        read(&(squares() + &element(&place, "", tags) + &way(1, &[1, 2, 3, 4, 1], "building=yes"))).0.buildings[0].shop
+    };
+    let (map, _) = read(&(squares() + &way(1, &[1, 2, 3, 4, 1], tags)));
+    let building = &map.buildings[0];
+    assert_eq!((building.roof_material.as_str(), building.roof_levels), ("roof_tiles", Some(2.0)));
+    assert!((building.roof_direction_rad.unwrap().to_degrees() - 270.0).abs() < 1e-9);
+    assert_eq!((building.ridge_across, building.year, building.shop), (true, Some(1850), false));
+    assert!(shop("shop=bakery") && shop("amenity=cafe") && !shop("shop=bakery|level=3") && !shop("amenity=bench"));
+}
+
+#[test]
+fn fences_and_rows_are_drawn_along_their_ways() {
+    let content = squares()
+        + &way(1, &[1, 2, 3, 4, 1], "leisure=garden|barrier=fence|height=1.2|fence_type=railing")
+        + &way(2, &[1, 2], "barrier=bollard")
+        + &way(3, &[1, 2], "railway=tram|highway=residential");
+    let (map, _) = read(&content);
+    let lines: Vec<_> = map.lines.iter().map(|l| (l.kind, l.line.len(), l.height_m, l.detail.as_str())).collect();
+    assert_eq!(lines, [(LineKind::Fence, 5, Some(1.2), "railing"), (LineKind::Tram, 2, None, "")]);
+    assert_eq!((map.land.len(), map.roads.len(), map.furniture.len()), (1, 1, 7));
+}
+
+#[test]
+fn every_way_and_relation_is_used_or_reported() {
+    let content = squares()
+        + &way(1, &[1, 2, 3, 4, 1], "building=yes")
+        + &way(2, &[1, 2], "highway=proposed")
+        + &way(3, &[1, 2], "")
+        + &way(4, &[1, 2, 1], "landuse=grass")
+        + &way(5, &[1, 2, 3, 4, 1], "shop=bakery")
+        + &way(6, &[5, 6, 7], "")
+        + &way(7, &[7, 8, 5], "")
+        + &multipolygon(1, &[6, 7], "natural=water")
+        + &multipolygon(2, &[6], "natural=water")
+        + &multipolygon(3, &[6, 7], "leisure=nothing")
+        + &multipolygon(4, &[6, 7], "").replace("multipolygon", "route")
+        + &multipolygon(5, &[6, 7], "leisure=park").replace("multipolygon", "boundary")
+        + &multipolygon(6, &[1], "").replace("multipolygon", "building")
+        + &multipolygon(7, &[99], "natural=water");
+    let (_, report) = read(&content);
+    assert_eq!((accounts("way", &report), accounts("relation", &report)), ([4, 3, 7], [3, 3, 6]));
+}
+
+#[test]
 fn multipolygons_have_holes_whatever_their_ways_order_direction_and_style() {
     let hole = way(12, &[5, 8, 7, 6, 5], "natural=water");
     let pieces = way(10, &[3, 2, 1], "") + &way(11, &[3, 4, 1], "");
@@ -162,7 +246,7 @@ fn broken_ways_are_reported_and_the_rest_is_used() {
         + &way(4, &[1, 2, 2, 3], "highway=service")
         + &way(5, &[1, 3, 2, 4, 1], "building=yes")
         + &way(6, &[1, 2, 1], "building=yes")
-        + &way(7, &[1, 2, 3], "railway=rail");
+        + &way(7, &[1, 2, 3], "railway=abandoned");
     let (map, report) = read(&content);
     assert_eq!(map.roads.iter().map(|r| (r.id, r.centreline.len())).collect::<Vec<_>>(), [(1, 2), (1, 2), (4, 3)]);
     assert_eq!(map.buildings.iter().map(|b| b.footprint.area_m2().round()).collect::<Vec<_>>(), [25.0, 25.0]);
@@ -191,7 +275,10 @@ fn furniture_stands_where_its_node_is_and_faces_the_traffic() {
         + &thing(2, 10.0, "highway=stop|direction=forward")
         + &thing(3, 20.0, "natural=tree")
         + &thing(4, 9000.0, "amenity=bench")
-        + &way(1, &[1, 2, 3], "highway=residential");
+        // The end of its road is near: that is where traffic has to give way.
+        + &thing(5, 8.0, "highway=give_way|height=2.5")
+        + &way(1, &[1, 2, 3], "highway=residential")
+        + &way(2, &[1, 5, 2], "highway=residential");
     let (map, _) = read(&content);
     let degrees = |rad: Option<f64>| rad.map(|rad| rad.to_degrees().round());
     let found: Vec<_> = map.furniture.iter().map(|f| (f.kind, f.position.x.round(), degrees(f.heading_rad))).collect();
@@ -199,8 +286,9 @@ fn furniture_stands_where_its_node_is_and_faces_the_traffic() {
         (FurnitureKind::StreetLamp, 0.0, Some(0.0)),
         (FurnitureKind::StopSign, 10.0, Some(180.0)),
         (FurnitureKind::Tree, 20.0, None),
+        (FurnitureKind::GiveWaySign, 8.0, Some(180.0)),
     ];
-    assert_eq!(found, expected);
+    assert_eq!((&found[..], map.furniture[3].height_m), (&expected[..], Some(2.5)));
 }
 
 #[test]
@@ -343,26 +431,35 @@ fn read_real(path: &Path) -> (StreetMap, Report) {
     (map, report)
 }
 
+/// How many of the ways or relations in the area were used, were not and said why, and are there.
+fn accounts(what: &str, report: &Report) -> [u64; 3] {
+    let measured = |name: String| report.measurements().iter().find(|m| m.name == name).unwrap().value as u64;
+    let unused = format!("osm: {what} not used: ");
+    let reported = report.entries().iter().filter(|e| e.what.starts_with(&unused)).map(|e| e.count).sum();
+    [measured(format!("osm.{what}s_used")), reported, measured(format!("osm.{what}s_in_area"))]
+}
+
 #[test]
-fn real_places_are_read_with_every_way_used_or_reported() {
-    let check = |name: &str, roads: usize, buildings: usize, land: usize, furniture: usize| {
+fn real_places_are_read_with_every_way_and_relation_used_or_reported() {
+    // Roads, buildings, land, furniture, lines; ways and relations: used, reported, in the area.
+    let check = |name: &str, counts: [usize; 5], ways: [u64; 3], relations: [u64; 3]| {
         let Some(path) = real(name) else { return };
         let (map, report) = read_real(&path);
-        let found = (map.roads.len(), map.buildings.len(), map.land.len(), map.furniture.len());
-        let measured = |what: &str| report.measurements().iter().find(|m| m.name == what).unwrap().value;
-        let reported: u64 = report.entries().iter().filter(|e| e.outcome == Outcome::Dropped).map(|e| e.count).sum();
-        let accounted = (measured("osm.ways_used") + reported as f64) / measured("osm.ways_in_area");
-        assert!(accounted >= 0.98, "{name}: {accounted} of the ways are accounted for");
-        assert_eq!(found, (roads, buildings, land, furniture), "{name}: {:#?}", report.entries());
+        let found = [map.roads.len(), map.buildings.len(), map.land.len(), map.furniture.len(), map.lines.len()];
+        let accounted = (accounts("way", &report), accounts("relation", &report));
+        assert_eq!((found, accounted), (counts, (ways, relations)), "{name}: {:#?}", report.entries());
+        for [used, reported, all] in [ways, relations] {
+            assert_eq!(used + reported, all, "{name}");
+        }
         for polygon in map.buildings.iter().map(|b| &b.footprint).chain(map.land.iter().map(|l| &l.polygon)) {
             assert!(polygon.area_m2() > 0.0 && polygon.rings().all(|r| r.len() > 2 && r.iter().all(|p| p.is_finite())));
         }
     };
-    check("boston-seaport.osm", 1780, 936, 0, 0);
-    check("singapore-onenorth.osm", 1537, 0, 0, 0);
-    check("neukolln.osm", 210, 210, 83, 363);
-    check("taipei.osm", 49, 63, 5, 162);
-    check("monaco-latest.osm.pbf", 2330, 1218, 221, 1244);
+    check("boston-seaport.osm", [1780, 936, 0, 6, 0], [2742, 1, 2743], [22, 0, 22]);
+    check("singapore-onenorth.osm", [1537, 0, 0, 0, 0], [1537, 0, 1537], [0; 3]);
+    check("neukolln.osm", [210, 210, 84, 539, 59], [589, 111, 700], [5, 13, 18]);
+    check("taipei.osm", [49, 63, 5, 168, 1], [120, 7, 127], [0, 74, 74]);
+    check("monaco-latest.osm.pbf", [2330, 1218, 222, 1319, 60], [3886, 220, 4106], [31, 178, 209]);
 }
 
 #[test]

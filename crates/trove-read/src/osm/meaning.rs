@@ -1,8 +1,9 @@
 //! What a tagged thing is to us: one table a kind, in the order in which they are asked.
 
-use trove_model::{FurnitureKind, LandKind, RoadKind};
+use trove_model::{FurnitureKind, LandKind, LineKind, RoadKind};
 
 use super::raw::Tags;
+use super::things::furniture_kind;
 
 /// What a thing's geometry can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,13 +23,11 @@ pub(super) enum Meaning {
     Land(LandKind),
     Road(RoadKind),
     Furniture(FurnitureKind),
-    TreeRow,
+    /// Several along a line.
+    Row(FurnitureKind),
     /// Nothing, for this reason.
     Nothing(&'static str),
 }
-
-/// Metres between the trees of a `natural=tree_row`, a usual planting distance.
-pub(super) const TREE_ROW_SPACING_M: f64 = 8.0;
 
 pub(super) fn meaning(tags: &Tags, outline: Outline) -> Meaning {
     let closed = outline != Outline::Line;
@@ -55,19 +54,30 @@ pub(super) fn meaning(tags: &Tags, outline: Outline) -> Meaning {
     if let Some(kind) = land_kind(tags).filter(|_| closed) {
         return if underground { Meaning::Nothing("underground") } else { Meaning::Land(kind) };
     }
-    if let Some(kind) = furniture_kind(tags) {
-        return Meaning::Furniture(kind);
-    }
     if tags.get("natural") == "tree_row" {
-        return Meaning::TreeRow;
+        return Meaning::Row(FurnitureKind::Tree);
     }
-    Meaning::Nothing("")
+    match furniture_kind(tags) {
+        Some(_) if underground => Meaning::Nothing("underground"),
+        Some(FurnitureKind::Bollard) if !closed => Meaning::Row(FurnitureKind::Bollard),
+        Some(kind) => Meaning::Furniture(kind),
+        None => Meaning::Nothing(""),
+    }
 }
 
-/// The vertical order: as tagged, else above for bridges and below for tunnels.
+/// The vertical order: as tagged, else as implied.
 pub(super) fn layer(tags: &Tags) -> i32 {
-    let implied = i32::from(tags.has("bridge")) - i32::from(in_tunnel(tags));
-    tags.get("layer").parse().map_or(implied, |layer: i32| layer.clamp(-5, 5))
+    stated_layer(tags.get("layer")).unwrap_or_else(|| implied_layer(tags))
+}
+
+/// A `layer`; OpenStreetMap's own go from −5 to 5.
+pub(super) fn stated_layer(text: &str) -> Option<i32> {
+    text.parse().ok().map(|layer: i32| layer.clamp(-5, 5))
+}
+
+/// Above for bridges and below for tunnels.
+pub(super) fn implied_layer(tags: &Tags) -> i32 {
+    i32::from(tags.has("bridge")) - i32::from(in_tunnel(tags))
 }
 
 /// Below the ground; a passage through a building is not.
@@ -132,47 +142,36 @@ fn land_kind(tags: &Tags) -> Option<LandKind> {
         ("school" | "university" | "college" | "hospital" | "kindergarten", ..) => Some(LandKind::Commercial),
         _ => None,
     };
-    let by_cover = || match tags.first(&["landcover", "area:highway"]) {
+    let by_cover = || match tags.first(&["landcover", "area:highway", "traffic_calming"]) {
+        "traffic_island" | "island" => Some(LandKind::TrafficIsland),
         "grass" => Some(LandKind::Grass),
         "trees" => Some(LandKind::Wood),
         "parking" => Some(LandKind::Parking),
         "footway" | "pedestrian" | "cycleway" => Some(LandKind::Paved),
+        _ if tags.get("barrier") == "hedge" && tags.get("area") == "yes" => Some(LandKind::Scrub),
         _ => None,
     };
     by_landuse.or_else(by_nature).or_else(by_leisure).or_else(by_rest).or_else(by_cover)
 }
 
-pub(super) fn furniture_kind(tags: &Tags) -> Option<FurnitureKind> {
-    match tags.get("highway") {
-        "street_lamp" => return Some(FurnitureKind::StreetLamp),
-        "traffic_signals" => return Some(FurnitureKind::TrafficSignal),
-        "stop" => return Some(FurnitureKind::StopSign),
-        "give_way" | "traffic_sign" => return Some(FurnitureKind::TrafficSign),
-        "crossing" => return Some(FurnitureKind::Crossing),
-        "bus_stop" => return Some(FurnitureKind::BusStop),
-        _ => {}
+/// What a way is drawn as along its course, beside what it is built as: a playground may have a fence.
+pub(super) fn line_kind(tags: &Tags) -> Option<LineKind> {
+    let buried = in_tunnel(tags) || tags.get("location") == "underground" || layer(tags) < 0;
+    if buried || tags.has("building") || tags.has("indoor") {
+        return None;
     }
-    match tags.get("amenity") {
-        "bench" => return Some(FurnitureKind::Bench),
-        "waste_basket" | "waste_disposal" | "recycling" => return Some(FurnitureKind::Bin),
-        "bicycle_parking" => return Some(FurnitureKind::BicycleParking),
-        _ => {}
-    }
-    let hydrant = tags.get("emergency") == "fire_hydrant" && tags.get("fire_hydrant:type") != "underground";
-    let pole = tags.get("power") == "pole" || matches!(tags.get("man_made"), "utility_pole" | "telegraph_pole");
-    if tags.get("natural") == "tree" {
-        Some(FurnitureKind::Tree)
-    } else if hydrant {
-        Some(FurnitureKind::Hydrant)
-    } else if tags.get("barrier") == "bollard" {
-        Some(FurnitureKind::Bollard)
-    } else if pole {
-        Some(FurnitureKind::UtilityPole)
-    } else if tags.has("traffic_sign") {
-        Some(FurnitureKind::TrafficSign)
-    } else {
-        None
-    }
+    Some(match (tags.get("barrier"), tags.get("power"), tags.get("railway")) {
+        ("fence" | "handrail" | "chain" | "railing" | "cable_barrier" | "rope", ..) => LineKind::Fence,
+        ("wall" | "retaining_wall" | "city_wall" | "sound_barrier" | "noise_barrier", ..) => LineKind::Wall,
+        ("hedge", ..) if tags.get("area") != "yes" => LineKind::Hedge,
+        ("guard_rail" | "jersey_barrier", ..) => LineKind::GuardRail,
+        (_, "line" | "minor_line", _) => LineKind::PowerLine,
+        (.., "tram") => LineKind::Tram,
+        (.., "rail" | "light_rail" | "subway" | "narrow_gauge" | "funicular" | "monorail" | "preserved") => {
+            LineKind::Railway
+        }
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
@@ -206,8 +205,23 @@ mod tests {
         check("natural=water", Outline::Line, Meaning::Nothing(""));
         check("amenity=parking parking=underground", Outline::Ring, Meaning::Nothing("underground"));
         check("amenity=bench", Outline::Line, Meaning::Furniture(FurnitureKind::Bench));
-        check("natural=tree_row", Outline::Line, Meaning::TreeRow);
+        check("natural=tree_row", Outline::Line, Meaning::Row(FurnitureKind::Tree));
+        check("barrier=bollard", Outline::Line, Meaning::Row(FurnitureKind::Bollard));
+        check("area:highway=traffic_island", Outline::Ring, Meaning::Land(LandKind::TrafficIsland));
         check("railway=rail", Outline::Line, Meaning::Nothing(""));
+    }
+
+    #[test]
+    fn lines_are_drawn_above_the_ground_alone() {
+        let check = |text: &str, expect| assert_eq!(line_kind(&tags(text)), expect, "{text}");
+        check("barrier=retaining_wall", Some(LineKind::Wall));
+        check("leisure=playground barrier=fence", Some(LineKind::Fence));
+        check("barrier=hedge area=yes", None);
+        check("power=minor_line", Some(LineKind::PowerLine));
+        check("railway=tram", Some(LineKind::Tram));
+        check("railway=subway tunnel=yes", None);
+        check("railway=abandoned", None);
+        check("barrier=kerb", None);
     }
 
     #[test]

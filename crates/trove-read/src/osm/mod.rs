@@ -1,16 +1,20 @@
 //! OpenStreetMap extracts (`.osm`, `.osm.pbf`) → `StreetMap`.
 //!
-//! A file is read whole into nodes, ways and multipolygons ([`raw`]), places become World's, and what lies in the
-//! wanted area or crosses it becomes roads, buildings, land and furniture. Everything else in the area is reported.
+//! A file is read whole into nodes, ways and relations ([`raw`]), places become World's, and what lies in the wanted area
+//! or crosses it becomes roads, buildings, land, lines and furniture. Everything else in the area is reported.
 
+mod buildings;
 mod coast;
 mod colors;
-mod details;
 mod meaning;
 mod pbf;
 mod protobuf;
 mod raw;
+mod relations;
 mod rings;
+mod roads;
+mod sides;
+mod tagged;
 mod things;
 mod values;
 mod ways;
@@ -21,7 +25,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use glam::DVec2;
-use trove_model::{Bounds, MapProjection, Report, StreetMap};
+use trove_model::{Bounds, MapProjection, Report, StreetMap, drives_on_left};
 
 use crate::ReadError;
 use raw::{Raw, RawNode};
@@ -38,9 +42,12 @@ pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Repo
     }
     let mut map = StreetMap { licence: LICENCE.into(), ..StreetMap::default() };
     let places = Places::new(&raw, projection, area);
-    ways::add(&raw, &places, &mut map, report);
+    let mut shops = Vec::new();
+    let edges = relations::add(&raw, &places, &mut map, report);
+    ways::add(&raw, &edges, &places, &mut map, &mut shops, report);
     coast::add(&raw, &places, &mut map, report);
-    things::add(&raw, &places, &mut map, report);
+    things::add(&raw, &places, &mut map, &mut shops, report);
+    buildings::mark_shops(&mut map.buildings, &shops);
     map.roads.sort_by_key(|road| road.id);
     map.buildings.sort_by_key(|building| building.id);
     map.land.sort_by_key(|land| land.id);
@@ -113,12 +120,14 @@ struct Places<'a> {
     nodes: &'a [RawNode],
     world: Vec<DVec2>,
     area: Bounds,
+    drives_on_left: bool,
 }
 
 impl<'a> Places<'a> {
     fn new(raw: &'a Raw, projection: &MapProjection, area: Bounds) -> Self {
         let world = raw.nodes.iter().map(|n| projection.world_from_geo(n.lat_deg, n.lon_deg)).collect();
-        Self { nodes: &raw.nodes, world, area }
+        let drives_on_left = drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg);
+        Self { nodes: &raw.nodes, world, area, drives_on_left }
     }
 
     /// A node's position; `None` where it is not in the file.

@@ -190,7 +190,7 @@ fn add_block(data: &[u8], raw: &mut Raw, report: &Report) -> Result<(), Malforme
                 (1, value) => add_node(value.bytes()?, &block, raw, report)?,
                 (2, value) => add_dense_nodes(value.bytes()?, &block, raw, report)?,
                 (3, value) => raw.ways.push(way(value.bytes()?, &block)?),
-                (4, value) => raw.add_relation(relation(value.bytes()?, &block)?),
+                (4, value) => raw.relations.push(relation(value.bytes()?, &block)?),
                 _ => {}
             }
         }
@@ -237,12 +237,15 @@ fn way(message: &[u8], block: &Block) -> Result<RawWay, Malformed> {
 }
 
 fn relation(message: &[u8], block: &Block) -> Result<RawRelation, Malformed> {
+    const NODE: u64 = 0;
     const WAY: u64 = 1;
     let element = element(message)?;
     let tags = block.tags(&element.keys, &element.values)?;
-    let members = running_sums(&element.lists[1]).zip(&element.lists[2]);
-    let ways = members.filter(|(_, kind)| **kind == WAY).map(|(id, _)| id).collect();
-    Ok(RawRelation { id: element.id as i64, ways, tags })
+    let members = |wanted: u64| {
+        let all = running_sums(&element.lists[1]).zip(&element.lists[2]);
+        all.filter(|(_, kind)| **kind == wanted).map(|(id, _)| id).collect()
+    };
+    Ok(RawRelation { id: element.id as i64, ways: members(WAY), nodes: members(NODE), tags })
 }
 
 fn add_dense_nodes(message: &[u8], block: &Block, raw: &mut Raw, report: &Report) -> Result<(), Malformed> {

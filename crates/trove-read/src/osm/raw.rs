@@ -4,16 +4,26 @@ use trove_model::{Outcome, Report};
 
 /// The tags that say something about what a place looks like; all others are not kept.
 #[rustfmt::skip]
-const KEYS: [&str; 68] = [
-    "amenity", "area", "area:highway", "barrier", "bridge", "building", "building:cladding", "building:color",
-    "building:colour", "building:facade:colour", "building:facade:material", "building:height", "building:levels",
-    "building:material", "building:min_height", "building:min_level", "building:part", "colour", "covered",
-    "crossing", "cycleway", "direction", "emergency", "est_height", "fire_hydrant:type", "footway", "height",
-    "highway", "indoor", "junction", "landcover", "landuse", "lanes", "lanes:backward", "lanes:forward", "layer",
-    "leisure", "level", "levels", "location", "man_made", "material", "min_height", "min_level", "name", "natural",
-    "oneway", "parking", "path", "place", "power", "public_transport", "railway", "roof:color", "roof:colour",
-    "roof:height", "roof:shape", "sidewalk", "sidewalk:both", "sidewalk:left", "sidewalk:right", "surface",
-    "traffic_sign", "traffic_signals:direction", "tunnel", "type", "waterway", "width",
+const KEYS: [&str; 127] = [
+    "advertising", "aeroway", "amenity", "area", "area:highway", "barrier", "boundary", "bridge", "building",
+    "building:cladding", "building:color", "building:colour", "building:facade:colour", "building:facade:material",
+    "building:height", "building:levels", "building:material", "building:min_height", "building:min_level",
+    "building:part", "bus", "colour", "craft", "crossing", "crossing:markings", "crossing_ref", "cycleway",
+    "cycleway:both", "cycleway:left", "cycleway:right", "direction", "emergency", "est_height", "est_width",
+    "fence_type", "fire_hydrant:type", "footway", "genus", "height", "highway", "historic", "indoor",
+    "junction", "lamp_mount", "lamp_type", "landcover", "landuse", "lanes", "lanes:backward", "lanes:forward", "layer",
+    "leaf_type", "leisure", "level", "levels", "lit", "location", "man_made", "manhole", "material", "maxspeed",
+    "maxspeed:backward", "maxspeed:forward", "min_height", "min_level", "name", "natural", "office", "oneway",
+    "parking", "parking:both", "parking:both:orientation", "parking:lane:both", "parking:lane:both:diagonal",
+    "parking:lane:both:parallel", "parking:lane:both:perpendicular", "parking:lane:left", "parking:lane:left:diagonal",
+    "parking:lane:left:parallel", "parking:lane:left:perpendicular", "parking:lane:right",
+    "parking:lane:right:diagonal", "parking:lane:right:parallel", "parking:lane:right:perpendicular", "parking:left",
+    "parking:left:orientation", "parking:right", "parking:right:orientation", "path", "place", "playground", "power",
+    "public_transport", "railway", "roof:color", "roof:colour", "roof:direction", "roof:height", "roof:levels",
+    "roof:material", "roof:orientation", "roof:shape", "roof:slope:direction", "shop", "sidewalk", "sidewalk:both",
+    "sidewalk:left", "sidewalk:right", "species", "start_date", "support", "surface", "taxon", "tourism",
+    "traffic_calming", "traffic_sign", "traffic_signals:direction", "tunnel", "turn:lanes", "turn:lanes:backward",
+    "turn:lanes:forward", "type", "wall", "waterway", "width", "width:carriageway", "zone:maxspeed",
 ];
 
 /// Tags of [`KEYS`].
@@ -51,24 +61,11 @@ impl Tags {
 
     /// The key that says what a thing is, for reports; empty where none does.
     pub(super) fn main_key(&self) -> &'static str {
-        const MAIN: [&str; 17] = [
-            "building",
-            "building:part",
-            "highway",
-            "area:highway",
-            "railway",
-            "barrier",
-            "natural",
-            "landuse",
-            "landcover",
-            "leisure",
-            "amenity",
-            "man_made",
-            "waterway",
-            "power",
-            "public_transport",
-            "place",
-            "indoor",
+        #[rustfmt::skip]
+        const MAIN: [&str; 25] = [
+            "building", "building:part", "highway", "area:highway", "railway", "barrier", "natural", "landuse", "landcover",
+            "leisure", "amenity", "man_made", "waterway", "power", "public_transport", "place", "traffic_calming", "tourism",
+            "historic", "playground", "boundary", "aeroway", "emergency", "office", "indoor",
         ];
         let tagged = |key: &&&str| self.has(key);
         MAIN.iter().find(tagged).copied().unwrap_or("")
@@ -104,11 +101,12 @@ impl RawWay {
     }
 }
 
-/// A relation with its member ways; other members shape no area.
+/// A relation with its member ways and nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct RawRelation {
     pub(super) id: i64,
     pub(super) ways: Vec<i64>,
+    pub(super) nodes: Vec<i64>,
     pub(super) tags: Tags,
 }
 
@@ -120,8 +118,8 @@ pub(super) struct Raw {
     pub(super) things: Vec<RawThing>,
     /// Sorted by id after [`Raw::sorted`].
     pub(super) ways: Vec<RawWay>,
-    /// Multipolygons only.
-    pub(super) multipolygons: Vec<RawRelation>,
+    /// Sorted by id after [`Raw::sorted`].
+    pub(super) relations: Vec<RawRelation>,
 }
 
 impl Raw {
@@ -139,13 +137,6 @@ impl Raw {
         }
     }
 
-    /// Adds a relation where it shapes an area.
-    pub(super) fn add_relation(&mut self, relation: RawRelation) {
-        if relation.tags.get("type") == "multipolygon" {
-            self.multipolygons.push(relation);
-        }
-    }
-
     /// Everything in the order of ids; of those with the same id the first.
     pub(super) fn sorted(mut self) -> Self {
         self.nodes.sort_by_key(|n| n.id);
@@ -154,8 +145,8 @@ impl Raw {
         self.things.dedup_by_key(|t| t.node.id);
         self.ways.sort_by_key(|w| w.id);
         self.ways.dedup_by_key(|w| w.id);
-        self.multipolygons.sort_by_key(|r| r.id);
-        self.multipolygons.dedup_by_key(|r| r.id);
+        self.relations.sort_by_key(|r| r.id);
+        self.relations.dedup_by_key(|r| r.id);
         self
     }
 }

@@ -1,4 +1,4 @@
-//! Tagged nodes → furniture.
+//! Tagged nodes → furniture, and the shops that buildings have.
 
 use std::collections::BTreeMap;
 
@@ -6,61 +6,153 @@ use glam::DVec2;
 use trove_model::{Furniture, FurnitureKind, Outcome, Report, StreetMap};
 
 use super::Places;
-use super::meaning::{Meaning, Outline, furniture_kind, meaning};
-use super::raw::{Raw, RawThing};
-use super::values::heading_rad;
+use super::buildings::is_shop;
+use super::meaning::{Meaning, Outline, meaning};
+use super::raw::{Raw, RawThing, Tags};
+use super::tagged::Tagged;
+use super::values::{heading_rad, length_m};
 
-/// Adds every node that is a piece of furniture.
-pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Report) {
-    let directions = way_directions(raw, places);
+/// Adds every node that is a piece of furniture, and to `shops` where those are that are a shop.
+pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, shops: &mut Vec<DVec2>, report: &Report) {
+    let traffic = traffic_directions(raw, places);
     for thing in &raw.things {
-        let Some(kind) = furniture_kind(&thing.tags) else { continue };
+        let tags = &thing.tags;
         let Some(position) = places.of(thing.node.id).filter(|p| places.area.contains(*p)) else { continue };
-        let heading_rad = heading(thing, kind, directions.get(&thing.node.id).copied(), report);
-        map.furniture.push(Furniture { heading_rad, ..Furniture::new(thing.node.id, kind, position) });
-    }
-}
-
-/// Where it faces. A sign for traffic that runs `forward` faces that traffic: against the way's direction.
-fn heading(thing: &RawThing, kind: FurnitureKind, way: Option<DVec2>, report: &Report) -> Option<f64> {
-    let text = thing.tags.first(&["direction", "traffic_signals:direction"]);
-    let along = || way.map(|direction| direction.to_angle().rem_euclid(std::f64::consts::TAU));
-    let against = || way.map(|direction| (-direction).to_angle().rem_euclid(std::f64::consts::TAU));
-    match text {
-        "" | "both" => None,
-        "forward" => against(),
-        "backward" => along(),
-        bearing => {
-            let heading = heading_rad(bearing);
-            if heading.is_none() {
-                let example = format!("node {} ({kind:?}): {bearing}", thing.node.id);
-                report.note(Outcome::Dropped, "osm: direction that cannot be used", example);
+        let owner = format!("node {}", thing.node.id);
+        let shop = is_shop(tags);
+        shops.extend(shop.then_some(position));
+        match (furniture_kind(tags), tags.main_key()) {
+            (Some(kind), _) => {
+                let heading_rad = heading(&owner, tags, traffic.get(&thing.node.id).copied(), report);
+                map.furniture
+                    .push(Furniture { heading_rad, ..furniture(thing.node.id, kind, position, tags, &owner, report) });
             }
-            heading
+            (None, "") => {}
+            (None, _) if shop => {}
+            (None, key) => {
+                report.note(Outcome::Dropped, &format!("osm: node with {key} that is nothing of ours"), owner)
+            }
         }
     }
 }
 
-/// Direction of the first road through each node whose furniture asks for it.
-fn way_directions(raw: &Raw, places: &Places) -> BTreeMap<i64, DVec2> {
-    let relative = |thing: &&RawThing| {
-        matches!(thing.tags.first(&["direction", "traffic_signals:direction"]), "forward" | "backward")
+/// A thing with what its tags tell, but where it looks.
+pub(super) fn furniture(
+    id: i64,
+    kind: FurnitureKind,
+    position: DVec2,
+    tags: &Tags,
+    owner: &str,
+    report: &Report,
+) -> Furniture {
+    let tagged = Tagged { tags, owner: &owner, report };
+    let detail = match kind {
+        FurnitureKind::Tree | FurnitureKind::Shrub => {
+            let (name, leaves) = (tags.first(&["species", "taxon", "genus"]), tags.get("leaf_type"));
+            format!("{name} {leaves}").trim().to_owned()
+        }
+        FurnitureKind::TrafficSign => tags.get("traffic_sign").to_owned(),
+        FurnitureKind::Crossing => tags.first(&["crossing:markings", "crossing_ref", "crossing"]).to_owned(),
+        FurnitureKind::StreetLamp => tags.first(&["lamp_mount", "support", "lamp_type"]).to_owned(),
+        FurnitureKind::Bin => tags.get("amenity").to_owned(),
+        _ => String::new(),
     };
-    let mut wanted: BTreeMap<i64, Option<DVec2>> =
-        raw.things.iter().filter(relative).map(|t| (t.node.id, None)).collect();
-    if wanted.is_empty() {
-        return BTreeMap::new();
-    }
-    for way in &raw.ways {
-        if !matches!(meaning(&way.tags, Outline::Line), Meaning::Road(kind) if kind.is_for_cars()) {
-            continue;
+    let height_m = tagged.number(&["height"], length_m, 0.1..=150.0);
+    Furniture { height_m, detail, ..Furniture::new(id, kind, position) }
+}
+
+pub(super) fn furniture_kind(tags: &Tags) -> Option<FurnitureKind> {
+    let by_highway = match tags.get("highway") {
+        "street_lamp" => Some(FurnitureKind::StreetLamp),
+        "traffic_signals" => Some(FurnitureKind::TrafficSignal),
+        "stop" => Some(FurnitureKind::StopSign),
+        "give_way" => Some(FurnitureKind::GiveWaySign),
+        "traffic_sign" => Some(FurnitureKind::TrafficSign),
+        "crossing" => Some(FurnitureKind::Crossing),
+        "bus_stop" => Some(FurnitureKind::BusStop),
+        _ => None,
+    };
+    let by_amenity = || match tags.get("amenity") {
+        "bench" | "lounger" => Some(FurnitureKind::Bench),
+        "waste_basket" | "waste_disposal" | "recycling" => Some(FurnitureKind::Bin),
+        "bicycle_parking" | "bicycle_rental" => Some(FurnitureKind::BicycleParking),
+        "post_box" => Some(FurnitureKind::Mailbox),
+        "telephone" => Some(FurnitureKind::Telephone),
+        "fountain" => Some(FurnitureKind::Fountain),
+        _ => None,
+    };
+    let by_making = || match (tags.get("man_made"), tags.get("power")) {
+        ("street_cabinet", _) | (_, "cabinet") => Some(FurnitureKind::StreetCabinet),
+        ("flagpole", _) => Some(FurnitureKind::Flagpole),
+        ("manhole", _) => Some(FurnitureKind::Manhole),
+        ("utility_pole" | "telegraph_pole", _) | (_, "pole") => Some(FurnitureKind::UtilityPole),
+        ("tree", _) => Some(FurnitureKind::Tree),
+        _ => None,
+    };
+    let by_rest = || match (tags.get("natural"), tags.get("leisure"), tags.get("advertising"), tags.get("barrier")) {
+        ("tree", ..) => Some(FurnitureKind::Tree),
+        ("shrub", ..) => Some(FurnitureKind::Shrub),
+        (_, "picnic_table", ..) => Some(FurnitureKind::PicnicTable),
+        (_, _, "column", _) => Some(FurnitureKind::AdvertisingColumn),
+        (.., "bollard") => Some(FurnitureKind::Bollard),
+        _ if tags.get("emergency") == "fire_hydrant" && tags.get("fire_hydrant:type") != "underground" => {
+            Some(FurnitureKind::Hydrant)
         }
+        _ if tags.get("public_transport") == "platform" && tags.get("bus") == "yes" => Some(FurnitureKind::BusStop),
+        _ if tags.has("traffic_sign") => Some(FurnitureKind::TrafficSign),
+        _ => None,
+    };
+    by_highway.or_else(by_amenity).or_else(by_making).or_else(by_rest)
+}
+
+/// Where it faces: as tagged, else against the traffic that it is for.
+fn heading(owner: &str, tags: &Tags, traffic: Option<DVec2>, report: &Report) -> Option<f64> {
+    match tags.first(&["direction", "traffic_signals:direction"]) {
+        "" | "forward" | "backward" => traffic.map(|towards| (-towards).to_angle().rem_euclid(std::f64::consts::TAU)),
+        "both" => None,
+        _ => Tagged { tags, owner: &owner, report }.parsed(&["direction", "traffic_signals:direction"], heading_rad),
+    }
+}
+
+/// The direction of the traffic that the signs and signals on roads are for: `forward` and `backward` are told by the
+/// way, a one-way street has but one, and the traffic that has to give way drives towards the nearer end of its road.
+fn traffic_directions(raw: &Raw, places: &Places) -> BTreeMap<i64, DVec2> {
+    fn told(thing: &RawThing) -> &str {
+        thing.tags.first(&["direction", "traffic_signals:direction"])
+    }
+    let yields = |thing: &RawThing| matches!(thing.tags.get("highway"), "stop" | "give_way");
+    let asks = |thing: &&RawThing| {
+        let kind = furniture_kind(&thing.tags);
+        match told(thing) {
+            "forward" | "backward" => kind.is_some(),
+            "" => yields(thing) || matches!(kind, Some(FurnitureKind::TrafficSignal | FurnitureKind::TrafficSign)),
+            _ => false,
+        }
+    };
+    let asking: BTreeMap<i64, &RawThing> = raw.things.iter().filter(asks).map(|t| (t.node.id, t)).collect();
+    let length_m = |nodes: &[i64]| -> f64 {
+        let points: Vec<DVec2> = nodes.iter().filter_map(|&id| places.of(id)).collect();
+        points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+    };
+    let mut found: BTreeMap<i64, DVec2> = BTreeMap::new();
+    for way in raw.ways.iter().filter(|_| !asking.is_empty()) {
+        let drivable = || matches!(meaning(&way.tags, Outline::Line), Meaning::Road(kind) if kind.is_for_cars());
         for (i, id) in way.nodes.iter().enumerate() {
-            let Some(direction @ None) = wanted.get_mut(id) else { continue };
-            let ends = [way.nodes.get(i.saturating_sub(1)), way.nodes.get((i + 1).min(way.nodes.len() - 1))];
-            let [Some(from), Some(to)] = ends.map(|id| id.and_then(|&id| places.of(id))) else { continue };
-            *direction = (to - from).try_normalize();
+            let Some(thing) = asking.get(id).filter(|_| !found.contains_key(id) && drivable()) else { continue };
+            let last = way.nodes.len() - 1;
+            let ends = [way.nodes[i.saturating_sub(1)], way.nodes[(i + 1).min(last)]].map(|id| places.of(id));
+            let [Some(from), Some(to)] = ends else { continue };
+            let Some(along) = (to - from).try_normalize() else { continue };
+            let forward = match (told(thing), way.tags.get("oneway")) {
+                ("forward", _) => true,
+                ("backward", _) => false,
+                (_, "yes" | "true" | "1") => true,
+                (_, "-1" | "reverse") => false,
+                _ if !yields(thing) => continue,
+                _ => length_m(&way.nodes[i..]) <= length_m(&way.nodes[..=i]),
+            };
+            found.insert(*id, if forward { along } else { -along });
         }
     }
-    wanted.into_iter().filter_map(|(id, direction)| Some((id, direction?))).collect()
+    found
 }

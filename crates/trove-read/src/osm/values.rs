@@ -1,4 +1,4 @@
-//! What people write as a tag's value: lengths, counts, directions.
+//! What people write as a tag's value: lengths, counts, directions, speeds, years.
 
 /// A length in metres from a number with or without a unit: `12`, `12.5 m`, `12,5`, `40'`, `12'6"`, `40 ft`; `None` for
 /// anything else, for what is not finite and for negative lengths.
@@ -46,9 +46,91 @@ pub(super) fn heading_rad(text: &str) -> Option<f64> {
     Some((90.0 - bearing_deg).rem_euclid(360.0).to_radians())
 }
 
+/// A speed limit, km/h, from a number with or without a unit (`50`, `30 mph`) or a zone's name (`DE:urban`, `DE:zone30`);
+/// the inner `None` where it is not limited to a number (`none`, `signals`), the outer for anything else.
+pub(super) fn speed_kmh(text: &str) -> Option<Option<f64>> {
+    const MILE_KM: f64 = 1.609344;
+    const KNOT_KMH: f64 = 1.852;
+    let text = text.split(';').next()?.trim();
+    if matches!(text, "none" | "signals" | "variable" | "national" | "DE:motorway") {
+        return Some(None);
+    }
+    let (country, zone) = text.split_once(':').unwrap_or(("", text));
+    // The usual limits of countries; few differ by more than 10 km/h.
+    let kmh = match zone {
+        "walk" | "living_street" => 7.0,
+        "bicycle_road" | "school" => 30.0,
+        "urban" if country == "GB" => 30.0 * MILE_KM,
+        "urban" => 50.0,
+        "rural" if country == "DE" || country == "AT" => 100.0,
+        "rural" => 90.0,
+        "trunk" => 110.0,
+        "motorway" => 130.0,
+        "nsl_single" => 60.0 * MILE_KM,
+        "nsl_dual" => 70.0 * MILE_KM,
+        limit => {
+            let limit = limit.trim_start_matches("zone").trim_start_matches(':');
+            let (number, unit) = limit.split_at(limit.find(char::is_alphabetic).unwrap_or(limit.len()));
+            let unit_kmh = match unit {
+                "" if matches!(country, "GB" | "US") => MILE_KM,
+                "" | "km/h" | "kmh" | "kph" => 1.0,
+                "mph" => MILE_KM,
+                "knots" => KNOT_KMH,
+                _ => return None,
+            };
+            decimal(number)? * unit_kmh
+        }
+    };
+    (1.0..=300.0).contains(&kmh).then_some(Some(kmh))
+}
+
+/// The year in a date however vague (`1968`, `2014-11-15`, `~1900`, `1890s`, `before 1950`; `C19` is its middle).
+pub(super) fn year(text: &str) -> Option<i32> {
+    let century = text.trim().strip_prefix('C').and_then(|n| n.get(..2)?.parse::<i32>().ok());
+    let digits = |text: &str| text.len() == 4 && text.bytes().all(|b| b.is_ascii_digit());
+    let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter(|number| digits(number));
+    let year = numbers.next().and_then(|number| number.parse().ok()).or(century.map(|c| c * 100 - 50))?;
+    (500..=2100).contains(&year).then_some(year)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn speeds_are_read_with_their_units_and_zones() {
+        let check = |text: &str, expect: Option<Option<f64>>| {
+            assert_eq!(speed_kmh(text).map(|kmh| kmh.map(f64::round)), expect, "{text}");
+        };
+        check("50", Some(Some(50.0)));
+        check("30 mph", Some(Some(48.0)));
+        check("25mph", Some(Some(40.0)));
+        check("5 knots", Some(Some(9.0)));
+        check("DE:urban", Some(Some(50.0)));
+        check("DE:zone30", Some(Some(30.0)));
+        check("FR:zone:20", Some(Some(20.0)));
+        check("GB:zone20", Some(Some(32.0)));
+        check("none", Some(None));
+        check("signals", Some(None));
+        for text in ["", "fast", "-3", "1e9", "50 m", "DE:", ":", "RO:x", "NaN"] {
+            check(text, None);
+        }
+    }
+
+    #[test]
+    fn dates_have_their_year() {
+        let check = |text: &str, expect| assert_eq!(year(text), expect, "{text}");
+        check("1968", Some(1968));
+        check("2014-11-15", Some(2014));
+        check("~1900", Some(1900));
+        check("1890s", Some(1890));
+        check("before 1950", Some(1950));
+        check("1930..1935", Some(1930));
+        check("C19", Some(1850));
+        for text in ["", "C", "old", "19", "99999", "0000", "C1é"] {
+            check(text, None);
+        }
+    }
 
     #[test]
     fn lengths_are_read_as_people_write_them() {

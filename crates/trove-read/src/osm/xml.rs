@@ -114,13 +114,17 @@ fn begin(
         }
         (2, "member") => {
             if let Open::Relation(relation) = open {
-                let (mut is_way, mut reference) = (false, None::<i64>);
+                let (mut kind, mut reference) = (String::new(), None::<i64>);
                 for_attributes(element, |name, text| match name {
-                    "type" => is_way = text == "way",
+                    "type" => kind = text.to_owned(),
                     "ref" => reference = text.parse().ok(),
                     _ => {}
                 })?;
-                relation.ways.extend(reference.filter(|_| is_way));
+                match kind.as_str() {
+                    "way" => relation.ways.extend(reference),
+                    "node" => relation.nodes.extend(reference),
+                    _ => {}
+                }
             }
         }
         _ => {}
@@ -161,7 +165,7 @@ fn end(open: &mut Open, tags: &mut Tags, raw: &mut Raw, report: &Report) {
     match std::mem::replace(open, Open::Nothing) {
         Open::Node(Some(node)) => raw.add_node(node, tags, report),
         Open::Way(way) => raw.ways.push(RawWay { tags, ..way }),
-        Open::Relation(relation) => raw.add_relation(RawRelation { tags, ..relation }),
+        Open::Relation(relation) => raw.relations.push(RawRelation { tags, ..relation }),
         Open::Node(None) | Open::Ignored | Open::Nothing => {}
     }
 }
