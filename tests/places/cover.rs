@@ -15,8 +15,10 @@ const BUILDING_IOU: f64 = 0.98;
 pub(crate) fn road(scene: &Scene, drive: &Drive) -> Vec<String> {
     let Some(map) = &drive.lane_map else { return Vec::new() };
     let mapped: Vec<Polygon> = map.drivable.iter().chain(&map.carparks).cloned().collect();
-    // The map ends at walkways, and says nothing of what lies farther off than a lane.
-    let reach = |p: DVec2| mapped.iter().any(|polygon| polygon.contains(p) || polygon.edge_distance_m(p) < 3.5);
+    // Around what is mapped no other road may be, up to a lane's width; a map without walkways is a map of lanes alone,
+    // with holes where they meet.
+    let beside_m = if map.walkways.is_empty() { 0.0 } else { 3.5 };
+    let reach = |p: DVec2| mapped.iter().any(|m| m.contains(p) || m.edge_distance_m(p) < beside_m);
     let is_road = |class: Class| class == Class::Road;
     let iou = iou(scene, drive, is_road, |p| mapped.iter().any(|m| m.contains(p)), reach);
     println!("{}: road IoU {iou:.3}", drive.id);

@@ -1,6 +1,7 @@
 //! `trove build`: the virtual scene alone.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
@@ -44,8 +45,11 @@ pub(crate) fn run(
         light: sources.light(0)?,
         weather: recipe.weather(),
     };
-    let started = std::time::Instant::now();
-    let site = trove_build::build(&drive, map.as_ref(), &trove_assets::library(), &settings, &report)?;
+    let started = Instant::now();
+    let library = trove_assets::library();
+    report.measure("library.seconds", started.elapsed().as_secs_f64());
+    let started = Instant::now();
+    let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;
     let scene = site.scene(&drive, keyframe);
     report.measure("build.seconds", started.elapsed().as_secs_f64());
     let seed = settings.seed.child("views");

@@ -91,14 +91,21 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// A moulding along every edge that stands out by `out_m` and reaches `in_m` inwards.
+    /// A moulding along every edge that stands out by `out_m` and reaches `in_m` inwards, mitred at the corners.
     pub(super) fn band(&mut self, slot: u16, outline: &[Vec2], z: Range<f32>, out_m: f32, in_m: f32) {
-        for (a, b, out) in edges(outline) {
-            let along = (b - a).normalize_or(Vec2::X);
-            let size = vec3(a.distance(b) + 2.0 * out_m, out_m + in_m, z.end - z.start);
-            let middle = (a + b) / 2.0 + out * (out_m - in_m) / 2.0;
-            let turn = Quat::from_rotation_z(along.to_angle());
-            self.add(slot, Shape::block(size).turned(turn).moved(middle.extend((z.start + z.end) / 2.0)));
+        let normals: Vec<Vec2> = edges(outline).map(|(_, _, out)| out).collect();
+        let moved = |i: usize, by_m: f32| {
+            let (before, after) = (normals[(i + normals.len() - 1) % normals.len()], normals[i]);
+            outline[i] + (before + after) / (1.0 + before.dot(after)).max(0.2) * by_m
+        };
+        for i in 0..outline.len() {
+            let j = (i + 1) % outline.len();
+            let [a, b, c, d] = [moved(i, out_m), moved(j, out_m), moved(j, -in_m), moved(i, -in_m)];
+            let (low, high) = (|p: Vec2| p.extend(z.start), |p: Vec2| p.extend(z.end));
+            self.add(slot, slope(&[low(a), low(b), high(b), high(a)]));
+            self.add(slot, slope(&[low(c), low(d), high(d), high(c)]));
+            self.add(slot, slope(&[high(a), high(b), high(c), high(d)]));
+            self.add(slot, slope(&[low(d), low(c), low(b), low(a)]));
         }
     }
 
@@ -106,7 +113,7 @@ impl<'a> Site<'a> {
     pub(super) fn flat_roof(&mut self, outline: &[Vec2], z_m: f32, parapet_m: f32, covering: &str, coping: u16) {
         let cover = self.surface(covering);
         self.add(cover, Shape::flat(outline).moved(Vec3::Z * z_m));
-        self.band(coping, outline, z_m - 0.05..z_m + parapet_m, 0.0, 0.3);
+        self.band(coping, outline, z_m..z_m + parapet_m, 0.0, 0.3);
         self.band(coping, outline, z_m + parapet_m..z_m + parapet_m + 0.08, 0.06, 0.36);
     }
 
