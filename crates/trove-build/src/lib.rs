@@ -29,6 +29,7 @@ mod surroundings;
 mod testing;
 mod vegetation;
 mod views;
+mod wall_pieces;
 mod weather;
 
 pub use agreement::{Agreement, agreement};

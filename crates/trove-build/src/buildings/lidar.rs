@@ -3,15 +3,14 @@
 //! Seen from above a wall is a line, while leaves fill the plane. A line of such pieces is a facade; what lies behind
 //! it is made up.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3};
-use trove_model::{Building, Cuboid, Drive, HeightField, Keyframe, LidarClass, Outcome, Polygon, Report, Seed};
+use trove_model::{Building, Drive, HeightField, Outcome, Polygon, Report, Seed};
 
 use super::volumes::STOREY_M;
 use crate::clearance::recorded;
 use crate::plane::{difference, grown, strip, union};
 use crate::roads::{Footing, RoadSurfaces};
+use crate::wall_pieces::{CUBE_M, WallPiece, wall_pieces};
 
 /// Ids of these buildings start here, far below those of any relation.
 pub(super) const FIRST_ID: i64 = i64::MIN / 2;
@@ -19,14 +18,6 @@ pub(super) const FIRST_ID: i64 = i64::MIN / 2;
 const REACH_M: f64 = 60.0;
 /// Fences, cars and people are below, metres over the ground.
 const LOWEST_M: f64 = 2.5;
-/// Side of the cubes that geometry is judged in, metres.
-const CUBE_M: f64 = 1.5;
-/// Fewer points in a cube tell nothing.
-const MIN_POINTS: f64 = 6.0;
-/// A wall from above: at most this thick (standard deviation), at most this share of its length, and so long, metres.
-const MAX_THICKNESS_M: f64 = 0.08;
-const MAX_THICKNESS_SHARE: f64 = 0.25;
-const MIN_RUN_M: f64 = 0.2;
 /// Pieces of one facade run alike to this (cosine), and lie no further apart and off its line than this, metres.
 const ALIKE: f64 = 0.94;
 const GAP_M: f64 = 4.0;
@@ -39,27 +30,6 @@ const MIN_PIECES: usize = 4;
 const MAPPED_M: f64 = 40.0;
 /// Smaller than this is not built, m².
 const LEAST_M2: f64 = 30.0;
-
-/// A cube in which the points form an upright plane.
-#[derive(Clone, Copy)]
-struct WallPiece {
-    position: DVec2,
-    /// Along the wall.
-    axis: DVec2,
-    top_m: f64,
-    /// Where it was seen from.
-    origin: DVec2,
-}
-
-/// Sums of the points in a cube, seen from above and from its corner.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    count: f64,
-    sum: DVec2,
-    squares: DVec2,
-    product: f64,
-    top_m: f64,
-}
 
 /// Buildings behind the facades that the LiDAR saw and the map does not have, in a fixed order.
 pub(super) fn unmapped(
@@ -78,8 +48,14 @@ pub(super) fn unmapped(
             |b: &Building| b.footprint.bounds().is_some_and(|bounds| bounds.grown(MAPPED_M).contains(p.position));
         !mapped.iter().any(near)
     };
+    let above_m = |position: DVec3| {
+        let plane = position.truncate();
+        let above_m = position.z - ground.height_m(plane);
+        let is_structure = above_m > LOWEST_M && streets.footing(plane) != Footing::Carriageway;
+        is_structure.then_some(above_m)
+    };
     let pieces: Vec<WallPiece> =
-        drive.keyframes.iter().flat_map(|k| wall_pieces(k, streets, ground)).filter(is_unknown).collect();
+        drive.keyframes.iter().flat_map(|k| wall_pieces(k, REACH_M, above_m)).filter(is_unknown).collect();
     let mut facades: Vec<Vec<WallPiece>> = facades(&pieces);
     facades.sort_by_key(|f| std::cmp::Reverse(f.len()));
     let mut taken = kept_free(drive);
@@ -123,54 +99,6 @@ fn kept_free(drive: &Drive) -> Vec<Polygon> {
         }
     }
     union(&free)
-}
-
-/// The pieces of wall that one sweep shows.
-fn wall_pieces(keyframe: &Keyframe, streets: &RoadSurfaces, ground: &HeightField) -> Vec<WallPiece> {
-    let Some(sweep) = &keyframe.lidar else { return Vec::new() };
-    let boxes: Vec<Cuboid> = keyframe.boxes.iter().map(|b| b.cuboid.grown(0.25)).collect();
-    let labels = (sweep.classes.len() == sweep.points_world.len()).then_some(&sweep.classes);
-    let mut cubes: BTreeMap<[i32; 3], Sums> = BTreeMap::new();
-    for (i, point) in sweep.points_world.iter().enumerate() {
-        let position = point.as_dvec3();
-        let plane = position.truncate();
-        if labels.is_some_and(|l| l[i] != LidarClass::Manmade) || position.distance(sweep.origin_world) > REACH_M {
-            continue;
-        }
-        let above_m = position.z - ground.height_m(plane);
-        let is_structure = above_m > LOWEST_M && streets.footing(plane) != Footing::Carriageway;
-        if !is_structure || boxes.iter().any(|b| b.contains(position)) {
-            continue;
-        }
-        let key = (position / CUBE_M).floor().as_ivec3();
-        let p = (position - key.as_dvec3() * CUBE_M).truncate();
-        let sums = cubes.entry(key.to_array()).or_default();
-        sums.count += 1.0;
-        sums.sum += p;
-        sums.squares += p * p;
-        sums.product += p.x * p.y;
-        sums.top_m = sums.top_m.max(above_m);
-    }
-    let origin = sweep.origin_world.truncate();
-    cubes.iter().filter_map(|(key, sums)| sums.wall(DVec3::from_array(key.map(f64::from)) * CUBE_M, origin)).collect()
-}
-
-impl Sums {
-    /// The wall in a cube, if its points form a line seen from above.
-    fn wall(&self, corner: DVec3, origin: DVec2) -> Option<WallPiece> {
-        if self.count < MIN_POINTS {
-            return None;
-        }
-        let mean = self.sum / self.count;
-        let spread = self.squares / self.count - mean * mean;
-        let across = self.product / self.count - mean.x * mean.y;
-        let (middle, half) = (spread.element_sum() / 2.0, ((spread.x - spread.y) / 2.0).hypot(across));
-        let [run_m, thickness_m] = [middle + half, middle - half].map(|v| v.max(0.0).sqrt());
-        let axis = DVec2::from_angle((2.0 * across).atan2(spread.x - spread.y) / 2.0);
-        let is_wall =
-            run_m >= MIN_RUN_M && thickness_m <= MAX_THICKNESS_M && thickness_m <= MAX_THICKNESS_SHARE * run_m;
-        is_wall.then_some(WallPiece { position: corner.truncate() + mean, axis, top_m: self.top_m, origin })
-    }
 }
 
 /// Pieces in one line that follow one another, in the order of their first piece.
