@@ -44,6 +44,18 @@ pub(crate) fn grown(area: &[Polygon], distance_m: f64) -> Vec<Polygon> {
     from_geo(to_geo(area).buffer_with_style(style))
 }
 
+/// With gaps narrower than twice `radius_m` closed and corners inside it as round.
+pub(crate) fn closed(area: &[Polygon], radius_m: f64) -> Vec<Polygon> {
+    grown(&grown(area, radius_m), -radius_m)
+}
+
+/// Everything within `radius_m` of a point.
+pub(crate) fn disc(centre: DVec2, radius_m: f64) -> Polygon {
+    let corners = (std::f64::consts::TAU / ARC_RAD).ceil();
+    let corner = |i: f64| centre + DVec2::from_angle(i * std::f64::consts::TAU / corners) * radius_m;
+    Polygon::simple((0..corners as usize).map(|i| corner(i as f64)).collect())
+}
+
 /// A strip of a line, `half_width_m` to each side, with blunt ends.
 pub(crate) fn strip(line: &[DVec2], half_width_m: f64) -> Vec<Polygon> {
     let mut points: Vec<DVec2> = line.to_vec();

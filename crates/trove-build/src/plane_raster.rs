@@ -20,24 +20,40 @@ impl PlaneRaster {
 
     /// Sets the cells whose centres lie in an area.
     pub(crate) fn fill(&mut self, area: &[Polygon], value: u8) {
-        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.cells.height as usize];
-        for polygon in area {
-            for (a, b) in polygon.edges() {
-                let (a, b) = ((a - self.origin) / self.cell_m - 0.5, (b - self.origin) / self.cell_m - 0.5);
-                let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
-                let rows = low.y.ceil().max(0.0) as usize..(high.y.ceil().max(0.0) as usize).min(crossings.len());
-                for row in rows {
-                    crossings[row].push(low.x + (high.x - low.x) * (row as f64 - low.y) / (high.y - low.y));
-                }
+        self.change(area, |cells| cells.fill(value));
+    }
+
+    /// Sets some bits of the cells whose centres lie in an area.
+    pub(crate) fn mark(&mut self, area: &[Polygon], bits: u8) {
+        self.change(area, |cells| cells.iter_mut().for_each(|cell| *cell |= bits));
+    }
+
+    fn change(&mut self, area: &[Polygon], change: impl Fn(&mut [u8])) {
+        let cell = |p: DVec2| (p - self.origin) / self.cell_m - 0.5;
+        let Some(bounds) = Bounds::around(area.iter().flat_map(Polygon::rings).flatten().map(|&p| cell(p))) else {
+            return;
+        };
+        let height = self.cells.height as usize;
+        // Rows whose middles lie between lowest and highest vertex.
+        let row_of = |y: f64| (y.ceil().max(0.0) as usize).min(height);
+        let first = row_of(bounds.min.y);
+        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); row_of(bounds.max.y) - first];
+        for (a, b) in area.iter().flat_map(Polygon::edges) {
+            let (a, b) = (cell(a), cell(b));
+            let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
+            for row in row_of(low.y)..row_of(high.y) {
+                let x = low.x + (high.x - low.x) * (row as f64 - low.y) / (high.y - low.y);
+                crossings[row - first].push(x);
             }
         }
         let width = self.cells.width as usize;
-        for (row, xs) in crossings.iter_mut().enumerate() {
+        for (i, xs) in crossings.iter_mut().enumerate() {
+            let row = first + i;
             xs.sort_by(f64::total_cmp);
             for pair in xs.chunks_exact(2) {
                 let (from, to) = (pair[0].ceil().max(0.0) as usize, pair[1].ceil().max(0.0) as usize);
                 let (from, to) = (from.min(width), to.min(width));
-                self.cells.data[row * width + from..row * width + to].fill(value);
+                change(&mut self.cells.data[row * width + from..row * width + to]);
             }
         }
     }

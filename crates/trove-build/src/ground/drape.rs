@@ -7,18 +7,32 @@
 use glam::{DVec2, UVec2, Vec2, Vec3};
 use trove_model::{Bounds, HeightField, Mesh, Polygon};
 
+use super::blocks::{Blocks, middle};
+use super::ramps::{PARTS, Ramps};
 use super::rings::{self, Line, Ring};
 use crate::plane;
 
 /// Below this a triangle is rounding, m².
 const SLIVER_M2: f64 = 1e-7;
+/// Heights that differ less are one plane, metres.
+const EVEN_M: f64 = 1e-4;
 /// Above this many cells the two halves of an area are cut by two threads.
 const PARALLEL_CELLS: u32 = 2048;
 
 /// The ground's triangles.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Drape<'a> {
     field: &'a HeightField,
+    ramps: Option<&'a Ramps>,
+    blocks: Blocks,
+}
+
+/// How finely a surface is cut.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    ramps: Option<&'a Ramps>,
+    /// Even blocks stay whole.
+    in_blocks: bool,
 }
 
 /// A rectangle of cells: from `min` to `max`, which is not included.
@@ -29,8 +43,14 @@ struct Cells {
 }
 
 impl<'a> Drape<'a> {
+    /// With as few triangles as the ground's shape allows.
     pub(crate) fn new(field: &'a HeightField) -> Self {
-        Self { field }
+        Self { field, ramps: None, blocks: Blocks::new(field, |_| false) }
+    }
+
+    /// With ramps, where heights above the ground are less.
+    pub(crate) fn with_ramps(field: &'a HeightField, ramps: &'a Ramps) -> Self {
+        Self { field, ramps: Some(ramps), blocks: Blocks::new(field, |cell| ramps.has(cell.as_ivec2())) }
     }
 
     /// Where the field ends.
@@ -58,10 +78,29 @@ impl<'a> Drape<'a> {
     ///
     /// The polygons are oriented, do not overlap, and lie within the field.
     pub(crate) fn surface(&self, area: &[Polygon], lift_m: f64) -> Mesh {
+        self.mesh(area, Cut { ramps: None, in_blocks: true }, |_| lift_m)
+    }
+
+    /// The surface of an area that comes down where there are ramps, else as [`Drape::surface`].
+    pub(crate) fn raised(&self, area: &[Polygon], lift_m: f64) -> Mesh {
+        self.mesh(area, Cut { ramps: self.ramps, in_blocks: true }, |p| lift_m * self.ramp(p))
+    }
+
+    /// As [`Drape::raised`], with vertices in every cell for what changes from place to place.
+    pub(crate) fn raised_in_cells(&self, area: &[Polygon], lift_m: f64) -> Mesh {
+        self.mesh(area, Cut { ramps: self.ramps, in_blocks: false }, |p| lift_m * self.ramp(p))
+    }
+
+    /// The ramps' factor at a point.
+    fn ramp(&self, p: DVec2) -> f64 {
+        self.ramps.map_or(1.0, |r| r.at(p))
+    }
+
+    fn mesh(&self, area: &[Polygon], cut: Cut<'_>, lift_m: impl Fn(DVec2) -> f64) -> Mesh {
         let rings: Vec<Ring> = area.iter().flat_map(|p| p.rings().cloned()).collect();
         let nodes = UVec2::new(self.field.nodes.width, self.field.nodes.height);
         let mut triangles = Vec::new();
-        self.cut(rings, Cells { min: UVec2::ZERO, max: nodes - 1 }, &mut triangles);
+        self.cut(rings, Cells { min: UVec2::ZERO, max: nodes - 1 }, cut, &mut triangles);
         let mut mesh = Mesh::default();
         for [a, b, c] in triangles {
             if (b - a).perp_dot(c - a) < 2.0 * SLIVER_M2 {
@@ -69,7 +108,7 @@ impl<'a> Drape<'a> {
             }
             let first = mesh.positions.len() as u32;
             for p in [a, b, c] {
-                mesh.positions.push(p.extend(self.height_m(p) + lift_m).as_vec3());
+                mesh.positions.push(p.extend(self.height_m(p) + lift_m(p)).as_vec3());
                 mesh.normals.push(self.field.normal(p).as_vec3());
                 mesh.uvs.push(p.as_vec2());
             }
@@ -78,39 +117,62 @@ impl<'a> Drape<'a> {
         welded(&mesh)
     }
 
-    /// Vertical faces along the edges of an area, from `bottom_m` to `top_m` above the ground, seen from inside the
-    /// area; u runs along the edge and v up, in metres. Edges for which `skip` holds get none.
-    pub(crate) fn faces(
-        &self,
-        area: &[Polygon],
-        bottom_m: f64,
-        top_m: f64,
-        skip: impl Fn(DVec2, DVec2) -> bool,
-    ) -> Mesh {
+    /// Steep faces along the edges of an area, seen from inside it, down to `bottom_m` above the ground. The profile
+    /// is a row of points from the bottom to the top: how far each lies inside the edge, and how high above the
+    /// ground, which ramps make less. u runs along the edge and v up the profile, in metres. Edges for which `skip`
+    /// holds get none.
+    pub(crate) fn faces(&self, area: &[Polygon], profile: &[DVec2], skip: impl Fn(DVec2, DVec2) -> bool) -> Mesh {
         let mut mesh = Mesh::default();
         for ring in area.iter().flat_map(Polygon::rings) {
+            let n = ring.len();
+            let inward = |i: usize| (ring[(i + 1) % n] - ring[i % n]).perp().normalize_or_zero();
+            // At a corner points lie on the bisector; sharp ones are cut short.
+            let mitre = |i: usize| {
+                let (before, after) = (inward(i + n - 1), inward(i));
+                let sum = before + after;
+                (sum * 2.0 / sum.length_squared().max(0.5), (before, after))
+            };
             let mut along_m = 0.0;
-            for i in 0..ring.len() {
-                let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+            for i in 0..n {
+                let (a, b) = (ring[i], ring[(i + 1) % n]);
                 if skip(a, b) {
                     continue;
                 }
-                let inward = (b - a).perp().normalize_or_zero().extend(0.0).as_vec3();
-                for pair in self.cut_segment(a, b).windows(2) {
-                    let [p, q] = [pair[0], pair[1]];
-                    let first = mesh.positions.len() as u32;
-                    let u = [along_m, along_m + p.distance(q)];
-                    for (p, u, lift) in [(p, u[0], bottom_m), (q, u[1], bottom_m), (q, u[1], top_m), (p, u[0], top_m)] {
-                        mesh.positions.push(p.extend(self.height_m(p) + lift).as_vec3());
-                        mesh.normals.push(inward);
-                        mesh.uvs.push(Vec2::new(u as f32, (lift - bottom_m) as f32));
-                    }
-                    mesh.triangles.extend([[first, first + 2, first + 1], [first, first + 3, first + 2]]);
-                    along_m = u[1];
+                let (from, to) = (mitre(i).0, mitre(i + 1).0);
+                let points = self.cut_segment(a, b);
+                for pair in points.windows(2) {
+                    let length_m = a.distance(b);
+                    let ends = [pair[0], pair[1]].map(|p| {
+                        let t = p.distance(a) / length_m;
+                        (p, from.lerp(to, t), along_m + p.distance(a))
+                    });
+                    self.face(&mut mesh, ends, inward(i), profile);
                 }
+                along_m += a.distance(b);
             }
         }
         mesh
+    }
+
+    /// One piece of an edge's faces: its two ends as (position, way inwards, metres along the edge).
+    fn face(&self, mesh: &mut Mesh, ends: [(DVec2, DVec2, f64); 2], inward: DVec2, profile: &[DVec2]) {
+        let mut v_m = 0.0;
+        for steps in profile.windows(2) {
+            let (low, high) = (steps[0], steps[1]);
+            let across = high - low;
+            let normal = (inward * across.y).extend(-across.x).normalize_or_zero().as_vec3();
+            let first = mesh.positions.len() as u32;
+            let corners = [(ends[0], low, v_m), (ends[1], low, v_m), (ends[1], high, 0.0), (ends[0], high, 0.0)];
+            for (k, ((p, inwards, u), step, v)) in corners.into_iter().enumerate() {
+                let lift_m = step.y * if step.y > 0.0 { self.ramp(p) } else { 1.0 };
+                mesh.positions.push((p + inwards * step.x).extend(self.height_m(p) + lift_m).as_vec3());
+                mesh.normals.push(normal);
+                let v = if k < 2 { v } else { v_m + across.length() };
+                mesh.uvs.push(Vec2::new(u as f32, v as f32));
+            }
+            mesh.triangles.extend([[first, first + 2, first + 1], [first, first + 3, first + 2]]);
+            v_m += across.length();
+        }
     }
 
     /// The ground beyond the field out to `reach_m`, at the height of the field's edge.
@@ -142,28 +204,32 @@ impl<'a> Drape<'a> {
         mesh
     }
 
-    /// Halves the cells until one is left, cuts that along its diagonal and triangulates what lies there.
-    fn cut(&self, rings: Vec<Ring>, cells: Cells, triangles: &mut Vec<[DVec2; 3]>) {
+    /// Halves the cells until an even block is left, cuts that along its diagonal and triangulates what lies there.
+    fn cut(&self, rings: Vec<Ring>, cells: Cells, how: Cut<'_>, triangles: &mut Vec<[DVec2; 3]>) {
         if rings.is_empty() {
             return;
         }
         let size = cells.max - cells.min;
         let (origin, cell_m) = (self.field.origin, self.field.cell_m);
-        if size == UVec2::ONE {
+        let (even, ramped) = self.blocks.at(cells.min, size).unwrap_or((false, true));
+        let has_ramps = how.ramps.is_some() && ramped;
+        if size == UVec2::ONE || (even && how.in_blocks && !has_ramps) {
             let corner = origin + cells.min.as_dvec2() * cell_m;
-            let diagonal = Line { normal: DVec2::new(1.0, -1.0), offset: corner.x - corner.y };
-            let (left, right) = rings::split(rings, diagonal);
-            triangulate(left, triangles);
-            triangulate(right, triangles);
+            if has_ramps {
+                cut_parts(rings, corner, cell_m, PARTS, triangles);
+            } else {
+                cut_diagonally(rings, corner, triangles);
+            }
             return;
         }
-        let middle = (cells.min + cells.max) / 2;
         let (line, before, after) = if size.x >= size.y {
-            let line = Line { normal: DVec2::X, offset: origin.x + f64::from(middle.x) * cell_m };
-            (line, UVec2::new(middle.x, cells.max.y), UVec2::new(middle.x, cells.min.y))
+            let at = middle(cells.min.x, cells.max.x);
+            let line = Line { normal: DVec2::X, offset: origin.x + f64::from(at) * cell_m };
+            (line, UVec2::new(at, cells.max.y), UVec2::new(at, cells.min.y))
         } else {
-            let line = Line { normal: DVec2::Y, offset: origin.y + f64::from(middle.y) * cell_m };
-            (line, UVec2::new(cells.max.x, middle.y), UVec2::new(cells.min.x, middle.y))
+            let at = middle(cells.min.y, cells.max.y);
+            let line = Line { normal: DVec2::Y, offset: origin.y + f64::from(at) * cell_m };
+            (line, UVec2::new(cells.max.x, at), UVec2::new(cells.min.x, at))
         };
         let (left, right) = rings::split(rings, line);
         let (low, high) = (Cells { max: before, ..cells }, Cells { min: after, ..cells });
@@ -171,21 +237,23 @@ impl<'a> Drape<'a> {
             let (mut more, ()) = rayon::join(
                 || {
                     let mut more = Vec::new();
-                    self.cut(right, high, &mut more);
+                    self.cut(right, high, how, &mut more);
                     more
                 },
-                || self.cut(left, low, triangles),
+                || self.cut(left, low, how, triangles),
             );
             triangles.append(&mut more);
         } else {
-            self.cut(left, low, triangles);
-            self.cut(right, high, triangles);
+            self.cut(left, low, how, triangles);
+            self.cut(right, high, how, triangles);
         }
     }
 
     /// A segment with a vertex at every crease.
     fn cut_segment(&self, a: DVec2, b: DVec2) -> Vec<DVec2> {
-        let (origin, cell_m) = (self.field.origin, self.field.cell_m);
+        let origin = self.field.origin;
+        let ramps = self.ramps.filter(|r| r.touches(a, b));
+        let cell_m = self.field.cell_m / if ramps.is_some() { f64::from(PARTS) } else { 1.0 };
         let mut points = vec![a, b];
         let diagonal = DVec2::new(1.0, -1.0);
         for normal in [DVec2::X, DVec2::Y, diagonal] {
@@ -200,7 +268,42 @@ impl<'a> Drape<'a> {
         }
         points.sort_by(|p, q| p.distance_squared(a).total_cmp(&q.distance_squared(a)));
         points.dedup();
-        points
+        // Creases of even ground are none.
+        let shape = |p: DVec2| DVec2::new(self.height_m(p), self.ramp(p));
+        let mut kept = vec![points[0]];
+        for pair in points.windows(2).skip(1) {
+            let (from, at, to) = (kept[kept.len() - 1], pair[0], pair[1]);
+            let t = from.distance(at) / from.distance(to);
+            if (shape(from).lerp(shape(to), t) - shape(at)).abs().max_element() > EVEN_M {
+                kept.push(at);
+            }
+        }
+        kept.extend(points.last().filter(|_| points.len() > 1));
+        kept
+    }
+}
+
+/// Cuts what lies on a square along its diagonal and triangulates both halves.
+fn cut_diagonally(rings: Vec<Ring>, corner: DVec2, triangles: &mut Vec<[DVec2; 3]>) {
+    let diagonal = Line { normal: DVec2::new(1.0, -1.0), offset: corner.x - corner.y };
+    let (left, right) = rings::split(rings, diagonal);
+    triangulate(left, triangles);
+    triangulate(right, triangles);
+}
+
+/// Cuts what lies on a cell into its parts, `parts` along each side.
+fn cut_parts(mut rings: Vec<Ring>, corner: DVec2, cell_m: f64, parts: i32, triangles: &mut Vec<[DVec2; 3]>) {
+    let part_m = cell_m / f64::from(parts);
+    for y in 0..parts {
+        let north = corner.y + f64::from(y + 1) * part_m;
+        let (mut row, rest) = rings::split(rings, Line { normal: DVec2::Y, offset: north });
+        rings = rest;
+        for x in 0..parts {
+            let east = corner.x + f64::from(x + 1) * part_m;
+            let (part, rest) = rings::split(row, Line { normal: DVec2::X, offset: east });
+            row = rest;
+            cut_diagonally(part, corner + DVec2::new(f64::from(x), f64::from(y)) * part_m, triangles);
+        }
     }
 }
 
@@ -297,7 +400,8 @@ mod tests {
     fn faces_stand_on_every_edge_and_look_inwards() {
         let field = hilly();
         let polygon = Polygon::simple(rectangle(Bounds::square(DVec2::ZERO, 10.0)));
-        let mesh = Drape::new(&field).faces(&[polygon], 0.0, 0.1, |_, _| false);
+        let profile = [DVec2::ZERO, DVec2::new(0.0, 0.1)];
+        let mesh = Drape::new(&field).faces(&[polygon], &profile, |_, _| false);
         assert_eq!(mesh.defect(), None);
         let mut area = 0.0;
         for t in &mesh.triangles {

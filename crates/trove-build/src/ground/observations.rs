@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Drive, LidarClass, LidarSweep, ObjectBox};
 
-use crate::roads::KERB_M;
+use crate::roads::kerb_m;
 
 /// Weight of the driven path against one box: the vehicle certainly stood on the ground.
 const PATH_WEIGHT: f64 = 4.0;
@@ -56,7 +56,7 @@ fn box_bottom(drive: &Drive, object: &ObjectBox, ego: DVec2) -> Observation {
         m.walkways.iter().any(|p| p.contains(position)) && !m.drivable.iter().any(|p| p.contains(position))
     });
     let range = position.distance(ego) / HALF_WEIGHT_RANGE_M;
-    let height_m = bottom.z - if raised { KERB_M } else { 0.0 };
+    let height_m = bottom.z - if raised { kerb_m(drive) } else { 0.0 };
     Observation { position, height_m, weight: 1.0 / (1.0 + range * range) }
 }
 

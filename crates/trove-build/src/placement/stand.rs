@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use trove_model::{Cuboid, HeightField, Kind, Pose};
 
-use crate::roads::{Footing, KERB_M, RoadSurfaces};
+use crate::roads::RoadSurfaces;
 
 /// Wheels stand this share of the length and width from the middle of a vehicle.
 const WHEELS: f64 = 0.35;
@@ -59,12 +59,12 @@ impl Stand<'_> {
     /// A vehicle stands on the kerb where most of its wheels do.
     fn wheels_elevation_m(&self, vehicle: &Cuboid) -> f64 {
         const WHEEL_SIGNS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-        let on_kerb = |sign: &&[f64; 2]| {
-            let wheel = DVec2::from_array(**sign) * vehicle.size_m.truncate() * WHEELS;
-            let wheel_world = vehicle.world_from_body.point(wheel.extend(0.0)).truncate();
-            self.surfaces.footing(wheel_world) != Footing::Carriageway
-        };
-        if WHEEL_SIGNS.iter().filter(on_kerb).count() >= 3 { KERB_M } else { 0.0 }
+        let mut elevations_m = WHEEL_SIGNS.map(|sign| {
+            let wheel = DVec2::from_array(sign) * vehicle.size_m.truncate() * WHEELS;
+            self.surfaces.elevation_m(vehicle.world_from_body.point(wheel.extend(0.0)).truncate())
+        });
+        elevations_m.sort_by(f64::total_cmp);
+        elevations_m[1].max(0.0)
     }
 }
 

@@ -1,14 +1,19 @@
 //! How traffic uses the carriageway: where its roads run, and their lanes from the left to the right.
 
 use glam::DVec2;
-use trove_model::{Cycleway, Drive, Parking, ParkingOrientation, Road, RoadKind};
+use trove_model::{Cycleway, Drive, Parking, ParkingOrientation, Polygon, Road, RoadKind};
 
+use super::corners::Node;
+use super::layout::shifted;
 use super::network::Stretch;
+use crate::plane::strip;
 
 /// Between the outermost lane and the kerb, metres.
 pub(super) const GUTTER_M: f64 = 0.25;
 /// Width of a marked lane for bicycles.
 const CYCLE_LANE_M: f64 = 1.6;
+/// Nothing is parked this near to a crossing.
+const CROSSING_CLEAR_M: f64 = 4.0;
 /// A carriageway is at least this wide.
 const NARROWEST_M: f64 = 3.0;
 
@@ -67,7 +72,7 @@ pub(super) struct CrossSection {
 }
 
 /// All roads of a place: the recorded lanes, then what the map adds.
-pub(super) fn courses(drive: &Drive, stretches: &[Stretch<'_>]) -> Vec<Course> {
+pub(super) fn courses(drive: &Drive, stretches: &[Stretch<'_>], bays: &[Bay]) -> Vec<Course> {
     let recorded = drive.lane_map.iter().flat_map(|m| &m.lanes).filter(|l| l.centreline.len() > 1).map(|lane| {
         let length_m: f64 = lane.centreline.windows(2).map(|w| w[0].distance(w[1])).sum();
         let half_m = (lane.polygon.area_m2() / length_m.max(1.0) / 2.0).clamp(1.2, 3.0);
@@ -79,7 +84,42 @@ pub(super) fn courses(drive: &Drive, stretches: &[Stretch<'_>]) -> Vec<Course> {
         bands: stretch.section.bands.clone(),
         kind: Some(stretch.road.kind),
     });
-    recorded.chain(mapped).filter(|c| !c.bands.is_empty()).collect()
+    let bays = bays.iter().map(|bay| Course { line: bay.line.clone(), bands: vec![bay.band], kind: Some(bay.kind) });
+    recorded.chain(mapped).chain(bays).filter(|c| !c.bands.is_empty()).collect()
+}
+
+/// A row of bays beside a road, between its junctions and crossings.
+#[derive(Clone, Debug)]
+pub(super) struct Bay {
+    /// The road's line along it.
+    pub line: Vec<DVec2>,
+    pub band: Band,
+    kind: RoadKind,
+}
+
+impl Bay {
+    /// Its area, a little over the kerb that it replaces.
+    pub(super) fn area(&self) -> Vec<Polygon> {
+        let middle_m = (self.band.left_m + self.band.right_m) / 2.0;
+        strip(&shifted(&self.line, middle_m), self.band.width_m() / 2.0 + 0.01)
+    }
+}
+
+/// The bays of all stretches, away from where roads meet and people cross.
+pub(super) fn bays(stretches: &[Stretch<'_>], nodes: &[Node], crossings: &[Polygon]) -> Vec<Bay> {
+    let mut bays = Vec::new();
+    for stretch in stretches.iter().filter(|s| s.section.bays.iter().any(Option::is_some)) {
+        let clear = |p: DVec2| {
+            !nodes.iter().any(|n| n.arms > 2 && n.at.distance(p) < n.reach_m())
+                && !crossings.iter().any(|c| c.contains(p) || c.edge_distance_m(p) < CROSSING_CLEAR_M)
+        };
+        let runs = stretch.line.chunk_by(|&a, &b| clear(a) && clear(b)).filter(|run| run.len() > 2);
+        for run in runs {
+            let bay = |band: &Band| Bay { line: run.to_vec(), band: *band, kind: stretch.road.kind };
+            bays.extend(stretch.section.bays.iter().flatten().map(bay));
+        }
+    }
+    bays
 }
 
 /// A road's lanes by its tags, else by its kind; `kerb_to_kerb_m` is its width where that is known.
@@ -231,7 +271,8 @@ mod tests {
         let road = Road { parking: Sides { left: bays, right: None }, ..road(RoadKind::Tertiary) };
         let section = cross_section(&road, None, false);
         let bay = section.bays[0].unwrap();
-        assert_eq!((bay.right_m, bay.width_m()), (section.width_m / 2.0, parking_m(ParkingOrientation::Perpendicular)));
+        assert_eq!(bay.right_m, section.width_m / 2.0);
+        assert!((bay.width_m() - parking_m(ParkingOrientation::Perpendicular)).abs() < 1e-9);
         assert_eq!(section.bays[1], None);
     }
 }

@@ -1,21 +1,26 @@
 //! Which piece of the plane is what: carriageway, kerb, pavement.
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, Outcome, Polygon, Report, RoadKind, StreetMap, drives_on_left};
+use rayon::prelude::*;
+use trove_model::{
+    Bounds, Cycleway, Drive, LandKind, Outcome, Polygon, Report, Road, RoadKind, StreetMap, drives_on_left,
+};
 
-use super::course::{self, Course};
+use super::corners;
+use super::course::{self, Band, Bay, Course};
 use super::evidence::{self, Trace};
+use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
-use crate::plane::{difference, grown, intersection, rectangle, strip, union};
+use crate::plane::{closed, difference, grown, intersection, rectangle, strip, union};
 use crate::plane_raster::PlaneRaster;
 
-/// Width of a kerb stone.
-const KERB_STONE_M: f64 = 0.15;
 /// Width of a sidewalk that the map does not draw.
 const SIDEWALK_M: f64 = 2.5;
 /// Width of a path in a park.
 const FOOTWAY_M: f64 = 1.8;
-/// Half of the gaps that are closed between OpenStreetMap's carriageways, which also rounds their corners.
+/// Half of the gaps that are closed between OpenStreetMap's carriageways: nobody builds narrower islands.
+const SLIT_M: f64 = 0.4;
+/// Half of the gaps that are closed in a road of which only the driven path is known.
 const CORNER_M: f64 = 2.5;
 /// Half of the gaps that are closed between carriageway and walkway: what lies between them is paved too.
 const GAP_M: f64 = 1.5;
@@ -42,6 +47,10 @@ const PATH_BEYOND_M: f64 = 30.0;
 const WALKED_HALF_WIDTH_M: f64 = 1.0;
 /// A street is built up where a building stands this near.
 const BUILT_UP_M: f64 = 40.0;
+const BUILT_UP_CELL_M: f64 = 4.0;
+/// Width of a track for bicycles beside the carriageway, and the strip between.
+const TRACK_M: f64 = 1.8;
+const TRACK_OFF_M: f64 = 0.6;
 
 /// The plane, divided; no two areas overlap.
 pub(super) struct Layout<'a> {
@@ -54,8 +63,12 @@ pub(super) struct Layout<'a> {
     pub carriageway: Vec<Polygon>,
     pub kerb: Vec<Polygon>,
     pub pavement: Vec<Polygon>,
+    /// Tracks for bicycles, as high as the pavement.
+    pub tracks: Vec<Polygon>,
     /// What is left.
     pub land: Vec<Polygon>,
+    /// Where kerbs are dropped; may reach into all of the above.
+    pub dropped: Vec<Polygon>,
     /// Around vehicles that were parked; may reach into all of the above.
     pub car_parks: Vec<Polygon>,
 }
@@ -73,9 +86,13 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     // Roads of the map where the recording ends, their corners rounded.
     let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
     let stretches = map.map(|m| network::stretches(m, &recorded, bounds, on_left, report)).unwrap_or_default();
-    let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, s.width_m / 2.0)).collect();
-    let mapped = closed(&union(&strips), CORNER_M);
-    let mut carriageway = union(&[drivable, mapped].concat());
+    let nodes = corners::nodes(&stretches);
+    let dropped = kerb::dropped(drive, map, &stretches, bounds);
+    let bays = course::bays(&stretches, &nodes, &dropped);
+    let mut strips: Vec<Polygon> = stretches.par_iter().flat_map_iter(|s| strip(&s.line, s.width_m / 2.0)).collect();
+    strips.extend(corners::corners(&nodes, &strips));
+    strips.extend(bays.iter().flat_map(Bay::area));
+    let mut carriageway = union(&[drivable, closed(&union(&strips), SLIT_M)].concat());
 
     // Vehicles drove and parked on the road, whatever the maps say.
     let traces = evidence::driven(drive);
@@ -93,7 +110,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     }
     let parked = evidence::parked(drive);
     let carriageway = intersection(&with_bays(carriageway, &parked), &whole);
-    let carriageway = without_specks(carriageway, ISLAND_M2);
+    let carriageway = without_islands(without_specks(carriageway, ISLAND_M2), map, bounds);
 
     // Walkways of the dataset, bands along the other roads, footpaths.
     let mut walks = lanes.map(|m| m.walkways.clone()).unwrap_or_default();
@@ -103,19 +120,23 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
         walks.extend(evidence::walked(drive).iter().flat_map(|t| strip(&t.line, WALKED_HALF_WIDTH_M)));
     }
     if let Some(map) = map {
-        walks.extend(stretches.iter().flat_map(|s| bands(s, map)));
+        let built_up = built_up(map, bounds);
+        walks.extend(stretches.par_iter().flat_map_iter(|s| bands(s, &built_up)).collect::<Vec<_>>());
         walks.extend(footways(map, &recorded, bounds));
     }
     let walks = union(&walks);
     let walked = closed(&union(&[walks, carriageway.clone()].concat()), GAP_M);
 
-    let stones = grown(&carriageway, KERB_STONE_M);
+    let stones = grown(&carriageway, kerb::STONE_M);
     let kerb = intersection(&difference(&stones, &carriageway), &whole);
     let pavement = intersection(&difference(&walked, &stones), &whole);
     let land = difference(&difference(&whole, &stones), &pavement);
+    let tracks = cycle_tracks(&stretches, map, bounds);
+    let tracks = if tracks.is_empty() { tracks } else { intersection(&pavement, &union(&tracks)) };
+    let pavement = if tracks.is_empty() { pavement } else { difference(&pavement, &tracks) };
     let car_parks = closed(&grown(&union(&parked), CAR_PARK_M), CAR_PARK_M);
-    let courses = course::courses(drive, &stretches);
-    Layout { recorded, stretches, courses, carriageway, kerb, pavement, land, car_parks }
+    let courses = course::courses(drive, &stretches, &bays);
+    Layout { recorded, stretches, courses, carriageway, kerb, pavement, tracks, land, dropped, car_parks }
 }
 
 /// Whether the recorded traffic left the recorded road for more than it should.
@@ -146,11 +167,6 @@ fn without_specks(mut carriageway: Vec<Polygon>, least_m2: f64) -> Vec<Polygon> 
     }
     carriageway.retain(|p| p.area_m2() > ISLAND_M2);
     carriageway
-}
-
-/// With gaps narrower than twice `radius_m` closed.
-fn closed(area: &[Polygon], radius_m: f64) -> Vec<Polygon> {
-    grown(&grown(area, radius_m), -radius_m)
 }
 
 /// Stretches of the driven path that lie on no carriageway; a point off it makes a stretch with its neighbours.
@@ -184,26 +200,69 @@ fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// The sidewalks of a stretch: as tagged, else on both sides of a street in a built-up place.
-fn bands(stretch: &Stretch<'_>, map: &StreetMap) -> Vec<Polygon> {
-    let road = stretch.road;
-    let usual = (RoadKind::Primary..=RoadKind::Minor).contains(&road.kind) && is_built_up(&stretch.line, map);
-    let (left, right) = (road.sidewalk.left.unwrap_or(usual), road.sidewalk.right.unwrap_or(usual));
-    let half_m = stretch.width_m / 2.0;
-    // A band on one side is the strip of a line shifted to that side.
-    let shift_m = match (left, right) {
-        (false, false) => return Vec::new(),
-        (true, true) => return strip(&stretch.line, half_m + SIDEWALK_M),
-        (true, false) => SIDEWALK_M / 2.0,
-        (false, true) => -SIDEWALK_M / 2.0,
-    };
-    strip(&shifted(&stretch.line, shift_m), half_m + SIDEWALK_M / 2.0)
+/// The carriageway without the islands that the map has in it.
+fn without_islands(carriageway: Vec<Polygon>, map: Option<&StreetMap>, bounds: Bounds) -> Vec<Polygon> {
+    let land = map.iter().flat_map(|m| &m.land).filter(|l| l.kind == LandKind::TrafficIsland).map(|l| &l.polygon);
+    let islands: Vec<Polygon> = land.filter(|p| p.bounds().is_some_and(|b| b.overlaps(&bounds))).cloned().collect();
+    if islands.is_empty() { carriageway } else { difference(&carriageway, &union(&islands)) }
 }
 
-fn is_built_up(line: &[DVec2], map: &StreetMap) -> bool {
-    let near =
-        |p: &DVec2| map.buildings.iter().filter_map(|b| b.footprint.bounds()).any(|b| b.grown(BUILT_UP_M).contains(*p));
-    map.buildings.is_empty() || line.iter().step_by(10).any(near)
+/// The sidewalks of a stretch with the cycle tracks in them: as tagged, else on both sides of a street in a built-up
+/// place.
+fn bands(stretch: &Stretch<'_>, built_up: &PlaneRaster) -> Vec<Polygon> {
+    let road = stretch.road;
+    let usual = (RoadKind::Primary..=RoadKind::Minor).contains(&road.kind)
+        && stretch.line.iter().step_by(10).any(|&p| built_up.at(p) > 0);
+    let width_m = |tagged: Option<bool>, cycleway, bay: Option<Band>| {
+        let walk_m = if tagged.unwrap_or(usual) { sidewalk_m(road.kind) } else { 0.0 };
+        let track_m = if cycleway == Some(Cycleway::Track) { TRACK_OFF_M + TRACK_M } else { 0.0 };
+        let bay_m = bay.filter(|_| walk_m + track_m > 0.0).map_or(0.0, |b| b.width_m());
+        walk_m + track_m + bay_m
+    };
+    let [left_bay, right_bay] = stretch.section.bays;
+    let left_m = width_m(road.sidewalk.left, road.cycleway.left, left_bay);
+    let right_m = width_m(road.sidewalk.right, road.cycleway.right, right_bay);
+    if left_m + right_m == 0.0 {
+        return Vec::new();
+    }
+    strip(&shifted(&stretch.line, (left_m - right_m) / 2.0), (stretch.width_m + left_m + right_m) / 2.0)
+}
+
+/// Width of a sidewalk that the map does not draw.
+fn sidewalk_m(kind: RoadKind) -> f64 {
+    match kind {
+        RoadKind::Motorway | RoadKind::Trunk | RoadKind::Primary | RoadKind::Secondary => 3.5,
+        RoadKind::Tertiary => 3.0,
+        _ => SIDEWALK_M,
+    }
+}
+
+/// Tracks for bicycles beside the carriageway, and ways of their own.
+fn cycle_tracks(stretches: &[Stretch<'_>], map: Option<&StreetMap>, bounds: Bounds) -> Vec<Polygon> {
+    let beside = |s: &Stretch<'_>| {
+        let off_m = s.width_m / 2.0 + TRACK_OFF_M + TRACK_M / 2.0;
+        let bay_m = s.section.bays.map(|bay| bay.map_or(0.0, |b| b.width_m()));
+        let track = |side: Option<Cycleway>, off_m: f64| {
+            let line = (side == Some(Cycleway::Track)).then(|| shifted(&s.line, off_m));
+            line.map(|line| strip(&line, TRACK_M / 2.0)).unwrap_or_default()
+        };
+        [track(s.road.cycleway.left, off_m + bay_m[0]), track(s.road.cycleway.right, -off_m - bay_m[1])].concat()
+    };
+    let ways = map.iter().flat_map(|m| &m.roads).filter(|r| r.kind == RoadKind::Cycleway && is_level(r));
+    let ways = ways.filter(|r| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&bounds)));
+    stretches.iter().flat_map(beside).chain(ways.flat_map(|r| strip(&r.centreline, walk_width_m(r) / 2.0))).collect()
+}
+
+/// Where streets are built up: near a building, or everywhere in a place without any.
+fn built_up(map: &StreetMap, bounds: Bounds) -> PlaneRaster {
+    let mut raster = PlaneRaster::new(bounds.grown(BUILT_UP_M), BUILT_UP_CELL_M);
+    for near in map.buildings.iter().filter_map(|b| b.footprint.bounds()) {
+        raster.fill(&[rectangle(near.grown(BUILT_UP_M))], 1);
+    }
+    if map.buildings.is_empty() {
+        raster.fill(&[rectangle(bounds)], 1);
+    }
+    raster
 }
 
 /// The line moved to its left by `distance_m`.
@@ -222,13 +281,18 @@ pub(super) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
 fn footways(map: &StreetMap, recorded: &PlaneRaster, bounds: Bounds) -> Vec<Polygon> {
     map.roads
         .iter()
-        .filter(|r| matches!(r.kind, RoadKind::Pedestrian | RoadKind::Cycleway | RoadKind::Footway))
-        .filter(|r| r.layer == 0 && !r.tunnel && !r.bridge)
+        .filter(|r| matches!(r.kind, RoadKind::Pedestrian | RoadKind::Cycleway | RoadKind::Footway) && is_level(r))
         .filter(|r| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&bounds)))
         .filter(|r| r.centreline.iter().any(|&p| recorded.at(p) == 0))
-        .flat_map(|r| {
-            let usual_m = if r.kind == RoadKind::Pedestrian { 2.0 * FOOTWAY_M } else { FOOTWAY_M };
-            strip(&r.centreline, r.width_m.filter(|w| (0.5..=20.0).contains(w)).unwrap_or(usual_m) / 2.0)
-        })
+        .flat_map(|r| strip(&r.centreline, walk_width_m(r) / 2.0))
         .collect()
+}
+
+fn is_level(road: &Road) -> bool {
+    road.layer == 0 && !road.tunnel && !road.bridge
+}
+
+fn walk_width_m(road: &Road) -> f64 {
+    let usual_m = if road.kind == RoadKind::Pedestrian { 2.0 * FOOTWAY_M } else { FOOTWAY_M };
+    road.width_m.filter(|w| (0.5..=20.0).contains(w)).unwrap_or(usual_m)
 }

@@ -5,7 +5,8 @@ use trove_model::{
     AssetLibrary, Bounds, Class, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
 };
 
-use super::{Footing, KERB_M, RoadSurfaces, surfaces};
+use super::layout::layout;
+use super::{Footing, RoadSurfaces, land, surfaces};
 use crate::ground::Drape;
 use crate::piece::Piece;
 use crate::plane;
@@ -50,20 +51,40 @@ fn is_apron(piece: &Piece) -> bool {
 
 #[test]
 fn the_plane_is_covered_once() {
-    let built = built();
-    // Seen from above: everything that faces up, but for paint, which lies on the road.
-    let mut covered_m2 = 0.0;
-    for piece in built.pieces.iter().filter(|p| !is_paint(p) && !is_apron(p)) {
+    let report = Report::default();
+    let (drive, map, bounds) = (drive(), map(), bounds());
+    let layout = layout(&drive, Some(&map), bounds, &report);
+    let covers = land::covers(layout.land.clone(), &layout.car_parks, Some(&map), bounds);
+    let mut areas = vec![layout.carriageway, layout.kerb, layout.pavement, layout.tracks];
+    areas.extend(covers.into_iter().map(|cover| cover.area));
+    let whole_m2 = bounds.size_m().element_product();
+    let covered_m2: f64 = areas.iter().map(|area| area_m2(area)).sum();
+    assert!((covered_m2 - whole_m2).abs() < 1e-4 * whole_m2, "{covered_m2} of {whole_m2} m²");
+    for (i, a) in areas.iter().enumerate() {
+        for b in &areas[..i] {
+            let common_m2 = area_m2(&plane::intersection(a, b));
+            assert!(common_m2 < 0.05, "{common_m2} m² twice");
+        }
+    }
+}
+
+#[test]
+fn surfaces_face_up_and_are_where_things_are_told_to_stand() {
+    let (built, ground) = (built(), hilly());
+    let drape = Drape::new(&ground);
+    for piece in built.pieces.iter().filter(|p| !is_apron(p)) {
         assert_eq!(piece.mesh.defect(), None);
         for t in &piece.mesh.triangles {
             let [a, b, c] = t.map(|i| piece.mesh.positions[i as usize].as_dvec3());
-            let up = (b - a).cross(c - a).z / 2.0;
-            assert!(up > -1e-4, "{:?} faces down", piece.class);
-            covered_m2 += up;
+            let (up, middle) = ((b - a).cross(c - a), (a + b + c) / 3.0);
+            assert!(up.z > -1e-4, "{:?} faces down", piece.class);
+            // Kerb stones' fronts are too steep to stand on.
+            if up.z > 0.9 * up.length() {
+                let told_m = drape.height_m(middle.truncate()) + built.elevation_m(middle.truncate());
+                assert!((middle.z - told_m).abs() < 0.03, "{:?} at {middle}: {told_m}", piece.class);
+            }
         }
     }
-    let whole_m2 = Drape::new(&hilly()).bounds().size_m().element_product();
-    assert!((covered_m2 - whole_m2).abs() < 1e-4 * whole_m2, "{covered_m2} of {whole_m2} m²");
 }
 
 #[test]
@@ -92,7 +113,7 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
     assert!(heights(Class::Road, false).iter().all(|h| h.abs() < 0.02));
     let paint = heights(Class::Road, true);
     assert!(!paint.is_empty() && paint.iter().all(|h| (h - 0.004).abs() < 0.02));
-    assert!(heights(Class::Sidewalk, false).iter().all(|h| (-0.02..KERB_M + 0.02).contains(h)));
+    assert!(heights(Class::Sidewalk, false).iter().all(|h| (-0.03..built.kerb_m + 0.02).contains(h)));
 }
 
 #[test]
