@@ -2,8 +2,10 @@
 
 mod dress;
 mod extrude;
+mod facade;
 mod lidar;
 mod rectangle;
+mod region;
 mod replace;
 mod roof;
 mod shell;
@@ -21,7 +23,8 @@ use trove_model::{
 
 use crate::palette::Palette;
 use crate::piece::Piece;
-use crate::roads::{KERB_M, RoadSurfaces};
+use crate::roads::RoadSurfaces;
+use facade::Sight;
 use volumes::House;
 
 /// The buildings of a place.
@@ -48,34 +51,39 @@ pub(crate) fn buildings(
     let mapped = map.map_or(&[][..], |m| &m.buildings);
     let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, seed, report);
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
-    let houses = volumes::houses(&all, keep_clear, bounds, seed, report);
+    let plot = volumes::Plot { drive, streets: keep_clear, ground, bounds, seen_m: &[] };
+    let houses = volumes::houses(&all, &plot, seed, report);
     let palette = Palette { library, report };
+    let sight = Sight::new(drive, keep_clear);
     let build = |house: &House<'_>| {
         let mut random = seed.child("building").nth(house.building.id as u64).random();
-        replaced(house, keep_clear, ground, library, &mut random, report)
-            .unwrap_or_else(|| extruded(house, ground, &palette, &mut random, report))
+        replaced(house, keep_clear, library, &mut random, report)
+            .unwrap_or_else(|| extruded(house, &palette, &sight, &mut random, report))
     };
     let pieces: Vec<Piece> = houses.par_iter().map(build).filter(|p| !p.mesh.triangles.is_empty()).collect();
     report.measure("buildings.built", pieces.len() as f64);
     report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| !p.asset.is_empty()).count() as f64);
+    let triangles: usize = pieces.iter().filter(|p| p.asset.is_empty()).map(|p| p.mesh.triangles.len()).sum();
+    report.measure("buildings.triangles", triangles as f64);
     let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).collect();
     BuiltBuildings { pieces, footprints }
 }
 
 fn extruded(
     house: &House<'_>,
-    ground: &HeightField,
     palette: &Palette<'_>,
+    sight: &Sight<'_>,
     random: &mut Random,
     report: &Report,
 ) -> Piece {
     let height_m = house.volumes.iter().map(|v| v.top_m).fold(0.0, f64::max);
-    let dress = dress::dress(house.building, &house.building.kind, height_m, palette, random);
+    let dress = dress::dress(house, height_m, palette, random);
+    let mut mesh = extrude::extrude(house, &dress, sight, random, report);
     Piece {
-        mesh: Arc::new(extrude::extrude(house, &dress, ground, random, report)),
+        materials: dress.for_mesh(&mut mesh),
+        mesh: Arc::new(mesh),
         world_from_mesh: DAffine3::IDENTITY,
         class: Class::Building,
-        materials: dress.materials,
         kind: Some(Kind::Building),
         asset: String::new(),
     }
@@ -84,14 +92,11 @@ fn extruded(
 fn replaced(
     house: &House<'_>,
     streets: &RoadSurfaces,
-    ground: &HeightField,
     library: &AssetLibrary,
     random: &mut Random,
     report: &Report,
 ) -> Option<Piece> {
-    let corners = &house.volumes.first()?.footprint.exterior;
-    let floor_m = corners.iter().map(|&p| ground.height_m(p)).fold(f64::INFINITY, f64::min) + KERB_M;
-    let found = replace::replacement(house, library, floor_m, streets, random)?;
+    let found = replace::replacement(house, library, streets, random)?;
     let name = volumes::name(house.building);
     report.note(Outcome::Substituted, "rectangular building, by an asset", format_args!("{name}: {}", found.asset.id));
     Some(Piece {

@@ -30,7 +30,6 @@ pub(super) struct Replacement<'a> {
 pub(super) fn replacement<'a>(
     house: &House<'_>,
     library: &'a AssetLibrary,
-    floor_m: f64,
     streets: &RoadSurfaces,
     random: &mut Random,
 ) -> Option<Replacement<'a>> {
@@ -64,7 +63,7 @@ pub(super) fn replacement<'a>(
     let world_from_mesh = DAffine3::from_scale_rotation_translation(
         size_m / asset.size_m,
         DQuat::from_rotation_z(front.y.atan2(front.x)),
-        base.centre.extend(floor_m),
+        base.centre.extend(house.floor_m),
     );
     Some(Replacement { asset, world_from_mesh })
 }

@@ -14,6 +14,56 @@ pub(super) enum Slot {
     Trim,
     FlatRoof,
     PitchedRoof,
+    /// Walls without windows: gables, chimneys.
+    Gable,
+    /// Gutters, air handlers, pipes, railings.
+    Metal,
+    /// Fascias, soffits and verges.
+    Boards,
+    /// Skylights, solar panels.
+    Glazing,
+    /// Walls between openings, of upper storeys and of the ground floor.
+    Wall,
+    GroundWall,
+    /// Sills, lintels, surrounds, courses, cornices.
+    Stone,
+    /// Painted bands.
+    Band,
+    /// Balconies, floors and ceilings of arcades.
+    Slab,
+    /// Of windows, upstairs and on the ground floor.
+    Frame,
+    ShopFrame,
+    Glass,
+    Balustrade,
+    Door,
+    Roller,
+    Shutter,
+    /// Dark metal: railings, fire escapes.
+    Iron,
+    /// Pale metal: air conditioners, cages.
+    Zinc,
+    Pipe,
+    /// Openings without a room, grilles.
+    Dark,
+    Curtain,
+    CurtainWarm,
+    Blind,
+    RoomPale,
+    RoomWarm,
+    RoomFloor,
+    RoomBack,
+    /// Rooms whose light is on in the dark.
+    LitRoom,
+    /// Lamps' lenses.
+    Lamp,
+    /// Awnings, and every second stripe of theirs.
+    Cloth,
+    Stripe,
+    Sign,
+    /// Scaffolds' nets and planks.
+    Net,
+    Plank,
 }
 
 /// Flat-shaded faces in World, each with vertices of its own.
@@ -66,6 +116,45 @@ impl Shell {
             self.slope(slot, &[a, b, b + up, a + up]);
         }
         self.slope(slot, &ring.map(|p| p + up));
+        self.slope(slot, &[ring[3], ring[2], ring[1], ring[0]]);
+    }
+
+    /// A closed body along rings of as many points each, whose k-th side (from point k to the next) has the k-th slot;
+    /// its ends have the first.
+    pub(super) fn sweep<const N: usize>(&mut self, slots: [Slot; N], rings: &[[DVec3; N]]) {
+        let (Some(first), Some(last)) = (rings.first(), rings.last()) else { return };
+        let ahead = rings[rings.len().min(2) - 1][0] - first[0];
+        // Seen from ahead the rings have to run clockwise for their sides to look outwards.
+        let flip = normal(first).is_some_and(|n| n.dot(ahead) > 0.0);
+        let mut add = |slot: Slot, points: &mut [DVec3]| {
+            if flip {
+                points.reverse();
+            }
+            self.slope(slot, points);
+        };
+        for pair in rings.windows(2) {
+            for k in 0..N {
+                let next = (k + 1) % N;
+                add(slots[k], &mut [pair[0][k], pair[1][k], pair[1][next], pair[0][next]]);
+            }
+        }
+        add(slots[0], &mut first.clone());
+        let mut end = *last;
+        end.reverse();
+        add(slots[0], &mut end);
+    }
+
+    /// A closed upright cylinder, or a cone frustum, on its base.
+    pub(super) fn cylinder(&mut self, slot: Slot, foot: DVec3, radii_m: [f64; 2], height_m: f64, sides: usize) {
+        let at = |i: usize, level: usize| {
+            let turn = std::f64::consts::TAU * (i % sides) as f64 / sides as f64;
+            foot + (DVec2::from_angle(turn) * radii_m[level]).extend(height_m * level as f64)
+        };
+        for i in 0..sides {
+            self.slope(slot, &[at(i, 0), at(i + 1, 0), at(i + 1, 1), at(i, 1)]);
+        }
+        self.slope(slot, &(0..sides).map(|i| at(i, 1)).collect::<Vec<_>>());
+        self.slope(slot, &(0..sides).rev().map(|i| at(i, 0)).collect::<Vec<_>>());
     }
 
     pub(super) fn finish(self) -> Mesh {

@@ -1,0 +1,120 @@
+//! What roofs are made of.
+
+use glam::{Vec3, vec3};
+use trove_model::{Building, Material, Random, RoofShape, SurfaceKind};
+
+use crate::buildings::dress::tinted;
+use crate::buildings::region::Region;
+use crate::buildings::volumes::is_house;
+use crate::palette::Palette;
+
+/// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
+/// [`super::super::shell::Slot`]; `finish` names the facade's surface, whose wall goes on in gables.
+pub(in crate::buildings) fn materials(
+    building: &Building,
+    kind: &str,
+    region: Region,
+    finish: &str,
+    wall: Vec3,
+    palette: &Palette<'_>,
+    random: &mut Random,
+) -> Vec<Material> {
+    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_words(building, kind, region, random), random).material;
+    let mut pitched =
+        palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, kind, region, random), random).material;
+    let mut gable = palette.fitting(SurfaceKind::Wall, wall_words(finish), random).material;
+    // Roofs of one material differ a little in age.
+    let age = random.range(0.85, 1.12) as f32;
+    flat.base_color *= age;
+    pitched.base_color *= age;
+    gable.base_color *= wall;
+    if let Some(color) = building.roof_color {
+        flat.base_color = tinted(flat.base_color, color);
+        pitched.base_color = tinted(pitched.base_color, color);
+    }
+    let grey = random.range(0.25, 0.5) as f32;
+    let metal = Material { metalness: 0.6, ..Material::plain("roof metal", vec3(grey, grey, grey * 1.02), 0.45) };
+    let paints = [vec3(0.6, 0.58, 0.54), vec3(0.3, 0.29, 0.28), vec3(0.16, 0.1, 0.06), vec3(0.08, 0.08, 0.085)];
+    let boards = Material::plain("roof boards", random.pick(&paints).copied().unwrap_or(Vec3::splat(0.4)), 0.7);
+    let glazing = Material { coat: 1.0, ..Material::plain("roof glazing", vec3(0.015, 0.02, 0.035), 0.08) };
+    vec![flat, pitched, gable, metal, boards, glazing]
+}
+
+fn flat_words(building: &Building, kind: &str, region: Region, random: &mut Random) -> &'static [&'static str] {
+    let drawn = random.unit();
+    match building.roof_material.as_str() {
+        "gravel" | "stone" => &["gravel"],
+        "tar_paper" | "bitumen" | "asphalt" | "asphalt_shingle" => &["bitumen"],
+        "concrete" | "cement" => &["membrane"],
+        "grass" | "plants" | "green" => &["green"],
+        _ => match kind {
+            "retail" | "supermarket" | "industrial" | "warehouse" | "hangar" if drawn < 0.7 => &["membrane"],
+            _ if drawn < 0.07 && region != Region::NorthAmerica => &["green"],
+            _ if drawn < 0.4 => &["bitumen"],
+            _ if drawn < 0.7 => &["gravel"],
+            _ => &["membrane"],
+        },
+    }
+}
+
+fn pitched_words(building: &Building, kind: &str, region: Region, random: &mut Random) -> &'static [&'static str] {
+    let drawn = random.unit();
+    let is_crowned = matches!(building.roof, Some(RoofShape::Dome | RoofShape::Onion));
+    match building.roof_material.as_str() {
+        "roof_tiles" | "tile" | "tiles" | "clay" => match building.roof_color {
+            Some(color) if color.max_element() < 0.12 => &["dark"],
+            _ => &["red"],
+        },
+        "slate" | "stone" => &["slate"],
+        "metal" | "metal_sheet" | "tin" | "zinc" | "steel" | "aluminium" | "eternit" | "corrugated" => &["metal"],
+        "copper" => &["copper"],
+        "asphalt_shingle" | "asphalt" | "tar_paper" | "wood" | "shingle" => &["shingle"],
+        "glass" => &["slate"],
+        _ if is_crowned && drawn < 0.6 => &["copper"],
+        _ if is_crowned => &["slate", "metal"],
+        _ => match (kind, region) {
+            ("industrial" | "warehouse" | "hangar" | "carport" | "roof" | "garage" | "garages" | "shed", _) => {
+                &["metal"]
+            }
+            (_, Region::NorthAmerica) if drawn < 0.8 => &["shingle"],
+            (_, Region::NorthAmerica) => &["slate", "metal"],
+            (_, Region::Mediterranean) => &["red"],
+            (_, Region::EastAsia) => {
+                if drawn < 0.6 {
+                    &["dark"]
+                } else {
+                    &["metal"]
+                }
+            }
+            (_, Region::TropicalAsia) => {
+                if drawn < 0.7 {
+                    &["red"]
+                } else {
+                    &["metal"]
+                }
+            }
+            (kind, _) if is_house(kind) && drawn < 0.3 => &["dark"],
+            _ if drawn < 0.65 => &["red"],
+            _ if drawn < 0.85 => &["dark"],
+            _ => &["slate"],
+        },
+    }
+}
+
+/// The wall that a facade's surface has between its windows.
+fn wall_words(finish: &str) -> &'static [&'static str] {
+    let has = |words: &[&str]| words.iter().any(|w| finish.contains(w));
+    if has(&["brick", "victorian", "mill", "row"]) {
+        &["brick"]
+    } else if has(&["warehouse", "corrugated"]) {
+        &["corrugated"]
+    } else if has(&["metal", "glass"]) {
+        &["metal"]
+    } else if has(&["slab", "ribbon", "panel", "concrete", "hdb", "tower"]) {
+        &["concrete"]
+    } else if has(&["wood", "boards", "detached"]) {
+        &["boards"]
+    } else {
+        &["plaster"]
+    }
+}

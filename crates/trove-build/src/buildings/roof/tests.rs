@@ -1,0 +1,141 @@
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+use trove_model::{Building, Mesh, Polygon, Report, RoofShape, Seed};
+
+use super::roof;
+use crate::buildings::shell::{Shell, Slot};
+use crate::buildings::volumes::{Beside, House, Volume};
+
+const SHAPES: [RoofShape; 12] = [
+    RoofShape::Flat,
+    RoofShape::Gabled,
+    RoofShape::Hipped,
+    RoofShape::HalfHipped,
+    RoofShape::Pyramidal,
+    RoofShape::Gambrel,
+    RoofShape::Mansard,
+    RoofShape::Skillion,
+    RoofShape::Dome,
+    RoofShape::Cone,
+    RoofShape::Onion,
+    RoofShape::Round,
+];
+const BOTTOM_M: f64 = 10.0;
+const EAVES_M: f64 = 14.0;
+const TOP_M: f64 = 18.0;
+
+fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
+    points.iter().map(|&(x, y)| DVec2::from_angle(0.3).rotate(DVec2::new(x, y))).collect()
+}
+
+/// By name: plain and bent outlines, one with a court, one all but flat, one as small as a shed.
+fn footprints() -> Vec<(&'static str, Polygon)> {
+    let simple = |points: &[(f64, f64)]| Polygon::simple(ring(points));
+    let mut court = ring(&[(7., 6.), (17., 6.), (17., 14.), (7., 14.)]);
+    court.reverse();
+    let round: Vec<(f64, f64)> =
+        (0..20).map(|i| (f64::from(i) * 0.314_159).sin_cos()).map(|(s, c)| (8. * c, 8. * s)).collect();
+    vec![
+        ("rectangle", simple(&[(0., 0.), (20., 0.), (20., 12.), (0., 12.)])),
+        ("square", simple(&[(0., 0.), (9., 0.), (9., 9.), (0., 9.)])),
+        ("L", simple(&[(0., 0.), (20., 0.), (20., 8.), (8., 8.), (8., 22.), (0., 22.)])),
+        ("U", simple(&[(0., 0.), (24., 0.), (24., 18.), (16., 18.), (16., 7.), (7., 7.), (7., 20.), (0., 20.)])),
+        ("T", simple(&[(0., 0.), (24., 0.), (24., 8.), (16., 8.), (16., 20.), (8., 20.), (8., 8.), (0., 8.)])),
+        ("court", Polygon { exterior: ring(&[(0., 0.), (24., 0.), (24., 20.), (0., 20.)]), holes: vec![court] }),
+        (
+            "irregular",
+            simple(&[(0., 0.), (9., -3.), (17., 1.), (15., 9.), (19., 14.), (8., 11.), (3., 15.), (-2., 6.)]),
+        ),
+        ("round", simple(&round)),
+        ("straight points", simple(&[(0., 0.), (7., 0.002), (20., 0.), (20., 6.), (20.01, 8.), (20., 12.), (0., 12.)])),
+        ("sliver", simple(&[(0., 0.), (30., 0.), (30., 0.4), (0., 0.5)])),
+        ("tiny", simple(&[(0., 0.), (1.1, 0.), (1.1, 1.), (0., 1.)])),
+    ]
+}
+
+/// A body from 10 to 18 m with its walls, as far from the driven path as given.
+fn body(footprint: &Polygon, shape: RoofShape, path_m: f64) -> (Mesh, usize) {
+    let building = Building::new(1, Polygon::default(), "yes");
+    let eaves_m = if shape == RoofShape::Flat { TOP_M } else { EAVES_M };
+    let sides = footprint.edges().map(|(a, b)| Beside { covers: Vec::new(), length_m: a.distance(b), room_m: 0.8 });
+    let volume = Volume {
+        footprint: footprint.clone(),
+        sides: sides.collect(),
+        ..Volume::new(&building, BOTTOM_M, eaves_m, TOP_M, shape)
+    };
+    let house = House { path_m, ..House::alone(&building, vec![volume]) };
+    let mut shell = Shell::default();
+    let top = roof(&mut shell, &house.volumes[0], &house, &mut Seed(3).random(), &Report::default());
+    for (a, b) in footprint.edges() {
+        shell.slope(Slot::Facade, &[a.extend(BOTTOM_M), b.extend(BOTTOM_M), b.extend(top), a.extend(top)]);
+    }
+    shell.cover(Slot::Trim, std::slice::from_ref(footprint), |_| BOTTOM_M, false);
+    let mesh = shell.finish();
+    let triangles = mesh.triangles.len();
+    (mesh, triangles)
+}
+
+/// The number of edges that are not matched by as many the other way, and the volume that the triangles enclose.
+fn open_edges_and_volume(mesh: &Mesh) -> (usize, f64) {
+    let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
+    let mut volume = 0.0;
+    for t in &mesh.triangles {
+        let p = t.map(|i| mesh.positions[i as usize]);
+        let [a, b, c] = p.map(|p| p.as_dvec3());
+        volume += a.dot(b.cross(c)) / 6.0;
+        // Adding 0 makes −0 and 0 one.
+        let key = p.map(|p| (p + 0.0).to_array().map(f32::to_bits));
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            *edges.entry([key[i], key[j]]).or_default() += 1;
+            *edges.entry([key[j], key[i]]).or_default() -= 1;
+        }
+    }
+    (edges.values().filter(|n| **n > 0).count(), volume)
+}
+
+#[test]
+fn every_roof_closes_every_outline_and_looks_outwards() {
+    for (name, footprint) in footprints() {
+        let footprint = crate::plane::union(&[footprint]).remove(0);
+        let area_m2 = footprint.area_m2();
+        for shape in SHAPES {
+            let (mesh, _) = body(&footprint, shape, 400.0);
+            assert_eq!(mesh.defect(), None);
+            let (open, volume) = open_edges_and_volume(&mesh);
+            assert_eq!(open, 0, "{shape:?} on {name}");
+            let (least, most) = (area_m2 * (EAVES_M - BOTTOM_M) * 0.99, area_m2 * (TOP_M - BOTTOM_M) * 1.12);
+            assert!((least..most).contains(&volume), "{shape:?} on {name}: {volume} m³ of {least} to {most}");
+            let highest = mesh.positions.iter().map(|p| p.z).fold(0.0, f32::max);
+            assert!(f64::from(highest) < TOP_M + 1e-3, "{shape:?} on {name}: up to {highest} m");
+        }
+    }
+}
+
+#[test]
+fn what_is_put_on_a_roof_is_closed_too_and_only_near_the_path() {
+    for (name, footprint) in footprints() {
+        let footprint = crate::plane::union(&[footprint]).remove(0);
+        for shape in SHAPES {
+            let (mesh, near) = body(&footprint, shape, 0.0);
+            let (open, _) = open_edges_and_volume(&mesh);
+            assert_eq!((mesh.defect(), open), (None, 0), "{shape:?} on {name}");
+            let (_, far) = body(&footprint, shape, 400.0);
+            assert!(far <= near && far < 700, "{shape:?} on {name}: {far} triangles, {near} near");
+        }
+    }
+}
+
+#[test]
+fn the_ends_of_wings_carry_gables_and_party_walls_too() {
+    let gables = |footprint: &Polygon, shape| {
+        let (mesh, _) = body(footprint, shape, 400.0);
+        mesh.slots.iter().filter(|s| **s == Slot::Gable as u16).count()
+    };
+    let of = |name: &str| footprints().into_iter().find(|(n, _)| *n == name).unwrap().1;
+    assert_eq!(gables(&of("rectangle"), RoofShape::Gabled), 2);
+    assert_eq!(gables(&of("L"), RoofShape::Gabled), 2);
+    assert_eq!(gables(&of("T"), RoofShape::Gabled), 3);
+    assert_eq!(gables(&of("rectangle"), RoofShape::Hipped), 0);
+    assert!(gables(&of("U"), RoofShape::HalfHipped) > 2);
+}

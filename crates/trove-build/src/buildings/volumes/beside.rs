@@ -1,0 +1,209 @@
+//! What stands beside the walls: walls that touch are drawn apart by a centimetre, and know how far they are hidden.
+
+use glam::DVec2;
+use rayon::prelude::*;
+use trove_model::{Bounds, Polygon};
+
+use super::House;
+use super::near::Near;
+
+/// Walls of two volumes that run along each other are at least this far apart, metres.
+const APART_M: f64 = 0.01;
+/// So far apart they count as one wall, and overlap at most, metres.
+const TOUCHING_M: f64 = 0.12;
+const OVERLAP_M: f64 = 0.08;
+/// Walls that run along each other do so to this (sine).
+const ALONG: f64 = 0.035;
+/// What is further away is in nothing's way, metres.
+const ROOM_M: f64 = 1.6;
+/// A side is covered if this share of its length is.
+const COVERED_SHARE: f64 = 0.6;
+
+/// What stands beside one edge of a footprint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::buildings) struct Beside {
+    /// Stretches of the edge that another wall hides.
+    pub covers: Vec<Cover>,
+    /// Length of the edge, metres.
+    pub length_m: f64,
+    /// Free distance before the edge, of which the half belongs to it, metres, at most 0.8.
+    pub room_m: f64,
+}
+
+/// A stretch of an edge that another wall hides from the ground, or from the bottom of the volume, up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::buildings) struct Cover {
+    /// From the start of the edge, metres.
+    pub from_m: f64,
+    pub to_m: f64,
+    /// Up to this level above the house's floor.
+    pub up_to_m: f64,
+}
+
+impl Beside {
+    /// Whether most of the edge is hidden nearly up to a level above the floor.
+    pub(in crate::buildings) fn is_covered(&self, level_m: f64) -> bool {
+        let hidden = self.covers.iter().filter(|c| c.up_to_m > level_m - 2.5);
+        hidden.map(|c| c.to_m - c.from_m).sum::<f64>() > COVERED_SHARE * self.length_m
+    }
+}
+
+/// A volume as others see it.
+struct Neighbour {
+    floor_m: f64,
+    rings: Vec<Vec<DVec2>>,
+    /// World heights.
+    bottom_m: f64,
+    eaves_m: f64,
+    top_m: f64,
+}
+
+/// Draws touching walls apart, and tells every volume what stands beside it.
+pub(super) fn beside(houses: &mut [House<'_>]) {
+    let mut neighbours: Vec<Neighbour> = Vec::new();
+    let mut boxes: Vec<Option<Bounds>> = Vec::new();
+    for house in houses.iter() {
+        for volume in &house.volumes {
+            boxes.push(volume.footprint.bounds());
+            neighbours.push(Neighbour {
+                floor_m: house.floor_m,
+                rings: volume.footprint.rings().cloned().collect(),
+                bottom_m: volume.bottom_m + house.floor_m,
+                eaves_m: volume.eaves_m + house.floor_m,
+                top_m: volume.top_m + house.floor_m,
+            });
+        }
+    }
+    let near = Near::new(boxes.iter().copied());
+    let around = |i: usize| {
+        boxes[i].into_iter().flat_map(|b| near.at(b.grown(ROOM_M))).filter(move |&j| j != i).collect::<Vec<_>>()
+    };
+    let drawn: Vec<(Polygon, Vec<Beside>)> = (0..neighbours.len())
+        .into_par_iter()
+        .map(|i| {
+            let own = &neighbours[i];
+            let near: Vec<(usize, &Neighbour)> = around(i).into_iter().map(|j| (j, &neighbours[j])).collect();
+            let rings = own.rings.iter().map(|ring| drawn_in(ring, own, i, &near));
+            let mut rings: Vec<Vec<DVec2>> = rings.collect();
+            let footprint = Polygon { exterior: rings.remove(0), holes: rings };
+            let sides = footprint.edges().map(|edge| side(edge, own, &near)).collect();
+            (footprint, sides)
+        })
+        .collect();
+    let volumes = houses.iter_mut().flat_map(|h| &mut h.volumes);
+    for (volume, (footprint, sides)) in volumes.zip(drawn) {
+        volume.footprint = footprint;
+        volume.sides = sides;
+    }
+}
+
+/// Where another edge runs along an edge against its direction: from, to, and how far outside.
+fn along(a: DVec2, b: DVec2, edge: (DVec2, DVec2)) -> Option<[f64; 3]> {
+    let length_m = a.distance(b);
+    let direction = (b - a) / length_m.max(1e-9);
+    let (p, q) = (edge.1 - a, edge.0 - a);
+    let their = (q - p).normalize_or_zero();
+    if their.dot(direction) < 0.5 || their.perp_dot(direction).abs() > ALONG {
+        return None;
+    }
+    let (from, to) = (p.dot(direction).max(0.0), q.dot(direction).min(length_m));
+    if to - from < 0.1 {
+        return None;
+    }
+    // The nearest of the two where both run.
+    let out = |s: f64| {
+        let t = ((s - p.dot(direction)) / (q - p).dot(direction)).clamp(0.0, 1.0);
+        -(p + (q - p) * t).dot(direction.perp())
+    };
+    Some([from, to, out(from).min(out(to))])
+}
+
+fn edges(ring: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+    (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
+}
+
+/// A ring with those of its edges moved in that would lie on the wall of an earlier volume, or of a higher one.
+fn drawn_in(ring: &[DVec2], own: &Neighbour, index: usize, near: &[(usize, &Neighbour)]) -> Vec<DVec2> {
+    let moved: Vec<f64> = edges(ring)
+        .map(|(a, b)| {
+            let yields = |(j, n): &&(usize, &Neighbour)| {
+                n.bottom_m < own.top_m && own.bottom_m < n.top_m && (n.top_m, index) > (own.top_m, *j)
+            };
+            let against = near.iter().filter(yields).flat_map(|(_, n)| n.rings.iter().flat_map(|r| edges(r)));
+            against
+                .filter_map(|edge| along(a, b, edge))
+                .filter(|[_, _, out]| (-OVERLAP_M..APART_M).contains(out))
+                .map(|[_, _, out]| APART_M - out)
+                .fold(0.0, f64::max)
+        })
+        .collect();
+    if moved.iter().all(|m| *m == 0.0) {
+        return ring.to_vec();
+    }
+    let n = ring.len();
+    let mut drawn = Vec::with_capacity(n + 2);
+    for i in 0..n {
+        let (k, at) = ((i + n - 1) % n, ring[i]);
+        let [before, after] = [at - ring[k], ring[(i + 1) % n] - at].map(DVec2::normalize_or_zero);
+        let sine = before.perp_dot(after);
+        if sine.abs() > 0.3 {
+            // Where the moved lines meet.
+            let (n1, n2) = (before.perp(), after.perp());
+            let (m1, m2) = (moved[k], moved[i]);
+            drawn.push(at + DVec2::new(m1 * n2.y - m2 * n1.y, m2 * n1.x - m1 * n2.x) / sine);
+        } else {
+            drawn.push(at + before.perp() * moved[k]);
+            if moved[k] != moved[i] {
+                drawn.push(at + after.perp() * moved[i]);
+            }
+        }
+    }
+    drawn
+}
+
+/// What stands before an edge.
+fn side((a, b): (DVec2, DVec2), own: &Neighbour, near: &[(usize, &Neighbour)]) -> Beside {
+    let length_m = a.distance(b);
+    let direction = (b - a) / length_m.max(1e-9);
+    let outward = -direction.perp();
+    let mut side = Beside { covers: Vec::new(), length_m, room_m: ROOM_M / 2.0 };
+    for (_, other) in near {
+        // Roofs are in the way of eaves, walls hide walls.
+        let in_the_way = other.top_m > own.eaves_m - 1.0 && other.bottom_m < own.eaves_m + 1.0;
+        for edge in other.rings.iter().flat_map(|r| edges(r)) {
+            if other.bottom_m < own.bottom_m + 0.5
+                && let Some([from_m, to_m, _]) =
+                    along(a, b, edge).filter(|[_, _, out]| (-OVERLAP_M..TOUCHING_M).contains(out))
+            {
+                let up_to_m = other.eaves_m - own.floor_m;
+                side.covers.push(Cover { from_m, to_m, up_to_m });
+            }
+            if in_the_way {
+                let local = |p: DVec2| DVec2::new((p - a).dot(direction), (p - a).dot(outward));
+                let free_m = nearest_before(local(edge.0), local(edge.1), length_m);
+                side.room_m = side.room_m.min(free_m / 2.0);
+            }
+        }
+    }
+    side.covers.sort_by(|x, y| x.from_m.total_cmp(&y.from_m).then(x.to_m.total_cmp(&y.to_m)));
+    side
+}
+
+/// How near a segment comes to an edge of some length along x from its front, y.
+fn nearest_before(p: DVec2, q: DVec2, length_m: f64) -> f64 {
+    let (mut low, mut high) = (0.0f64, 1.0f64);
+    let way = q - p;
+    // Cut to what is before the edge, and a bit beside it.
+    for (start, step, least, most) in [(p.x, way.x, -0.5, length_m + 0.5), (p.y, way.y, 0.02, ROOM_M)] {
+        if step.abs() < 1e-9 {
+            if start < least || start > most {
+                return ROOM_M;
+            }
+        } else {
+            let (s, t) = ((least - start) / step, (most - start) / step);
+            low = low.max(s.min(t));
+            high = high.min(s.max(t));
+        }
+    }
+    if low > high { ROOM_M } else { (p.y + way.y * low).min(p.y + way.y * high).max(0.0) }
+}

@@ -1,0 +1,285 @@
+//! How high a building is, and what roof it has: by its tags, its neighbours, its kind and where it stands.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+use trove_model::{Building, Outcome, Polygon, Random, Report, RoofShape};
+
+use super::{Volume, is_canopy, is_house, kind, name};
+use crate::buildings::region::Region;
+
+/// Buildings this near tell what is usual here, metres.
+const NEAR_M: f64 = 130.0;
+/// So many of them make a rule.
+const LEAST_NEIGHBOURS: usize = 4;
+/// Of like size is what has up to so many times the area.
+const LIKE_SIZE: f64 = 3.0;
+/// A pitched roof's usual slope, rise over run.
+const USUAL_SLOPE: f64 = 0.75;
+/// No guessed roof is higher, metres.
+const HIGHEST_ROOF_M: f64 = 7.0;
+/// A part is at least this thick, metres; a building that is guessed at least this high.
+const THINNEST_M: f64 = 0.2;
+const LOWEST_M: f64 = 2.2;
+
+/// Heights that the map tells, to guess the others from.
+pub(super) struct Neighbourhood {
+    pub region: Region,
+    // Only looked up; what is found is sorted.
+    cells: HashMap<[i64; 2], Vec<Known>>,
+}
+
+#[derive(Clone, Copy)]
+struct Known {
+    at: DVec2,
+    group: Group,
+    area_m2: f64,
+    walls_m: f64,
+}
+
+/// Kinds that are of like height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Group {
+    House,
+    Outbuilding,
+    Dwelling,
+    Work,
+    Hall,
+    Special,
+    Any,
+}
+
+impl Group {
+    fn of(kind: &str) -> Self {
+        match kind {
+            kind if is_house(kind) => Self::House,
+            kind if is_canopy(kind) => Self::Outbuilding,
+            "garage" | "garages" | "shed" | "kiosk" | "hut" | "service" | "toilets" | "greenhouse" => Self::Outbuilding,
+            "apartments" | "residential" | "terrace" | "dormitory" => Self::Dwelling,
+            "office" | "commercial" | "hotel" | "public" | "civic" => Self::Work,
+            "industrial" | "warehouse" | "hangar" | "retail" | "supermarket" => Self::Hall,
+            "church" | "cathedral" | "mosque" | "temple" | "synagogue" | "chapel" | "stadium" => Self::Special,
+            _ => Self::Any,
+        }
+    }
+}
+
+impl Neighbourhood {
+    /// What the map tells of these buildings.
+    pub(super) fn new(buildings: &[&Building], region: Region) -> Self {
+        let mut cells: HashMap<[i64; 2], Vec<Known>> = HashMap::new();
+        for building in buildings {
+            let Some(walls_m) = known_walls_m(building) else { continue };
+            let at = building.footprint.centroid();
+            let area_m2 = building.footprint.area_m2();
+            cells.entry(cell(at)).or_default().push(Known { at, group: Group::of(&building.kind), area_m2, walls_m });
+        }
+        Self { region, cells }
+    }
+
+    /// The usual height of walls of buildings of like kind and size nearby, and half the spread of their middle half;
+    /// `None` where too few are known.
+    fn usual_walls_m(&self, footprint: &Polygon, kind: &str) -> Option<(f64, f64)> {
+        let (at, area_m2, group) = (footprint.centroid(), footprint.area_m2(), Group::of(kind));
+        let [x, y] = cell(at);
+        let like = |k: &&Known| {
+            let size = k.area_m2 / area_m2;
+            k.group == group && (1.0 / LIKE_SIZE..LIKE_SIZE).contains(&size) && k.at.distance(at) < NEAR_M
+        };
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let mut found: Vec<f64> =
+            around.filter_map(|c| self.cells.get(&c)).flatten().filter(like).map(|k| k.walls_m).collect();
+        found.sort_by(f64::total_cmp);
+        let quarter = |n: usize| found[(found.len() - 1) * n / 4];
+        (found.len() >= LEAST_NEIGHBOURS).then(|| (quarter(2), (quarter(3) - quarter(1)) / 2.0))
+    }
+}
+
+fn cell(p: DVec2) -> [i64; 2] {
+    let cell = (p / NEAR_M).floor();
+    [cell.x as i64, cell.y as i64]
+}
+
+/// Height of a building's walls, where its tags tell.
+fn known_walls_m(building: &Building) -> Option<f64> {
+    let roof_m = building.roof_height_m.unwrap_or(0.0);
+    let tagged = tagged_height_m(building).map(|h| h - roof_m);
+    tagged.or_else(|| tagged_levels(building).map(|l| l * storey_m(&building.kind))).filter(|h| *h > 1.0)
+}
+
+fn tagged_height_m(building: &Building) -> Option<f64> {
+    building.height_m.filter(|h| h.is_finite() && *h > building.min_height_m)
+}
+
+fn tagged_levels(building: &Building) -> Option<f64> {
+    building.levels.filter(|l| (0.5..200.0).contains(l))
+}
+
+/// Height of a storey that is not measured, metres.
+fn storey_m(kind: &str) -> f64 {
+    match Group::of(kind) {
+        Group::House | Group::Outbuilding => 2.8,
+        Group::Dwelling | Group::Any => 3.1,
+        Group::Work => 3.7,
+        Group::Hall => 4.5,
+        Group::Special => 5.0,
+    }
+}
+
+/// A volume's heights and roof; its footprint and surroundings are still to be filled in.
+pub(super) fn heights<'a>(
+    source: &'a Building,
+    whole: &Building,
+    around: &Neighbourhood,
+    seen_m: Option<f64>,
+    random: &mut Random,
+    report: &Report,
+) -> Volume<'a> {
+    let kind = kind(source, whole);
+    // Both are drawn first, so that the draws do not depend on the tags.
+    let (drawn, shape_drawn) = (random.unit(), random.unit());
+    let bottom_m = source.min_height_m.max(0.0);
+    let tagged = tagged_height_m(source)
+        .or_else(|| tagged_height_m(whole).filter(|_| source.part && tagged_levels(source).is_none()));
+    let storeys = tagged_levels(source).map(|l| l * storey_m(kind));
+    let guessed_walls_m = || -> f64 {
+        let (walls_m, what) = match around.usual_walls_m(&source.footprint, kind) {
+            Some((usual_m, spread_m)) => {
+                let spread_m = spread_m.clamp(0.04 * usual_m, 0.2 * usual_m);
+                (usual_m + spread_m * (2.0 * drawn - 1.0), "height of a building, from its neighbours")
+            }
+            None => {
+                let [low, high] = usual_walls_m(kind, source.footprint.area_m2(), around.region);
+                (low + (high - low) * drawn, "height of a building, from its kind")
+            }
+        };
+        report.note(Outcome::Guessed, what, name(source));
+        walls_m
+    };
+    let (tagged_top_m, mut walls_m) = match (tagged, storeys) {
+        (Some(top_m), _) => (Some(top_m), top_m - bottom_m),
+        (None, Some(storeys_m)) => (None, storeys_m),
+        (None, None) => {
+            let guessed_m = bottom_m + guessed_walls_m();
+            match seen_m.filter(|seen_m| *seen_m > guessed_m) {
+                Some(seen_m) => {
+                    report.note(Outcome::Guessed, "height of a building, raised to what the LiDAR saw", name(source));
+                    (None, seen_m)
+                }
+                None => (None, guessed_m),
+            }
+        }
+    };
+    let roof = source.roof.unwrap_or_else(|| {
+        let shape = if source.part || is_canopy(kind) {
+            RoofShape::Flat
+        } else {
+            usual_roof(kind, source, walls_m, around.region, shape_drawn)
+        };
+        if shape != RoofShape::Flat {
+            report.note(Outcome::Guessed, "roof of a building, from its kind and region", name(source));
+        }
+        shape
+    });
+    let width_m = width_m(&source.footprint);
+    let usual_roof_m = match roof {
+        RoofShape::Flat => 0.0,
+        RoofShape::Skillion => width_m * 0.18,
+        RoofShape::Dome | RoofShape::Round => width_m * 0.5,
+        RoofShape::Onion => width_m * 0.9,
+        RoofShape::Cone | RoofShape::Pyramidal if source.part => width_m * 0.7,
+        RoofShape::Mansard | RoofShape::Gambrel => (width_m * 0.4).max(storey_m(kind)),
+        _ => width_m / 2.0 * USUAL_SLOPE,
+    };
+    let by_levels_m = source.roof_levels.filter(|l| *l > 0.0 && roof != RoofShape::Flat).map(|l| l * 2.7);
+    let tagged_roof_m = source.roof_height_m.filter(|h| h.is_finite() && *h >= 0.0).or(by_levels_m);
+    let roof_m = tagged_roof_m.unwrap_or_else(|| usual_roof_m.min(HIGHEST_ROOF_M));
+    let top_m = match tagged_top_m {
+        Some(top_m) => top_m.max(bottom_m + THINNEST_M),
+        None => {
+            walls_m = walls_m.max(if bottom_m > 0.0 { THINNEST_M } else { LOWEST_M });
+            bottom_m.max(walls_m) + if bottom_m >= walls_m { LOWEST_M } else { 0.0 } + roof_m
+        }
+    };
+    // Walls keep two metres at least, unless the part is all roof.
+    let least_walls_m = if source.part { 0.0 } else { 2.0 };
+    let eaves_m =
+        if roof == RoofShape::Flat { top_m } else { (top_m - roof_m).max((bottom_m + least_walls_m).min(top_m)) };
+    let mut volume = Volume::new(source, bottom_m, eaves_m, top_m, roof);
+    if is_canopy(kind) && !source.part {
+        volume.bottom_m = volume.bottom_m.max(eaves_m - super::CANOPY_THICK_M);
+        volume.is_canopy = true;
+    }
+    volume
+}
+
+/// The shorter side of the rectangle of the same area and circumference: the width of a wing of any outline, metres.
+fn width_m(footprint: &Polygon) -> f64 {
+    let half_m = footprint.edges().map(|(a, b)| a.distance(b)).sum::<f64>() / 2.0;
+    let area_m2 = footprint.area_m2();
+    let square = half_m * half_m - 4.0 * area_m2;
+    if square > 0.0 { (half_m - square.sqrt()) / 2.0 } else { area_m2.sqrt() }
+}
+
+/// Walls' height of a building of which nothing is known, from and to, metres.
+fn usual_walls_m(kind: &str, area_m2: f64, region: Region) -> [f64; 2] {
+    let dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::Mediterranean);
+    match kind {
+        "carport" => [2.5, 2.9],
+        "roof" | "canopy" => [4.4, 5.2],
+        "garage" | "garages" | "shed" | "kiosk" | "hut" | "service" | "toilets" => [2.6, 3.4],
+        "bungalow" | "cabin" => [2.8, 3.4],
+        kind if is_house(kind) => [5.0, 7.0],
+        "terrace" => [6.0, 9.5],
+        "residential" | "apartments" | "dormitory" if dense => [14.0, 30.0],
+        "residential" => [8.0, 13.0],
+        "apartments" | "dormitory" => [12.0, 21.0],
+        "office" | "commercial" | "hotel" => [14.0, 38.0],
+        "retail" | "supermarket" => [5.0, 8.0],
+        "industrial" | "warehouse" | "hangar" => [7.0, 12.0],
+        "church" | "cathedral" | "mosque" | "temple" | "synagogue" => [10.0, 16.0],
+        "school" | "university" | "hospital" | "public" | "civic" | "college" => [9.0, 18.0],
+        _ if area_m2 < 40.0 => [2.8, 4.0],
+        _ if area_m2 < 250.0 && dense => [9.0, 18.0],
+        _ if area_m2 < 250.0 => [6.5, 12.0],
+        _ => [10.0, 24.0],
+    }
+}
+
+/// The roof that a building of some kind usually has where it stands.
+fn usual_roof(kind: &str, source: &Building, walls_m: f64, region: Region, drawn: f64) -> RoofShape {
+    use RoofShape::{Flat, Gabled, Gambrel, HalfHipped, Hipped, Mansard};
+    let (area_m2, width_m) = (source.footprint.area_m2(), width_m(&source.footprint));
+    let pick = |shares: &[(f64, RoofShape)]| {
+        let mut left = drawn;
+        for &(share, shape) in shares {
+            if left < share {
+                return shape;
+            }
+            left -= share;
+        }
+        Flat
+    };
+    if !source.footprint.holes.is_empty() && region != Region::NorthernEurope || width_m < 3.0 {
+        return Flat;
+    }
+    match Group::of(kind) {
+        Group::House => match region {
+            Region::NorthAmerica | Region::Elsewhere => pick(&[(0.55, Gabled), (0.35, Hipped), (0.06, Gambrel)]),
+            Region::NorthernEurope => pick(&[(0.62, Gabled), (0.2, Hipped), (0.12, HalfHipped), (0.04, Mansard)]),
+            Region::Mediterranean | Region::TropicalAsia => pick(&[(0.5, Hipped), (0.3, Gabled)]),
+            Region::EastAsia => pick(&[(0.35, Hipped), (0.3, Gabled)]),
+        },
+        Group::Dwelling | Group::Any if walls_m < 24.0 && width_m < 18.0 && area_m2 > 60.0 => match region {
+            Region::NorthernEurope => pick(&[(0.6, Gabled), (0.12, Mansard), (0.1, Hipped)]),
+            Region::Mediterranean => pick(&[(0.4, Hipped), (0.12, Gabled)]),
+            Region::NorthAmerica if walls_m < 8.0 && area_m2 < 200.0 => pick(&[(0.4, Gabled), (0.2, Hipped)]),
+            _ => Flat,
+        },
+        Group::Hall if width_m < 30.0 && matches!(kind, "industrial" | "warehouse" | "hangar") => {
+            pick(&[(0.3, Gabled)])
+        }
+        Group::Special => pick(&[(0.8, Gabled)]),
+        _ => Flat,
+    }
+}

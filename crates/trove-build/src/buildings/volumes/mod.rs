@@ -1,0 +1,310 @@
+//! What is to be built: which outlines and parts, where, how high, and what stands beside them.
+
+mod apart;
+mod beside;
+mod heights;
+mod near;
+
+use rayon::prelude::*;
+use trove_model::{Bounds, Building, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
+
+use super::region::Region;
+use crate::plane::{difference, grown, intersection, union};
+use crate::roads::{Footing, KERB_M, RoadSurfaces};
+use crate::segments::SegmentIndex;
+pub(super) use beside::Beside;
+use heights::{Neighbourhood, heights};
+use near::Near;
+
+/// Height of a storey that is not measured.
+pub(super) const STOREY_M: f64 = 3.2;
+/// Ground that is left of a building must be at least this much to be built on, m².
+const LEAST_M2: f64 = 4.0;
+/// A building of which less than this share stands clear of the road is a mistake of one of the maps.
+const CLEAR_SHARE: f64 = 0.5;
+/// A building that starts this high stands over the road, not on it.
+const HEADROOM_M: f64 = 4.0;
+/// An outline without a part on it is built only if it is this share of the whole.
+const REST_SHARE: f64 = 0.1;
+/// Thickness of a canopy's slab, metres.
+const CANOPY_THICK_M: f64 = 0.45;
+/// Posts of a canopy stand this far in from its edge and at most this far apart, metres.
+const POST_INSET_M: f64 = 0.5;
+const POSTS_APART_M: f64 = 6.0;
+/// Nothing is told apart further from the driven path, metres.
+const FAR_M: f64 = 400.0;
+/// The ground below a building is looked at in these steps, metres.
+const GROUND_STEP_M: f64 = 4.0;
+
+/// A prism of a building.
+#[derive(Clone, Debug)]
+pub(super) struct Volume<'a> {
+    pub building: &'a Building,
+    pub footprint: Polygon,
+    /// Above the floor of the house, metres.
+    pub bottom_m: f64,
+    /// Where the roof starts.
+    pub eaves_m: f64,
+    pub top_m: f64,
+    pub roof: RoofShape,
+    /// What stands beside each of the footprint's edges, in the order of [`Polygon::edges`].
+    pub sides: Vec<Beside>,
+    /// Another volume stands on it: no parapet, and nothing on its roof.
+    pub is_built_on: bool,
+    /// Roof without walls.
+    pub is_canopy: bool,
+    /// Feet of a canopy's posts.
+    pub posts: Vec<glam::DVec2>,
+}
+
+impl<'a> Volume<'a> {
+    /// Still without footprint and surroundings.
+    pub(super) fn new(building: &'a Building, bottom_m: f64, eaves_m: f64, top_m: f64, roof: RoofShape) -> Self {
+        Self {
+            building,
+            footprint: Polygon::default(),
+            bottom_m,
+            eaves_m,
+            top_m,
+            roof,
+            sides: Vec::new(),
+            is_built_on: false,
+            is_canopy: false,
+            posts: Vec::new(),
+        }
+    }
+}
+
+/// One building: an outline, or the parts that stand for it.
+#[derive(Clone, Debug)]
+pub(super) struct House<'a> {
+    pub building: &'a Building,
+    pub volumes: Vec<Volume<'a>>,
+    /// World height of its floor: the lowest ground around it, and a kerb.
+    pub floor_m: f64,
+    /// From the driven path, metres; [`FAR_M`] where it is further.
+    pub path_m: f64,
+    pub region: Region,
+}
+
+#[cfg(test)]
+impl<'a> House<'a> {
+    /// On level ground at 0, far from the path and from everything else.
+    pub(super) fn alone(building: &'a Building, volumes: Vec<Volume<'a>>) -> Self {
+        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, region: Region::Elsewhere }
+    }
+}
+
+/// What the buildings of a place are made in view of.
+pub(super) struct Plot<'a> {
+    pub drive: &'a Drive,
+    pub streets: &'a RoadSurfaces,
+    pub ground: &'a HeightField,
+    pub bounds: Bounds,
+    /// For each building what the LiDAR saw of its walls, above the ground.
+    pub seen_m: &'a [Option<f64>],
+}
+
+/// The buildings within the plot, standing clear of the road and of each other.
+pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed, report: &Report) -> Vec<House<'a>> {
+    let around = Neighbourhood::new(buildings, Region::of(&plot.drive.projection));
+    let path: Vec<_> = plot.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let path = SegmentIndex::new([[path.as_slice(), &path[path.len().saturating_sub(1)..]].concat().as_slice()]);
+    let mut houses: Vec<House<'a>> = grouped(buildings, plot)
+        .into_par_iter()
+        .filter_map(|(whole, seen_m, parts)| {
+            let mut random = seed.child("height").nth(whole.id as u64).random();
+            let mut shapes = shapes(whole, seen_m, &parts, &around, &mut random, report);
+            let mut volumes = Vec::new();
+            for shape in &mut shapes {
+                for footprint in clear(std::mem::take(&mut shape.footprint), shape, plot.streets, report) {
+                    let posts = if shape.is_canopy { posts(&footprint, plot.streets) } else { Vec::new() };
+                    volumes.push(Volume { footprint: without_straight_points(footprint), posts, ..shape.clone() });
+                }
+            }
+            let floor_m = lowest_ground_m(&volumes, plot.ground) + KERB_M;
+            let near = path.nearest(whole.footprint.centroid(), FAR_M + 100.0);
+            let reach_m = whole.footprint.bounds().map_or(0.0, |b| b.size_m().length() / 2.0);
+            let path_m = near.map_or(FAR_M, |n| (n.distance_m - reach_m).max(0.0));
+            (!volumes.is_empty()).then_some(House { building: whole, volumes, floor_m, path_m, region: around.region })
+        })
+        .collect();
+    apart::apart(&mut houses, report);
+    houses.retain(|h| !h.volumes.is_empty());
+    beside::beside(&mut houses);
+    houses
+}
+
+/// Outlines with what was seen of them and the parts that lie in them; a part in none is a building of its own.
+fn grouped<'a>(buildings: &[&'a Building], plot: &Plot<'_>) -> Vec<(&'a Building, Option<f64>, Vec<&'a Building>)> {
+    let inside = |(_, b): &(usize, &'a Building)| plot.bounds.contains(b.footprint.centroid());
+    let all = buildings.iter().copied().enumerate().filter(inside);
+    let (parts, outlines): (Vec<_>, Vec<_>) = all.partition(|(_, b)| b.part);
+    let near = Near::new(outlines.iter().map(|(_, b)| b.footprint.bounds()));
+    let seen_m = |i: usize| plot.seen_m.get(i).copied().flatten();
+    let mut found: Vec<_> = outlines.iter().map(|&(i, b)| (b, seen_m(i), Vec::new())).collect();
+    for (i, part) in parts {
+        let at = a_point_within(&part.footprint);
+        let holds = |&o: &usize| outlines[o].1.footprint.contains(at);
+        let area_m2 = |o: &usize| outlines[*o].1.footprint.area_m2();
+        let homes = near.at(Bounds { min: at, max: at }).filter(holds);
+        match homes.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)).then(a.cmp(b))) {
+            Some(home) => found[home].2.push(part),
+            None => found.push((part, seen_m(i), Vec::new())),
+        }
+    }
+    found
+}
+
+/// A point inside a polygon: its centroid, or beside the middle of an edge.
+fn a_point_within(polygon: &Polygon) -> glam::DVec2 {
+    let centroid = polygon.centroid();
+    if polygon.contains(centroid) {
+        return centroid;
+    }
+    let inside = |(a, b): (glam::DVec2, glam::DVec2)| {
+        let turn = (b - a).normalize_or_zero().perp() * 0.2;
+        let middle = (a + b) / 2.0;
+        [middle + turn, middle - turn].into_iter().find(|&p| polygon.contains(p))
+    };
+    polygon.edges().find_map(inside).unwrap_or(centroid)
+}
+
+/// The volumes of a building before anything is cut off them, a footprint each.
+fn shapes<'a>(
+    whole: &'a Building,
+    seen_m: Option<f64>,
+    parts: &[&'a Building],
+    around: &Neighbourhood,
+    random: &mut trove_model::Random,
+    report: &Report,
+) -> Vec<Volume<'a>> {
+    let sound = |b: &Building| union(std::slice::from_ref(&b.footprint));
+    let mut volumes: Vec<Volume<'a>> = Vec::new();
+    for part in parts {
+        let levels = heights(part, whole, around, seen_m, random, report);
+        volumes.extend(sound(part).into_iter().map(|footprint| Volume { footprint, ..levels.clone() }));
+    }
+    // Parts stand for the outline; what they leave of it is built as the outline says, but not above the parts.
+    let mut rest = sound(whole);
+    if !parts.is_empty() {
+        let covered: Vec<Polygon> = volumes.iter().map(|v| v.footprint.clone()).collect();
+        rest = difference(&rest, &union(&covered));
+        rest.retain(|p| p.area_m2() > REST_SHARE * whole.footprint.area_m2());
+    }
+    if rest.is_empty() && parts.is_empty() {
+        report.note(Outcome::Dropped, "building without area", name(whole));
+    }
+    if !rest.is_empty() {
+        let mut levels = heights(whole, whole, around, seen_m, random, report);
+        let mut tops: Vec<f64> = volumes.iter().map(|v| v.top_m).collect();
+        tops.sort_by(f64::total_cmp);
+        if let Some(&middle_m) = tops.get(tops.len().saturating_sub(1) / 2).filter(|m| **m < levels.top_m) {
+            levels = Volume::new(whole, levels.bottom_m.min(middle_m), middle_m, middle_m, RoofShape::Flat);
+        }
+        volumes.extend(rest.into_iter().map(|footprint| Volume { footprint, ..levels.clone() }));
+    }
+    volumes
+}
+
+/// `osm way 12`; `LiDAR building 3` for one that no map has.
+pub(super) fn name(building: &Building) -> String {
+    if building.id < super::lidar::FIRST_ID / 2 {
+        return format!("LiDAR building {}", building.id - super::lidar::FIRST_ID);
+    }
+    if building.id < 0 { format!("osm relation {}", -building.id) } else { format!("osm way {}", building.id) }
+}
+
+/// What of a footprint stands clear of the road.
+fn clear(footprint: Polygon, volume: &Volume<'_>, keep_clear: &RoadSurfaces, report: &Report) -> Vec<Polygon> {
+    let source = volume.building;
+    if footprint.area_m2() < LEAST_M2 && volume.bottom_m <= 0.0 {
+        report.note(Outcome::Dropped, "building smaller than 4 m²", name(source));
+        return Vec::new();
+    }
+    if volume.bottom_m >= HEADROOM_M - 0.5 || !touches_road(&footprint, keep_clear) {
+        return vec![footprint];
+    }
+    let before_m2 = footprint.area_m2();
+    let road = keep_clear.carriageway_near(&footprint);
+    let whole = [footprint];
+    let on_road = intersection(&whole, &road);
+    let on_road_m2: f64 = on_road.iter().map(Polygon::area_m2).sum();
+    if on_road_m2 > (1.0 - CLEAR_SHARE) * before_m2 {
+        report.note(Outcome::Dropped, "building that stands on the road", name(source));
+        return Vec::new();
+    }
+    report.note(Outcome::Substituted, "building cut where it stands on the road", name(source));
+    let mut left = difference(&whole, &road);
+    left.retain(|p| p.area_m2() >= LEAST_M2);
+    left
+}
+
+/// Whether an edge of the footprint comes to lie on the road, to half a metre.
+fn touches_road(footprint: &Polygon, keep_clear: &RoadSurfaces) -> bool {
+    footprint.edges().any(|(a, b)| {
+        let steps = (a.distance(b) / 0.5).ceil().max(1.0);
+        (0..steps as usize).any(|i| keep_clear.footing(a.lerp(b, i as f64 / steps)) == Footing::Carriageway)
+    })
+}
+
+/// Where the posts of a canopy stand: a little within its corners and along its edges, off the road.
+fn posts(footprint: &Polygon, streets: &RoadSurfaces) -> Vec<glam::DVec2> {
+    let inner = grown(std::slice::from_ref(footprint), -POST_INSET_M);
+    let mut posts: Vec<glam::DVec2> = Vec::new();
+    for (a, b) in inner.iter().flat_map(Polygon::edges) {
+        let steps = (a.distance(b) / POSTS_APART_M).ceil().max(1.0);
+        for i in 0..steps as usize {
+            let at = a.lerp(b, i as f64 / steps);
+            let off_road = !matches!(streets.footing(at), Footing::Carriageway | Footing::Water);
+            if off_road && posts.iter().all(|p| p.distance(at) > POSTS_APART_M / 3.0) {
+                posts.push(at);
+            }
+        }
+    }
+    posts
+}
+
+/// Lowest height of the ground around some volumes.
+fn lowest_ground_m(volumes: &[Volume<'_>], ground: &HeightField) -> f64 {
+    let edges = volumes.iter().flat_map(|v| v.footprint.edges());
+    let along = edges.flat_map(|(a, b)| {
+        let steps = (a.distance(b) / GROUND_STEP_M).ceil().max(1.0) as usize;
+        (0..steps).map(move |i| a.lerp(b, i as f64 / steps as f64))
+    });
+    along.map(|p| ground.height_m(p)).fold(f64::INFINITY, f64::min)
+}
+
+/// Without the points that lie on the line of their neighbours, to a millimetre.
+fn without_straight_points(mut polygon: Polygon) -> Polygon {
+    let tidy = |ring: &mut Vec<glam::DVec2>| {
+        let mut i = 0;
+        while ring.len() > 3 && i < ring.len() {
+            let n = ring.len();
+            let [a, b, c] = [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
+            let along = (c - a).normalize_or_zero();
+            if (b - a).perp_dot(along).abs() < 1e-3 && (b - a).dot(along) > 0.0 && (c - b).dot(along) > 0.0 {
+                ring.remove(i);
+            } else {
+                i += 1;
+            }
+        }
+    };
+    tidy(&mut polygon.exterior);
+    polygon.holes.iter_mut().for_each(tidy);
+    polygon
+}
+
+/// The kind that tells most: a part's own, else its building's.
+pub(super) fn kind<'a>(source: &'a Building, whole: &'a Building) -> &'a str {
+    if matches!(source.kind.as_str(), "yes" | "") { &whole.kind } else { &source.kind }
+}
+
+pub(super) fn is_house(kind: &str) -> bool {
+    matches!(kind, "house" | "detached" | "semidetached_house" | "bungalow" | "cabin" | "farm")
+}
+
+/// Whether a kind of building is a roof on posts.
+pub(super) fn is_canopy(kind: &str) -> bool {
+    matches!(kind, "roof" | "carport" | "canopy")
+}
