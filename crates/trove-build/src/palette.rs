@@ -31,6 +31,7 @@ fn plain(kind: SurfaceKind) -> Surface {
         SurfaceKind::Asphalt => ("plain asphalt", [0.08, 0.08, 0.08]),
         SurfaceKind::MarkingWhite => ("plain white marking", [0.7, 0.7, 0.7]),
         SurfaceKind::MarkingYellow => ("plain yellow marking", [0.65, 0.4, 0.05]),
+        SurfaceKind::RoadCover => ("plain road cover", [0.1, 0.1, 0.1]),
         SurfaceKind::Paving => ("plain paving", [0.35, 0.34, 0.32]),
         SurfaceKind::Kerb => ("plain kerb", [0.42, 0.41, 0.39]),
         SurfaceKind::Concrete => ("plain concrete", [0.38, 0.37, 0.35]),

@@ -49,6 +49,8 @@ pub enum SurfaceKind {
     MarkingWhite,
     /// Yellow paint on the road.
     MarkingYellow,
+    /// An iron cover or grating in the road: its texture is one of them.
+    RoadCover,
     Paving,
     Kerb,
     Concrete,

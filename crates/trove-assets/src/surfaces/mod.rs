@@ -7,6 +7,7 @@ mod ground_floor;
 mod noise;
 mod opening;
 mod paving;
+mod road;
 mod roof;
 #[cfg(test)]
 mod tests;
@@ -21,7 +22,7 @@ pub(crate) use noise::{Noise, hash, step};
 pub(crate) use paving::concrete;
 
 use facade::Facade;
-use ground::Wear;
+use road::{Cover, Wear};
 
 /// How a surface is painted.
 enum Paint {
@@ -55,7 +56,7 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
     let mut material = canvas.material(id, 2);
     material.dirt = dirt(*kind);
     // What has no joints, windows or patches that would be cut.
-    if ["asphalt/new", "asphalt/worn", "concrete/", "grass/", "soil/", "gravel/", "flat-roof/gravel"]
+    if ["asphalt/new", "asphalt/worn", "paving/asphalt-walk", "paving/mosaic", "concrete/", "grass/", "soil/", "gravel/", "flat-roof/gravel"]
         .iter()
         .any(|name| id.starts_with(name))
     {
@@ -73,7 +74,7 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
 /// How much of what weather and wheels bring stays on a surface.
 fn dirt(kind: SurfaceKind) -> f32 {
     match kind {
-        SurfaceKind::Asphalt | SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow => 0.7,
+        SurfaceKind::Asphalt | SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow | SurfaceKind::RoadCover => 0.7,
         SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete | SurfaceKind::FlatRoof => 0.6,
         SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor => 0.5,
         SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel | SurfaceKind::RoofTiles => 0.4,
@@ -85,25 +86,28 @@ fn dirt(kind: SurfaceKind) -> f32 {
 fn ground_recipes() -> Vec<Recipe> {
     use SurfaceKind::*;
     // Asphalt that has greyed over the years reflects 15 to 20 %, after its first year about 11 %.
-    let worn = Wear { binder: 0.18, stone: 0.27, worn: 0.55, cracks: 0.25, patches: false, seed: 2 };
+    let worn = Wear { binder: 0.185, stone: 0.28, stone_m: 0.014, worn: 0.6, cracks: 0.2, seed: 2 };
+    let new = Wear { binder: 0.095, stone: 0.16, worn: 0.2, cracks: 0.0, seed: 1, ..worn };
+    let walk = Wear { binder: 0.15, stone: 0.22, stone_m: 0.009, worn: 0.4, cracks: 0.3, seed: 3 };
     let green = vec3(0.075, 0.115, 0.028);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
-        plain("asphalt/new", Asphalt, || {
-            let new = Wear { binder: 0.11, stone: 0.18, worn: 0.2, cracks: 0.0, patches: false, seed: 1 };
-            ground::asphalt(new)
-        }),
-        plain("asphalt/worn", Asphalt, move || ground::asphalt(worn)),
-        plain("asphalt/patched", Asphalt, move || {
-            ground::asphalt(Wear { binder: 0.165, stone: 0.25, cracks: 0.6, patches: true, seed: 3, ..worn })
-        }),
-        plain("marking/white", MarkingWhite, || ground::marking(vec3(0.62, 0.62, 0.6), 11)),
-        plain("marking/yellow", MarkingYellow, || ground::marking(vec3(0.56, 0.33, 0.035), 12)),
+        plain("asphalt/new", Asphalt, move || road::asphalt(new)),
+        plain("asphalt/worn", Asphalt, move || road::asphalt(worn)),
+        plain("marking/white", MarkingWhite, || road::marking(vec3(0.74, 0.74, 0.71), 11)),
+        plain("marking/yellow", MarkingYellow, || road::marking(vec3(0.62, 0.36, 0.04), 12)),
+        plain("cover/round", RoadCover, || road::cover(Cover::Round, [0.68, 0.68], 13)),
+        plain("cover/square", RoadCover, || road::cover(Cover::Square, [0.9, 0.6], 14)),
+        plain("cover/grating", RoadCover, || road::cover(Cover::Grating, [0.5, 0.4], 15)),
         plain("paving/slabs", Paving, || paving::slabs(vec3(0.31, 0.3, 0.28), vec2(0.6, 0.6), 21)),
         plain("paving/bricks", Paving, || paving::bricks(vec3(0.24, 0.13, 0.095), 22)),
         plain("paving/herringbone", Paving, || paving::herringbone(vec3(0.25, 0.19, 0.155), 23)),
-        plain("paving/concrete", Paving, || paving::concrete(vec3(0.3, 0.29, 0.27), [3.0, 3.0], 0.012, 24)),
+        plain("paving/concrete", Paving, || paving::flags(vec3(0.33, 0.32, 0.295), 24)),
+        plain("paving/setts", Paving, || road::setts(vec3(0.2, 0.195, 0.19), 25)),
+        plain("paving/mosaic", Paving, || road::mosaic(vec3(0.21, 0.205, 0.2), 26)),
+        plain("paving/asphalt-walk", Paving, move || road::asphalt(walk)),
         plain("kerb/concrete", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), false, 31)),
+        plain("kerb/granite", Kerb, || paving::kerb(vec3(0.25, 0.245, 0.24), false, 34)),
         plain("kerb/black-white", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), true, 32)),
         plain("concrete/plain", Concrete, || paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33)),
         plain("grass/lawn", Grass, move || ground::grass(green, straw, 0.12, 41)),

@@ -79,6 +79,27 @@ pub(super) fn slabs(color: Vec3, slab_m: Vec2, seed: u32) -> Canvas {
     })
 }
 
+/// Concrete cast in squares of a metre and a half, each with a smooth rim, cracked here and there, with spots of gum.
+pub(super) fn flags(color: Vec3, seed: u32) -> Canvas {
+    let (size, flag_m) = ([4.5, 4.5], vec2(1.5, 1.5));
+    let size_m = Vec2::from_array(size);
+    let cement = Cement::new(size_m, color, seed);
+    let (spots, plates) = (Noise::new(size_m, 0.16, seed + 5), Noise::new(size_m, 1.5, seed + 6));
+    let (warp, sparse) = (Noise::new(size_m, 0.3, seed + 7).field(3), Noise::new(size_m, 1.5, seed + 8));
+    Canvas::new([768, 768], size, |p| {
+        let mut texel = cement.at(p);
+        let gum = spots.near(p);
+        texel.albedo *= 1.0 - 0.45 * step(0.17, 0.12, gum.first) * step(0.9, 0.91, gum.id);
+        let piece = running(p, size_m, flag_m, false);
+        texel.albedo *= 1.0 + 0.05 * step(0.07, 0.05, piece.edge_m);
+        let cell = plates.near(p + vec2(warp.at(p), warp.at(p + size_m * 0.37)) * 0.2);
+        let crack = step(0.008, 0.002, cell.second - cell.first) * step(0.2, 0.3, sparse.at(p));
+        texel.tint(Vec3::splat(0.05), 0.8 * crack);
+        lay(&mut texel, &piece, 0.012, Vec3::splat(0.08), 0.14, seed);
+        texel
+    })
+}
+
 /// Small bricks in a running bond.
 pub(super) fn bricks(color: Vec3, seed: u32) -> Canvas {
     let size = [2.4, 2.4];

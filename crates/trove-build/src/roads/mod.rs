@@ -1,11 +1,18 @@
 //! Everything that lies on the ground: carriageway with its markings, sidewalks with their kerbs, land.
 
+mod corners;
 mod course;
+mod customs;
+mod decks;
 mod evidence;
+mod footings;
+mod kerb;
 mod land;
 mod layout;
 mod markings;
 mod network;
+mod path;
+mod wear;
 #[cfg(test)]
 mod tests;
 
@@ -16,35 +23,23 @@ use trove_model::{
     AssetLibrary, Bounds, Class, Drive, HeightField, Material, Mesh, Polygon, Report, Seed, StreetMap, SurfaceKind,
 };
 
-use crate::ground::Drape;
+pub(crate) use footings::Footing;
+pub(crate) use kerb::kerb_m;
+
+use footings::Footings;
+
+use crate::ground::{Drape, Ramps};
 use crate::palette::Palette;
 use crate::piece::Piece;
 use crate::plane;
-use crate::plane_raster::PlaneRaster;
+use crate::vegetation::Lawn;
 
-/// Height of a kerb: sidewalks and land lie this much above the carriageway, metres.
+/// The lowest of kerbs: what stands on the ground beside the road begins here, metres.
 pub(crate) const KERB_M: f64 = 0.12;
-/// Paint lies this much above the road: more than rounding, less than is seen.
-const PAINT_M: f64 = 0.004;
 /// Water lies this much below the road.
 const WATER_M: f64 = -0.8;
 /// The ground goes on this far beyond the place, to its horizon.
 const HORIZON_M: f64 = 2000.0;
-/// The raster that answers what lies under a point.
-const FOOTING_CELL_M: f64 = 0.25;
-
-/// What lies under a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Footing {
-    /// Road.
-    Carriageway,
-    /// Sidewalk with its kerb stones.
-    Sidewalk,
-    /// Neither.
-    Land,
-    /// Nothing stands here.
-    Water,
-}
 
 /// The surfaces of a place.
 #[derive(Clone, Debug)]
@@ -53,18 +48,20 @@ pub(crate) struct RoadSurfaces {
     pub pieces: Vec<Piece>,
     /// Where vehicles drive; polygons do not overlap.
     pub carriageway: Vec<Polygon>,
-    footings: PlaneRaster,
+    /// Where grass grows; polygons do not overlap.
+    pub lawns: Vec<Polygon>,
+    /// How that grass looks.
+    pub lawn: Lawn,
+    /// Height of a kerb: sidewalks and land lie this much above the carriageway, but for ramps, metres.
+    pub kerb_m: f64,
+    ramps: Ramps,
+    footings: Footings,
 }
 
 impl RoadSurfaces {
-    /// What lies under a point, to a quarter of a metre; land outside the place.
+    /// What lies under a point; land outside the place.
     pub(crate) fn footing(&self, position: DVec2) -> Footing {
-        match self.footings.at(position) {
-            1 => Footing::Carriageway,
-            2 => Footing::Sidewalk,
-            3 => Footing::Water,
-            _ => Footing::Land,
-        }
+        self.footings.at(position)
     }
 
     /// The carriageway around a footprint, with half a metre for the kerb.
@@ -76,11 +73,12 @@ impl RoadSurfaces {
         plane::grown(&plane::intersection(&road, &frame), 0.5)
     }
 
-    /// How much the surface lies above the height field at a point: 0 on the carriageway, [`KERB_M`] elsewhere.
+    /// How much the surface lies above the height field at a point: 0 on the carriageway, a kerb's height elsewhere,
+    /// less where kerbs are dropped.
     pub(crate) fn elevation_m(&self, position: DVec2) -> f64 {
         match self.footing(position) {
-            Footing::Carriageway => 0.0,
-            Footing::Sidewalk | Footing::Land => KERB_M,
+            Footing::Carriageway | Footing::Ramp => 0.0,
+            Footing::Sidewalk | Footing::Land => self.kerb_m * self.ramps.at(position),
             Footing::Water => WATER_M,
         }
     }
@@ -96,58 +94,95 @@ pub(crate) fn surfaces(
     seed: Seed,
     report: &Report,
 ) -> RoadSurfaces {
-    let drape = Drape::new(ground);
+    let kerb_m = kerb_m(drive);
     // Up to the end of the height field, where the apron begins.
-    let field = drape.bounds();
+    let field = Drape::new(ground).bounds();
     let bounds = Bounds { min: bounds.min.min(field.min), max: bounds.max.max(field.max) };
     let layout = layout::layout(drive, map, bounds, report);
+    let (customs, near) = (customs::customs(&drive.projection), wear::near(drive));
     let (markings, covers) = rayon::join(
-        || markings::markings(drive, map, &layout),
+        || markings::markings(drive, map, &layout, &near, customs, seed.child("markings")),
         || land::covers(layout.land.clone(), &layout.car_parks, map, bounds),
     );
     let palette = Palette { library, report };
     // One surface of a kind in the whole place; kerbs of plain stone where the library has them.
     let material = |kind: SurfaceKind| {
-        let words: &[&str] = if kind == SurfaceKind::Kerb { &["concrete", "stone"] } else { &[] };
+        let words: &[&str] = match kind {
+            SurfaceKind::Kerb => customs.kerb,
+            SurfaceKind::Paving => customs.sidewalk,
+            _ => &[],
+        };
         palette.fitting(kind, words, &mut seed.child(&format!("{kind:?}")).random()).material
     };
 
-    let mut footings = PlaneRaster::new(bounds, FOOTING_CELL_M);
-    footings.fill(&layout.pavement, 2);
-    footings.fill(&layout.kerb, 2);
-    footings.fill(&layout.carriageway, 1);
-    for cover in covers.iter().filter(|c| c.kind == SurfaceKind::Water) {
-        footings.fill(&cover.area, 3);
-    }
+    let water = covers.iter().find(|c| c.kind == SurfaceKind::Water).map_or(&[][..], |c| &c.area);
+    let areas = [
+        (Footing::Carriageway, &layout.carriageway[..]),
+        (Footing::Ramp, &layout.ramps),
+        (Footing::Sidewalk, &layout.kerb),
+        (Footing::Sidewalk, &layout.pavement),
+        (Footing::Sidewalk, &layout.tracks),
+        (Footing::Water, water),
+    ];
+    let footings = Footings::new(bounds, &areas);
+    let ramps = Ramps::new(ground, &layout.dropped, kerb::LOW_M / kerb_m);
+    let drape = Drape::with_ramps(ground, &ramps);
 
-    let mut pieces = Vec::new();
+    let surfacing = wear::Surfacing {
+        drive,
+        map,
+        layout: &layout,
+        markings: &markings,
+        near: &near,
+        customs,
+        palette: &palette,
+        drape: &drape,
+        seed: seed.child("surfacing"),
+    };
+    let mut pieces = surfacing.pieces();
     let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| {
         if !mesh.triangles.is_empty() {
             pieces.push(stuff(mesh, class, material(kind)));
         }
     };
-    add(drape.surface(&layout.carriageway, 0.0), Class::Road, SurfaceKind::Asphalt);
-    add(drape.surface(&markings.white, PAINT_M), Class::Road, SurfaceKind::MarkingWhite);
-    add(drape.surface(&markings.yellow, PAINT_M), Class::Road, SurfaceKind::MarkingYellow);
     let on_border = |a: DVec2, b: DVec2| {
         let on = |limit: DVec2| ((a - limit).abs().max((b - limit).abs())).min_element() < 0.01;
-        on(bounds.min) || on(bounds.max)
+        // Nor is there a kerb where a road begins to rise.
+        let beyond = (a + b) / 2.0 - (b - a).perp().normalize_or_zero() * 0.05;
+        on(bounds.min) || on(bounds.max) || footings.at(beyond) == Footing::Ramp
     };
-    let mut kerb = drape.surface(&layout.kerb, KERB_M);
-    kerb.append(&drape.faces(&layout.carriageway, 0.0, KERB_M, on_border), 0);
+    let mut kerb = drape.raised(&layout.kerb, kerb_m);
+    kerb.append(&drape.faces(&layout.carriageway, &kerb::profile(kerb_m), on_border), 0);
     add(kerb, Class::Sidewalk, SurfaceKind::Kerb);
-    add(drape.surface(&layout.pavement, KERB_M), Class::Sidewalk, SurfaceKind::Paving);
+    let mut pavement = drape.raised(&layout.pavement, kerb_m);
+    surfacing.align(&mut pavement);
+    add(pavement, Class::Sidewalk, SurfaceKind::Paving);
+    add(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, SurfaceKind::Asphalt);
+    let lawn = Lawn::new(drive, seed.child("lawn"));
     for cover in &covers {
         let is_water = cover.kind == SurfaceKind::Water;
-        let lift_m = if is_water { WATER_M } else { KERB_M };
-        add(drape.surface(&cover.area, lift_m), Class::Ground, cover.kind);
+        let lift_m = if is_water { WATER_M } else { kerb_m };
+        let mesh = match cover.kind {
+            SurfaceKind::Grass => lawn.surface(&drape, &cover.area, lift_m),
+            SurfaceKind::Water => drape.surface(&cover.area, lift_m),
+            _ => drape.raised(&cover.area, lift_m),
+        };
+        add(mesh, Class::Ground, cover.kind);
         if is_water {
-            add(drape.faces(&cover.area, WATER_M, KERB_M, on_border), Class::Ground, SurfaceKind::Concrete);
+            add(drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border), Class::Ground, SurfaceKind::Concrete);
         }
     }
-    add(drape.apron(HORIZON_M, KERB_M), Class::Ground, SurfaceKind::Grass);
+    let free = |p: DVec2| !matches!(footings.at(p), Footing::Carriageway | Footing::Ramp);
+    let decks = decks::meshes(&layout.decks, &drape, free);
+    add(decks.asphalt, Class::Road, SurfaceKind::Asphalt);
+    add(decks.paint, Class::Road, SurfaceKind::MarkingWhite);
+    add(decks.concrete, Class::Void, SurfaceKind::Concrete);
+    let mut apron = drape.apron(HORIZON_M, kerb_m);
+    lawn.color(&mut apron);
+    add(apron, Class::Ground, SurfaceKind::Grass);
 
-    RoadSurfaces { pieces, carriageway: layout.carriageway, footings }
+    let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
+    RoadSurfaces { pieces, carriageway: layout.carriageway, lawns, lawn, kerb_m, ramps, footings }
 }
 
 fn stuff(mesh: Mesh, class: Class, material: Material) -> Piece {

@@ -1,0 +1,200 @@
+//! Paint on the road.
+//!
+//! The dataset's lines first, the map's where it has none; what countries do differently stands in
+//! [`super::customs`].
+
+mod approaches;
+mod bays;
+mod crossings;
+mod legs;
+mod lines;
+mod recorded;
+mod symbols;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, Vec3};
+use rayon::prelude::*;
+use trove_model::{Bounds, Drive, Polygon, RoadKind, Seed, StreetMap, drives_on_left};
+
+use self::approaches::{Control, approach, box_junction};
+use self::crossings::Crossing;
+use self::legs::{Junction, Leg};
+use self::lines::Stroke;
+use super::course::Use;
+use super::customs::{Customs, KerbLines, Paint, Pattern};
+use super::layout::Layout;
+use super::network::RECORDED;
+use crate::plane::{difference, grown, intersection, strip, union};
+use crate::plane_raster::PlaneRaster;
+
+/// Lines along the kerb, from it inwards to their outer edge, and their width.
+const KERB_LINES_M: [f64; 2] = [0.5, 0.7];
+const KERB_LINE_M: f64 = 0.1;
+/// Share of the junctions with signals that have a box where boxes are usual.
+const BOX_SHARE: f64 = 0.4;
+/// Share of the cycle lanes that are coated.
+const COAT_SHARE: f64 = 0.4;
+/// Share of the slow streets that have their limit painted at their entrances.
+const LIMIT_SHARE: f64 = 0.5;
+/// Limits of speed that are painted, km/h.
+const PAINTED_LIMIT_KMH: f64 = 30.0;
+
+/// Painted areas on the carriageway; those of all paints together do not overlap.
+#[derive(Default)]
+pub(super) struct Markings {
+    pub paints: BTreeMap<Paint, Vec<Polygon>>,
+    /// Coated asphalt below the paint, with its tint.
+    pub coats: Vec<(Vec3, Vec<Polygon>)>,
+}
+
+/// Everything that is painted on the road of a place.
+pub(super) fn markings(
+    drive: &Drive,
+    map: Option<&StreetMap>,
+    layout: &Layout<'_>,
+    near: &[Polygon],
+    customs: &Customs,
+    seed: Seed,
+) -> Markings {
+    let bounds = Bounds::around(layout.carriageway.iter().flat_map(|p| p.exterior.iter().copied()));
+    let Some(bounds) = bounds else { return Markings::default() };
+    let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
+    let crossings = crossings::crossings(drive, map, &layout.carriageway, bounds, customs);
+    let junctions = map.map(|m| legs::junctions(m, on_left)).unwrap_or_default();
+    let legs = legs::legs(&layout.stretches, &junctions);
+    let control = Control::new(map);
+
+    let mut areas: BTreeMap<Paint, Vec<Polygon>> = BTreeMap::new();
+    let mut painted = PlaneRaster::new(bounds, 0.2);
+    let mapped = legs.iter().flat_map(|leg| lines::strokes(leg, customs)).filter(|s| is_unrecorded(&s.line, layout));
+    for stroke in recorded_strokes(drive, customs).into_iter().chain(mapped) {
+        areas.entry(stroke.paint).or_default().extend(stroke.painted(&mut painted));
+    }
+    let detailed: Vec<(Vec<Polygon>, Vec<Polygon>)> =
+        legs.par_iter().map(|leg| details(leg, &control, &crossings, customs, on_left, seed)).collect();
+    let white = areas.entry(Paint::White).or_default();
+    let mut coated = Vec::new();
+    for (paint, coat) in detailed {
+        white.extend(paint);
+        coated.extend(coat);
+    }
+    white.extend(recorded::at_junctions(drive, &control, &crossings, customs));
+    white.extend(
+        drive.lane_map.iter().flat_map(|m| &m.stop_lines).filter_map(|area| stop_line(area, customs.stop_line_m)),
+    );
+    if customs.boxes {
+        let boxed = |j: &&Junction| {
+            let chosen = seed.child("box").nth(place(j.position)).random().chance(BOX_SHARE);
+            chosen && bounds.contains(j.position) && control.is_signalised(j.position)
+        };
+        let boxes = junctions.values().filter(boxed).flat_map(|j| box_junction(j, &layout.carriageway));
+        areas.entry(Paint::Yellow).or_default().extend(boxes);
+    }
+    let (paint, from_kerb_m) = match customs.kerb_lines {
+        KerbLines::None => (Paint::White, &[][..]),
+        KerbLines::DoubleYellow => (Paint::Yellow, &KERB_LINES_M[..]),
+        KerbLines::Red => (Paint::Red, &KERB_LINES_M[..1]),
+    };
+    let beside = no_parking(layout, near);
+    areas.entry(paint).or_default().extend(lines::along_kerbs(&layout.carriageway, &beside, from_kerb_m, KERB_LINE_M));
+
+    // Nothing else is painted on a crossing.
+    let clear = crossings::kept_clear(&crossings);
+    let bars: Vec<Polygon> = crossings.iter().flat_map(|c: &Crossing| c.painted(customs)).collect();
+    let mut below: Vec<Polygon> = union(&bars);
+    let mut paints: BTreeMap<Paint, Vec<Polygon>> = BTreeMap::new();
+    for (paint, area) in areas {
+        let area = difference(&intersection(&union(&area), &layout.carriageway), &clear);
+        let area = difference(&area, &below);
+        below = union(&[below, area.clone()].concat());
+        paints.insert(paint, area);
+    }
+    paints.entry(Paint::White).or_default().extend(union(&bars));
+    let coats = if coated.is_empty() {
+        Vec::new()
+    } else {
+        vec![(Vec3::from_array(customs.cycle_coat), intersection(&union(&coated), &layout.carriageway))]
+    };
+    Markings { paints, coats }
+}
+
+/// What is painted on a leg besides its lines, white, and what is coated.
+fn details(
+    leg: &Leg<'_>,
+    control: &Control<'_>,
+    crossings: &[Crossing],
+    customs: &Customs,
+    on_left: bool,
+    seed: Seed,
+) -> (Vec<Polygon>, Vec<Polygon>) {
+    let seed = seed.child("leg").nth(leg.number);
+    let mut white = Vec::new();
+    if leg.road().kind < RoadKind::Service {
+        for usage in [Use::Forward, Use::Backward] {
+            white.extend(approach(leg, usage, control, crossings, customs, seed));
+        }
+    }
+    white.extend(bays::bays(leg, seed.child("bays")));
+    let (symbols, lanes) = bays::cycle_lanes(leg, on_left);
+    white.extend(symbols);
+    white.extend(limit(leg, seed.child("limit")));
+    let coated = seed.child("coat").random().chance(COAT_SHARE);
+    (white, if coated { lanes } else { Vec::new() })
+}
+
+/// The speed limit at the entrances of a slow street.
+fn limit(leg: &Leg<'_>, seed: Seed) -> Vec<Polygon> {
+    let road = leg.road();
+    let slow = road.speed_limit_kmh.filter(|v| (10.0..=PAINTED_LIMIT_KMH + 0.1).contains(v));
+    let Some(limit) = slow.filter(|_| leg.length_m() > 40.0 && seed.random().chance(LIMIT_SHARE)) else {
+        return Vec::new();
+    };
+    // Miles are painted as miles.
+    let kmh = if (limit / 10.0).fract().abs() < 0.01 { limit } else { limit / 1.609_344 };
+    let word = symbols::word(&format!("{kmh:.0}"));
+    let ends = [(Use::Forward, leg.from_m + 8.0, 1.0), (Use::Backward, leg.to_m - 8.0, -1.0)];
+    let entrance = |(usage, s_m, sign): (Use, f64, f64)| {
+        let lane = leg.lanes(usage).first().copied()?;
+        let along = leg.path.at(s_m).1 * sign;
+        Some(symbols::laid(&word, leg.path.beside(s_m, (lane.0 + lane.1) / 2.0), along))
+    };
+    ends.into_iter().filter_map(entrance).flatten().collect()
+}
+
+fn recorded_strokes(drive: &Drive, customs: &Customs) -> Vec<Stroke> {
+    let Some(map) = &drive.lane_map else { return Vec::new() };
+    let (paint, _, wide) = customs.centre;
+    let stroke =
+        |line: &Vec<DVec2>, paint, pattern| Stroke { line: line.clone(), paint, pattern, width_m: customs.line_m };
+    let dividers = map.road_dividers.iter().map(|line| stroke(line, paint, wide));
+    let lanes = map.lane_dividers.iter().map(|line| stroke(line, Paint::White, Pattern::Dashed(customs.lane)));
+    dividers.chain(lanes).collect()
+}
+
+fn is_unrecorded(line: &[DVec2], layout: &Layout<'_>) -> bool {
+    line.iter().filter(|&&p| layout.recorded.at(p) == RECORDED).count() * 2 < line.len()
+}
+
+/// Where nobody may park: along all roads near the driven path but those that lead to houses alone.
+fn no_parking(layout: &Layout<'_>, near: &[Polygon]) -> Vec<Polygon> {
+    let parks = |s: &&super::network::Stretch<'_>| {
+        s.road.kind >= RoadKind::Service || s.section.bands.iter().any(|b| matches!(b.usage, Use::Parking(_)))
+    };
+    let quiet = layout.stretches.iter().filter(parks).flat_map(|s| strip(&s.line, s.width_m / 2.0 + 1.0));
+    difference(near, &grown(&union(&quiet.collect::<Vec<_>>()), 0.5))
+}
+
+/// A line across the lane in the middle of the area that a dataset's map calls a stop line.
+fn stop_line(area: &Polygon, depth_m: f64) -> Option<Polygon> {
+    let (middle, across, half) = crossings::long_axis(area)?;
+    strip(&[middle - across * half.x, middle + across * half.x], (depth_m / 2.0).min(half.y)).into_iter().next()
+}
+
+/// A number for a place, the same in every run.
+fn place(p: DVec2) -> u64 {
+    let cell = (p * 10.0).round().as_i64vec2();
+    (cell.x as u64).rotate_left(32) ^ cell.y as u64
+}

@@ -1,0 +1,66 @@
+//! A line that is measured along.
+
+use glam::DVec2;
+
+use super::layout::shifted;
+
+/// A line with the length up to each vertex.
+pub(super) struct Path<'a> {
+    line: &'a [DVec2],
+    along_m: Vec<f64>,
+}
+
+impl<'a> Path<'a> {
+    /// Of a line of at least two vertices.
+    pub(super) fn new(line: &'a [DVec2]) -> Self {
+        let mut sum_m = 0.0;
+        let lengths = line.windows(2).map(|w| {
+            sum_m += w[0].distance(w[1]);
+            sum_m
+        });
+        let along_m = std::iter::once(0.0).chain(lengths).collect();
+        Self { line, along_m }
+    }
+
+    pub(super) fn length_m(&self) -> f64 {
+        self.along_m.last().copied().unwrap_or(0.0)
+    }
+
+    /// Length up to a vertex.
+    pub(super) fn vertex_m(&self, i: usize) -> f64 {
+        self.along_m[i]
+    }
+
+    /// The segment that holds a length, and how far into it, 0 to 1.
+    fn segment(&self, s_m: f64) -> (usize, f64) {
+        let last = self.line.len().saturating_sub(2);
+        let i = self.along_m.partition_point(|&a| a <= s_m).saturating_sub(1).min(last);
+        let length_m = self.along_m[i + 1] - self.along_m[i];
+        (i, if length_m > 0.0 { ((s_m - self.along_m[i]) / length_m).clamp(0.0, 1.0) } else { 0.0 })
+    }
+
+    /// Point and unit direction at a length; the ends' beyond them.
+    pub(super) fn at(&self, s_m: f64) -> (DVec2, DVec2) {
+        let (i, t) = self.segment(s_m);
+        (self.line[i].lerp(self.line[i + 1], t), (self.line[i + 1] - self.line[i]).normalize_or(DVec2::X))
+    }
+
+    /// The point `offset_m` to the left at a length.
+    pub(super) fn beside(&self, s_m: f64, offset_m: f64) -> DVec2 {
+        let (at, along) = self.at(s_m);
+        at + along.perp() * offset_m
+    }
+
+    /// The line between two lengths, moved to its left; empty where nothing lies between.
+    pub(super) fn part(&self, from_m: f64, to_m: f64, offset_m: f64) -> Vec<DVec2> {
+        let (from_m, to_m) = (from_m.max(0.0), to_m.min(self.length_m()));
+        if to_m - from_m < 0.05 {
+            return Vec::new();
+        }
+        let inside = (0..self.line.len()).filter(|&i| self.along_m[i] > from_m + 0.01 && self.along_m[i] < to_m - 0.01);
+        let mut points = vec![self.at(from_m).0];
+        points.extend(inside.map(|i| self.line[i]));
+        points.push(self.at(to_m).0);
+        shifted(&points, offset_m)
+    }
+}
