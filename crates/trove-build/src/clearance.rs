@@ -18,7 +18,7 @@ const MAX_RADIUS_M: f64 = 8.0;
 /// Distances to what keeps made-up things away, and the things placed so far.
 pub(crate) struct Clearance<'a> {
     surfaces: &'a RoadSurfaces,
-    /// Carriageway and water.
+    /// Carriageway, water, and what lies below bridges.
     road_m: DistanceField,
     buildings_m: DistanceField,
     /// Annotated boxes over the whole drive, and the recording vehicle's way.
@@ -42,7 +42,9 @@ pub(crate) struct Room {
 impl<'a> Clearance<'a> {
     /// With nothing placed yet.
     pub(crate) fn new(drive: &Drive, surfaces: &'a RoadSurfaces, footprints: &[Polygon], bounds: Bounds) -> Self {
-        let closed = |p: DVec2| matches!(surfaces.footing(p), Footing::Carriageway | Footing::Water);
+        let closed = |p: DVec2| {
+            matches!(surfaces.footing(p), Footing::Carriageway | Footing::Water) || surfaces.is_below_deck(p)
+        };
         let (road_m, (buildings_m, recorded_m)) = rayon::join(
             || DistanceField::to_cells(bounds, CELL_M, closed),
             || {

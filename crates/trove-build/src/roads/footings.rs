@@ -12,7 +12,7 @@ const CELL_M: f64 = 0.5;
 /// What lies under a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Footing {
-    /// Road.
+    /// Road, or the solid ramp of one that rises.
     Carriageway,
     /// Sidewalk with its kerb stones.
     Sidewalk,

@@ -7,7 +7,8 @@ use trove_model::{
 };
 
 use super::corners;
-use super::course::{self, Band, Bay, Course};
+use super::course::{self, Band, Bay, Course, CrossSection};
+use super::decks::{self, Deck};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
@@ -20,6 +21,8 @@ const SIDEWALK_M: f64 = 2.5;
 const FOOTWAY_M: f64 = 1.8;
 /// Half of the gaps that are closed between OpenStreetMap's carriageways: nobody builds narrower islands.
 const SLIT_M: f64 = 0.4;
+/// Roads are looked at this far beyond the place.
+const BEYOND_M: f64 = 50.0;
 /// Half of the gaps that are closed in a road of which only the driven path is known.
 const CORNER_M: f64 = 2.5;
 /// Half of the gaps that are closed between carriageway and walkway: what lies between them is paved too.
@@ -67,6 +70,10 @@ pub(super) struct Layout<'a> {
     pub tracks: Vec<Polygon>,
     /// What is left.
     pub land: Vec<Polygon>,
+    /// Roads above the ground, their solid ramps, which belong to none of the areas above, and where one passes below.
+    pub decks: Vec<(Deck<'a>, CrossSection)>,
+    pub ramps: Vec<Polygon>,
+    pub above: Vec<Polygon>,
     /// Where kerbs are dropped; may reach into all of the above.
     pub dropped: Vec<Polygon>,
     /// Around vehicles that were parked; may reach into all of the above.
@@ -75,7 +82,7 @@ pub(super) struct Layout<'a> {
 
 /// Divides the plane within `bounds`.
 pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Bounds, report: &Report) -> Layout<'a> {
-    let whole = [rectangle(bounds)];
+    let whole = vec![rectangle(bounds)];
     let lanes = drive.lane_map.as_ref();
     let drivable = lanes.map(|m| union(&[m.drivable.clone(), m.carparks.clone()].concat())).unwrap_or_default();
     let drivable = intersection(&drivable, &whole);
@@ -85,7 +92,14 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
 
     // Roads of the map where the recording ends, their corners rounded.
     let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
-    let stretches = map.map(|m| network::stretches(m, &recorded, bounds, on_left, report)).unwrap_or_default();
+    let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), report)).unwrap_or_default();
+    let stretches = network::stretches(levels.ground, &recorded, on_left, report);
+    let sections = |deck: Deck<'a>| {
+        let section = course::cross_section(deck.road, deck.road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
+        (deck, section)
+    };
+    let decks: Vec<(Deck<'a>, CrossSection)> = levels.decks.into_iter().map(sections).collect();
+    let [ramps, above] = footprints(&decks, &whole);
     let nodes = corners::nodes(&stretches);
     let dropped = kerb::dropped(drive, map, &stretches, bounds);
     let bays = course::bays(&stretches, &nodes, &dropped);
@@ -109,7 +123,8 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
         carriageway = union(&[carriageway, closed(&union(&strips), CORNER_M)].concat());
     }
     let parked = evidence::parked(drive);
-    let carriageway = intersection(&with_bays(carriageway, &parked), &whole);
+    let lots = map.map(|m| car_parks(m, &recorded, bounds)).unwrap_or_default();
+    let carriageway = intersection(&with_bays(carriageway, &parked, &lots), &whole);
     let carriageway = without_islands(without_specks(carriageway, ISLAND_M2), map, bounds);
 
     // Walkways of the dataset, bands along the other roads, footpaths.
@@ -127,6 +142,9 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let walks = union(&walks);
     let walked = closed(&union(&[walks, carriageway.clone()].concat()), GAP_M);
 
+    // A ramp ends where a road begins.
+    let ramps = if ramps.is_empty() { ramps } else { difference(&ramps, &carriageway) };
+    let whole = if ramps.is_empty() { whole } else { difference(&whole, &ramps) };
     let stones = grown(&carriageway, kerb::STONE_M);
     let kerb = intersection(&difference(&stones, &carriageway), &whole);
     let pavement = intersection(&difference(&walked, &stones), &whole);
@@ -136,7 +154,21 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let pavement = if tracks.is_empty() { pavement } else { difference(&pavement, &tracks) };
     let car_parks = closed(&grown(&union(&parked), CAR_PARK_M), CAR_PARK_M);
     let courses = course::courses(drive, &stretches, &bays);
-    Layout { recorded, stretches, courses, carriageway, kerb, pavement, tracks, land, dropped, car_parks }
+    Layout {
+        recorded,
+        stretches,
+        courses,
+        carriageway,
+        kerb,
+        pavement,
+        tracks,
+        land,
+        decks,
+        ramps,
+        above,
+        dropped,
+        car_parks,
+    }
 }
 
 /// Whether the recorded traffic left the recorded road for more than it should.
@@ -146,15 +178,27 @@ fn is_patchy(traces: &[Trace], recorded: &PlaneRaster) -> bool {
     off as f64 > PATCHY_SHARE * points.len() as f64
 }
 
-/// The carriageway with bays for the vehicles that were parked beside it.
-fn with_bays(carriageway: Vec<Polygon>, parked: &[Polygon]) -> Vec<Polygon> {
+/// The map's car parks away from what was recorded.
+fn car_parks(map: &StreetMap, recorded: &PlaneRaster, bounds: Bounds) -> Vec<Polygon> {
+    let lots = map.land.iter().filter(|l| l.kind == LandKind::Parking).map(|l| &l.polygon);
+    let near = |p: &&Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
+    lots.filter(near).filter(|p| p.exterior.iter().all(|&v| recorded.at(v) == 0)).cloned().collect()
+}
+
+/// The carriageway with bays for the vehicles that were parked beside it, and the car parks that it touches.
+fn with_bays(carriageway: Vec<Polygon>, parked: &[Polygon], lots: &[Polygon]) -> Vec<Polygon> {
+    if parked.is_empty() && lots.is_empty() {
+        return carriageway;
+    }
     let reach = grown(&carriageway, BAY_REACH_M);
     let beside = |p: &&Polygon| reach.iter().any(|r| r.contains(p.centroid()));
+    let touches = |p: &&Polygon| p.exterior.iter().any(|&v| reach.iter().any(|r| r.contains(v)));
     let bays: Vec<Polygon> = parked.iter().filter(beside).cloned().collect();
+    let lots: Vec<Polygon> = lots.iter().filter(touches).cloned().collect();
+    let bays = union(&[grown(&union(&bays), CLEARANCE_M), lots].concat());
     if bays.is_empty() {
         return carriageway;
     }
-    let bays = grown(&union(&bays), CLEARANCE_M);
     let filled = closed(&union(&[carriageway.clone(), bays.clone()].concat()), BAY_GAP_M);
     let near = intersection(&filled, &grown(&bays, BAY_GAP_M));
     union(&[carriageway, bays, near].concat())
@@ -198,6 +242,17 @@ fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
         }
     }
     lines
+}
+
+/// Where decks are solid ramps and where one passes below them.
+fn footprints(decks: &[(Deck<'_>, CrossSection)], whole: &[Polygon]) -> [Vec<Polygon>; 2] {
+    let mut areas = [Vec::new(), Vec::new()];
+    for (deck, section) in decks {
+        for (area, part) in areas.iter_mut().zip(deck.footprint(section.width_m)) {
+            area.extend(part);
+        }
+    }
+    areas.map(|area| if area.is_empty() { area } else { intersection(&union(&area), whole) })
 }
 
 /// The carriageway without the islands that the map has in it.

@@ -56,12 +56,19 @@ pub(crate) struct RoadSurfaces {
     pub kerb_m: f64,
     ramps: Ramps,
     footings: Footings,
+    /// Below roads above the ground.
+    below: Footings,
 }
 
 impl RoadSurfaces {
     /// What lies under a point; land outside the place.
     pub(crate) fn footing(&self, position: DVec2) -> Footing {
         self.footings.at(position)
+    }
+
+    /// Whether a road runs above a point.
+    pub(crate) fn is_below_deck(&self, position: DVec2) -> bool {
+        self.below.at(position) == Footing::Carriageway
     }
 
     /// The carriageway around a footprint, with half a metre for the kerb.
@@ -77,7 +84,7 @@ impl RoadSurfaces {
     /// less where kerbs are dropped.
     pub(crate) fn elevation_m(&self, position: DVec2) -> f64 {
         match self.footing(position) {
-            Footing::Carriageway | Footing::Ramp => 0.0,
+            Footing::Carriageway => 0.0,
             Footing::Sidewalk | Footing::Land => self.kerb_m * self.ramps.at(position),
             Footing::Water => WATER_M,
         }
@@ -118,7 +125,7 @@ pub(crate) fn surfaces(
     let water = covers.iter().find(|c| c.kind == SurfaceKind::Water).map_or(&[][..], |c| &c.area);
     let areas = [
         (Footing::Carriageway, &layout.carriageway[..]),
-        (Footing::Ramp, &layout.ramps),
+        (Footing::Carriageway, &layout.ramps),
         (Footing::Sidewalk, &layout.kerb),
         (Footing::Sidewalk, &layout.pavement),
         (Footing::Sidewalk, &layout.tracks),
@@ -149,9 +156,10 @@ pub(crate) fn surfaces(
         let on = |limit: DVec2| ((a - limit).abs().max((b - limit).abs())).min_element() < 0.01;
         // Nor is there a kerb where a road begins to rise.
         let beyond = (a + b) / 2.0 - (b - a).perp().normalize_or_zero() * 0.05;
-        on(bounds.min) || on(bounds.max) || footings.at(beyond) == Footing::Ramp
+        on(bounds.min) || on(bounds.max) || layout.ramps.iter().any(|r| r.contains(beyond))
     };
     let mut kerb = drape.raised(&layout.kerb, kerb_m);
+    wear::alignment::follow_edges(&mut kerb, &layout.carriageway, on_border);
     kerb.append(&drape.faces(&layout.carriageway, &kerb::profile(kerb_m), on_border), 0);
     add(kerb, Class::Sidewalk, SurfaceKind::Kerb);
     let mut pavement = drape.raised(&layout.pavement, kerb_m);
@@ -172,7 +180,8 @@ pub(crate) fn surfaces(
             add(drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border), Class::Ground, SurfaceKind::Concrete);
         }
     }
-    let free = |p: DVec2| !matches!(footings.at(p), Footing::Carriageway | Footing::Ramp);
+    let below = Footings::new(bounds, &[(Footing::Carriageway, &layout.above)]);
+    let free = |p: DVec2| footings.at(p) != Footing::Carriageway;
     let decks = decks::meshes(&layout.decks, &drape, free);
     add(decks.asphalt, Class::Road, SurfaceKind::Asphalt);
     add(decks.paint, Class::Road, SurfaceKind::MarkingWhite);
@@ -182,7 +191,7 @@ pub(crate) fn surfaces(
     add(apron, Class::Ground, SurfaceKind::Grass);
 
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
-    RoadSurfaces { pieces, carriageway: layout.carriageway, lawns, lawn, kerb_m, ramps, footings }
+    RoadSurfaces { pieces, carriageway: layout.carriageway, lawns, lawn, kerb_m, ramps, footings, below }
 }
 
 fn stuff(mesh: Mesh, class: Class, material: Material) -> Piece {

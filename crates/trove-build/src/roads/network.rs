@@ -1,7 +1,7 @@
 //! Carriageways of OpenStreetMap's roads, where the dataset's own map ends.
 
 use glam::DVec2;
-use trove_model::{Bounds, Outcome, Report, Road, StreetMap};
+use trove_model::{Outcome, Report, Road};
 
 use super::course::{CrossSection, cross_section};
 use crate::plane_raster::PlaneRaster;
@@ -29,28 +29,16 @@ pub(super) struct Stretch<'a> {
     pub width_m: f64,
 }
 
-/// The stretches of the map's roads for cars that the recorded area lacks.
+/// The stretches that the recorded area lacks of roads on the ground with their lines.
 pub(super) fn stretches<'a>(
-    map: &'a StreetMap,
+    ground: Vec<(&'a Road, Vec<DVec2>)>,
     recorded: &PlaneRaster,
-    bounds: Bounds,
     on_left: bool,
     report: &Report,
 ) -> Vec<Stretch<'a>> {
-    let near = bounds.grown(50.0);
-    let reaches = |r: &&Road| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&near));
-    let (flat, raised): (Vec<&Road>, Vec<&Road>) =
-        map.roads.iter().filter(|r| r.kind.is_for_cars()).filter(reaches).partition(|r| on_the_ground(r));
     let mut stretches = Vec::new();
-    for road in flat.iter().copied().chain(raised.iter().copied().filter(|r| {
-        // A bridge over nothing but water or a valley carries its road on the level.
-        let kept = r.bridge && !r.tunnel && !flat.iter().any(|other| crosses(r, other));
-        if !kept {
-            report.note(Outcome::Dropped, "road above or below the ground", format_args!("osm way {}", r.id));
-        }
-        kept
-    })) {
-        let points = resampled(&road.centreline);
+    for (road, centreline) in ground {
+        let points = resampled(&centreline);
         let measured = measured_width_m(&points, road.oneway, recorded);
         let known_m = measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w)));
         let section = cross_section(road, known_m, on_left);
@@ -63,21 +51,6 @@ pub(super) fn stretches<'a>(
         }
     }
     stretches
-}
-
-fn on_the_ground(road: &Road) -> bool {
-    road.layer == 0 && !road.tunnel && !road.bridge
-}
-
-/// Whether two ways cross between their vertices; ways that meet share a vertex.
-fn crosses(a: &Road, b: &Road) -> bool {
-    a.centreline.windows(2).any(|s| {
-        b.centreline.windows(2).any(|t| {
-            let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-            side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) < 0.0
-                && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) < 0.0
-        })
-    })
 }
 
 /// The line with points every [`STEP_M`]; its own vertices stay.
@@ -159,27 +132,27 @@ fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
 mod tests {
     use super::*;
     use crate::plane;
-    use trove_model::RoadKind;
+    use trove_model::{Bounds, RoadKind};
 
     fn road(points: &[(f64, f64)]) -> Road {
         let points: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x, y]).collect();
         crate::testing::road(1, RoadKind::Residential, &points)
     }
 
-    fn recorded() -> (PlaneRaster, Bounds) {
+    fn recorded() -> PlaneRaster {
         let bounds = Bounds::square(DVec2::ZERO, 400.0);
         let area = [plane::rectangle(Bounds { min: DVec2::new(-100.0, -6.0), max: DVec2::new(100.0, 6.0) })];
         let mut raster = PlaneRaster::new(bounds, 0.5);
         raster.fill(&plane::grown(&area, BESIDE_M), NEAR);
         raster.fill(&area, RECORDED);
-        (raster, bounds)
+        raster
     }
 
     #[test]
     fn a_road_goes_on_where_the_recording_ends_with_the_recorded_width() {
-        let (raster, bounds) = recorded();
-        let map = StreetMap { roads: vec![road(&[(-50.0, 0.0), (150.0, 0.0)])], ..StreetMap::default() };
-        let found = stretches(&map, &raster, bounds, false, &Report::default());
+        let raster = recorded();
+        let road = road(&[(-50.0, 0.0), (150.0, 0.0)]);
+        let found = stretches(vec![(&road, road.centreline.clone())], &raster, false, &Report::default());
         assert_eq!(found.len(), 1);
         assert!((found[0].width_m - 12.0).abs() <= 1.0, "{}", found[0].width_m);
         assert!(found[0].line[0].x < 100.0 && found[0].line[0].x > 90.0);
@@ -187,19 +160,8 @@ mod tests {
 
     #[test]
     fn a_road_drawn_beside_the_recorded_one_is_not_built_again() {
-        let (raster, bounds) = recorded();
-        let map = StreetMap { roads: vec![road(&[(-90.0, 9.0), (90.0, 9.0)])], ..StreetMap::default() };
-        assert!(stretches(&map, &raster, bounds, false, &Report::default()).is_empty());
-    }
-
-    #[test]
-    fn a_bridge_over_a_road_is_dropped_and_reported() {
-        let (raster, bounds) = recorded();
-        let bridge = Road { bridge: true, layer: 1, ..road(&[(0.0, 50.0), (0.0, 150.0)]) };
-        let roads = vec![road(&[(-50.0, 100.0), (50.0, 100.0)]), bridge];
-        let report = Report::default();
-        let map = StreetMap { roads, ..StreetMap::default() };
-        assert_eq!(stretches(&map, &raster, bounds, false, &report).len(), 1);
-        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.count == 1));
+        let raster = recorded();
+        let road = road(&[(-90.0, 9.0), (90.0, 9.0)]);
+        assert!(stretches(vec![(&road, road.centreline.clone())], &raster, false, &Report::default()).is_empty());
     }
 }

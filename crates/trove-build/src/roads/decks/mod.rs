@@ -1,0 +1,251 @@
+//! Roads above the ground: which they are, and how high they run.
+//!
+//! A bridge rises from where it meets roads on the ground, at the slope that its crossings ask for; the road that
+//! leads up to it rises with it as far as nothing else meets it.
+
+mod crossings;
+mod heights;
+mod sweep;
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+use trove_model::{Bounds, Outcome, Polygon, Report, Road, StreetMap};
+
+use self::crossings::Crossings;
+use self::heights::Attempt;
+use super::network::resampled;
+use crate::plane::strip;
+use crate::plane_raster::PlaneRaster;
+
+pub(super) use self::sweep::{DeckMeshes, meshes};
+
+/// From one level to the next, metres: 4.5 m for lorries, and the deck.
+const LEVEL_M: f64 = 5.6;
+/// Below this a deck is a solid ramp, metres.
+const SOLID_M: f64 = 1.6;
+/// From the outermost lane's gutter to the deck's outer side.
+const EDGE_M: f64 = 0.6;
+/// A bridge of which more than this share lies along the recorded area is the level of the recording.
+const RECORDED_SHARE: f64 = 0.5;
+
+/// A road above the ground.
+#[derive(Clone, Debug)]
+pub(super) struct Deck<'a> {
+    pub road: &'a Road,
+    pub line: Vec<DVec2>,
+    /// Above the ground, one a point of the line.
+    pub heights_m: Vec<f64>,
+}
+
+/// All roads for cars, divided.
+#[derive(Default)]
+pub(super) struct Levels<'a> {
+    /// Lines that lie on the ground; less than their roads' where these rise.
+    pub ground: Vec<(&'a Road, Vec<DVec2>)>,
+    pub decks: Vec<Deck<'a>>,
+}
+
+/// Vertices with the same key are one node of the map.
+type Key = [i64; 2];
+
+fn key(p: DVec2) -> Key {
+    (p * 100.0).round().as_i64vec2().to_array()
+}
+
+/// Divides the map's roads for cars around a place; what can be built on no level is dropped and reported.
+pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bounds, report: &Report) -> Levels<'a> {
+    let reaches = |r: &&Road| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&bounds));
+    let cars: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars()).filter(reaches).collect();
+    let mut ground: Vec<&Road> = Vec::new();
+    let mut raised: Vec<&Road> = Vec::new();
+    for &road in &cars {
+        let points = resampled(&road.centreline);
+        let beside = points.iter().filter(|&&p| recorded.at(p) != 0).count();
+        let is_recorded = beside as f64 > RECORDED_SHARE * points.len() as f64;
+        if road.tunnel {
+            report.note(Outcome::Dropped, "road in a tunnel", format_args!("osm way {}", road.id));
+        } else if (road.bridge || road.layer > 0) && !is_recorded {
+            raised.push(road);
+        } else {
+            ground.push(road);
+        }
+    }
+
+    let mut decks = Vec::new();
+    let mut risen: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    let mut level: Vec<&Road> = Vec::new();
+    for group in connected(&raised) {
+        let crossings = Crossings::new(&group, &ground, &raised, map);
+        if crossings.is_empty() {
+            // Over nothing but water or a valley a bridge carries its road on the level.
+            level.extend(group);
+            continue;
+        }
+        match Attempt::first_that_clears(&group, &ground, &crossings) {
+            Some(attempt) => {
+                decks.extend(attempt.decks(&group, &ground));
+                for (road, ends) in attempt.risen {
+                    let known = risen.entry(road).or_default();
+                    *known = [known[0].max(ends[0]), known[1].max(ends[1])];
+                }
+            }
+            None => {
+                for road in group {
+                    let what = "bridge whose ramps do not fit between the roads that it crosses and joins";
+                    report.note(Outcome::Dropped, what, format_args!("osm way {}", road.id));
+                }
+            }
+        }
+    }
+    let ends = |i: usize| risen.get(&i).copied().unwrap_or_default();
+    let mut lines: Vec<(&Road, Vec<DVec2>)> =
+        ground.iter().enumerate().map(|(i, road)| (*road, shortened(&road.centreline, ends(i)))).collect();
+    lines.extend(level.into_iter().map(|road| (road, road.centreline.clone())));
+    lines.retain(|(_, line)| line.len() > 1);
+    Levels { ground: lines, decks }
+}
+
+/// Roads in groups that share nodes.
+fn connected<'a>(roads: &[&'a Road]) -> Vec<Vec<&'a Road>> {
+    let mut group_of: Vec<usize> = (0..roads.len()).collect();
+    let mut first: BTreeMap<Key, usize> = BTreeMap::new();
+    for (i, road) in roads.iter().enumerate() {
+        for &p in &road.centreline {
+            let other = *first.entry(key(p)).or_insert(i);
+            let (a, b) = (group_of[i], group_of[other]);
+            if a != b {
+                group_of.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
+            }
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<&Road>> = BTreeMap::new();
+    for (i, road) in roads.iter().enumerate() {
+        groups.entry(group_of[i]).or_default().push(road);
+    }
+    groups.into_values().collect()
+}
+
+/// A line without some metres at its start and end.
+fn shortened(line: &[DVec2], ends_m: [f64; 2]) -> Vec<DVec2> {
+    let mut line = line.to_vec();
+    for end_m in ends_m {
+        if end_m > 0.0 {
+            line = split(&line, end_m).1;
+        }
+        line.reverse();
+    }
+    line
+}
+
+/// A line cut in two at some metres from its start.
+fn split(line: &[DVec2], at_m: f64) -> (Vec<DVec2>, Vec<DVec2>) {
+    let mut before = vec![line[0]];
+    let mut left_m = at_m;
+    for (i, pair) in line.windows(2).enumerate() {
+        let length_m = pair[0].distance(pair[1]);
+        if length_m > left_m {
+            let cut = pair[0].lerp(pair[1], left_m / length_m);
+            before.push(cut);
+            let after = std::iter::once(cut).chain(line[i + 1..].iter().copied()).collect();
+            return (before, after);
+        }
+        before.push(pair[1]);
+        left_m -= length_m;
+    }
+    (before, Vec::new())
+}
+
+impl Deck<'_> {
+    /// Half of the width from outer side to outer side.
+    fn half_width_m(&self, carriageway_m: f64) -> f64 {
+        carriageway_m / 2.0 + EDGE_M
+    }
+
+    /// Where it is a solid ramp, and where one can pass below it; the ramps a little less than they are.
+    pub(super) fn footprint(&self, carriageway_m: f64) -> [Vec<Polygon>; 2] {
+        let half_m = self.half_width_m(carriageway_m);
+        let solid = |i: &usize| self.heights_m[*i] < SOLID_M;
+        let indices: Vec<usize> = (0..self.line.len()).collect();
+        let mut areas = [Vec::new(), Vec::new()];
+        for run in indices.chunk_by(|a, b| solid(a) == solid(b)) {
+            let (first, last) = (run[0], (run[run.len() - 1] + 1).min(self.line.len() - 1));
+            let is_solid = solid(&first);
+            let inset_m = if is_solid { 0.1 } else { 0.0 };
+            areas[usize::from(!is_solid)].extend(strip(&self.line[first..=last], half_m - inset_m));
+        }
+        areas
+    }
+}
+
+/// A line with its heights at every step; `height_m` tells the height at metres along it.
+fn deck<'a>(road: &'a Road, line: &[DVec2], height_m: impl Fn(f64) -> f64) -> Deck<'a> {
+    let line = resampled(line);
+    let mut along_m = 0.0;
+    let mut heights_m = Vec::with_capacity(line.len());
+    for (i, &p) in line.iter().enumerate() {
+        along_m += if i > 0 { p.distance(line[i - 1]) } else { 0.0 };
+        heights_m.push(height_m(along_m));
+    }
+    // Slopes change gently; where decks meet they keep their height.
+    for _ in 0..20 {
+        let before = heights_m.clone();
+        for i in 1..heights_m.len().saturating_sub(1) {
+            heights_m[i] = 0.25 * before[i - 1] + 0.5 * before[i] + 0.25 * before[i + 1];
+        }
+    }
+    Deck { road, line, heights_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trove_model::RoadKind;
+
+    fn place() -> StreetMap {
+        let road = |id, points: &[[f64; 2]]| crate::testing::road(id, RoadKind::Secondary, points);
+        let bridge = Road { bridge: true, layer: 1, ..road(2, &[[-40.0, 0.0], [0.0, 0.0], [40.0, 0.0]]) };
+        let roads = vec![
+            road(1, &[[-200.0, 0.0], [-40.0, 0.0]]),
+            bridge,
+            road(3, &[[40.0, 0.0], [200.0, 0.0]]),
+            road(4, &[[0.0, -150.0], [0.0, 150.0]]),
+            road(5, &[[160.0, -50.0], [160.0, 50.0]]),
+        ];
+        StreetMap { roads, ..StreetMap::default() }
+    }
+
+    fn levels_of(map: &StreetMap, report: &Report) -> (Vec<(i64, f64)>, Vec<(i64, f64)>) {
+        let bounds = Bounds::square(DVec2::ZERO, 500.0);
+        let levels = levels(map, &PlaneRaster::new(bounds, 1.0), bounds, report);
+        let length = |line: &[DVec2]| line.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+        let highest = |d: &Deck<'_>| d.heights_m.iter().copied().fold(0.0, f64::max);
+        let ground = levels.ground.iter().map(|(r, line)| (r.id, length(line).round())).collect();
+        (ground, levels.decks.iter().map(|d| (d.road.id, highest(d))).collect())
+    }
+
+    #[test]
+    fn a_short_bridge_over_a_road_is_led_up_to_and_the_road_below_stays() {
+        let (ground, decks) = levels_of(&place(), &Report::default());
+        assert!(ground.contains(&(4, 300.0)) && ground.contains(&(5, 100.0)), "{ground:?}");
+        assert!(ground.iter().find(|(id, _)| *id == 1).unwrap().1 < 120.0, "{ground:?}");
+        let over = decks.iter().find(|(id, _)| *id == 2).unwrap().1;
+        assert!((5.0..LEVEL_M + 0.01).contains(&over), "{decks:?}");
+        assert_eq!(decks.iter().map(|(id, _)| *id).collect::<Vec<_>>(), [2, 1, 3]);
+    }
+
+    #[test]
+    fn a_bridge_over_nothing_lies_on_the_level_and_one_without_room_is_reported() {
+        let mut map = place();
+        map.roads.remove(3);
+        assert!(levels_of(&map, &Report::default()).1.is_empty());
+        let mut map = place();
+        map.roads.push(crate::testing::road(6, RoadKind::Residential, &[[-40.0, 0.0], [-40.0, 80.0]]));
+        map.roads.push(crate::testing::road(7, RoadKind::Residential, &[[40.0, 0.0], [40.0, 80.0]]));
+        map.roads[1].centreline = [[-40.0, 0.0], [-30.0, 0.0], [40.0, 0.0]].map(DVec2::from_array).to_vec();
+        map.roads[3].centreline = [[-30.0, -80.0], [-30.0, 80.0]].map(DVec2::from_array).to_vec();
+        let report = Report::default();
+        assert!(levels_of(&map, &report).1.is_empty());
+        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.count == 1));
+    }
+}
