@@ -20,7 +20,7 @@ use crate::placement::{Stand, cast};
 use crate::scenery::Scenery;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
-use crate::vegetation::vegetation;
+use crate::vegetation::{undergrowth, vegetation};
 use crate::weather::Weather;
 use crate::{buildings, ground, roads};
 
@@ -109,12 +109,16 @@ pub fn build(
     let mut assembly = Assembly::default();
     let mut actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
     let mut next_id = actors.len() as u32 + 1;
-    for piece in surfaces.pieces.iter().chain(&buildings.pieces) {
+    for piece in surfaces.pieces.iter().chain(&buildings.pieces).chain(&furniture.pieces) {
         assembly.piece(piece, &mut next_id);
     }
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
-    drop_farthest(&mut plants, drive, left.saturating_sub(furniture.len()), report);
-    for scenery in plants.iter().chain(&furniture) {
+    drop_farthest(&mut plants, drive, left.saturating_sub(furniture.scenery.len()), report);
+    let undergrowth = undergrowth(&around, library, &clearance, &plants, seed.child("undergrowth"), report);
+    for piece in &undergrowth {
+        assembly.piece(piece, &mut next_id);
+    }
+    for scenery in plants.iter().chain(&furniture.scenery) {
         assembly.scenery(scenery, &mut next_id);
     }
     settings.weather.treat(&mut assembly);

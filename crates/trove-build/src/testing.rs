@@ -55,7 +55,7 @@ pub(crate) fn library() -> AssetLibrary {
         asset("bench/a", Kind::Bench, [0.6, 1.8, 0.8]),
     ];
     assets.sort_by(|a, b| a.id.cmp(&b.id));
-    AssetLibrary { assets, surfaces: Vec::new() }
+    AssetLibrary { assets, ..AssetLibrary::default() }
 }
 
 /// A street along x: carriageway from y = −4 to 12, sidewalks of 3 m on both sides.

@@ -81,6 +81,40 @@ pub struct Surface {
     pub cells: [u32; 2],
 }
 
+/// What lies or grows on the ground in such numbers that it is placed by the patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CoverKind {
+    /// Grass, each blade a few triangles.
+    GrassNear,
+    /// Grass from about ten metres on: fewer and wider blades.
+    GrassMiddle,
+    /// Grass from about twenty metres on.
+    GrassFar,
+    /// Tall stalks at the foot of walls, fences and kerbs.
+    Weeds,
+    /// Clover and dandelions in a lawn.
+    Flowers,
+    /// Fallen leaves.
+    Leaves,
+    /// The square of soil that a tree stands in where the ground is paved.
+    TreePit,
+}
+
+/// A patch of what covers the ground; it is ground itself, and no object.
+#[derive(Clone, Debug)]
+pub struct GroundCover {
+    /// Unique in its library (`cover/grass-near-1`).
+    pub id: String,
+    /// What it is.
+    pub kind: CoverKind,
+    /// Side of the square that it covers, metres: x and y from −side/2 to side/2, a little more for what leans out.
+    pub side_m: f64,
+    /// Shape, z up from the ground at 0.
+    pub mesh: Arc<Mesh>,
+    /// Material of each of the mesh's slots; paints, where there are any, lead from the freshest to the driest.
+    pub slots: Vec<Slot>,
+}
+
 /// Models and surfaces, sorted by id.
 #[derive(Clone, Debug, Default)]
 pub struct AssetLibrary {
@@ -88,6 +122,8 @@ pub struct AssetLibrary {
     pub assets: Vec<Asset>,
     /// Surfaces.
     pub surfaces: Vec<Surface>,
+    /// What covers the ground.
+    pub covers: Vec<GroundCover>,
 }
 
 impl AssetLibrary {
@@ -99,5 +135,10 @@ impl AssetLibrary {
     /// The surfaces of a kind, in the order of their ids.
     pub fn surfaces_of(&self, kind: SurfaceKind) -> impl Iterator<Item = &Surface> {
         self.surfaces.iter().filter(move |s| s.kind == kind)
+    }
+
+    /// The covers of a kind, in the order of their ids.
+    pub fn covers_of(&self, kind: CoverKind) -> impl Iterator<Item = &GroundCover> {
+        self.covers.iter().filter(move |c| c.kind == kind)
     }
 }

@@ -107,9 +107,9 @@ impl Kind {
         }
     }
 
-    /// Whether it stands on a pole that is not under the middle of it: its asset's origin is the pole's foot.
+    /// Whether it stands on a pole or trunk that is not under the middle of it: its asset's origin is the pole's foot.
     pub fn is_on_pole(self) -> bool {
-        matches!(self, Self::TrafficSign | Self::TrafficSignal | Self::StreetLamp | Self::UtilityPole)
+        matches!(self, Self::Tree | Self::TrafficSign | Self::TrafficSignal | Self::StreetLamp | Self::UtilityPole)
     }
 
     /// Whether it drives, with a body that follows the ground's slope.

@@ -1,12 +1,12 @@
-//! Bushes, hedges and ground cover: stems inside, sprigs over a rounded or clipped surface.
+//! Bushes, hedges and ground cover: stems and a dark core inside, sprigs over a rounded or clipped surface.
 
-use glam::{Vec3, vec3};
-use trove_model::{Asset, Class, Kind, Seed};
+use glam::{Vec3, vec2, vec3};
+use trove_model::{Asset, Class, Kind, Material, Seed};
 
 use super::growth::{Foliage, limb};
 use super::leaves::{Sprig, bark, material};
 use super::trees::{SHADES, direction};
-use crate::shape::Model;
+use crate::shape::{Model, Shape};
 
 /// A kind of bush.
 struct Habit {
@@ -42,17 +42,6 @@ pub(super) fn assets() -> Vec<Asset> {
             from_ground: false,
         },
         Habit {
-            id: "bush/hedge",
-            half_m: vec3(1.0, 0.4, 0.5),
-            power: 9.0,
-            lumps: 0.04,
-            sprig: Sprig::Feathered,
-            green: vec3(0.083, 0.14, 0.042),
-            card_m: 0.24,
-            cards: 2400,
-            from_ground: false,
-        },
-        Habit {
             id: "bush/tall",
             half_m: vec3(1.2, 1.1, 1.35),
             power: 2.4,
@@ -71,7 +60,7 @@ pub(super) fn assets() -> Vec<Asset> {
             sprig: Sprig::Blades,
             green: vec3(0.093, 0.165, 0.045),
             card_m: 0.8,
-            cards: 190,
+            cards: 260,
             from_ground: true,
         },
         Habit {
@@ -88,7 +77,46 @@ pub(super) fn assets() -> Vec<Asset> {
     ]
     .iter()
     .map(bush)
+    .chain([hedge()])
     .collect()
+}
+
+/// What is seen between leaves: twigs in the dark, which also let no light through the foot.
+fn core(id: &str) -> Material {
+    Material::plain(&format!("{id}-core"), vec3(0.032, 0.042, 0.018), 0.9)
+}
+
+/// A clipped piece whose ends are flush, so that several make a hedge.
+fn hedge() -> Asset {
+    let id = "bush/hedge";
+    let half = vec3(1.0, 0.35, 0.5);
+    let seed = Seed(14).child(id);
+    let mut random = seed.random();
+    let mut model = Model::default();
+    let dark = model.slot(core(id), &[]);
+    model.add(dark, Shape::block(vec3(2.0, 0.52, 0.88)).moved(Vec3::Z * 0.44));
+    let green = vec3(0.083, 0.14, 0.042);
+    let leaves = model.slot(material(&format!("{id}-leaves"), Sprig::Feathered, green, seed.0), &SHADES);
+    let mut foliage = Foliage::default();
+    let faces = [(Vec3::Z, 1.4), (Vec3::Y, 2.0), (-Vec3::Y, 2.0), (Vec3::X, 0.7), (-Vec3::X, 0.7)];
+    let area: f64 = faces.iter().map(|f| f.1).sum();
+    for _ in 0..1300 {
+        let mut at = random.range(0.0, area);
+        let outward = faces.iter().find(|f| {
+            at -= f.1;
+            at < 0.0
+        });
+        let outward = outward.map_or(Vec3::Z, |f| f.0);
+        let spread = Vec3::from_array(std::array::from_fn(|_| random.range(-1.0, 1.0) as f32));
+        // On the face, a little uneven.
+        let p = (spread * (1.0 - outward.abs()) + outward * random.range(0.8, 0.97) as f32) * half + Vec3::Z * half.z;
+        let along = outward * 0.55 + direction(&mut random) + Vec3::Z * 0.25;
+        let size = 0.2 * random.range(0.75, 1.2) as f32;
+        let foot = (p - along.normalize_or(Vec3::Z) * size * 0.6).max(vec3(-1.05, -0.4, 0.0));
+        foliage.card(foot, along, outward + direction(&mut random) * 0.7, size, (outward + Vec3::Z * 0.3).normalize());
+    }
+    model.add(leaves, foliage.into_shape());
+    model.asset(id, Kind::Bush, Class::Bush)
 }
 
 fn bush(habit: &Habit) -> Asset {
@@ -97,6 +125,12 @@ fn bush(habit: &Habit) -> Asset {
     let mut model = Model::default();
     let wood = model.slot(bark(&format!("{}-bark", habit.id), vec3(0.1, 0.08, 0.055), 13), &[]);
     let leaves = model.slot(material(&format!("{}-leaves", habit.id), habit.sprig, habit.green, seed.0), &SHADES);
+    if !habit.from_ground {
+        let dark = model.slot(core(habit.id), &[]);
+        let profile =
+            [vec2(0.0, 0.0), vec2(0.72, 0.0), vec2(0.78, 0.6), vec2(0.6, 1.1), vec2(0.3, 1.4), vec2(0.0, 1.45)];
+        model.add(dark, Shape::lathe(&profile, 10).scaled(habit.half_m * vec3(0.8, 0.8, 0.95)));
+    }
     let lumps: Vec<Vec3> = (0..9).map(|_| direction(&mut random)).collect();
     let mut foliage = Foliage::default();
     for _ in 0..habit.cards {
@@ -117,10 +151,11 @@ fn bush(habit: &Habit) -> Asset {
         let outward = (outward / habit.half_m + Vec3::Z * 0.25).normalize_or(Vec3::Z);
         let size = habit.card_m * random.range(0.75, 1.2) as f32;
         if habit.from_ground {
+            // The outermost leaves hang to the ground.
             let foot = vec3(p.x, p.y, 0.0) * 0.55 + Vec3::Z * 0.05 * random.unit() as f32;
-            let rise = if skirt { -0.1 } else { 0.35 };
-            let along = vec3(out.x, out.y, rise + 1.3 * random.unit() as f32) + direction(&mut random) * 0.3;
-            let lift = Vec3::Z * habit.half_m.z * if skirt { 0.15 } else { 0.9 } * random.unit() as f32;
+            let rise = if skirt { -0.35 } else { 0.35 };
+            let along = vec3(out.x, out.y, rise + 1.1 * random.unit() as f32) + direction(&mut random) * 0.3;
+            let lift = Vec3::Z * habit.half_m.z * if skirt { 0.25 } else { 0.9 } * random.unit() as f32;
             foliage.card(foot + lift, along, Vec3::Z + out * 0.5, size, (along + Vec3::Z * 0.6).normalize_or(Vec3::Z));
         } else {
             let along = outward * 0.8 + direction(&mut random) + Vec3::Z * 0.3;

@@ -20,13 +20,17 @@ pub(super) enum Sprig {
     Frond,
 }
 
-/// The leaves' material: green seen from above, letting light through from behind.
+/// Share of the light that a leaf does not swallow that comes out on its other side; about 0.4 over the visible range
+/// (Jacquemoud and Baret, *PROSPECT: A model of leaf optical properties spectra*, 1990).
+const TRANSLUCENCY: f32 = 0.4;
+
+/// The leaves' material: `green` is what they reflect, as much again comes through from behind as is usual.
 pub(super) fn material(name: &str, sprig: Sprig, green: Vec3, seed: u64) -> Material {
-    let canvas = picture(sprig, green, seed);
+    let canvas = picture(sprig, green / (1.0 - TRANSLUCENCY), seed);
     Material {
         base_color_map: Some(canvas.color(name)),
         alpha_cutoff: 0.5,
-        translucency: 0.4,
+        translucency: TRANSLUCENCY,
         // Leaves in their thousands gleam little: each is bent, and most are dull or dusty.
         ior: 1.35,
         ..Material::plain(name, Vec3::ONE, 0.7)

@@ -1,6 +1,7 @@
-//! Trees and bushes.
+//! Trees, bushes, and what covers the ground.
 
 mod bushes;
+mod cover;
 mod growth;
 mod leaves;
 mod stems;
@@ -8,6 +9,8 @@ mod trees;
 
 use rayon::prelude::*;
 use trove_model::Asset;
+
+pub(crate) use cover::covers;
 
 /// Plants of the tropics.
 const FROST_TENDER: [&str; 4] = ["bush/tropical", "tree/palm", "tree/palm-low", "tree/rain-tree"];

@@ -5,38 +5,44 @@ use glam::{Vec2, Vec3, vec2, vec3};
 use super::canvas::{Canvas, Texel};
 use super::noise::{Noise, step};
 
-/// Grass seen from above: blades, clumps, and bare earth by `bare`.
+/// Grass seen from above: tufts, thatch and moss between them, patches of clover, and bare earth by `bare`.
 pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
-    let size = [4.0, 4.0];
+    let size = [8.0, 8.0];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
-    let (clump, tuft, patch, earth) = (noise(0.5, 1).field(3), noise(0.09, 2), noise(1.3, 3).field(4), noise(0.025, 4));
-    let mut canvas = Canvas::new([768, 768], size, |p| {
-        let (c, e) = (clump.at(p), earth.fbm(p, 2));
+    let (clump, tuft, patch, earth) = (noise(0.5, 1).field(3), noise(0.09, 2), noise(1.6, 3).field(4), noise(0.03, 4));
+    let (clover, sward) = (noise(1.0, 5).field(4), noise(4.0, 6).field(3));
+    let thatch = fresh.lerp(dry, 0.6) * vec3(0.62, 0.55, 0.62);
+    let clover_green = fresh * vec3(0.62, 0.86, 0.95);
+    let mut canvas = Canvas::new([1024, 1024], size, |p| {
+        let (c, e, broad) = (clump.at(p), earth.at(p), sward.at(p));
         let soil = vec3(0.13, 0.09, 0.058) * (1.0 + 0.3 * e);
-        let dead = step(0.1, 0.7, patch.at(p) + 0.25 * c);
-        let green = fresh.lerp(dry, 0.35 * dead) * (0.75 + 0.3 * c);
+        let dead = step(0.05, 0.75, patch.at(p) + 0.25 * c + 0.2 * broad);
+        let green = fresh.lerp(dry, 0.4 * dead) * (0.8 + 0.3 * c + 0.15 * broad);
+        let swarm = step(0.28, 0.42, clover.at(p) + 0.12 * tuft.at(p));
         let open = step(1.0 - bare, 1.25 - bare, 0.5 + 0.5 * patch.at(p + size_m * 0.31) + 0.2 * tuft.at(p));
-        let mut texel = Texel::new((green * 0.55).lerp(soil, open), 0.9);
+        let ground = thatch.lerp(green * 0.6, 0.55).lerp(clover_green * 0.7, 0.8 * swarm);
+        let mut texel = Texel::new(ground.lerp(soil, open), 0.9);
         texel.height_m = 0.006 * tuft.fbm(p, 2) - 0.012 * open;
-        texel.alpha = 1.0 - open;
+        texel.alpha = (1.0 - open) * (1.0 - 0.35 * swarm);
         texel
     });
-    // Blades: short strokes, each of its own shade; they thin out over bare earth (kept in alpha until here).
+    // Tufts: short strokes, each of its own shade; they thin out over bare earth (kept in alpha until here).
     let mut random = trove_model::Seed(u64::from(seed)).child("blades").random();
-    for _ in 0..17_000 {
+    for _ in 0..52_000 {
         let at = vec2(random.unit() as f32, random.unit() as f32) * size_m;
         let along = Vec2::from_angle(random.range(0.0, std::f64::consts::TAU) as f32);
-        let length = random.range(0.035, 0.085) as f32;
-        let shade = random.range(0.55, 1.55) as f32;
+        let length = random.range(0.04, 0.1) as f32;
+        let shade = random.range(0.6, 1.45) as f32;
         let hue = random.unit() as f32;
         let keep = random.unit() as f32;
-        let reach = along.abs() * length / 2.0 + 0.004;
+        let reach = along.abs() * length / 2.0 + 0.006;
+        let color = fresh.lerp(dry, hue * hue * hue) * shade * (1.0 + 0.25 * clump.at(at));
         canvas.rect(at - reach, at + reach, |p, texel| {
             let q = p - reach;
             let (t, off) = (q.dot(along) / length, q.perp_dot(along).abs());
-            if texel.alpha > keep * 0.8 && t.abs() < 0.5 && off < 0.0042 * (0.65 - t) {
-                texel.albedo = fresh.lerp(dry, hue * hue) * shade * (0.8 + 0.5 * t);
+            if texel.alpha > keep * 0.8 && t.abs() < 0.5 && off < 0.0065 * (0.65 - t) {
+                texel.albedo = color * (0.8 + 0.5 * t);
                 texel.height_m = 0.01 + 0.012 * t;
                 texel.roughness = 0.75;
             }

@@ -1,11 +1,20 @@
 //! Trees and bushes: where the LiDAR saw them, and beyond its reach where the map and the streets have them.
 
+mod blue_noise;
+mod climate;
 mod columns;
+mod crowns;
+mod hedges;
+mod lawn;
 mod lidar;
 mod map;
+mod noise;
 mod open_land;
 mod species;
 mod streets;
+#[cfg(test)]
+mod tests;
+mod undergrowth;
 
 use glam::DVec2;
 use trove_model::{AssetLibrary, Kind, Outcome, Report, Seed};
@@ -13,10 +22,18 @@ use trove_model::{AssetLibrary, Kind, Outcome, Report, Seed};
 use crate::clearance::{Clearance, Room};
 use crate::scenery::Scenery;
 use crate::surroundings::Surroundings;
-use species::Species;
+use blue_noise::BlueNoise;
+use climate::Climate;
+use species::{Genus, Space, Species};
+
+pub(crate) use lawn::Lawn;
+pub(crate) use undergrowth::undergrowth;
 
 /// Side of the squares in which plants are of one species, metres.
 const SPECIES_SQUARE_M: f64 = 60.0;
+
+/// Feet are sunk into a slope by at most this, metres.
+const MOST_SUNK_M: f64 = 0.025;
 
 /// A plant that is wanted somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +46,28 @@ struct Wish {
     height_m: f64,
     /// Plants with the same number are of one species.
     group: u64,
+    /// What it is, where the map says so.
+    genus: Option<Genus>,
     /// Half the distance to its like, metres; `None`: as its size asks.
     radius_m: Option<f64>,
+    /// How it is clipped.
+    form: Form,
+}
+
+/// How a plant is clipped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    /// As it grows.
+    Free,
+    /// A piece of a hedge that runs along a direction.
+    Hedge { yaw_rad: f64, length_m: f64, width_m: f64 },
+}
+
+impl Wish {
+    /// A free plant of whatever grows there, with as much room as its size asks.
+    fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
+        Self { kind, position, height_m, group, genus: None, radius_m: None, form: Form::Free }
+    }
 }
 
 /// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along streets, on open land.
@@ -41,54 +78,70 @@ pub(crate) fn vegetation<'a>(
     seed: Seed,
     report: &Report,
 ) -> Vec<Scenery<'a>> {
-    let species = Species::new(library, around.drive.projection.origin_lat_deg);
-    for (kind, none) in [(Kind::Tree, species.trees.is_empty()), (Kind::Bush, species.bushes.is_empty())] {
-        if none {
-            report.note(
-                Outcome::Dropped,
-                &format!("plants without an asset of kind {kind:?}"),
-                kind.class().row().name,
-            );
-        }
+    let species = Species::new(library, Climate::of(around.drive));
+    for kind in [Kind::Tree, Kind::Bush].into_iter().filter(|&kind| species.lacks(kind)) {
+        let what = format!("plants without an asset of kind {kind:?}");
+        report.note(Outcome::Dropped, &what, kind.class().row().name);
     }
+    let blue_noise = BlueNoise::new(seed.child("blue noise"));
     let seen = lidar::Seen::new(around, clearance);
     let mut wishes = seen.wishes(seed.child("lidar"));
     let counted = wishes.len();
     // What the LiDAR could see is left as it saw it.
     let beyond = |w: &Wish| !seen.covers(w.position);
-    wishes.extend(map::wishes(around, seed.child("map")).into_iter().filter(beyond));
+    wishes.extend(map::wishes(around, &blue_noise, seed.child("map")).into_iter().filter(beyond));
     wishes.extend(streets::wishes(around, clearance, seed.child("streets")).into_iter().filter(beyond));
-    wishes.extend(open_land::wishes(around, clearance, seed.child("open-land")).into_iter().filter(beyond));
+    wishes.extend(open_land::wishes(around, clearance, &blue_noise, seed.child("land")).into_iter().filter(beyond));
     report.measure("vegetation.lidar_wishes", counted as f64);
     report.measure("vegetation.wishes", wishes.len() as f64);
 
     let mut plants = Vec::new();
-    for (i, wish) in wishes.iter().enumerate() {
-        let Some(grown) = species.grow(wish, seed.child("plant").nth(i as u64)) else { continue };
+    for (i, wish) in wishes.iter().enumerate().filter(|(_, w)| around.bounds.contains(w.position)) {
+        let space = Space {
+            lane_m: clearance.road_distance_m(wish.position),
+            wall_m: clearance.building_distance_m(wish.position),
+        };
+        let Some(grown) = species.grow(wish, space, seed.child("plant").nth(i as u64)) else { continue };
         let radius_m = wish.radius_m.unwrap_or(grown.radius_m * 0.6);
-        let room = match wish.kind {
-            // A trunk beside the road, a crown off the walls and off what passes by.
-            Kind::Tree => Room {
-                road_m: 0.7,
-                buildings_m: (grown.radius_m * 0.7).max(0.8),
-                recorded_m: (grown.radius_m * 0.8).max(1.0),
+        let room = match (wish.kind, wish.form) {
+            // A trunk beside the road; what hangs low keeps off what passes by.
+            (Kind::Tree, _) => {
+                Room { road_m: 0.7, buildings_m: 0.8, recorded_m: (grown.low_radius_m * 0.8).max(1.0), radius_m }
+            }
+            (_, Form::Hedge { .. }) => Room {
+                road_m: grown.radius_m + 0.1,
+                buildings_m: grown.radius_m + 0.1,
+                recorded_m: grown.radius_m + 0.3,
                 radius_m,
             },
             _ => Room {
                 road_m: grown.radius_m + 0.2,
-                buildings_m: grown.radius_m * 0.8,
+                buildings_m: grown.radius_m * 0.9,
                 recorded_m: grown.radius_m + 0.3,
                 radius_m,
             },
         };
-        if around.bounds.contains(wish.position) && clearance.is_free(wish.position, &room) {
+        if clearance.is_free(wish.position, &room) {
             clearance.take(wish.position, radius_m);
-            let foot_world = wish.position.extend(around.stand.surface_m(wish.position));
-            plants.push(grown.scenery(foot_world));
+            plants.push(grown.scenery(wish.position.extend(foot_m(around, wish))));
         }
     }
     report.measure("vegetation.plants", plants.len() as f64);
     plants
+}
+
+/// Height of the ground where a plant comes out of it: on a slope a bush that is wide stands in the lower ground.
+fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
+    let reach_m = match (wish.kind, wish.form) {
+        (Kind::Tree, _) => 0.25,
+        (_, Form::Hedge { length_m, .. }) => length_m * 0.35,
+        _ => 0.3,
+    };
+    let middle_m = around.stand.surface_m(wish.position);
+    let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
+    let h = |offset: DVec2| around.stand.ground.height_m(wish.position + offset);
+    let drop_m = corners.iter().map(|&c| h(DVec2::ZERO) - h(c * reach_m)).fold(0.0, f64::max);
+    middle_m - drop_m.min(MOST_SUNK_M)
 }
 
 /// Plants in the same large square are of one species.

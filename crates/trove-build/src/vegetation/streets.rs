@@ -4,6 +4,7 @@ use glam::DVec2;
 use trove_model::{Kind, Seed};
 
 use super::Wish;
+use super::hedges::hedge;
 use crate::clearance::Clearance;
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::surroundings::Surroundings;
@@ -15,14 +16,14 @@ const TREE_SHARE: f64 = 0.5;
 const HEDGE_SHARE: f64 = 0.2;
 /// Trees of a row are this far apart, metres.
 const TREE_SPACING_M: [f64; 2] = [8.0, 12.0];
-/// Bushes of a hedge are this far apart, metres.
-const HEDGE_STEP_M: f64 = 0.8;
 /// Hedges are this long, metres, with gaps of as much.
 const HEDGE_RUN_M: f64 = 14.0;
 /// Rows of trees stand this far from the kerb, metres.
-const TREE_OFF_KERB_M: f64 = 1.1;
+const TREE_OFF_KERB_M: f64 = 1.3;
 /// Land begins within this of the kerb, or there is no hedge, metres.
 const LAND_REACH_M: f64 = 7.0;
+/// Hedges stand this far behind where the sidewalk ends, metres.
+const BEHIND_M: f64 = 0.7;
 
 /// Trees behind the kerb, hedges where the sidewalk ends.
 pub(super) fn wishes(around: &Surroundings, clearance: &Clearance, seed: Seed) -> Vec<Wish> {
@@ -51,8 +52,9 @@ fn row_of_trees(stretch: &[KerbPoint], height_m: f64, seed: Seed, wishes: &mut V
     let mut at_m = random.range(0.0, spacing_m);
     while let Some(kerb) = stretch.get((at_m / KERB_STEP_M) as usize) {
         let position = kerb.position + kerb.outward * TREE_OFF_KERB_M;
-        let height_m = height_m * random.range(0.85, 1.15);
-        wishes.push(Wish { kind: Kind::Tree, position, height_m, group: seed.0, radius_m: Some(2.2) });
+        // Here and there one has been replaced.
+        let age = if random.chance(0.1) { 0.55 } else { random.range(0.85, 1.15) };
+        wishes.push(Wish { radius_m: Some(2.2), ..Wish::new(Kind::Tree, position, height_m * age, seed.0) });
         at_m += spacing_m * random.range(0.92, 1.08);
     }
 }
@@ -60,24 +62,14 @@ fn row_of_trees(stretch: &[KerbPoint], height_m: f64, seed: Seed, wishes: &mut V
 fn hedges(stretch: &[KerbPoint], clearance: &Clearance, seed: Seed, wishes: &mut Vec<Wish>) {
     let mut random = seed.child("hedge").random();
     let height_m = random.range(0.7, 1.3);
-    let phase_m = random.range(0.0, HEDGE_RUN_M);
-    let count = (stretch.len() as f64 * KERB_STEP_M / HEDGE_STEP_M) as usize;
-    for i in 0..count {
-        let at_m = i as f64 * HEDGE_STEP_M;
-        let kerb = &stretch[((at_m / KERB_STEP_M) as usize).min(stretch.len() - 1)];
-        if ((at_m + phase_m) / HEDGE_RUN_M).rem_euclid(2.0) < 1.0 {
-            continue;
-        }
-        let along = kerb.outward.perp() * (at_m - (at_m / KERB_STEP_M).floor() * KERB_STEP_M);
-        if let Some(position) = land_behind(kerb.position + along, kerb.outward, clearance) {
-            let height_m = height_m * random.range(0.92, 1.08);
-            wishes.push(Wish {
-                kind: Kind::Bush,
-                position,
-                height_m,
-                group: seed.0,
-                radius_m: Some(HEDGE_STEP_M * 0.4),
-            });
+    let run_points = (HEDGE_RUN_M / KERB_STEP_M) as usize;
+    let skip = random.index(run_points);
+    for run in stretch.get(skip..).unwrap_or_default().chunks(run_points).step_by(2) {
+        let line: Vec<DVec2> =
+            run.iter().step_by(2).filter_map(|k| land_behind(k.position, k.outward, clearance)).collect();
+        // Where the sidewalk's edge jumps the hedge ends.
+        for part in line.chunk_by(|a, b| a.distance(*b) < 3.0 * KERB_STEP_M) {
+            wishes.extend(hedge(part, height_m, seed));
         }
     }
 }
@@ -86,5 +78,5 @@ fn hedges(stretch: &[KerbPoint], clearance: &Clearance, seed: Seed, wishes: &mut
 fn land_behind(kerb: DVec2, outward: DVec2, clearance: &Clearance) -> Option<DVec2> {
     let steps = (LAND_REACH_M / 0.5) as usize;
     let at = |i: usize| kerb + outward * (1.0 + 0.5 * i as f64);
-    (0..steps).map(at).find(|&p| clearance.is_land(p)).map(|p| p + outward * 0.7)
+    (0..steps).map(at).find(|&p| clearance.is_land(p)).map(|p| p + outward * BEHIND_M)
 }
