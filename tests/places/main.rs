@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use glam::DVec2;
-use trove_build::{BuildSettings, LightChoice, SkyChoice, Weather};
+use trove_build::{BuildSettings, LightChoice, OnDisagreement, SkyChoice, Weather};
 use trove_model::{AssetLibrary, Bounds, Drive, MapProjection, Report, Scene, Seed, StreetMap};
 use trove_read::{nuscenes::NuScenes, osm};
 
@@ -31,6 +31,7 @@ fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
         top_k: 3,
         light: LightChoice::Sky(SkyChoice::default()),
         weather: Weather::default(),
+        on_disagreement: OnDisagreement::default(),
     };
     static LIBRARY: LazyLock<AssetLibrary> = LazyLock::new(trove_assets::library);
     let site = trove_build::build(&drive, Some(&map), &LIBRARY, &settings, &report).unwrap();

@@ -32,7 +32,7 @@ mod views;
 mod wall_pieces;
 mod weather;
 
-pub use agreement::{Agreement, agreement};
+pub use agreement::OnDisagreement;
 pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use site::{BuildSettings, Site, area, build};

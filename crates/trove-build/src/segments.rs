@@ -8,6 +8,8 @@ use glam::DVec2;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SegmentIndex {
     segments: Vec<[DVec2; 2]>,
+    /// The line that each segment is of.
+    lines: Vec<usize>,
     // Only ever looked up, so the order inside does not reach a result.
     buckets: HashMap<[i64; 2], Vec<usize>>,
 }
@@ -21,6 +23,8 @@ pub(crate) struct Nearest {
     pub position: DVec2,
     /// Its direction, unit; zero for a segment without length.
     pub along: DVec2,
+    /// Which of the lines it is of, in the order given.
+    pub line: usize,
 }
 
 /// Side of a bucket, metres.
@@ -30,7 +34,8 @@ impl SegmentIndex {
     /// All segments of some lines.
     pub(crate) fn new<'a>(lines: impl IntoIterator<Item = &'a [DVec2]>) -> Self {
         let mut index = Self::default();
-        for pair in lines.into_iter().flat_map(|line| line.windows(2)) {
+        let lines = lines.into_iter().enumerate();
+        for (line, pair) in lines.flat_map(|(i, line)| line.windows(2).map(move |pair| (i, pair))) {
             let [a, b] = [pair[0], pair[1]];
             let (low, high) = (bucket(a.min(b)), bucket(a.max(b)));
             for x in low[0]..=high[0] {
@@ -39,6 +44,7 @@ impl SegmentIndex {
                 }
             }
             index.segments.push([a, b]);
+            index.lines.push(line);
         }
         index
     }
@@ -60,7 +66,19 @@ impl SegmentIndex {
         }
         let (distance_m, i) = best?;
         let [a, b] = self.segments[i];
-        Some(Nearest { distance_m, position: self.on(i, p), along: (b - a).normalize_or_zero() })
+        let along = (b - a).normalize_or_zero();
+        Some(Nearest { distance_m, position: self.on(i, p), along, line: self.lines[i] })
+    }
+
+    /// The line's number and the ends of all segments that may lie within `reach_m` along both axes, in the order given.
+    pub(crate) fn around(&self, p: DVec2, reach_m: f64) -> Vec<(usize, [DVec2; 2])> {
+        let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
+        let buckets = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
+        let in_bucket = buckets.filter_map(|bucket| self.buckets.get(&bucket));
+        let mut numbers: Vec<usize> = in_bucket.flatten().copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.into_iter().map(|i| (self.lines[i], self.segments[i])).collect()
     }
 
     /// The position on a segment that is nearest to a point.

@@ -8,7 +8,7 @@ use trove_model::{
     Report, Scene, SceneObject, Seed, StreetMap,
 };
 
-use crate::agreement::agreement;
+use crate::agreement::{OnDisagreement, agreed};
 use crate::assembly::{Actor, Assembly};
 use crate::clearance::Clearance;
 use crate::error::BuildError;
@@ -47,6 +47,8 @@ pub struct BuildSettings {
     pub light: LightChoice,
     /// What weather has done to its surfaces.
     pub weather: Weather,
+    /// What becomes of a street map that does not lie on the drive.
+    pub on_disagreement: OnDisagreement,
 }
 
 /// The static place of one drive and variation: ground, roads, buildings, plants, furniture, with the objects' assets
@@ -84,9 +86,8 @@ pub fn build(
 ) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
     let seed = settings.seed;
-    if let Some(map) = map {
-        agreement(drive, map).report(drive, report);
-    }
+    let map = map.and_then(|map| agreed(drive, map, bounds, settings.on_disagreement, report));
+    let map = map.as_ref();
 
     // What lies and stands for good.
     let ground = ground::height_field(drive, bounds, report);
@@ -266,7 +267,13 @@ mod tests {
     use crate::views::{ViewSettings, shots};
 
     fn settings(seed: u64) -> BuildSettings {
-        BuildSettings { seed: Seed(seed), top_k: 3, light: LightChoice::default(), weather: Weather::default() }
+        BuildSettings {
+            seed: Seed(seed),
+            top_k: 3,
+            light: LightChoice::default(),
+            weather: Weather::default(),
+            on_disagreement: OnDisagreement::default(),
+        }
     }
 
     fn site(seed: u64) -> Site {

@@ -48,10 +48,16 @@ mod tests {
 
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, build};
+    use crate::{BuildSettings, LightChoice, OnDisagreement, build};
 
     fn scene(weather: Weather) -> Scene {
-        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::default(), weather };
+        let settings = BuildSettings {
+            seed: Seed(1),
+            top_k: 1,
+            light: LightChoice::default(),
+            weather,
+            on_disagreement: OnDisagreement::default(),
+        };
         let drive = testing::drive();
         build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
     }

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use trove_build::{BuildSettings, LightChoice, SkyChoice, ViewSettings, Weather};
+use trove_build::{BuildSettings, LightChoice, OnDisagreement, SkyChoice, ViewSettings, Weather};
 use trove_model::{Report, Seed};
 use trove_read::{nuscenes::NuScenes, osm};
 use trove_render::{KernelChoice, RaySeconds, Renderer, RendererOptions};
@@ -28,6 +28,7 @@ fn main() -> Result<()> {
             top_k: 3,
             light: LightChoice::Sky(SkyChoice::default()),
             weather: Weather::default(),
+            on_disagreement: OnDisagreement::default(),
         };
         let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
         let views = ViewSettings { rig: Some(vec!["CAM_FRONT".into()]), scale: 0.5, spp: 1, ..ViewSettings::default() };

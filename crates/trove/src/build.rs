@@ -44,6 +44,7 @@ pub(crate) fn run(
         top_k: recipe.assets.top_k,
         light: sources.light(0)?,
         weather: recipe.weather(),
+        on_disagreement: recipe.map.on_disagreement.into(),
     };
     let started = Instant::now();
     let library = trove_assets::library();

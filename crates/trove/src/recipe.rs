@@ -120,6 +120,32 @@ pub struct PlaceSection {
 pub struct MapSection {
     /// OpenStreetMap extract, `.osm` or `.osm.pbf`.
     pub osm: Option<PathBuf>,
+    /// What becomes of it where it does not lie on the drive.
+    #[serde(default)]
+    pub on_disagreement: OnDisagreement,
+}
+
+/// What becomes of a street map that does not lie on the drive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnDisagreement {
+    /// It is used all the same.
+    Warn,
+    /// Only its buildings are used.
+    #[default]
+    BuildingsOnly,
+    /// It is not used.
+    Refuse,
+}
+
+impl From<OnDisagreement> for trove_build::OnDisagreement {
+    fn from(chosen: OnDisagreement) -> Self {
+        match chosen {
+            OnDisagreement::Warn => Self::Warn,
+            OnDisagreement::BuildingsOnly => Self::BuildingsOnly,
+            OnDisagreement::Refuse => Self::Refuse,
+        }
+    }
 }
 
 /// `[assets]`

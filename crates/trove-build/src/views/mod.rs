@@ -132,11 +132,17 @@ fn shot_seed(seed: Seed, keyframe: usize, view: &str) -> Seed {
 mod tests {
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, build};
+    use crate::{BuildSettings, LightChoice, OnDisagreement, build};
 
     fn site() -> Site {
         let weather = crate::Weather::default();
-        let settings = BuildSettings { seed: Seed(1), top_k: 1, light: LightChoice::default(), weather };
+        let settings = BuildSettings {
+            seed: Seed(1),
+            top_k: 1,
+            light: LightChoice::default(),
+            weather,
+            on_disagreement: OnDisagreement::default(),
+        };
         build(&testing::drive(), None, &testing::library(), &settings, &Report::default()).unwrap()
     }
 

@@ -264,7 +264,13 @@ impl Run<'_> {
     fn settings(&self, scene: &str, variation: u32) -> Result<BuildSettings> {
         let light = self.sources.light(variation)?;
         let seed = Seed(self.recipe.seed).child(scene).nth(u64::from(variation));
-        Ok(BuildSettings { seed, top_k: self.recipe.assets.top_k, light, weather: self.recipe.weather() })
+        Ok(BuildSettings {
+            seed,
+            top_k: self.recipe.assets.top_k,
+            light,
+            weather: self.recipe.weather(),
+            on_disagreement: self.recipe.map.on_disagreement.into(),
+        })
     }
 
     /// Renders what is missing of a scene and collects the rows of all its frames.
