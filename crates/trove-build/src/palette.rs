@@ -43,6 +43,9 @@ fn plain(kind: SurfaceKind) -> Surface {
         SurfaceKind::RoofTiles => ("plain roof tiles", [0.3, 0.12, 0.08]),
         SurfaceKind::Facade => ("plain facade", [0.45, 0.4, 0.35]),
         SurfaceKind::FacadeGroundFloor => ("plain ground floor", [0.3, 0.28, 0.26]),
+        SurfaceKind::Wall => ("plain wall", [0.4, 0.38, 0.35]),
+        SurfaceKind::ShopSign => ("plain sign", [0.3, 0.05, 0.05]),
+        SurfaceKind::RoomBack => ("plain room", [0.3, 0.28, 0.25]),
     };
     let roughness = if kind == SurfaceKind::Water { 0.1 } else { 0.85 };
     let size_m = match kind {
@@ -56,5 +59,6 @@ fn plain(kind: SurfaceKind) -> Surface {
         material: Material::plain(name, Vec3::from_array(rgb), roughness),
         size_m,
         cells: [1, 1],
+        design: None,
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::{Class, Kind, Material, Mesh};
+use crate::{Class, FacadeDesign, Kind, Material, Mesh};
 
 /// A model.
 ///
@@ -64,6 +64,12 @@ pub enum SurfaceKind {
     Facade,
     /// A facade's ground floor: shops, entrances, loading bays.
     FacadeGroundFloor,
+    /// A wall without openings.
+    Wall,
+    /// Names of shops, a cell each.
+    ShopSign,
+    /// Back walls of rooms, a cell each, in rows: homes, offices, shops.
+    RoomBack,
 }
 
 /// A material for built surfaces, whose textures tile.
@@ -77,8 +83,10 @@ pub struct Surface {
     pub material: Material,
     /// What the texture covers, metres (u, v).
     pub size_m: [f32; 2],
-    /// For facades: bays (u) and storeys (v) in the texture; (1, 1) otherwise.
+    /// For facades: bays (u) and storeys (v) in the texture; of signs and rooms how many across and up; (1, 1) otherwise.
     pub cells: [u32; 2],
+    /// For facades: the rules that its texture is painted by, so that they can be built too; `None`: it stays flat.
+    pub design: Option<Arc<FacadeDesign>>,
 }
 
 /// What lies or grows on the ground in such numbers that it is placed by the patch.

@@ -1,169 +1,150 @@
-//! Ground floors: shops, entrances, loading bays.
+//! The rules of ground floors: shops, entrances, loading bays.
 
-use glam::{Vec2, Vec3, vec2, vec3};
-use trove_model::Random;
+use glam::{Vec3, vec2, vec3};
+use trove_model::{FacadeDesign, Filling, Fixtures, Interior};
 
-use super::canvas::{Canvas, Texel};
-use super::facade::{Facade, each};
-use super::noise::{hash, step};
-use super::opening::{Dress, Window, slab, streaks, tinted, window};
-use super::wall::{Grid, brick, corrugated, panels, plaster, weather};
-
-const CLEAR: Vec3 = vec3(0.9, 0.97, 0.95);
-const DARK: Vec3 = vec3(0.06, 0.06, 0.065);
+use super::facade::Style;
+use super::styles::{CLEAR, DARK, STONE, WHITE_PAINT, course, opening, pane};
+use super::wall::{Finish, Grid};
 
 fn grid(bay_m: f32, storey_m: f32) -> Grid {
     Grid { cells: [4, 1], cell_m: vec2(bay_m, storey_m) }
 }
 
-fn pane(size_m: Vec2, panes: [u32; 2], frame: Vec3, dress: Dress) -> Window {
-    Window { size_m, panes, frame, frame_m: 0.06, bar_m: 0.05, recess_m: 0.15, glass: CLEAR, dress }
-}
-
-/// A door with a panel or a pane.
-fn door(canvas: &mut Canvas, low: Vec2, size: Vec2, color: Vec3, glazed: bool, random: &mut Random) {
-    if glazed {
-        window(canvas, low, &Window { recess_m: 0.18, ..pane(size, [1, 1], color, Dress::Bare) }, random);
-    } else {
-        canvas.rect(low, low + size, |p, texel| {
-            let q = vec2((p.x / size.x * 2.0).fract(), (p.y / size.y * 3.0).fract());
-            let sunk = q.min(1.0 - q).min_element() > 0.18;
-            let shade = 0.6 + 0.4 * step(0.0, 0.2, size.y - p.y);
-            *texel = Texel::new(color * shade * if sunk { 0.88 } else { 1.0 }, 0.45);
-            texel.height_m = if sunk { -0.135 } else { -0.12 };
-        });
-    }
-    let knob = low + vec2(size.x - 0.12, 1.0);
-    canvas.rect(knob, knob + vec2(0.04, 0.25), |_, texel| *texel = Texel::new(Vec3::splat(0.5), 0.3));
-}
-
-/// Words that nobody can read, on a shop's sign.
-fn lettering(canvas: &mut Canvas, low: Vec2, size: Vec2, color: Vec3, random: &mut Random) {
-    let seed = random.bits() as u32;
-    canvas.rect(low, low + size, |p, texel| {
-        let q = vec2(p.x / size.y / 0.62, p.y / size.y);
-        let (letter, u) = (q.x as i32, q.x.fract());
-        let stroke = hash((u * 3.2) as i32, (q.y * 3.0) as i32 + 8 * letter, seed) > 0.42;
-        if u < 0.8 && stroke && hash(letter, 99, seed) > 0.12 {
-            texel.albedo = color;
-        }
-    });
-}
-
-/// A row of shops, a bay each, with sign bands of their own colours and awnings here and there.
-pub(super) fn shops(seed: u32) -> Facade {
-    let grid = grid(4.0, 4.2);
-    let mut canvas = plaster(grid, vec3(0.34, 0.32, 0.29), seed);
-    weather(&mut canvas, 0.2, seed);
-    let signs = [vec3(0.3, 0.03, 0.03), vec3(0.03, 0.1, 0.22), vec3(0.03, 0.14, 0.07), vec3(0.4, 0.26, 0.03)];
-    each(&mut canvas, grid, seed, |canvas, i, corner, random| {
-        let frame = if i % 2 == 0 { DARK } else { vec3(0.45, 0.45, 0.44) };
-        window(canvas, corner + vec2(0.3, 0.45), &pane(vec2(2.2, 2.45), [2, 1], frame, Dress::Shop), random);
-        door(canvas, corner + vec2(2.6, 0.05), vec2(1.05, 2.35), frame, true, random);
-        window(canvas, corner + vec2(2.6, 2.4), &pane(vec2(1.05, 0.5), [1, 1], frame, Dress::Bare), random);
-        slab(canvas, corner + vec2(0.3, 0.05), corner + vec2(2.5, 0.45), frame * 1.1, 0.0, 1);
-        let (low, high) = (corner + vec2(0.2, 3.0), corner + vec2(3.8, 3.7));
-        slab(canvas, low, high, signs[i as usize % 4], 0.12, 1);
-        lettering(
-            canvas,
-            low + vec2(0.4, 0.17),
-            vec2(random.range(1.6, 2.8) as f32, 0.36),
-            vec3(0.6, 0.58, 0.5),
-            random,
-        );
-        slab(canvas, corner + vec2(0.0, 3.95), corner + vec2(4.0, 4.2), vec3(0.38, 0.36, 0.33), 0.1, 1);
-    });
-    (canvas, grid)
+/// Shops, a bay each, with signs and awnings here and there.
+pub(super) fn shops() -> Style {
+    let glass_door = opening(Filling::GlassDoor, [2.68, 0.06], [1.0, 2.84], [1, 2]);
+    let design = FacadeDesign {
+        bays: vec![vec![pane([0.3, 0.45], [2.2, 2.45], [2, 1]), glass_door]],
+        frame: DARK,
+        bar_m: 0.05,
+        recess_m: 0.16,
+        glass: CLEAR,
+        interior: Interior::Shop,
+        sill_m: [0.06, 0.05],
+        courses: vec![course(0.0, 0.3, 0.0, vec3(0.2, 0.19, 0.18)), course(3.95, 4.18, 0.14, vec3(0.38, 0.36, 0.33))],
+        fixtures: Fixtures { signs: 0.95, awnings: 0.35, blades: 0.12, ..Fixtures::default() },
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(4.0, 4.2), finish: Finish::Plaster, color: vec3(0.34, 0.32, 0.29), worn: 0.2, design }
 }
 
 /// Brick with doors up a step between windows.
-pub(super) fn entrances(color: Vec3, seed: u32) -> Facade {
-    let grid = grid(2.9, 3.4);
-    let mut canvas = brick(grid, color, vec3(0.3, 0.28, 0.25), seed);
-    weather(&mut canvas, 0.2, seed);
-    let stone = vec3(0.36, 0.34, 0.3);
-    let doors = [vec3(0.02, 0.05, 0.12), vec3(0.2, 0.02, 0.02), vec3(0.02, 0.08, 0.04), vec3(0.03, 0.03, 0.03)];
-    each(&mut canvas, grid, seed, |canvas, i, corner, random| {
-        if i % 2 == 0 {
-            slab(canvas, corner + vec2(0.78, 0.0), corner + vec2(2.12, 2.95), stone, 0.0, 1);
-            door(canvas, corner + vec2(0.95, 0.15), vec2(1.0, 2.1), doors[i as usize % 4], false, random);
-            let over = Window { recess_m: 0.12, ..pane(vec2(1.0, 0.42), [3, 1], Vec3::splat(0.6), Dress::Home) };
-            window(canvas, corner + vec2(0.95, 2.3), &over, random);
-        } else {
-            let make = pane(vec2(1.2, 1.8), [2, 2], Vec3::splat(0.6), Dress::Home);
-            window(canvas, corner + vec2(0.85, 0.9), &make, random);
-            slab(canvas, corner + vec2(0.77, 0.8), corner + vec2(2.13, 0.9), stone, 0.05, 1);
-            streaks(canvas, corner + vec2(0.77, 0.8), 1.36, 0.7, random);
-            slab(canvas, corner + vec2(0.73, 2.7), corner + vec2(2.17, 2.93), stone, 0.015, 1);
-        }
-        slab(canvas, corner, corner + vec2(grid.cell_m.x, 0.12), stone * 0.8, 0.0, 1);
-    });
-    (canvas, grid)
+pub(super) fn entrances() -> Style {
+    let door = || vec![opening(Filling::Door, [0.95, 0.15], [1.0, 2.1], [1, 1])];
+    let window = || vec![pane([0.85, 0.9], [1.2, 1.75], [2, 2])];
+    let design = FacadeDesign {
+        bays: vec![door(), window(), window(), window()],
+        frame: WHITE_PAINT,
+        recess_m: 0.16,
+        glass: CLEAR,
+        trim: STONE,
+        sill_m: [0.1, 0.06],
+        lintel_m: [0.23, 0.02],
+        courses: vec![course(0.0, 0.14, 0.03, STONE * 0.8)],
+        fixtures: Fixtures { lamps: 0.8, ..Fixtures::default() },
+        ..FacadeDesign::default()
+    };
+    let color = vec3(0.22, 0.125, 0.085);
+    Style { grid: grid(2.9, 3.4), finish: Finish::Brick, color, worn: 0.2, design }
 }
 
-/// Roller doors with bumpers, a side door, hazard stripes.
-pub(super) fn loading(seed: u32) -> Facade {
-    let grid = grid(4.5, 5.0);
-    let mut canvas = corrugated(grid, vec3(0.33, 0.35, 0.36), seed);
-    weather(&mut canvas, 0.25, seed);
-    each(&mut canvas, grid, seed, |canvas, i, corner, random| {
-        if i == 2 {
-            door(canvas, corner + vec2(1.6, 0.05), vec2(1.0, 2.1), vec3(0.1, 0.14, 0.2), false, random);
-            let make = pane(vec2(1.4, 0.9), [2, 1], Vec3::splat(0.3), Dress::Office);
-            window(canvas, corner + vec2(2.9, 1.2), &make, random);
-        } else {
-            slab(canvas, corner + vec2(0.5, 0.0), corner + vec2(4.0, 4.1), vec3(0.2, 0.2, 0.2), 0.0, 1);
-            let tone = random.range(0.85, 1.15) as f32;
-            canvas.rect(corner + vec2(0.65, 0.0), corner + vec2(3.85, 3.95), |p, texel| {
-                let slat = (p.y / 0.11).fract();
-                *texel = Texel::new(vec3(0.4, 0.4, 0.38) * tone * (0.75 + 0.3 * slat), 0.5);
-                texel.albedo *= 0.6 + 0.4 * step(3.95, 3.6, p.y) - 0.2 * step(0.8, 0.0, p.y);
-                texel.height_m = -0.1 + 0.015 * (slat * std::f32::consts::PI).sin();
-            });
-            for x in [0.5, 3.85] {
-                canvas.rect(corner + vec2(x, 0.0), corner + vec2(x + 0.15, 1.2), |p, texel| {
-                    let stripe = ((p.x + p.y) / 0.25).fract() < 0.5;
-                    texel.albedo = if stripe { vec3(0.5, 0.36, 0.02) } else { Vec3::splat(0.03) };
-                });
-            }
-        }
-    });
-    (canvas, grid)
+/// A rusticated stucco base: a wide door, shops and windows in turn.
+pub(super) fn rusticated() -> Style {
+    let door = opening(Filling::Door, [0.6, 0.06], [1.4, 2.9], [1, 1]);
+    let shop = || vec![pane([0.3, 0.5], [2.0, 2.5], [2, 1])];
+    let window = || vec![pane([0.7, 1.0], [1.2, 2.0], [2, 2])];
+    let grooves = (1..8).map(|i| course(i as f32 * 0.45 - 0.03, i as f32 * 0.45, 0.0, vec3(0.22, 0.2, 0.17)));
+    let base = [course(0.0, 0.35, 0.05, vec3(0.3, 0.28, 0.25)), course(3.55, 3.78, 0.15, vec3(0.45, 0.42, 0.36))];
+    let design = FacadeDesign {
+        bays: vec![window(), vec![door], shop(), shop()],
+        frame: vec3(0.14, 0.08, 0.045),
+        frame_m: 0.08,
+        recess_m: 0.22,
+        glass: CLEAR,
+        interior: Interior::Shop,
+        trim: vec3(0.45, 0.42, 0.36),
+        sill_m: [0.1, 0.08],
+        courses: base.into_iter().chain(grooves).collect(),
+        fixtures: Fixtures { signs: 0.6, awnings: 0.3, lamps: 0.4, ..Fixtures::default() },
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(2.6, 3.8), finish: Finish::Plaster, color: vec3(0.4, 0.36, 0.29), worn: 0.25, design }
 }
 
-/// Columns before a deep, dark walk with shop windows at its back.
-pub(super) fn arcade(seed: u32) -> Facade {
-    let grid = grid(3.6, 4.0);
-    let mut canvas = plaster(grid, vec3(0.42, 0.4, 0.36), seed);
-    weather(&mut canvas, 0.22, seed);
-    each(&mut canvas, grid, seed, |canvas, _, corner, random| {
-        let make = Window { recess_m: 0.6, ..pane(vec2(3.0, 3.3), [3, 1], DARK, Dress::Shop) };
-        window(canvas, corner + vec2(0.3, 0.0), &make, random);
-        // It is dark under the storey above, darkest at the top.
-        canvas.rect(corner + vec2(0.3, 0.0), corner + vec2(3.3, 3.3), |p, texel| {
-            texel.albedo *= 0.75 - 0.5 * step(1.5, 3.3, p.y);
-            texel.roughness = texel.roughness.max(0.15);
-        });
-        slab(canvas, corner + vec2(-0.36, 0.0), corner + vec2(0.36, 0.3), vec3(0.25, 0.24, 0.22), 0.0, 1);
-        slab(canvas, corner + vec2(-0.4, 3.1), corner + vec2(0.4, 3.28), vec3(0.42, 0.4, 0.37), 0.08, 1);
-        slab(canvas, corner + vec2(0.0, 3.8), corner + vec2(3.6, 4.0), vec3(0.42, 0.4, 0.37), 0.1, 1);
-    });
-    (canvas, grid)
+/// Roller doors, and a door with a window.
+pub(super) fn loading() -> Style {
+    let roller = || vec![opening(Filling::Roller, [0.65, 0.06], [3.2, 3.9], [1, 1])];
+    let office = vec![opening(Filling::Door, [1.2, 0.06], [1.0, 2.1], [1, 1]), pane([2.7, 1.2], [1.4, 0.95], [2, 1])];
+    let design = FacadeDesign {
+        bays: vec![roller(), roller(), office, roller()],
+        frame: Vec3::splat(0.3),
+        recess_m: 0.12,
+        glass: CLEAR,
+        interior: Interior::Office,
+        fixtures: Fixtures { lamps: 0.6, ..Fixtures::default() },
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(4.5, 5.0), finish: Finish::Corrugated, color: vec3(0.33, 0.35, 0.36), worn: 0.25, design }
+}
+
+/// Garage doors side by side.
+pub(super) fn garage() -> Style {
+    let design = FacadeDesign {
+        bays: vec![vec![opening(Filling::Roller, [0.25, 0.06], [2.4, 2.1], [1, 1])]],
+        recess_m: 0.14,
+        interior: Interior::Bare,
+        paints: vec![Vec3::ONE, vec3(1.1, 0.95, 0.8)],
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(2.9, 2.8), finish: Finish::Plaster, color: vec3(0.42, 0.4, 0.36), worn: 0.25, design }
+}
+
+/// Columns before a walk with shops at its back.
+pub(super) fn arcade() -> Style {
+    let glass_door = opening(Filling::GlassDoor, [2.6, 0.06], [0.8, 2.35], [1, 1]);
+    let design = FacadeDesign {
+        bays: vec![vec![pane([0.25, 0.4], [2.2, 2.3], [2, 1]), glass_door]],
+        frame: Vec3::splat(0.3),
+        recess_m: 0.1,
+        glass: CLEAR,
+        interior: Interior::Shop,
+        courses: vec![course(3.3, 3.96, 0.05, vec3(0.38, 0.36, 0.33))],
+        arcade_m: 2.6,
+        fixtures: Fixtures { signs: 0.9, blades: 0.55, ..Fixtures::default() },
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(3.6, 4.0), finish: Finish::Tiles, color: vec3(0.42, 0.4, 0.36), worn: 0.25, design }
+}
+
+/// The open ground level of public flats.
+pub(super) fn void_deck() -> Style {
+    let door = opening(Filling::Door, [1.0, 0.06], [1.0, 2.1], [1, 1]);
+    let design = FacadeDesign {
+        bays: vec![vec![], vec![], vec![door], vec![]],
+        recess_m: 0.1,
+        courses: vec![course(0.3, 0.9, 0.0, vec3(0.2, 0.3, 0.36))],
+        arcade_m: 5.0,
+        ..FacadeDesign::default()
+    };
+    Style { grid: grid(3.2, 3.4), finish: Finish::Plaster, color: vec3(0.5, 0.49, 0.45), worn: 0.25, design }
 }
 
 /// An office's lobby: tall glass in metal, doors in every second bay.
-pub(super) fn lobby(seed: u32) -> Facade {
-    let grid = grid(3.0, 4.5);
-    let mut canvas = panels(grid, vec3(0.22, 0.22, 0.23), vec2(1.5, 0.75), 0.35, seed);
-    each(&mut canvas, grid, seed, |canvas, i, corner, random| {
-        for x in [0.05, 1.5] {
-            let make = Window { panes: [1, 2], bar_m: 0.05, ..tinted(CLEAR * 1.3, 0.12, vec2(1.45, 3.6)) };
-            window(canvas, corner + vec2(x, 0.1), &make, random);
-            if i % 2 == 1 {
-                door(canvas, corner + vec2(x + 0.15, 0.05), vec2(1.15, 2.4), vec3(0.3, 0.3, 0.3), true, random);
-            }
-        }
-        slab(canvas, corner + vec2(0.0, 3.7), corner + vec2(3.0, 3.95), vec3(0.3, 0.3, 0.31), 0.2, 1);
-    });
-    (canvas, grid)
+pub(super) fn lobby() -> Style {
+    let fixed = |x: f32| pane([x, 0.12], [1.42, 3.5], [1, 2]);
+    let door = |x: f32| opening(Filling::GlassDoor, [x, 0.06], [1.42, 3.56], [1, 2]);
+    let design = FacadeDesign {
+        bays: vec![vec![fixed(0.05), fixed(1.53)], vec![door(0.05), door(1.53)]],
+        frame: Vec3::splat(0.12),
+        frame_m: 0.05,
+        bar_m: 0.05,
+        recess_m: 0.14,
+        glass: CLEAR,
+        interior: Interior::Office,
+        courses: vec![course(3.75, 4.0, 0.25, vec3(0.3, 0.3, 0.31))],
+        ..FacadeDesign::default()
+    };
+    let color = vec3(0.22, 0.22, 0.23);
+    Style { grid: grid(3.0, 4.5), finish: Finish::Metal([1.5, 0.75]), color, worn: 0.05, design }
 }

@@ -4,14 +4,18 @@ mod canvas;
 mod facade;
 mod ground;
 mod ground_floor;
+mod inside;
 mod noise;
 mod opening;
 mod paving;
 mod road;
 mod roof;
+mod styles;
 #[cfg(test)]
 mod tests;
 mod wall;
+
+use std::sync::Arc;
 
 use glam::{Vec3, vec2, vec3};
 use rayon::prelude::*;
@@ -21,13 +25,17 @@ pub(crate) use canvas::{Canvas, Texel};
 pub(crate) use noise::{Noise, hash, step};
 pub(crate) use paving::concrete;
 
-use facade::Facade;
+use facade::Style;
 use road::{Cover, Wear};
+use wall::Finish;
 
 /// How a surface is painted.
 enum Paint {
     Plain(Box<dyn Fn() -> Canvas + Send + Sync>),
-    Storeys(Box<dyn Fn() -> Facade + Send + Sync>),
+    /// By rules, with a seed.
+    Storeys(Box<Style>, u32),
+    /// Whole cells, so many across and up.
+    Cells([u32; 2], fn(u32) -> Canvas, u32),
 }
 
 type Recipe = (&'static str, SurfaceKind, Paint);
@@ -36,8 +44,8 @@ fn plain(id: &'static str, kind: SurfaceKind, paint: impl Fn() -> Canvas + Send 
     (id, kind, Paint::Plain(Box::new(paint)))
 }
 
-fn storeys(id: &'static str, kind: SurfaceKind, paint: impl Fn() -> Facade + Send + Sync + 'static) -> Recipe {
-    (id, kind, Paint::Storeys(Box::new(paint)))
+fn storeys(id: &'static str, kind: SurfaceKind, style: Style, seed: u32) -> Recipe {
+    (id, kind, Paint::Storeys(Box::new(style), seed))
 }
 
 /// Every surface, in no particular order.
@@ -46,19 +54,27 @@ pub(crate) fn surfaces() -> Vec<Surface> {
 }
 
 fn surface((id, kind, paint): &Recipe) -> Surface {
-    let (canvas, cells) = match paint {
-        Paint::Plain(paint) => (paint(), [1, 1]),
-        Paint::Storeys(paint) => {
-            let (canvas, grid) = paint();
-            (canvas, grid.cells)
-        }
+    let (canvas, cells, design) = match paint {
+        Paint::Plain(paint) => (paint(), [1, 1], None),
+        Paint::Storeys(style, seed) => (style.paint(*seed), style.grid.cells, Some(Arc::new(style.rules()))),
+        Paint::Cells(cells, paint, seed) => (paint(*seed), *cells, None),
     };
     let mut material = canvas.material(id, 2);
     material.dirt = dirt(*kind);
     // What has no joints, windows or patches that would be cut.
-    if ["asphalt/new", "asphalt/worn", "paving/asphalt-walk", "paving/mosaic", "concrete/", "grass/", "soil/", "gravel/", "flat-roof/gravel"]
-        .iter()
-        .any(|name| id.starts_with(name))
+    if [
+        "asphalt/new",
+        "asphalt/worn",
+        "paving/asphalt-walk",
+        "paving/mosaic",
+        "concrete/",
+        "grass/",
+        "soil/",
+        "gravel/",
+        "flat-roof/gravel",
+    ]
+    .iter()
+    .any(|name| id.starts_with(name))
     {
         material.tiling = Tiling::Stochastic;
     }
@@ -68,7 +84,7 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
     if *kind == SurfaceKind::Water {
         material.ior = 1.33;
     }
-    Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells }
+    Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells, design }
 }
 
 /// How much of what weather and wheels bring stays on a surface.
@@ -76,9 +92,10 @@ fn dirt(kind: SurfaceKind) -> f32 {
     match kind {
         SurfaceKind::Asphalt | SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow | SurfaceKind::RoadCover => 0.7,
         SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete | SurfaceKind::FlatRoof => 0.6,
-        SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor => 0.5,
+        SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor | SurfaceKind::Wall => 0.5,
         SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel | SurfaceKind::RoofTiles => 0.4,
-        SurfaceKind::Water => 0.0,
+        SurfaceKind::ShopSign => 0.3,
+        SurfaceKind::Water | SurfaceKind::RoomBack => 0.0,
     }
 }
 
@@ -89,7 +106,7 @@ fn ground_recipes() -> Vec<Recipe> {
     let worn = Wear { binder: 0.185, stone: 0.28, stone_m: 0.014, worn: 0.6, cracks: 0.2, seed: 2 };
     let new = Wear { binder: 0.095, stone: 0.16, worn: 0.2, cracks: 0.0, seed: 1, ..worn };
     let walk = Wear { binder: 0.15, stone: 0.22, stone_m: 0.009, worn: 0.4, cracks: 0.3, seed: 3 };
-    let green = vec3(0.075, 0.115, 0.028);
+    let green = vec3(0.092, 0.138, 0.04);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
         plain("asphalt/new", Asphalt, move || road::asphalt(new)),
@@ -117,36 +134,55 @@ fn ground_recipes() -> Vec<Recipe> {
         plain("water/still", Water, ground::water),
         plain("flat-roof/bitumen", FlatRoof, || roof::bitumen(51)),
         plain("flat-roof/gravel", FlatRoof, || ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52)),
+        plain("flat-roof/membrane", FlatRoof, || roof::membrane(vec3(0.5, 0.5, 0.48), 55)),
+        plain("flat-roof/green", FlatRoof, || roof::stonecrop(56)),
+        plain("roof-tiles/slate", RoofTiles, || roof::slates(vec3(0.085, 0.09, 0.1), false, 57)),
+        plain("roof-tiles/shingle", RoofTiles, || roof::slates(vec3(0.115, 0.1, 0.088), true, 58)),
+        plain("roof-tiles/metal", RoofTiles, || roof::seams(vec3(0.3, 0.31, 0.32), 0.2, 59)),
+        plain("roof-tiles/copper", RoofTiles, || roof::seams(vec3(0.13, 0.27, 0.21), 1.0, 60)),
         plain("roof-tiles/red", RoofTiles, || roof::tiles(vec3(0.27, 0.105, 0.06), 53)),
         plain("roof-tiles/dark", RoofTiles, || roof::tiles(vec3(0.085, 0.08, 0.08), 54)),
     ]
 }
 
-/// Upper storeys and ground floors.
+/// Upper storeys and ground floors, their walls, and what is seen in them.
 fn building_recipes() -> Vec<Recipe> {
-    use SurfaceKind::{Facade, FacadeGroundFloor};
-    let brown = vec3(0.22, 0.125, 0.085);
-    let blue = || facade::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24), 105);
-    let green = || facade::curtain_wall(vec3(0.76, 0.88, 0.84), vec3(0.08, 0.092, 0.088), Vec3::splat(0.1), 106);
-    let cream = || facade::plaster_shutters(vec3(0.5, 0.42, 0.29), vec3(0.05, 0.1, 0.075), 103);
-    vec![
-        storeys("facade/brick-row", Facade, move || facade::brick_row(brown, 101)),
-        storeys("facade/brick-mill", Facade, || facade::brick_mill(102)),
-        storeys("facade/plaster-shutters", Facade, cream),
-        storeys("facade/victorian", Facade, || facade::victorian(104)),
-        storeys("facade/glass-blue", Facade, blue),
-        storeys("facade/glass-green", Facade, green),
-        storeys("facade/office-ribbon", Facade, || facade::ribbon(107)),
-        storeys("facade/slab-block", Facade, || facade::slab_block(vec3(0.2, 0.3, 0.36), 108)),
-        storeys("facade/hotel-grid", Facade, || facade::hotel(vec3(0.5, 0.49, 0.47), 109)),
-        storeys("facade/warehouse-metal", Facade, || facade::warehouse(vec3(0.36, 0.38, 0.39), 110)),
-        storeys("facade/mixed-use", Facade, || facade::mixed_use(111)),
-        storeys("facade/white-panel", Facade, || facade::panel(vec3(0.6, 0.6, 0.59), 0.45, 112)),
-        storeys("facade/metal-panel", Facade, || facade::panel(vec3(0.22, 0.235, 0.26), 0.4, 113)),
-        storeys("ground-floor/shops", FacadeGroundFloor, || ground_floor::shops(121)),
-        storeys("ground-floor/entrances", FacadeGroundFloor, move || ground_floor::entrances(brown, 122)),
-        storeys("ground-floor/loading", FacadeGroundFloor, || ground_floor::loading(123)),
-        storeys("ground-floor/arcade", FacadeGroundFloor, || ground_floor::arcade(124)),
-        storeys("ground-floor/lobby", FacadeGroundFloor, || ground_floor::lobby(125)),
-    ]
+    use SurfaceKind::{Facade, FacadeGroundFloor, RoomBack, ShopSign, Wall};
+    let upper = |id, style, seed| storeys(id, Facade, style, seed);
+    let ground = |id, style, seed| storeys(id, FacadeGroundFloor, style, seed);
+    let blue = styles::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24));
+    let green = styles::curtain_wall(vec3(0.76, 0.88, 0.84), vec3(0.08, 0.092, 0.088), Vec3::splat(0.1));
+    let mut recipes = vec![
+        upper("facade/brick-row", styles::brick_row(), 101),
+        upper("facade/brick-mill", styles::brick_mill(), 102),
+        upper("facade/plaster-shutters", styles::mediterranean(), 103),
+        upper("facade/victorian", styles::victorian(), 104),
+        upper("facade/glass-blue", blue, 105),
+        upper("facade/glass-green", green, 106),
+        upper("facade/office-ribbon", styles::ribbon(), 107),
+        upper("facade/slab-block", styles::slab_block(), 108),
+        upper("facade/hotel-grid", styles::hotel(), 109),
+        upper("facade/warehouse-metal", styles::warehouse(), 110),
+        upper("facade/mixed-use", styles::mixed_use(), 111),
+        upper("facade/white-panel", styles::panel(vec3(0.6, 0.6, 0.59)), 112),
+        upper("facade/metal-panel", styles::panel(vec3(0.22, 0.235, 0.26)), 113),
+        upper("facade/plaster-ornate", styles::ornate(), 114),
+        upper("facade/plaster-plain", styles::plain(), 115),
+        upper("facade/public-flats", styles::public_flats(), 116),
+        upper("facade/tiled-flats", styles::tiled_flats(), 117),
+        upper("facade/wood-boards", styles::boards(), 118),
+        upper("facade/carcass", styles::carcass(), 119),
+        ground("ground-floor/shops", ground_floor::shops(), 121),
+        ground("ground-floor/entrances", ground_floor::entrances(), 122),
+        ground("ground-floor/loading", ground_floor::loading(), 123),
+        ground("ground-floor/arcade", ground_floor::arcade(), 124),
+        ground("ground-floor/lobby", ground_floor::lobby(), 125),
+        ground("ground-floor/rusticated", ground_floor::rusticated(), 126),
+        ground("ground-floor/void-deck", ground_floor::void_deck(), 127),
+        ground("ground-floor/garage", ground_floor::garage(), 128),
+        ("sign/shops", ShopSign, Paint::Cells(inside::SIGNS, inside::signs, 131)),
+        ("room/backs", RoomBack, Paint::Cells(inside::ROOMS, inside::rooms, 132)),
+    ];
+    recipes.extend(Finish::ALL.iter().map(|&finish| plain(finish.id(), Wall, move || finish.bare(141))));
+    recipes
 }

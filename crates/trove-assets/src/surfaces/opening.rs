@@ -1,26 +1,13 @@
 //! Windows, doors and what surrounds them.
 
 use glam::{Vec2, Vec3, vec2, vec3};
-use trove_model::Random;
+use trove_model::{Interior, Random};
 
 use super::canvas::{Canvas, Texel};
 use super::noise::{hash, step};
 
 /// Roughness of window glass.
 const GLASS: f32 = 0.04;
-
-/// What hangs behind a window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Dress {
-    /// Curtains at the sides, or blinds some way down, or nothing.
-    Home,
-    /// Blinds some way down; ceiling lights.
-    Office,
-    /// Nothing: dark.
-    Bare,
-    /// Goods on show.
-    Shop,
-}
 
 /// A window's make.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +24,7 @@ pub(super) struct Window {
     pub(super) recess_m: f32,
     /// What the glass tints things behind it.
     pub(super) glass: Vec3,
-    pub(super) dress: Dress,
+    pub(super) interior: Interior,
 }
 
 /// Fills a rectangle with one colour, standing out by `out_m`, with a shadow under it.
@@ -95,7 +82,7 @@ pub(super) fn window(canvas: &mut Canvas, low: Vec2, make: &Window, random: &mut
 /// What is seen through one window.
 struct View {
     seed: u32,
-    dress: Dress,
+    interior: Interior,
     /// Down to where (1 top, 0 bottom) the blind hangs.
     blind: f32,
     /// How far in from the sides the curtains reach.
@@ -106,10 +93,10 @@ struct View {
 
 impl View {
     fn draw(make: &Window, random: &mut Random) -> Self {
-        let home = make.dress == Dress::Home;
-        let blind = match make.dress {
-            Dress::Home if random.chance(0.22) => 1.0 - random.unit() as f32 * random.unit() as f32 * 1.1,
-            Dress::Office if random.chance(0.4) => 1.0 - (random.unit() * random.unit()) as f32 * 0.9,
+        let home = make.interior == Interior::Home;
+        let blind = match make.interior {
+            Interior::Home if random.chance(0.22) => 1.0 - random.unit() as f32 * random.unit() as f32 * 1.1,
+            Interior::Office if random.chance(0.4) => 1.0 - (random.unit() * random.unit()) as f32 * 0.9,
             _ => 1.0,
         };
         let curtains = if home && random.chance(0.65) { random.range(0.08, 0.35) as f32 } else { 0.0 };
@@ -117,11 +104,11 @@ impl View {
         let cloths = [vec3(0.5, 0.48, 0.43), vec3(0.42, 0.36, 0.28), vec3(0.55, 0.55, 0.54), vec3(0.25, 0.28, 0.33)];
         Self {
             seed: random.bits() as u32,
-            dress: make.dress,
+            interior: make.interior,
             blind,
             curtains: if closed { 0.5 } else { curtains },
             cloth: cloths[random.index(cloths.len())],
-            lit: random.chance(if make.dress == Dress::Bare { 0.0 } else { 0.12 }),
+            lit: random.chance(if make.interior == Interior::Bare { 0.0 } else { 0.12 }),
         }
     }
 
@@ -136,12 +123,12 @@ impl View {
         if self.lit {
             color += vec3(0.16, 0.125, 0.08) * (0.4 + 0.6 * p.y);
         }
-        match self.dress {
-            Dress::Office => {
+        match self.interior {
+            Interior::Office => {
                 let lamp = step(0.03, 0.02, (p.y - 0.86).abs()) * step(0.33, 0.3, ((p.x * 2.0).fract() - 0.5).abs());
                 color += Vec3::splat(0.22) * lamp * if self.lit { 1.0 } else { 0.15 };
             }
-            Dress::Shop => {
+            Interior::Shop => {
                 // Shelves with things on them, a poster, a lit ceiling.
                 let shelf = (p.y * 7.0).fract();
                 let thing = hash((p.x * 26.0) as i32, (p.y * 7.0) as i32, self.seed);
@@ -153,7 +140,7 @@ impl View {
                     color = vec3(0.35, 0.33, 0.3) * (0.35 + hash((p.x * 30.0) as i32, (p.y * 14.0) as i32, self.seed));
                 }
             }
-            Dress::Home | Dress::Bare => {}
+            Interior::Home | Interior::Bare => {}
         }
         let side = p.x.min(1.0 - p.x);
         if side < self.curtains {
@@ -165,19 +152,5 @@ impl View {
             color = vec3(0.33, 0.33, 0.31) * slat * 0.75;
         }
         color
-    }
-}
-
-/// Window glass without a frame of its own, for curtain walls: greenish or bluish by its make.
-pub(super) fn tinted(color: Vec3, recess_m: f32, size_m: Vec2) -> Window {
-    Window {
-        size_m,
-        panes: [1, 1],
-        frame: Vec3::splat(0.12),
-        frame_m: 0.025,
-        bar_m: 0.0,
-        recess_m,
-        glass: color,
-        dress: Dress::Office,
     }
 }

@@ -45,3 +45,82 @@ pub(super) fn tiles(color: Vec3, seed: u32) -> Canvas {
         texel
     })
 }
+
+/// Flat pieces in courses, every other one moved by half a piece: slates, or shingles with `soft` edges and grit.
+pub(super) fn slates(color: Vec3, soft: bool, seed: u32) -> Canvas {
+    let size = [3.6, 3.6];
+    let size_m = Vec2::from_array(size);
+    let count = if soft { vec2(12.0, 24.0) } else { vec2(14.0, 18.0) };
+    let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
+    let (grit, streak, broad) = (noise(0.02, 1), noise(0.3, 2).field(3), noise(1.2, 3).field(3));
+    let piece_m = size_m / count;
+    Canvas::new([512, 512], size, |p| {
+        let row = (p.y / piece_m.y).floor();
+        let shift = if row as i32 % 2 == 0 { 0.0 } else { 0.5 };
+        let along = p.x / piece_m.x + shift;
+        let (u, v) = (along - along.floor(), p.y / piece_m.y - row);
+        let (i, k) = ((along.floor() as i32).rem_euclid(count.x as i32), row as i32);
+        let spread = if soft { 0.22 } else { 0.4 };
+        let tone = 1.0 - spread / 2.0 + spread * hash(i, k, seed);
+        let cool = 0.1 * (hash(i, k, seed + 1) - 0.5);
+        let mut texel = Texel::new(color * tone * vec3(1.0 - cool, 1.0, 1.0 + cool), if soft { 0.9 } else { 0.55 });
+        texel.albedo *= 1.0 + if soft { 0.35 } else { 0.1 } * grit.at(p) + 0.14 * broad.at(p) + 0.08 * streak.at(p);
+        // The lower edge throws a shadow on the course below; the joints are dark.
+        let joint = step(0.05, 0.015, u.min(1.0 - u)) * if soft { step(0.85, 0.7, v) } else { 1.0 };
+        texel.albedo *= 1.0 - 0.5 * step(0.9, 1.0, v) - 0.4 * joint;
+        texel.height_m = -0.006 * v - 0.002 * joint + 0.0006 * grit.at(p);
+        texel
+    })
+}
+
+/// Sheets with standing seams half a metre apart that run up the slope.
+pub(super) fn seams(color: Vec3, patina: f32, seed: u32) -> Canvas {
+    let size = [3.0, 4.0];
+    let noise = |feature: Vec2, salt| Noise::stretched(Vec2::from_array(size), feature, seed * 31 + salt);
+    let (streak, broad) = (noise(vec2(0.08, 1.0), 1).field(3), noise(vec2(0.9, 1.3), 2).field(3));
+    Canvas::new([384, 512], size, |p| {
+        let sheet = (p.x / 0.5).floor();
+        let across = p.x - sheet * 0.5;
+        let edge_m = across.min(0.5 - across);
+        let tone = 0.93 + 0.14 * hash(sheet as i32, 0, seed);
+        let mut texel = Texel::new(color * tone, 0.42 + 0.35 * patina);
+        texel.albedo *= 1.0 + (0.06 + 0.25 * patina) * streak.at(p) + (0.05 + 0.2 * patina) * broad.at(p);
+        texel.albedo *= 1.0 - 0.35 * step(0.035, 0.02, edge_m) * step(0.008, 0.016, edge_m);
+        // Sheets end in a fold across, every other one higher up.
+        let fold = (p.y + if sheet as i32 % 2 == 0 { 0.0 } else { 2.0 }) / 4.0;
+        let fold_m = (fold - fold.round()).abs() * 4.0;
+        texel.albedo *= 1.0 - 0.3 * step(0.02, 0.008, fold_m);
+        texel.height_m = 0.025 * step(0.022, 0.012, edge_m) + 0.004 * step(0.02, 0.01, fold_m);
+        texel
+    })
+}
+
+/// A welded membrane, pale and stained where water stood.
+pub(super) fn membrane(color: Vec3, seed: u32) -> Canvas {
+    let size = [8.0, 8.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (puddle, broad, speck) = (noise(2.1, 1).field(3), noise(0.7, 2).field(4), noise(0.05, 3));
+    Canvas::new([512, 512], size, |p| {
+        let seam_m = (p.y / 2.0 - (p.y / 2.0).round()).abs() * 2.0;
+        let mut texel = Texel::new(color * (1.0 + 0.06 * broad.at(p) + 0.04 * speck.at(p)), 0.7);
+        texel.tint(vec3(0.16, 0.15, 0.12), 0.45 * step(0.05, 0.4, puddle.at(p)));
+        texel.albedo *= 1.0 - 0.18 * step(0.04, 0.015, seam_m);
+        texel.height_m = 0.002 * step(0.06, 0.04, seam_m);
+        texel
+    })
+}
+
+/// Stonecrop on a thin bed: green, rust and straw in patches.
+pub(super) fn stonecrop(seed: u32) -> Canvas {
+    let size = [5.0, 5.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (leaf, patch, dry) = (noise(0.035, 1), noise(0.6, 2).field(4), noise(1.1, 3).field(3));
+    Canvas::new([512, 512], size, |p| {
+        let mut texel = Texel::new(vec3(0.07, 0.1, 0.035), 0.9);
+        texel.tint(vec3(0.16, 0.075, 0.05), step(0.05, 0.5, patch.at(p)));
+        texel.tint(vec3(0.2, 0.17, 0.08), 0.8 * step(0.15, 0.5, dry.at(p)));
+        texel.albedo *= 1.0 + 0.45 * leaf.at(p);
+        texel.height_m = 0.02 * leaf.at(p) + 0.015 * patch.at(p);
+        texel
+    })
+}

@@ -6,6 +6,77 @@ use super::canvas::{Canvas, Texel};
 use super::noise::{Noise, hash, step};
 use super::paving::Cement;
 
+/// What a wall is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Finish {
+    Brick,
+    Plaster,
+    /// Cast panels, width and height in metres.
+    Concrete([f32; 2]),
+    /// Coated sheets, width and height in metres.
+    Metal([f32; 2]),
+    Corrugated,
+    /// Small ceramic tiles.
+    Tiles,
+    /// Boards, one over the other.
+    Boards,
+}
+
+impl Finish {
+    /// Every finish, with panels as in its own surface.
+    pub(super) const ALL: [Self; 7] = [
+        Self::Brick,
+        Self::Plaster,
+        Self::Concrete([1.8, 1.8]),
+        Self::Metal([1.8, 1.8]),
+        Self::Corrugated,
+        Self::Tiles,
+        Self::Boards,
+    ];
+
+    /// The id of the surface that shows it without openings.
+    pub(super) fn id(self) -> &'static str {
+        match self {
+            Self::Brick => "wall/brick",
+            Self::Plaster => "wall/plaster",
+            Self::Concrete(_) => "wall/concrete",
+            Self::Metal(_) => "wall/metal",
+            Self::Corrugated => "wall/corrugated",
+            Self::Tiles => "wall/tiles",
+            Self::Boards => "wall/boards",
+        }
+    }
+
+    /// The colour of that surface.
+    pub(super) fn color(self) -> Vec3 {
+        match self {
+            Self::Brick => vec3(0.22, 0.125, 0.085),
+            Self::Corrugated => vec3(0.36, 0.38, 0.39),
+            _ => Vec3::splat(0.4),
+        }
+    }
+
+    /// That surface.
+    pub(super) fn bare(self, seed: u32) -> Canvas {
+        let mut canvas = self.paint(Grid { cells: [1, 1], cell_m: Vec2::splat(1.8) }, self.color(), seed);
+        weather(&mut canvas, 0.08, seed);
+        canvas
+    }
+
+    /// A wall of a colour.
+    pub(super) fn paint(self, grid: Grid, color: Vec3, seed: u32) -> Canvas {
+        match self {
+            Self::Brick => brick(grid, color, vec3(0.3, 0.28, 0.25), seed),
+            Self::Plaster => plaster(grid, color, seed),
+            Self::Concrete(panel_m) => panels(grid, color, Vec2::from_array(panel_m), 0.84, seed),
+            Self::Metal(panel_m) => panels(grid, color, Vec2::from_array(panel_m), 0.35, seed),
+            Self::Corrugated => corrugated(grid, color, seed),
+            Self::Tiles => tiles(grid, color, seed),
+            Self::Boards => boards(grid, color, seed),
+        }
+    }
+}
+
 /// A texture for whole bays and storeys.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
@@ -21,7 +92,11 @@ impl Grid {
     }
 
     fn size_px(&self) -> [u32; 2] {
-        if self.cells[1] < 4 { [1024, 512] } else { [1024, 1024] }
+        match self.cells {
+            [1, 1] => [512, 512],
+            [_, rows] if rows < 4 => [1024, 512],
+            _ => [1024, 1024],
+        }
     }
 
     /// Every cell's low corner, with a number of its own.
@@ -44,8 +119,44 @@ pub(super) fn weather(canvas: &mut Canvas, strength: f32, seed: u32) {
     });
 }
 
+/// Glazed tiles of 100 × 60 mm, here and there one lost or renewed.
+fn tiles(grid: Grid, color: Vec3, seed: u32) -> Canvas {
+    let size = grid.size_m();
+    let count = (size / vec2(0.1, 0.06)).round();
+    let piece = size / count;
+    let broad = Noise::new(size, 0.8, seed * 31 + 2).field(3);
+    Canvas::new(grid.size_px(), size.to_array(), |p| {
+        let id = (p / piece).floor().as_ivec2();
+        let within = p - id.as_vec2() * piece;
+        let odd = hash(id.x, id.y, seed + 3) > 0.985;
+        let tone = 0.93 + 0.12 * hash(id.x, id.y, seed) - if odd { 0.2 } else { 0.0 };
+        let mut texel = Texel::new(color * tone * (1.0 + 0.06 * broad.at(p)), 0.32);
+        let joint = step(0.006, 0.003, within.min(piece - within).min_element());
+        texel.tint(color * 0.55, 0.8 * joint);
+        texel.roughness += 0.5 * joint;
+        let tilt = vec2(hash(id.x, id.y, seed + 1), hash(id.x, id.y, seed + 2)) - 0.5;
+        texel.height_m = tilt.dot(within - piece / 2.0) * 0.03 - 0.002 * joint;
+        texel
+    })
+}
+
+/// Painted boards of 15 cm, each standing out at its foot.
+fn boards(grid: Grid, color: Vec3, seed: u32) -> Canvas {
+    let size = grid.size_m();
+    let high = size.y / (size.y / 0.15).round();
+    let grain = Noise::stretched(size, vec2(0.5, 0.02), seed * 31 + 1).field(2);
+    Canvas::new(grid.size_px(), size.to_array(), |p| {
+        let (row, within) = ((p.y / high) as i32, (p.y / high).fract());
+        let tone = 0.96 + 0.08 * hash(row, 0, seed);
+        let mut texel = Texel::new(color * tone * (1.0 + 0.04 * grain.at(p)), 0.6);
+        texel.albedo *= 1.0 - 0.55 * step(0.9, 0.98, within);
+        texel.height_m = 0.012 * (1.0 - within) + 0.0006 * grain.at(p);
+        texel
+    })
+}
+
 /// Bricks of 225 × 75 mm in a running bond.
-pub(super) fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas {
+fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas {
     let size = grid.size_m();
     let count = (size / vec2(0.225, 0.075) / 2.0).round() * 2.0;
     let piece = size / count;
@@ -69,7 +180,7 @@ pub(super) fn brick(grid: Grid, color: Vec3, mortar: Vec3, seed: u32) -> Canvas 
 }
 
 /// Rendered and painted.
-pub(super) fn plaster(grid: Grid, color: Vec3, seed: u32) -> Canvas {
+fn plaster(grid: Grid, color: Vec3, seed: u32) -> Canvas {
     let size = grid.size_m();
     let noise = |feature_m, salt| Noise::new(size, feature_m, seed * 31 + salt);
     let (grain, broad) = (noise(0.04, 1), noise(0.9, 2).field(4));
@@ -82,7 +193,7 @@ pub(super) fn plaster(grid: Grid, color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Panels of `panel_m` with open joints: concrete (rough) or coated metal (smooth).
-pub(super) fn panels(grid: Grid, color: Vec3, panel_m: Vec2, roughness: f32, seed: u32) -> Canvas {
+fn panels(grid: Grid, color: Vec3, panel_m: Vec2, roughness: f32, seed: u32) -> Canvas {
     let size = grid.size_m();
     let count = (size / panel_m).round().max(Vec2::ONE);
     let panel = size / count;
@@ -106,7 +217,7 @@ pub(super) fn panels(grid: Grid, color: Vec3, panel_m: Vec2, roughness: f32, see
 }
 
 /// Metal sheet with upright ribs.
-pub(super) fn corrugated(grid: Grid, color: Vec3, seed: u32) -> Canvas {
+fn corrugated(grid: Grid, color: Vec3, seed: u32) -> Canvas {
     let size = grid.size_m();
     let ribs = (size.x / 0.25).round();
     let noise = |feature_m: Vec2, salt| Noise::stretched(size, feature_m, seed * 31 + salt);

@@ -1,9 +1,12 @@
 //! What a building wears: facade, ground floor, roof.
 
-use glam::Vec3;
-use trove_model::{Building, Material, Random, SurfaceKind};
+use std::sync::Arc;
 
-use super::volumes::is_house;
+use glam::{Vec3, vec3};
+use trove_model::{Building, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind};
+
+use super::region::Region;
+use super::volumes::{House, is_house};
 use super::walls::Grid;
 use crate::palette::Palette;
 
@@ -11,86 +14,242 @@ use crate::palette::Palette;
 const TOWER_M: f64 = 45.0;
 /// Up to this height an ordinary building is an old one.
 const LOW_M: f64 = 16.0;
+/// From this year on nobody puts up ornaments.
+const PLAIN_FROM: i32 = 1925;
+
+/// Some storeys.
+pub(super) struct Storeys {
+    pub grid: Grid,
+    pub design: Option<Arc<FacadeDesign>>,
+}
+
+impl Storeys {
+    fn of(surface: &Surface) -> Self {
+        Self { grid: Grid::of(surface), design: surface.design.clone() }
+    }
+}
 
 /// Materials in the order of [`super::shell::Slot`], and how facades are divided.
 pub(super) struct Dress {
     pub materials: Vec<Material>,
-    pub facade: Grid,
-    /// Division and height of the ground floor; `None` where it looks like every other storey.
-    pub ground_floor: Option<Grid>,
+    pub upper: Storeys,
+    /// `None` where it looks like every other storey.
+    pub ground_floor: Option<Storeys>,
 }
 
-/// Draws what a building wears by its tags, its kind and its height.
-pub(super) fn dress(
-    building: &Building,
-    kind: &str,
-    height_m: f64,
+impl Dress {
+    /// The materials that a mesh uses; its slots are numbered anew.
+    pub(super) fn for_mesh(self, mesh: &mut Mesh) -> Vec<Material> {
+        let mut numbers: Vec<Option<u16>> = vec![None; self.materials.len()];
+        let mut used = Vec::new();
+        for slot in &mut mesh.slots {
+            let from = usize::from(*slot);
+            *slot = *numbers[from].get_or_insert_with(|| {
+                used.push(self.materials[from].clone());
+                used.len() as u16 - 1
+            });
+        }
+        used
+    }
+}
+
+/// Draws what a building wears by its tags, its kind, its height and its part of the world.
+pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, random: &mut Random) -> Dress {
+    let building = house.building;
+    let kind = building.kind.as_str();
+    let facade = palette.fitting(SurfaceKind::Facade, facade_words(house, kind, height_m, random), random);
+    let words = ground_floor_words(house, kind, height_m, &facade.id, random);
+    let ground_floor = words.map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
+    let paints = facade.design.as_ref().map_or(&[][..], |d| &d.paints);
+    let paint = random.pick(paints).copied().unwrap_or(Vec3::ONE) * shade(random);
+    let paint = building.color.map_or(paint, |color| tinted(Vec3::ONE, color));
+    let mut flat = facade.material.clone();
+    flat.base_color *= paint;
+    let mut flat_ground = ground_floor.as_ref().map_or(&facade, |g| g).material.clone();
+    // A ground floor of the same make is painted like what stands on it.
+    let alike = |g: &Surface| g.design.as_ref().map(|d| &d.wall) == facade.design.as_ref().map(|d| &d.wall);
+    let ground_paint = if ground_floor.as_ref().is_none_or(alike) { paint } else { shade(random) };
+    flat_ground.base_color *= ground_paint;
+    let trim = palette.fitting(SurfaceKind::Concrete, &[], random).material;
+    let mut roof = super::roof::materials(building, kind, house.region, &facade.id, flat.base_color, palette, random);
+    let bare = |surface: &Surface, paint: Vec3, random: &mut Random| {
+        let design = surface.design.as_ref()?;
+        let mut wall = palette.fitting(SurfaceKind::Wall, &[design.wall.as_str()], random).material;
+        wall.base_color *= design.wall_tint * paint;
+        Some(wall)
+    };
+    let wall = bare(&facade, paint, random);
+    if let (Some(wall), Some(gable)) = (&wall, roof.get_mut(2)) {
+        *gable = wall.clone();
+    }
+    let wall = wall.unwrap_or_else(|| flat.clone());
+    let ground_wall = ground_floor.as_ref().and_then(|g| bare(g, ground_paint, random)).unwrap_or_else(|| wall.clone());
+    let (upper, ground) = (Storeys::of(&facade), ground_floor.as_ref().map(Storeys::of));
+    let fittings = fittings(&upper, ground.as_ref(), paint, palette, random);
+    let walls = vec![wall, ground_wall];
+    Dress { materials: [vec![flat, flat_ground, trim], roof, walls, fittings].concat(), upper, ground_floor: ground }
+}
+
+/// Materials from [`super::shell::Slot::Stone`] on.
+fn fittings(
+    upper: &Storeys,
+    ground: Option<&Storeys>,
+    paint: Vec3,
     palette: &Palette<'_>,
     random: &mut Random,
-) -> Dress {
-    let facade = palette.fitting(SurfaceKind::Facade, facade_words(building, kind, height_m), random);
-    let ground_floor =
-        ground_floor_words(kind, height_m).map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
-    let trim = palette.fitting(SurfaceKind::Concrete, &[], random);
-    let flat = palette.fitting(SurfaceKind::FlatRoof, &[], random);
-    let tiles = palette.fitting(SurfaceKind::RoofTiles, &[], random);
-    let mut wall = facade.material.clone();
-    match building.color {
-        Some(color) => wall.base_color = tinted(wall.base_color, color),
-        None => wall.base_color *= shade(random),
-    }
-    let (mut flat_roof, mut pitched) = (flat.material, tiles.material);
-    if let Some(color) = building.roof_color {
-        flat_roof.base_color = tinted(flat_roof.base_color, color);
-        pitched.base_color = tinted(pitched.base_color, color);
-    }
-    let (ground, grid) = match &ground_floor {
-        Some(surface) => (surface.material.clone(), Some(Grid::of(surface))),
-        None => (wall.clone(), None),
+) -> Vec<Material> {
+    let design = upper.design.as_deref().cloned().unwrap_or_default();
+    let shop = ground.and_then(|g| g.design.as_deref()).unwrap_or(&design);
+    let mut pick = |colors: &[Vec3]| random.pick(colors).copied().unwrap_or(Vec3::splat(0.4));
+    let doors = [
+        vec3(0.02, 0.05, 0.12),
+        vec3(0.2, 0.02, 0.02),
+        vec3(0.02, 0.08, 0.04),
+        vec3(0.03, 0.03, 0.03),
+        vec3(0.15, 0.08, 0.04),
+        vec3(0.3, 0.29, 0.27),
+    ];
+    let cloths = [
+        vec3(0.35, 0.04, 0.03),
+        vec3(0.03, 0.15, 0.08),
+        vec3(0.05, 0.1, 0.25),
+        vec3(0.5, 0.35, 0.08),
+        vec3(0.12, 0.12, 0.12),
+        vec3(0.5, 0.45, 0.35),
+    ];
+    let (door, cloth) = (pick(&doors), pick(&cloths));
+    let floor = pick(&[vec3(0.2, 0.12, 0.07), vec3(0.25, 0.24, 0.22), vec3(0.1, 0.07, 0.05)]);
+    let warm = pick(&[vec3(0.5, 0.4, 0.26), vec3(0.45, 0.3, 0.22), vec3(0.33, 0.4, 0.42), vec3(0.4, 0.45, 0.35)]);
+    let drapes = pick(&[vec3(0.42, 0.3, 0.2), vec3(0.3, 0.06, 0.05), vec3(0.2, 0.24, 0.3), vec3(0.4, 0.38, 0.3)]);
+    let shutter = design
+        .shutters
+        .map(|color| pick(&[color, color, vec3(0.3, 0.22, 0.14), vec3(0.08, 0.13, 0.2), vec3(0.5, 0.5, 0.48)]));
+    let band = design.courses.iter().chain(&shop.courses).find(|c| c.out_m <= 0.0).map_or(design.trim, |c| c.color);
+    let iron = pick(&[vec3(0.03, 0.03, 0.032), vec3(0.05, 0.055, 0.06), vec3(0.03, 0.05, 0.04)]);
+    let roller = {
+        let mut sheet = palette.fitting(SurfaceKind::Wall, &["wall/corrugated"], random).material;
+        sheet.base_color *= pick_shade(random);
+        sheet
     };
-    Dress {
-        materials: vec![wall, ground, trim.material, flat_roof, pitched],
-        facade: Grid::of(&facade),
-        ground_floor: grid,
-    }
+    let cast = palette.fitting(SurfaceKind::Concrete, &[], random).material;
+    let sign = palette.fitting(SurfaceKind::ShopSign, &[], random).material;
+    let back = palette.fitting(SurfaceKind::RoomBack, &[], random).material;
+    let stone = |color: Vec3| {
+        let color = color * (Vec3::ONE * 0.6 + paint * 0.4) / 0.31;
+        Material { base_color: cast.base_color * color, name: "facade stone".into(), ..cast.clone() }
+    };
+    let plain = |name: &str, color: Vec3, roughness: f32| Material::plain(name, color, roughness);
+    let tint = design.glass.lerp(Vec3::ONE, 0.3).min(Vec3::ONE);
+    let glass = |name: &str, color: Vec3| Material { transmission: 0.92, ..plain(name, color, 0.02) };
+    vec![
+        stone(design.trim),
+        Material { dirt: 0.4, ..plain("facade band", band * paint, 0.8) },
+        Material { mapping: Mapping::Triplanar, ..stone(vec3(0.33, 0.32, 0.3)) },
+        Material { dirt: 0.2, ..plain("window frame", design.frame, 0.45) },
+        Material { dirt: 0.2, ..plain("shop frame", shop.frame, 0.4) },
+        glass("window glass", tint),
+        glass("balustrade glass", vec3(0.75, 0.85, 0.82)),
+        plain("door", door, 0.35),
+        roller,
+        Material { dirt: 0.3, ..plain("shutter", shutter.unwrap_or(Vec3::splat(0.1)), 0.6) },
+        Material { metalness: 0.3, ..plain("iron", iron, 0.5) },
+        Material { dirt: 0.4, ..plain("zinc", vec3(0.46, 0.46, 0.45), 0.45) },
+        Material { dirt: 0.3, ..plain("downpipe", vec3(0.33, 0.34, 0.34) * shade(random), 0.5) },
+        plain("dark opening", Vec3::splat(0.02), 0.6),
+        Material { sheen: 0.3, translucency: 0.4, ..plain("curtain", vec3(0.6, 0.59, 0.56), 0.9) },
+        Material { sheen: 0.3, translucency: 0.2, ..plain("drapes", drapes, 0.9) },
+        Material { translucency: 0.2, ..plain("blind", vec3(0.5, 0.49, 0.46), 0.7) },
+        plain("room pale", vec3(0.62, 0.61, 0.58), 0.9),
+        plain("room warm", warm, 0.9),
+        plain("room floor", floor, 0.5),
+        back,
+        plain("lit room", vec3(0.66, 0.63, 0.56), 0.9),
+        plain("lamp lens", Vec3::splat(0.6), 0.3),
+        Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
+        Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
+        sign,
+        Material { translucency: 0.5, ..plain("scaffold net", vec3(0.08, 0.25, 0.14), 0.9) },
+        Material { dirt: 0.4, ..plain("plank", vec3(0.3, 0.22, 0.13), 0.85) },
+    ]
 }
 
-fn facade_words(building: &Building, kind: &str, height_m: f64) -> &'static [&'static str] {
+fn facade_words(house: &House<'_>, kind: &str, height_m: f64, random: &mut Random) -> &'static [&'static str] {
+    let building = house.building;
+    let old = building.year.is_none_or(|year| year < PLAIN_FROM);
     match building.material.as_str() {
+        _ if kind == "construction" => return &["carcass"],
         "brick" => return &["brick", "victorian"],
         "glass" | "mirror" => return &["glass"],
         "metal" | "steel" => return &["metal"],
         "concrete" | "reinforced_concrete" => return &["slab", "ribbon", "panel"],
-        "plaster" | "stucco" | "render" => return &["plaster"],
-        "stone" | "sandstone" | "limestone" | "granite" => return &["victorian", "hotel"],
-        "wood" | "timber_framing" => return &["plaster", "wood"],
+        "plaster" | "stucco" | "render" => return stucco(house.region, old && height_m > 9.0),
+        "stone" | "sandstone" | "limestone" | "granite" => return &["victorian", "hotel", "ornate"],
+        "wood" | "timber_framing" => return &["wood"],
+        "tiles" => return &["tiled"],
         _ => {}
     }
+    let home = matches!(kind, "apartments" | "residential" | "dormitory" | "terrace" | "yes");
     match kind {
-        kind if is_house(kind) => &["brick-row", "plaster", "victorian"],
-        "terrace" => &["brick-row", "victorian"],
-        "industrial" | "warehouse" | "hangar" | "garage" | "garages" | "shed" => &["warehouse", "mill"],
-        "hotel" => &["hotel"],
-        "apartments" | "residential" | "dormitory" if height_m > LOW_M => &["slab", "panel", "mixed", "hotel", "brick"],
-        "apartments" | "residential" | "dormitory" => &["brick", "plaster", "victorian", "mixed"],
-        _ if height_m > TOWER_M => &["glass", "hotel", "ribbon", "panel"],
-        "office" | "commercial" => &["glass", "ribbon", "panel", "mill"],
-        "retail" | "supermarket" => &["mixed", "panel", "brick"],
-        _ if height_m > LOW_M => &["mill", "ribbon", "panel", "glass", "mixed"],
-        _ => &["brick", "victorian", "mixed", "plaster"],
+        "industrial" | "warehouse" | "hangar" => return &["warehouse", "mill"],
+        "garage" | "garages" | "shed" | "carport" => return &["plaster-plain"],
+        "hotel" => return &["hotel", "panel"],
+        "parking" => return &["ribbon"],
+        "office" | "commercial" => return &["glass", "ribbon", "panel", "mill"],
+        "retail" | "supermarket" if height_m < LOW_M => return &["mixed", "panel", "brick"],
+        kind if is_house(kind) && house.region == Region::NorthAmerica => return &["wood", "wood", "brick-row"],
+        kind if is_house(kind) => return stucco(house.region, false),
+        _ => {}
+    }
+    match house.region {
+        _ if height_m > TOWER_M && !home => &["glass", "hotel", "ribbon", "panel"],
+        Region::NorthernEurope if home && height_m < 28.0 => stucco(house.region, old && random.chance(0.7)),
+        Region::Mediterranean if height_m < 28.0 => stucco(house.region, random.chance(0.3)),
+        Region::Mediterranean => &["plaster-shutters", "slab", "hotel", "plaster-plain"],
+        Region::EastAsia if home => &["tiled", "tiled", "tiled", "slab", "mixed"],
+        Region::EastAsia => &["tiled", "glass", "ribbon", "panel"],
+        Region::TropicalAsia if home && height_m > LOW_M => &["public-flats", "public-flats", "slab", "mixed"],
+        Region::TropicalAsia => &["plaster-plain", "mixed", "tiled", "panel"],
+        _ if kind == "terrace" => &["brick-row", "victorian"],
+        _ if home && height_m > 28.0 => &["slab", "panel", "mixed", "hotel", "brick-row"],
+        _ if height_m > LOW_M => &["mill", "ribbon", "panel", "glass", "mixed", "brick-row"],
+        _ => &["brick", "victorian", "mixed", "brick-row"],
     }
 }
 
-fn ground_floor_words(kind: &str, height_m: f64) -> Option<&'static [&'static str]> {
+/// Rendered walls of a part of the world.
+fn stucco(region: Region, ornate: bool) -> &'static [&'static str] {
+    match region {
+        _ if ornate => &["ornate"],
+        Region::Mediterranean => &["plaster-shutters"],
+        _ => &["plaster-plain"],
+    }
+}
+
+fn ground_floor_words(
+    house: &House<'_>,
+    kind: &str,
+    height_m: f64,
+    facade: &str,
+    random: &mut Random,
+) -> Option<&'static [&'static str]> {
+    let building: &Building = house.building;
+    let shop = building.shop || random.chance(0.35);
+    let is = |word: &str| facade.contains(word);
     match kind {
-        kind if is_house(kind) => None,
-        "garage" | "garages" | "shed" | "roof" | "carport" | "hut" | "church" | "cathedral" => None,
+        "garage" | "garages" | "carport" => Some(&["garage"]),
+        kind if is_house(kind) && !building.shop => None,
+        "shed" | "roof" | "hut" | "church" | "cathedral" | "construction" | "parking" => None,
         "industrial" | "warehouse" | "hangar" => Some(&["loading"]),
-        "office" | "commercial" | "hotel" => Some(&["lobby", "arcade"]),
-        _ if height_m > TOWER_M => Some(&["lobby", "arcade"]),
-        "apartments" | "residential" | "terrace" | "dormitory" => Some(&["entrances", "shops"]),
+        "office" | "commercial" | "hotel" => Some(&["lobby"]),
         "retail" | "supermarket" => Some(&["shops"]),
-        _ => Some(&["shops", "entrances", "arcade"]),
+        _ if is("public-flats") => Some(&["void-deck"]),
+        _ if is("tiled") || (house.region == Region::EastAsia && height_m < TOWER_M) => Some(&["arcade"]),
+        _ if is("ornate") => Some(&["rusticated"]),
+        _ if is("plaster") && !shop => None,
+        _ if is("brick") && !shop => Some(&["entrances"]),
+        _ if height_m > TOWER_M || is("glass") || is("ribbon") || is("panel") => Some(&["lobby"]),
+        _ if shop || height_m > LOW_M => Some(&["shops"]),
+        _ => Some(&["entrances"]),
     }
 }
 
@@ -100,8 +259,14 @@ fn shade(random: &mut Random) -> Vec3 {
     Vec3::new((light * (1.0 + warm)) as f32, light as f32, (light * (1.0 - warm)) as f32)
 }
 
+/// Sheets come in grey, blue, green, cream.
+fn pick_shade(random: &mut Random) -> Vec3 {
+    let colors = [Vec3::ONE, vec3(0.6, 0.8, 1.1), vec3(0.7, 1.0, 0.8), vec3(1.4, 1.3, 1.05)];
+    random.pick(&colors).copied().unwrap_or(Vec3::ONE) * shade(random)
+}
+
 /// A texture's colour moved to a tagged one: its hue wins, half of the texture's own lightness stays.
-fn tinted(base: Vec3, color: Vec3) -> Vec3 {
+pub(super) fn tinted(base: Vec3, color: Vec3) -> Vec3 {
     let hue = color / color.max_element().max(0.05);
     (base * hue * (0.5 + color.max_element())).clamp(Vec3::splat(0.05), Vec3::splat(1.5))
 }

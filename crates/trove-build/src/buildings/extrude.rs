@@ -1,14 +1,13 @@
 //! Walls and roof of a building's volumes.
 
-use glam::DVec2;
-use trove_model::{HeightField, Mesh, Random, Report};
+use trove_model::{Mesh, Random, Report, Seed};
 
 use super::dress::Dress;
-use super::roof::roof;
+use super::facade::{Detail, Sight};
+use super::roof::{canopy, roof};
 use super::shell::{Shell, Slot};
 use super::volumes::{House, Volume};
-use super::walls::{Band, Grid, walls};
-use crate::roads::KERB_M;
+use super::walls::{Band, Grid, Wall, raise, walls_of};
 
 /// Walls go this far into the ground.
 const FOOTING_M: f64 = 0.6;
@@ -19,63 +18,79 @@ const LEAST_UPPER_M: f64 = 2.4;
 pub(super) fn extrude(
     house: &House<'_>,
     dress: &Dress,
-    ground: &HeightField,
+    sight: &Sight<'_>,
     random: &mut Random,
     report: &Report,
 ) -> Mesh {
     let mut shell = Shell::default();
-    // All parts stand on one floor, the lowest of the ground around them.
-    let floor_m = house
-        .volumes
-        .iter()
-        .flat_map(|v| &v.footprint.exterior)
-        .map(|&p| ground.height_m(p))
-        .fold(f64::INFINITY, f64::min)
-        + KERB_M;
     for volume in &house.volumes {
-        add(&mut shell, volume, dress, floor_m, random, report);
+        if volume.is_canopy {
+            canopy(&mut shell, volume, house, random, report);
+        } else {
+            add(&mut shell, volume, dress, house, sight, random, report);
+        }
     }
     shell.finish()
 }
 
-fn add(shell: &mut Shell, volume: &Volume<'_>, dress: &Dress, floor_m: f64, random: &mut Random, report: &Report) {
-    let top = roof(shell, volume, floor_m, random, report);
+fn add(
+    shell: &mut Shell,
+    volume: &Volume<'_>,
+    dress: &Dress,
+    house: &House<'_>,
+    sight: &Sight<'_>,
+    random: &mut Random,
+    report: &Report,
+) {
+    let wall_top = roof(shell, volume, house, random, report);
     let footprint = &volume.footprint;
-    let bottom = floor_m + volume.bottom_m;
-    let wall_top = footprint.exterior.iter().map(|&p| top.at(p)).fold(f64::NEG_INFINITY, f64::max);
-    if wall_top <= bottom {
-        return;
-    }
+    let bottom = house.floor_m + volume.bottom_m;
     let grounded = volume.bottom_m <= 0.0;
-    let first_storey = random.index(4) as f64;
-    let upper = |from: f64, below: f64| Band {
-        slot: Slot::Facade,
-        grid: dress.facade,
-        bottom_m: below,
-        floor_m: from,
-        top_m: wall_top,
-        storeys: storeys(volume, dress.facade, wall_top - from, from > bottom),
-        first_storey,
+    let first_storey = random.index(4);
+    let seed = Seed(random.bits());
+    let first_top = match &dress.ground_floor {
+        Some(part) if grounded && wall_top - bottom >= part.grid.storey_m + LEAST_UPPER_M => {
+            bottom + part.grid.storey_m
+        }
+        _ => bottom,
     };
-    match dress.ground_floor {
-        Some(grid) if grounded && wall_top - bottom >= grid.storey_m + LEAST_UPPER_M => {
-            let first_top = bottom + grid.storey_m;
-            let band = Band {
-                slot: Slot::GroundFloor,
-                grid,
-                bottom_m: bottom - FOOTING_M,
-                floor_m: bottom,
-                top_m: first_top,
-                storeys: 1.0,
-                first_storey: 0.0,
-            };
-            walls(shell, footprint, &band, |_| first_top);
-            walls(shell, footprint, &upper(first_top, first_top), |p: DVec2| top.at(p).max(first_top));
+    let footing = |level: f64| if grounded && level == bottom { level - FOOTING_M } else { level };
+    // Doors and shops where a street is; elsewhere the upper storeys' windows go on.
+    let ground = dress.ground_floor.as_ref().filter(|_| first_top > bottom);
+    let below = |wall: &Wall| {
+        let part = ground?;
+        let part = if wall.is_front || wall.detail == Detail::Flat { part } else { &dress.upper };
+        let is_ground = !std::ptr::eq(part, &dress.upper);
+        Some(Band {
+            slot: if is_ground { Slot::GroundFloor } else { Slot::Facade },
+            wall: if is_ground { Slot::GroundWall } else { Slot::Wall },
+            grid: part.grid,
+            design: part.design.as_deref(),
+            bottom_m: footing(bottom),
+            floor_m: bottom,
+            top_m: first_top,
+            storeys: 1.0,
+            first_storey: if is_ground { 0 } else { first_storey + 3 },
+            is_uppermost: false,
+        })
+    };
+    let upper = Band {
+        slot: Slot::Facade,
+        wall: Slot::Wall,
+        grid: dress.upper.grid,
+        design: dress.upper.design.as_deref(),
+        bottom_m: footing(first_top),
+        floor_m: first_top,
+        top_m: wall_top,
+        storeys: storeys(volume, dress.upper.grid, wall_top - first_top, first_top > bottom),
+        first_storey,
+        is_uppermost: true,
+    };
+    for wall in walls_of(volume, wall_top - house.floor_m, sight) {
+        if let Some(band) = below(&wall) {
+            raise(shell, &wall, &band, seed);
         }
-        _ => {
-            let below = if grounded { bottom - FOOTING_M } else { bottom };
-            walls(shell, footprint, &upper(bottom, below), |p: DVec2| top.at(p));
-        }
+        raise(shell, &wall, &upper, seed);
     }
     if !grounded {
         shell.cover(Slot::Trim, std::slice::from_ref(footprint), |_| bottom, false);
@@ -93,26 +108,42 @@ fn storeys(volume: &Volume<'_>, grid: Grid, height_m: f64, above_ground_floor: b
 
 #[cfg(test)]
 mod tests {
+    use super::super::dress::Storeys;
     use super::*;
+    use crate::testing;
+    use glam::{DVec2, Vec2};
     use std::collections::BTreeMap;
-    use trove_model::{Bounds, Building, Material, Polygon, RoofShape, Seed};
+    use std::sync::Arc;
+    use trove_model::{Bounds, Building, FacadeDesign, Filling, HeightField, Opening, Polygon, RoofShape, Seed};
 
-    fn dress() -> Dress {
-        let grid = Grid { bay_m: 3.0, storey_m: 3.2 };
-        Dress {
-            materials: vec![Material::default(); 5],
-            facade: grid,
-            ground_floor: Some(Grid { storey_m: 4.0, ..grid }),
-        }
+    /// Of rules with a window and a door in a bay, or of textures alone.
+    fn dress(has_rules: bool) -> Dress {
+        let opening =
+            |filling, x: f32, y: f32, size_m| Opening { filling, low_m: Vec2::new(x, y), size_m, panes: [2, 1] };
+        let window = opening(Filling::Window, 0.4, 0.9, Vec2::new(1.0, 1.4));
+        let french = opening(Filling::Window, 1.7, 0.1, Vec2::new(1.0, 2.5));
+        let storeys = |storey_m: f64, arcade_m: f32| {
+            let bays = vec![vec![window, french], vec![], vec![window]];
+            let design = FacadeDesign { bays, arcade_m, ..FacadeDesign::default() };
+            Storeys { grid: Grid { bay_m: 3.0, storey_m }, design: has_rules.then(|| Arc::new(design)) }
+        };
+        Dress { materials: Vec::new(), upper: storeys(3.2, 0.0), ground_floor: Some(storeys(4.0, 2.4)) }
+    }
+
+    /// A building 25 m beside a street with a car on it.
+    fn built(footprint: Polygon, roof: RoofShape, bottom_m: f64, dress: &Dress) -> Mesh {
+        let building = Building::new(1, Polygon::default(), "yes");
+        let footprint = crate::plane::union(&[footprint]).remove(0);
+        let eaves_m = if roof == RoofShape::Flat { 18.0 } else { 14.0 };
+        let volume = Volume { footprint, ..Volume::new(&building, bottom_m, eaves_m, 18.0, roof) };
+        let house = House::alone(&building, vec![volume]);
+        let drive = testing::drive();
+        let streets = testing::surfaces(&drive, &HeightField::flat(Bounds::square(DVec2::ZERO, 600.0), 0.0));
+        extrude(&house, dress, &Sight::new(&drive, &streets), &mut Seed(1).random(), &Report::default())
     }
 
     fn mesh(footprint: Polygon, roof: RoofShape, bottom_m: f64) -> Mesh {
-        let building = Building::new(1, Polygon::default(), "yes");
-        let footprint = crate::plane::union(&[footprint]).remove(0);
-        let volume = Volume { building: &building, footprint, bottom_m, eaves_m: 14.0, top_m: 18.0, roof };
-        let house = House { building: &building, volumes: vec![volume] };
-        let ground = HeightField::flat(Bounds::square(DVec2::ZERO, 100.0), 0.0);
-        extrude(&house, &dress(), &ground, &mut Seed(1).random(), &Report::default())
+        built(footprint, roof, bottom_m, &dress(false))
     }
 
     /// Edges that only one triangle has, and the volume that the triangles enclose.
@@ -175,6 +206,31 @@ mod tests {
         assert!(!open.is_empty());
         for [a, b] in open {
             assert!(f32::from_bits(a[2]) < 0.0 && f32::from_bits(b[2]) < 0.0);
+        }
+    }
+
+    #[test]
+    fn walls_with_holes_rooms_and_a_walk_behind_columns_are_closed() {
+        let moved = |p: &DVec2| *p + DVec2::new(20.0, 24.0);
+        let footprint = Polygon::simple(rectangle().exterior.iter().map(moved).collect());
+        let mesh = built(footprint, RoofShape::Flat, 0.0, &dress(true));
+        assert_eq!(mesh.defect(), None);
+        let rooms = mesh.slots.iter().filter(|&&s| s == Slot::RoomFloor as u16).count();
+        assert!(rooms > 40, "{rooms} triangles of rooms' floors");
+        // Frames, panes and what hangs in the windows are bodies of their own.
+        let closed = |&slot: &u16| {
+            use Slot::{Dark, GroundWall, LitRoom, RoomBack, RoomFloor, RoomPale, RoomWarm, Slab, Wall};
+            let walls = [Wall, GroundWall, Slab, RoomPale, RoomWarm, RoomFloor, RoomBack, LitRoom, Dark];
+            slot <= Slot::Glazing as u16 || walls.iter().any(|&w| w as u16 == slot)
+        };
+        let mut shell = mesh.clone();
+        let mut slots = mesh.slots.iter();
+        shell.triangles.retain(|_| slots.next().is_some_and(closed));
+        let (open, _) = open_edges_and_volume(&shell);
+        assert!(!open.is_empty());
+        for [a, b] in open {
+            let (a, b) = (a.map(f32::from_bits), b.map(f32::from_bits));
+            assert!(a[2] < 0.0 && b[2] < 0.0, "{a:?} {b:?}");
         }
     }
 }

@@ -51,7 +51,8 @@ pub(crate) fn buildings(
     let mapped = map.map_or(&[][..], |m| &m.buildings);
     let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, seed, report);
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
-    let plot = volumes::Plot { drive, streets: keep_clear, ground, bounds, seen_m: &[] };
+    let seen_m = lidar::seen_walls(drive, &all, ground);
+    let plot = volumes::Plot { drive, streets: keep_clear, ground, bounds, seen_m: &seen_m };
     let houses = volumes::houses(&all, &plot, seed, report);
     let palette = Palette { library, report };
     let sight = Sight::new(drive, keep_clear);

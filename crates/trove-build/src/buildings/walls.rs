@@ -1,14 +1,25 @@
-//! Walls with whole bays and whole storeys.
+//! Walls with whole bays and whole storeys: flat ones, and which of them are worth more.
+
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Polygon, Surface};
+use trove_model::{FacadeDesign, Polygon, Seed, Surface};
 
+use super::facade::{self, Detail, Sight};
 use super::shell::{Shell, Slot};
+use super::volumes::Volume;
+use crate::roads::Footing;
 
 /// Edges that meet at less than this make one wall, radians: round fronts keep their rhythm of windows.
 const SAME_WALL_RAD: f64 = 0.35;
 /// Of a wall narrower than this share of a bay only the pier between two bays is shown.
 const NARROWEST_BAY: f64 = 0.55;
+/// A wall is straight if its corners are this near to the line between its ends, metres.
+const STRAIGHT_M: f64 = 0.03;
+/// A neighbour that hides this share of a wall's height leaves the rest blank: nobody has windows towards it.
+const PARTY_SHARE: f64 = 0.4;
+/// A wall with a street at most this far before it is a front, metres.
+const FRONT_M: f64 = 18.0;
 
 /// How a surface's texture is divided.
 #[derive(Clone, Copy, Debug)]
@@ -23,20 +34,28 @@ impl Grid {
         Self { bay_m: cell(0).max(0.1), storey_m: cell(1).max(0.1) }
     }
 
+    /// Bays of a wall; none where it is too narrow for one.
+    pub(super) fn bays(&self, length_m: f64) -> usize {
+        if length_m < NARROWEST_BAY * self.bay_m { 0 } else { (length_m / self.bay_m).round().max(1.0) as usize }
+    }
+
     /// Texture coordinate of both ends of a wall: an integer number of bays, or a pier.
-    fn along(&self, length_m: f64, first_bay: f64) -> (f64, f64) {
+    pub(super) fn along(&self, length_m: f64, first_bay: f64) -> (f64, f64) {
         if length_m < NARROWEST_BAY * self.bay_m {
             return (first_bay * self.bay_m - length_m / 2.0, first_bay * self.bay_m + length_m / 2.0);
         }
-        let bays = (length_m / self.bay_m).round().max(1.0);
-        (first_bay * self.bay_m, (first_bay + bays) * self.bay_m)
+        (first_bay * self.bay_m, (first_bay + self.bays(length_m) as f64) * self.bay_m)
     }
 }
 
 /// A horizontal strip of walls.
-pub(super) struct Band {
+pub(super) struct Band<'a> {
     pub slot: Slot,
+    /// Of the wall between its openings.
+    pub wall: Slot,
     pub grid: Grid,
+    /// Its rules, where they are known.
+    pub design: Option<&'a FacadeDesign>,
     pub bottom_m: f64,
     /// The texture starts here; below it, in the ground, its lowest row goes on.
     pub floor_m: f64,
@@ -44,68 +63,167 @@ pub(super) struct Band {
     /// Storeys between floor and top; as many of the texture's are shown.
     pub storeys: f64,
     /// Storey of the texture that comes first.
-    pub first_storey: f64,
+    pub first_storey: usize,
+    /// It reaches up to the eaves.
+    pub is_uppermost: bool,
 }
 
-impl Band {
-    fn v(&self, z: f64) -> f64 {
+impl Band<'_> {
+    pub(super) fn v(&self, z: f64) -> f64 {
         let share = if self.top_m > self.floor_m { (z - self.floor_m) / (self.top_m - self.floor_m) } else { 0.0 };
-        (self.first_storey + share.max(0.0) * self.storeys) * self.grid.storey_m
+        (self.first_storey as f64 + share.max(0.0) * self.storeys) * self.grid.storey_m
     }
 }
 
-/// The walls of a footprint between a band's bottom and top; `top` may lower or raise the upper edge.
-pub(super) fn walls(shell: &mut Shell, footprint: &Polygon, band: &Band, top: impl Fn(DVec2) -> f64) {
-    for (which, ring) in footprint.rings().enumerate() {
-        for (number, wall) in runs(ring).into_iter().enumerate() {
-            let length_m: f64 = wall.windows(2).map(|w| w[0].distance(w[1])).sum();
-            // Walls start at different bays, so that a house's sides differ.
-            let (u0, u1) = band.grid.along(length_m, ((which * 5 + number * 3) % 8) as f64);
-            let mut at_m = 0.0;
-            for pair in wall.windows(2) {
-                let next_m = at_m + pair[0].distance(pair[1]);
-                let u = [at_m, next_m].map(|m| u0 + (u1 - u0) * m / length_m);
-                let corner = |p: DVec2, u: f64, z: f64| -> (DVec3, DVec2) { (p.extend(z), DVec2::new(u, band.v(z))) };
-                let (a, b) = (pair[0], pair[1]);
-                let mut heights = vec![band.bottom_m];
-                if band.bottom_m < band.floor_m {
-                    heights.push(band.floor_m);
-                }
-                for k in 0..heights.len() {
-                    let low = heights[k];
-                    let (za, zb) = match heights.get(k + 1) {
-                        Some(&z) => (z, z),
-                        None => (top(a), top(b)),
-                    };
-                    shell.face(
-                        band.slot,
-                        &[corner(a, u[0], low), corner(b, u[1], low), corner(b, u[1], zb), corner(a, u[0], za)],
-                    );
-                }
-                at_m = next_m;
-            }
+/// One wall of a volume.
+#[derive(Clone, Debug)]
+pub(super) struct Wall {
+    /// Its corners, the building on the left.
+    pub line: Vec<DVec2>,
+    /// A number among the volume's walls.
+    pub number: u64,
+    /// Bay of the texture that comes first: a house's sides differ.
+    pub first_bay: usize,
+    pub detail: Detail,
+    /// Towards a neighbour: no windows.
+    pub is_blank: bool,
+    /// Towards a street.
+    pub is_front: bool,
+    /// Cotangent of half the angle between it and its neighbours before and after, where those have rooms too; else 0.
+    pub corner: [f64; 2],
+    /// How far ledges reach beyond its ends for each metre that they stand out, where they go on around the corner.
+    pub mitre: [Option<f64>; 2],
+    /// From it to the wall behind it, metres.
+    pub thick_m: f64,
+}
+
+/// The walls of a volume whose floor is at 0 and whose walls reach up to a level.
+pub(super) fn walls_of(volume: &Volume<'_>, top_m: f64, sight: &Sight<'_>) -> Vec<Wall> {
+    let mut walls = Vec::new();
+    let mut first_edge = 0;
+    for (which, ring) in volume.footprint.rings().enumerate() {
+        let first = walls.len();
+        for (number, edges) in runs(ring).into_iter().enumerate() {
+            let n = ring.len();
+            let line: Vec<DVec2> =
+                edges.iter().map(|&e| ring[e]).chain(edges.last().map(|&e| ring[(e + 1) % n])).collect();
+            let sides = || edges.iter().filter_map(|&e| volume.sides.get(first_edge + e));
+            let hidden = |up_to_m: f64| {
+                let covers = sides().flat_map(|s| &s.covers).filter(|c| c.up_to_m >= up_to_m);
+                covers.map(|c| c.to_m - c.from_m).sum::<f64>() > 0.6 * sides().map(|s| s.length_m).sum::<f64>()
+            };
+            let is_blank =
+                !volume.sides.is_empty() && hidden(volume.bottom_m + PARTY_SHARE * (top_m - volume.bottom_m));
+            let (a, b) = (line[0], line[line.len() - 1]);
+            let is_straight = line.iter().all(|p| (*p - a).perp_dot((b - a).normalize_or_zero()).abs() < STRAIGHT_M);
+            let detail = if is_blank || !is_straight { Detail::Flat } else { sight.detail(a, b) };
+            walls.push(Wall {
+                is_front: detail != Detail::Flat && faces_a_street(a, b, sight),
+                thick_m: if detail == Detail::Flat { 0.0 } else { thickness(&volume.footprint, a, b) },
+                line,
+                number: walls.len() as u64,
+                first_bay: (which * 5 + number * 3) % 8,
+                detail,
+                is_blank,
+                corner: [0.0; 2],
+                mitre: [None; 2],
+            });
+        }
+        first_edge += ring.len();
+        corners(&mut walls[first..]);
+    }
+    walls
+}
+
+/// What happens where the walls of a ring meet.
+fn corners(walls: &mut [Wall]) {
+    let n = walls.len();
+    for i in 0..n {
+        let k = (i + 1) % n;
+        let (before, after) = (&walls[i].line, &walls[k].line);
+        let (into, out_of) = (before[before.len() - 1] - before[0], after[after.len() - 1] - after[0]);
+        let turn = into.angle_to(out_of).clamp(-0.9 * PI, 0.9 * PI);
+        let slope = (turn / 2.0).tan();
+        let built = [i, k].map(|w| walls[w].detail != Detail::Flat);
+        let full = [i, k].iter().all(|&w| walls[w].detail == Detail::Full);
+        if n > 2 && built == [true; 2] {
+            walls[i].corner[1] = slope.max(0.0);
+            walls[k].corner[0] = slope.max(0.0);
+        }
+        if n > 2 && full && slope.abs() < 1.3 {
+            walls[i].mitre[1] = Some(slope);
+            walls[k].mitre[0] = Some(slope);
         }
     }
 }
 
-/// A closed ring as walls: runs of edges that hardly turn.
-fn runs(ring: &[DVec2]) -> Vec<Vec<DVec2>> {
+/// Whether a road or a sidewalk lies straight before a wall.
+fn faces_a_street(a: DVec2, b: DVec2, sight: &Sight<'_>) -> bool {
+    let out = -(b - a).normalize_or_zero().perp();
+    let street = |p: DVec2| matches!(sight.streets.footing(p), Footing::Carriageway | Footing::Sidewalk);
+    [0.25, 0.5, 0.75].iter().any(|&t| (1..=9).any(|k| street(a.lerp(b, t) + out * (FRONT_M * f64::from(k) / 9.0))))
+}
+
+/// From the middle of a wall to the next wall behind it.
+fn thickness(footprint: &Polygon, a: DVec2, b: DVec2) -> f64 {
+    let (from, inward) = ((a + b) / 2.0, (b - a).normalize_or_zero().perp());
+    let hit = |(p, q): (DVec2, DVec2)| {
+        let edge = q - p;
+        let across = inward.perp_dot(edge);
+        let (s, t) = ((p - from).perp_dot(edge) / across, (p - from).perp_dot(inward) / across);
+        (across.abs() > 1e-9 && s > 0.05 && (0.0..=1.0).contains(&t)).then_some(s)
+    };
+    footprint.edges().filter_map(hit).fold(50.0, f64::min)
+}
+
+/// Puts up a wall between a band's bottom and top.
+pub(super) fn raise(shell: &mut Shell, wall: &Wall, band: &Band<'_>, seed: Seed) {
+    if let (Some(design), false) = (band.design, wall.detail == Detail::Flat) {
+        return facade::relief(shell, wall, band, design, seed);
+    }
+    let length_m: f64 = wall.line.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let blank = wall.is_blank && band.design.is_some();
+    let slot = if blank { band.wall } else { band.slot };
+    let (u0, u1) = if blank { (0.0, length_m) } else { band.grid.along(length_m, wall.first_bay as f64) };
+    let mut at_m = 0.0;
+    for pair in wall.line.windows(2) {
+        let next_m = at_m + pair[0].distance(pair[1]);
+        let u = [at_m, next_m].map(|m| u0 + (u1 - u0) * m / length_m);
+        let corner = |p: DVec2, u: f64, z: f64| -> (DVec3, DVec2) {
+            (p.extend(z), DVec2::new(u, if blank { z } else { band.v(z) }))
+        };
+        let (a, b) = (pair[0], pair[1]);
+        let mut heights = vec![band.bottom_m];
+        if band.bottom_m < band.floor_m {
+            heights.push(band.floor_m);
+        }
+        heights.push(band.top_m);
+        for z in heights.windows(2) {
+            let [low, high] = [z[0], z[1]];
+            shell.face(
+                slot,
+                &[corner(a, u[0], low), corner(b, u[1], low), corner(b, u[1], high), corner(a, u[0], high)],
+            );
+        }
+        at_m = next_m;
+    }
+}
+
+/// A closed ring as walls: runs of edges that hardly turn, by the edges' numbers.
+fn runs(ring: &[DVec2]) -> Vec<Vec<usize>> {
     let n = ring.len();
     let turns = |i: usize| {
         let (before, after) = (ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
         before.angle_to(after).abs() > SAME_WALL_RAD
     };
     let Some(start) = (0..n).find(|&i| turns(i)) else {
-        return vec![ring.iter().chain(ring.first()).copied().collect()];
+        return vec![(0..n).collect()];
     };
-    let mut walls: Vec<Vec<DVec2>> = Vec::new();
-    for k in 0..n {
-        let i = (start + k) % n;
-        if turns(i) {
-            walls.push(vec![ring[i]]);
-        }
-        if let Some(wall) = walls.last_mut() {
-            wall.push(ring[(i + 1) % n]);
+    let mut walls: Vec<Vec<usize>> = Vec::new();
+    for i in (0..n).map(|k| (start + k) % n) {
+        match walls.last_mut() {
+            Some(wall) if !turns(i) => wall.push(i),
+            _ => walls.push(vec![i]),
         }
     }
     walls
@@ -130,6 +248,6 @@ mod tests {
         };
         assert_eq!(runs(&ring(24)).len(), 1);
         assert_eq!(runs(&ring(4)).len(), 4);
-        assert!(runs(&ring(4)).iter().all(|wall| wall.len() == 2));
+        assert!(runs(&ring(4)).iter().all(|wall| wall.len() == 1));
     }
 }
