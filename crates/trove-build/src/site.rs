@@ -319,7 +319,7 @@ mod tests {
         let scenery: Vec<&Instance> =
             site.fixed.iter().filter(|i| i.object.as_ref().is_some_and(|o| o.kind != Kind::Building)).collect();
         let kinds: BTreeSet<Kind> = scenery.iter().filter_map(|i| Some(i.object.as_ref()?.kind)).collect();
-        let expected = [Kind::Tree, Kind::Bush, Kind::StreetLamp, Kind::TrafficSign, Kind::Bench];
+        let expected = [Kind::Tree, Kind::Bush, Kind::StreetLamp, Kind::Bench];
         assert!(expected.iter().all(|k| kinds.contains(k)), "{kinds:?}");
         for instance in scenery {
             let object = instance.object.as_ref().unwrap();

@@ -1,81 +1,112 @@
-//! Furniture by rule along the kerbs: lamps in turn on both sides, signs, and now and then something else.
+//! Furniture by rule along the kerbs: lamps, and now and then something that the region has on its sidewalks.
 
-use trove_model::{Kind, Random, Report, Seed};
+use trove_model::{Kind, Random, Report, Road, RoadKind, Seed};
 
-use super::{Shop, Wish};
+use super::yard::{Source, Yard};
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
-use crate::surroundings::Surroundings;
+use crate::segments::SegmentIndex;
 
-/// Lamps on one side are this far apart, metres, and at least so far from those on the other.
-const LAMP_SPACING_M: f64 = 30.0;
-const LAMP_ACROSS_M: f64 = 16.0;
-/// Signs follow one another within this, metres.
-const SIGN_SPACING_M: [f64; 2] = [35.0, 75.0];
+/// A lamp on the other side is at least so far away as a share of the spacing.
+const ACROSS: f64 = 0.48;
 /// Small things follow one another within this, metres.
-const SMALL_SPACING_M: [f64; 2] = [18.0, 50.0];
-/// Like things keep this far apart, metres.
-const ALIKE_M: f64 = 12.0;
+const SMALL_SPACING_M: [f64; 2] = [9.0, 30.0];
+/// Things of the same kind keep this far apart, metres.
+const ALIKE_M: f64 = 14.0;
+/// Bollards stand in rows of so many, this far apart, metres.
+const BOLLARDS: [usize; 2] = [3, 8];
+const BOLLARD_STEP_M: f64 = 2.0;
 /// Nothing stands in a junction's mouth: a run of kerb shorter than this is an island or a corner, metres.
 const MIN_RUN_M: f64 = 12.0;
+/// Nor this near to where a kerb ends, metres.
+const RUN_END_M: f64 = 3.0;
+/// Further from the driven path than this no one sees a bin, metres.
+const SEEN_M: f64 = 160.0;
+/// A kerb's road is at most this far from it, metres.
+const ROAD_REACH_M: f64 = 16.0;
 
 /// Furnishes every run of kerb.
-pub(super) fn furnish(around: &Surroundings, shop: &mut Shop, seed: Seed, report: &Report) {
+pub(super) fn furnish(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
+    let around = yard.around;
+    let roads: Vec<&Road> = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
+    let road = |kerb: &KerbPoint| index.nearest(kerb.position, ROAD_REACH_M).map(|n| roads[n.line]);
+    let path: Vec<glam::DVec2> =
+        around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let path = SegmentIndex::new([path.as_slice()]);
+    let is_seen = |kerb: &KerbPoint| path.nearest(kerb.position, SEEN_M).is_some();
     for (i, run) in around.kerbs.runs.iter().enumerate().filter(|(_, r)| r.len() as f64 * KERB_STEP_M >= MIN_RUN_M) {
-        let seed = seed.nth(i as u64);
-        lamps(run, shop, report);
-        signs(run, shop, &mut seed.child("signs").random(), report);
-        small_things(run, shop, &mut seed.child("small").random(), report);
+        let end = (RUN_END_M / KERB_STEP_M) as usize;
+        let run = &run[end..run.len() - end];
+        lamps(run, &road, yard, seed.child("lamps"), report);
+        let mut random = seed.nth(i as u64).random();
+        small_things(run, &is_seen, yard, &mut random, report);
     }
 }
 
-fn lamps(run: &[KerbPoint], shop: &mut Shop, report: &Report) {
-    let mut since_m = LAMP_SPACING_M / 2.0;
+fn lamps<'r>(
+    run: &[KerbPoint],
+    road: &dyn Fn(&KerbPoint) -> Option<&'r Road>,
+    yard: &mut Yard<'_, '_, '_>,
+    seed: Seed,
+    report: &Report,
+) {
+    let habits = yard.habits;
+    let mut since_m = f64::INFINITY;
     for kerb in run {
         since_m += KERB_STEP_M;
-        if since_m < LAMP_SPACING_M || shop.distance_m(Kind::StreetLamp, kerb.position) < LAMP_ACROSS_M {
+        if since_m < habits.lamp_spacing_m[1] {
             continue;
         }
-        if shop.place(&Wish::at_kerb(Kind::StreetLamp, kerb), report) {
+        let road = road(kerb);
+        let main = road.is_none_or(|r| r.kind <= RoadKind::Tertiary);
+        let spacing_m = habits.lamp_spacing_m[usize::from(!main)];
+        let dark = road.is_some_and(|r| r.lit == Some(false) || r.kind == RoadKind::Service);
+        // Main roads are lit from both sides in turn, side streets from one.
+        let across_m = if main || habits.lamps_on_both_sides { spacing_m * ACROSS } else { spacing_m * 0.8 };
+        if dark || since_m < spacing_m || yard.has_near(Kind::StreetLamp, kerb.position, across_m) {
+            continue;
+        }
+        let models = habits.lamps[usize::from(!main)];
+        let square = (kerb.position / 200.0).floor();
+        let draw = seed.nth(square.x as i64 as u64).nth(square.y as i64 as u64).random().index(models.len());
+        if yard.place_at_kerb(Kind::StreetLamp, models[draw], kerb, Source::MadeUp, report) {
             since_m = 0.0;
         }
     }
 }
 
-fn signs(run: &[KerbPoint], shop: &mut Shop, random: &mut Random, report: &Report) {
-    for kerb in drawn(run, SIGN_SPACING_M, random) {
-        if shop.distance_m(Kind::TrafficSign, kerb.position) >= ALIKE_M {
-            shop.place(&Wish::at_kerb(Kind::TrafficSign, kerb), report);
-        }
-    }
-}
-
-fn small_things(run: &[KerbPoint], shop: &mut Shop, random: &mut Random, report: &Report) {
-    const KINDS: [Kind; 9] = [
-        Kind::Bin,
-        Kind::Bin,
-        Kind::Bench,
-        Kind::Hydrant,
-        Kind::Bollard,
-        Kind::Bollard,
-        Kind::Bollard,
-        Kind::UtilityPole,
-        Kind::Bench,
-    ];
-    for kerb in drawn(run, SMALL_SPACING_M, random) {
-        let kind = KINDS[random.index(KINDS.len())];
-        if kerb.sidewalk && shop.distance_m(kind, kerb.position) >= ALIKE_M {
-            shop.place(&Wish::at_kerb(kind, kerb), report);
-        }
-    }
-}
-
-/// Points of a run at drawn distances.
-fn drawn<'a>(run: &'a [KerbPoint], spacing_m: [f64; 2], random: &mut Random) -> Vec<&'a KerbPoint> {
-    let mut at_m = random.range(0.0, spacing_m[1]);
-    let mut points = Vec::new();
+fn small_things(
+    run: &[KerbPoint],
+    is_seen: &dyn Fn(&KerbPoint) -> bool,
+    yard: &mut Yard<'_, '_, '_>,
+    random: &mut Random,
+    report: &Report,
+) {
+    let mut at_m = random.range(0.0, SMALL_SPACING_M[1]);
     while let Some(kerb) = run.get((at_m / KERB_STEP_M) as usize) {
-        points.push(kerb);
-        at_m += random.range(spacing_m[0], spacing_m[1]);
+        let model = yard.habits.small[random.index(yard.habits.small.len())];
+        let count = if model == "bollard" { BOLLARDS[0] + random.index(BOLLARDS[1] - BOLLARDS[0]) } else { 1 };
+        let kind = kind(model);
+        let alone = !yard.has_near(kind, kerb.position, if kind == Kind::StreetFurniture { 5.0 } else { ALIKE_M });
+        let step = (BOLLARD_STEP_M / KERB_STEP_M) as usize;
+        if alone && is_seen(kerb) {
+            let row = run[(at_m / KERB_STEP_M) as usize..].iter().step_by(step).take(count);
+            for kerb in row.filter(|k| k.sidewalk) {
+                yard.place_at_kerb(kind, model, kerb, Source::MadeUp, report);
+            }
+        }
+        at_m += random.range(SMALL_SPACING_M[0], SMALL_SPACING_M[1]) + count as f64 * BOLLARD_STEP_M;
     }
-    points
+}
+
+/// What a model of the sidewalk is.
+fn kind(model: &str) -> Kind {
+    match model.split('/').next() {
+        Some("hydrant") => Kind::Hydrant,
+        Some("bollard") => Kind::Bollard,
+        Some("bin") => Kind::Bin,
+        Some("bench") => Kind::Bench,
+        Some("bicycle-rack") => Kind::BicycleRack,
+        _ => Kind::StreetFurniture,
+    }
 }

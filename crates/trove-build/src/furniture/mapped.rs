@@ -1,52 +1,130 @@
 //! Furniture that the map has, moved out of the carriageway.
 
-use trove_model::{FurnitureKind, Kind, Outcome, Report};
+use glam::DVec2;
+use trove_model::{Furniture, FurnitureKind, Kind, Outcome, Report};
 
-use super::{OFF_KERB_M, Wish, facing};
+use super::junctions::kerb_side;
+use super::yard::{Source, Wish, Yard, facing};
+use crate::kerbs::KerbPoint;
 use crate::roads::Footing;
-use crate::surroundings::Surroundings;
 
 /// Things drawn on the road are moved to a kerb within this, metres.
 const KERB_REACH_M: f64 = 15.0;
+/// Things drawn beside the road look at a kerb within this, metres.
+const LOOK_REACH_M: f64 = 25.0;
 
 /// What is mapped within the place; traffic signals are drawn on the road's line and have rules of their own.
-pub(super) fn wishes(around: &Surroundings, report: &Report) -> Vec<Wish> {
-    let mut wishes = Vec::new();
+pub(super) fn place(yard: &mut Yard<'_, '_, '_>, report: &Report) {
+    let around = yard.around;
     let furniture = around.map.iter().flat_map(|m| &m.furniture).filter(|f| around.bounds.contains(f.position));
     for thing in furniture {
-        let Some(kind) = kind(thing.kind) else { continue };
-        let on_road = around.stand.surfaces.footing(thing.position) == Footing::Carriageway;
-        let kerb = around.kerbs.near(thing.position, KERB_REACH_M).first().copied();
-        let position = match (on_road, kerb) {
-            (false, _) => thing.position,
-            (true, Some(kerb)) => kerb.position + kerb.outward * OFF_KERB_M,
-            (true, None) => {
-                report.note(
-                    Outcome::Dropped,
-                    "furniture on the road without a kerb near it",
-                    format!("osm {}", thing.id),
-                );
-                continue;
+        let wanted = models(thing, yard, report);
+        for (kind, model) in &wanted {
+            let placed = stand(thing, *kind, model, yard, report);
+            if !placed {
+                let what = format!("mapped {:?} without room or kerb", thing.kind);
+                report.note(Outcome::Dropped, &what, format_args!("osm {}", thing.id));
             }
-        };
-        let yaw_rad = thing.heading_rad.or(kerb.map(|k| facing(kind, &k))).unwrap_or(0.0);
-        let road = kerb.map(|k| -k.outward);
-        wishes.push(Wish { kind, position, yaw_rad, road });
+        }
     }
-    wishes
 }
 
-fn kind(mapped: FurnitureKind) -> Option<Kind> {
-    match mapped {
-        FurnitureKind::StreetLamp => Some(Kind::StreetLamp),
-        FurnitureKind::TrafficSign | FurnitureKind::StopSign | FurnitureKind::GiveWaySign => Some(Kind::TrafficSign),
-        FurnitureKind::Bench => Some(Kind::Bench),
-        FurnitureKind::Bin => Some(Kind::Bin),
-        FurnitureKind::Hydrant => Some(Kind::Hydrant),
-        FurnitureKind::Bollard => Some(Kind::Bollard),
-        FurnitureKind::BusStop => Some(Kind::Shelter),
-        FurnitureKind::UtilityPole => Some(Kind::UtilityPole),
-        FurnitureKind::BicycleParking => Some(Kind::BicycleRack),
-        _ => None,
+/// Puts a thing where it is drawn, or beside the road that it is drawn on.
+fn stand(thing: &Furniture, kind: Kind, model: &str, yard: &mut Yard<'_, '_, '_>, report: &Report) -> bool {
+    let around = yard.around;
+    let p = thing.position;
+    let kerbs = around.kerbs.near(p, LOOK_REACH_M);
+    let side = |k: &KerbPoint| kerb_side(k.traffic, yard.habits.on_left);
+    let is_sign = matches!(kind, Kind::TrafficSign | Kind::TrafficSignal);
+    // A sign on the road's line stands where those whom it faces drive.
+    let seen = thing.heading_rad.map(|yaw_rad| -DVec2::from_angle(yaw_rad)).filter(|_| is_sign);
+    let fits = |k: &&KerbPoint| {
+        k.position.distance(p) < KERB_REACH_M
+            && seen.is_none_or(|s| s.dot(k.traffic) > 0.7 && k.outward.dot(side(k)) > 0.7)
+    };
+    let at_kerb = kerbs.iter().find(fits).copied();
+    let look = |k: Option<KerbPoint>| thing.heading_rad.or(k.map(|k| facing(kind, &k))).unwrap_or(0.0);
+    let wish = |position, yaw_rad| Wish { kind, model, position, yaw_rad, source: Source::Mapped };
+    if around.stand.surfaces.footing(p) == Footing::Carriageway {
+        let Some(kerb) = at_kerb else { return false };
+        return yard.place_at_kerb(kind, model, &kerb, Source::Mapped, report);
     }
+    let as_drawn = wish(p, look(kerbs.first().copied()));
+    yard.place(&as_drawn, report)
+        || at_kerb.is_some_and(|kerb| yard.place_at_kerb(kind, model, &kerb, Source::Mapped, report))
+}
+
+/// What stands for a thing; a bus stop is a sign and, where there is room, a shelter.
+fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(Kind, String)> {
+    let habits = yard.habits;
+    let one = |kind: Kind, model: &str| vec![(kind, model.to_owned())];
+    match thing.kind {
+        FurnitureKind::StreetLamp => lamp(&thing.detail).map(|model| one(Kind::StreetLamp, model)).unwrap_or_default(),
+        FurnitureKind::StopSign => one(Kind::TrafficSign, habits.sign("sign/us/stop", "sign/stop")),
+        FurnitureKind::GiveWaySign => one(Kind::TrafficSign, habits.sign("sign/us/yield", "sign/give-way")),
+        FurnitureKind::TrafficSign => {
+            let model = sign(&thing.detail, yard);
+            if model.is_none() {
+                let what = "mapped sign that the library has no picture of";
+                report.note(Outcome::Dropped, what, format_args!("osm {}: {}", thing.id, thing.detail));
+            }
+            model.map(|model| vec![(Kind::TrafficSign, model)]).unwrap_or_default()
+        }
+        FurnitureKind::Bench => one(Kind::Bench, "bench"),
+        FurnitureKind::PicnicTable => one(Kind::StreetFurniture, "picnic-table"),
+        FurnitureKind::Bin => one(Kind::Bin, "bin"),
+        FurnitureKind::Hydrant => one(Kind::Hydrant, "hydrant"),
+        FurnitureKind::Bollard => one(Kind::Bollard, "bollard"),
+        FurnitureKind::BusStop => {
+            vec![(Kind::TrafficSign, habits.bus_stop.to_owned()), (Kind::Shelter, "shelter".to_owned())]
+        }
+        FurnitureKind::BicycleParking => one(Kind::BicycleRack, "bicycle-rack"),
+        FurnitureKind::Mailbox => one(Kind::StreetFurniture, habits.mailbox),
+        FurnitureKind::StreetCabinet => one(Kind::StreetFurniture, "cabinet"),
+        FurnitureKind::Telephone => one(Kind::StreetFurniture, "telephone"),
+        FurnitureKind::AdvertisingColumn => one(Kind::StreetFurniture, "advertising"),
+        FurnitureKind::Flagpole => one(Kind::StreetFurniture, "flagpole"),
+        // Poles come with their wires, signals with their junctions, the rest with the ground and the green.
+        FurnitureKind::UtilityPole
+        | FurnitureKind::TrafficSignal
+        | FurnitureKind::Crossing
+        | FurnitureKind::Tree
+        | FurnitureKind::Shrub
+        | FurnitureKind::Fountain
+        | FurnitureKind::Manhole => Vec::new(),
+    }
+}
+
+/// By `lamp_mount`; `None` for what hangs on walls and wires.
+fn lamp(mount: &str) -> Option<&'static str> {
+    match mount {
+        "wall_mounted" | "wall" | "suspended" | "ceiling" | "ground" => None,
+        "straight_mast" => Some("lamp/post-top"),
+        "bent_mast" | "high_mast" => Some("lamp/curved"),
+        _ => Some("lamp/straight"),
+    }
+}
+
+/// By `traffic_sign`, in words or in Germany's, Austria's and Switzerland's numbers.
+fn sign(text: &str, yard: &Yard<'_, '_, '_>) -> Option<String> {
+    let habits = yard.habits;
+    let first = text.split([',', ';']).next()?.trim();
+    let number = first.split([':', '[', '-']).nth(1).unwrap_or(first);
+    let limit = || first.split(['[', ']']).nth(1)?.parse::<f64>().ok();
+    let model = match number {
+        "stop" | "206" => habits.sign("sign/us/stop", "sign/stop"),
+        "give_way" | "yield" | "205" => habits.sign("sign/us/yield", "sign/give-way"),
+        "220" => "sign/one-way",
+        "267" | "no_entry" => habits.sign("sign/us/do-not-enter", "sign/no-entry"),
+        "283" => "sign/no-stopping",
+        "286" => "sign/no-parking",
+        "314" => "sign/parking",
+        "350" => "sign/crossing",
+        "101" | "hazard" => "sign/warning",
+        "274" | "maxspeed" | "274.1" => {
+            return limit().map(|kmh| habits.speed_sign(kmh)).filter(|m| yard.has(Kind::TrafficSign, m));
+        }
+        _ => return None,
+    };
+    Some(model.to_owned())
 }

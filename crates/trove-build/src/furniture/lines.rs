@@ -1,0 +1,372 @@
+//! Fences, walls and guard rails: pieces of the library laid along lines and draped over the ground.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, Mat3, Vec3};
+use trove_model::{
+    Asset, Kind, LandKind, LineKind, MapLine, Material, Mesh, Outcome, Random, Report, Road, RoadKind, Seed,
+};
+
+use super::yard::{Source, Yard};
+use crate::clearance::Room;
+use crate::kerbs::{KERB_STEP_M, KerbPoint};
+use crate::piece::Piece;
+use crate::segments::SegmentIndex;
+
+/// One object is at most this long, metres.
+const OBJECT_M: f64 = 40.0;
+/// Beyond this from the driven path a coarser piece will do, metres, and beyond that none is made up.
+const NEAR_M: f64 = 60.0;
+const SEEN_M: f64 = 220.0;
+/// A fence is open where a path or road crosses it, metres to each side of the middle.
+const GAP_M: f64 = 1.1;
+/// Guard rails and railings behind the kerb, metres.
+const GUARD_OFF_KERB_M: f64 = 0.6;
+const RAILING_OFF_KERB_M: f64 = 0.4;
+/// Railings run this far with gaps of as much, on this share of the kerbs of main roads, metres.
+const RAILING_RUN_M: [f64; 2] = [14.0, 40.0];
+const RAILING_SHARE: f64 = 0.4;
+/// A kerb's road is at most this far from it, metres.
+const ROAD_REACH_M: f64 = 16.0;
+/// Walls and fences whose height the map lacks are this share of their model's.
+const HEIGHTS: [f64; 2] = [0.7, 1.0];
+/// Vertices nearer than this to a straight line are left out, metres.
+const STRAIGHT_M: f64 = 0.06;
+
+/// Lines this near to each other are one, metres.
+const LAID_M: f64 = 0.25;
+/// Room is looked for at places this far apart, metres.
+const SAMPLE_M: f64 = 0.4;
+/// Side of the buckets of what has been laid, metres.
+const BUCKET_M: f64 = 8.0;
+
+/// What is to stand along a line.
+struct Run<'l> {
+    kind: Kind,
+    model: &'static str,
+    line: &'l [DVec2],
+    /// Height over the model's own.
+    scale: f64,
+    source: Source,
+}
+
+/// Everything along lines: mapped, then by rule along the kerbs and around building sites.
+pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) -> Vec<Piece> {
+    let around = yard.around;
+    let Some(map) = around.map else { return Vec::new() };
+    let ways: Vec<&Road> = map.roads.iter().filter(|r| !r.tunnel).collect();
+    let ways = SegmentIndex::new(ways.iter().map(|r| r.centreline.as_slice()));
+    let path: Vec<DVec2> = around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let mut layer = Layer {
+        yard,
+        ways,
+        path: SegmentIndex::new([path.as_slice()]),
+        pieces: Vec::new(),
+        laid: BTreeMap::new(),
+        seed,
+    };
+    for line in &map.lines {
+        let mut random = seed.child("line").nth(line.id as u64).random();
+        if let Some((kind, model, height)) = model(line, &mut random) {
+            let facing_road = layer.traffic_on_the_right(line.line.clone());
+            layer.lay(&Run { kind, model, line: &facing_road, scale: height, source: Source::Mapped }, report);
+        }
+    }
+    for site in map.land.iter().filter(|l| l.kind == LandKind::Construction) {
+        let mut ring = site.polygon.exterior.clone();
+        ring.extend(site.polygon.exterior.first());
+        let model = if seed.nth(site.id as u64).random().chance(0.5) { "fence/hoarding" } else { "fence/site" };
+        layer.lay(&Run { kind: Kind::Fence, model, line: &ring, scale: 1.0, source: Source::MadeUp }, report);
+        report.note(Outcome::Guessed, "fence around a building site", format_args!("osm {}", site.id));
+    }
+    along_kerbs(&mut layer, seed, report);
+    layer.take()
+}
+
+/// Guard rails along motorways, railings along the sidewalks of main roads where the region has them.
+fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
+    let around = layer.yard.around;
+    let roads: Vec<&Road> = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
+    for (i, run) in around.kerbs.runs.iter().enumerate() {
+        let mut random = seed.child("kerb").nth(i as u64).random();
+        let mut at = 0;
+        while at < run.len() {
+            let length = (random.range(RAILING_RUN_M[0], RAILING_RUN_M[1]) / KERB_STEP_M) as usize;
+            let stretch = &run[at..(at + length).min(run.len())];
+            at += length;
+            let middle = &stretch[stretch.len() / 2];
+            let Some(kind) = index.nearest(middle.position, ROAD_REACH_M).map(|n| roads[n.line].kind) else { continue };
+            let sidewalk = stretch.iter().all(|k| k.sidewalk);
+            let fast = kind <= RoadKind::Trunk;
+            let railed = layer.yard.habits.railings && kind <= RoadKind::Secondary && random.chance(RAILING_SHARE);
+            let (model, off_m) = match (sidewalk, fast, railed) {
+                (false, true, _) => ("guard-rail/w-beam", GUARD_OFF_KERB_M),
+                (true, false, true) => ("guard-rail/railing-painted", RAILING_OFF_KERB_M),
+                _ => continue,
+            };
+            let line: Vec<DVec2> = stretch.iter().map(|k: &KerbPoint| k.position + k.outward * off_m).collect();
+            let line = layer.traffic_on_the_right(line);
+            layer.lay(&Run { kind: Kind::GuardRail, model, line: &line, scale: 1.0, source: Source::MadeUp }, report);
+        }
+    }
+}
+
+/// What a mapped line looks like, with its height over the model's; `None` for what others build.
+fn model(line: &MapLine, random: &mut Random) -> Option<(Kind, &'static str, f64)> {
+    let says = |words: &[&str]| words.iter().any(|w| line.detail.contains(w));
+    let (kind, model, model_m) = match line.kind {
+        LineKind::Fence if says(&["handrail"]) => (Kind::GuardRail, "guard-rail/railing", 1.04),
+        LineKind::Fence if says(&["chain", "wire", "mesh"]) => (Kind::Fence, "fence/chain-link", 1.85),
+        LineKind::Fence if says(&["wood", "split_rail", "picket", "pole"]) => (Kind::Fence, "fence/wood", 1.73),
+        LineKind::Fence if says(&["metal", "railing", "bar", "iron", "steel"]) => (Kind::Fence, "fence/bars", 1.32),
+        LineKind::Fence if says(&["panel", "corrugated", "slat", "concrete"]) => (Kind::Fence, "fence/panel", 1.85),
+        LineKind::Fence if says(&["hoarding", "construction"]) => (Kind::Fence, "fence/hoarding", 2.12),
+        LineKind::Fence => *random.pick(&[
+            (Kind::Fence, "fence/bars", 1.32),
+            (Kind::Fence, "fence/bars", 1.32),
+            (Kind::Fence, "fence/chain-link", 1.85),
+            (Kind::Fence, "fence/wood", 1.73),
+        ])?,
+        LineKind::Wall if says(&["brick"]) => (Kind::Wall, "wall/brick", 2.4),
+        LineKind::Wall if says(&["stone", "gabion"]) => (Kind::Wall, "wall/stone", 2.2),
+        LineKind::Wall if says(&["concrete", "noise", "sound", "retaining"]) => (Kind::Wall, "wall/concrete", 2.0),
+        LineKind::Wall => *random.pick(&[
+            (Kind::Wall, "wall/brick", 2.4),
+            (Kind::Wall, "wall/concrete", 2.0),
+            (Kind::Wall, "wall/stone", 2.2),
+        ])?,
+        LineKind::GuardRail if says(&["jersey", "concrete"]) => (Kind::GuardRail, "guard-rail/parapet", 0.86),
+        LineKind::GuardRail => (Kind::GuardRail, "guard-rail/w-beam", 0.76),
+        LineKind::Hedge | LineKind::PowerLine | LineKind::Tram | LineKind::Railway => return None,
+    };
+    let guessed = if kind == Kind::GuardRail { 1.0 } else { random.range(HEIGHTS[0], HEIGHTS[1]) };
+    let scale = line.height_m.filter(|h| (0.3..=8.0).contains(h)).map_or(guessed, |height_m| height_m / model_m);
+    Some((kind, model, scale))
+}
+
+struct Layer<'y, 'a, 'b, 'c> {
+    yard: &'y mut Yard<'a, 'b, 'c>,
+    /// Everything that is driven or walked on.
+    ways: SegmentIndex,
+    path: SegmentIndex,
+    pieces: Vec<Piece>,
+    /// Pieces of lines by place.
+    laid: BTreeMap<[i64; 2], Vec<[DVec2; 2]>>,
+    seed: Seed,
+}
+
+impl<'a> Layer<'_, 'a, '_, '_> {
+    /// The line the way round that has the nearest carriageway on its right.
+    fn traffic_on_the_right(&self, mut line: Vec<DVec2>) -> Vec<DVec2> {
+        let middle = line[line.len() / 2];
+        let before = line[(line.len() / 2).saturating_sub(1)];
+        let kerb = self.yard.around.kerbs.near(middle, ROAD_REACH_M).first().copied();
+        if kerb.is_some_and(|k| (middle - before).perp_dot(-k.outward) > 0.0) {
+            line.reverse();
+        }
+        line
+    }
+
+    /// One object a straight stretch.
+    fn lay(&mut self, run: &Run<'_>, report: &Report) {
+        let library = self.yard.library;
+        let named = |id: &str| library.of_kind(run.kind).find(|a| a.id == id);
+        let Some(near) = named(run.model) else {
+            let what = "line without an asset to build it of";
+            return report.note(Outcome::Dropped, what, run.model);
+        };
+        let far = named(&format!("{}-far", run.model)).unwrap_or(near);
+        let half_m = near.size_m.y / 2.0;
+        for [from, to] in apart(&simplified(run.line), half_m) {
+            let count = (from.distance(to) / near.size_m.x).round().max(1.0);
+            let (mut object, mut object_m) = (Object::default(), 0.0);
+            for i in 0..count as usize {
+                let [a, b] = [i, i + 1].map(|k| from.lerp(to, k as f64 / count));
+                let asset = if self.path.nearest(a, NEAR_M).is_some() { near } else { far };
+                let goes_on = object_m < OBJECT_M && object.asset.is_none_or(|o: &Asset| o.id == asset.id);
+                let free = self.is_free(a, b, run.source);
+                if !free || !goes_on {
+                    self.finish(&mut object, run.kind);
+                    object_m = 0.0;
+                }
+                if !free {
+                    continue;
+                }
+                let ends = [a, b].map(|p| p.extend(self.yard.around.stand.surface_m(p)));
+                let origin = *object.origin.get_or_insert(ends[0]);
+                object.asset = Some(asset);
+                append(&mut object.mesh, asset, ends.map(|p| (p - origin).as_vec3()), run.scale as f32);
+                object_m += a.distance(b);
+                self.laid.entry(bucket((a + b) / 2.0)).or_default().push([a, b]);
+            }
+            self.finish(&mut object, run.kind);
+        }
+    }
+
+    /// Off the carriageway, out of buildings, clear of what was recorded, of ways that cross, of cameras and of what has
+    /// been laid.
+    fn is_free(&self, a: DVec2, b: DVec2, source: Source) -> bool {
+        let room = Room { road_m: 0.0, buildings_m: 0.0, recorded_m: 0.35, radius_m: 0.1 };
+        let along = (b - a).normalize_or_zero();
+        let crossed = |p: DVec2| self.ways.nearest(p, GAP_M).is_some_and(|n| n.along.dot(along).abs() < 0.8);
+        let made_up = source == Source::MadeUp;
+        let free = |p: DVec2| {
+            self.yard.around.bounds.contains(p)
+                && self.yard.clearance.is_free(p, &room)
+                && !crossed(p)
+                && !(made_up && (self.yard.in_sight(p, 0.5) || self.path.nearest(p, SEEN_M).is_none()))
+        };
+        samples(a, b).all(free) && !self.is_laid((a + b) / 2.0)
+    }
+
+    /// Whether a piece lies at a position already: maps draw a fence on a wall with the same nodes.
+    fn is_laid(&self, p: DVec2) -> bool {
+        let [x, y] = bucket(p);
+        let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let mut pieces = near.filter_map(|key| self.laid.get(&key)).flatten();
+        pieces.any(|[a, b]| {
+            let t = ((p - *a).dot(*b - *a) / (*b - *a).length_squared().max(1e-9)).clamp(0.0, 1.0);
+            a.lerp(*b, t).distance(p) < LAID_M
+        })
+    }
+
+    /// Keeps what comes later off the lines.
+    fn take(self) -> Vec<Piece> {
+        for [a, b] in self.laid.values().flatten() {
+            samples(*a, *b).for_each(|p| self.yard.clearance.take(p, LAID_M));
+        }
+        self.pieces
+    }
+
+    fn finish(&mut self, object: &mut Object<'a>, kind: Kind) {
+        let Object { asset: Some(asset), origin: Some(origin), mesh } = std::mem::take(object) else { return };
+        let mut random = self.seed.child("paint").nth(self.pieces.len() as u64 / 4).random();
+        let mut paint: Option<Vec3> = None;
+        let materials = asset.slots.iter().map(|slot| {
+            // All parts of a fence that are painted are painted alike.
+            let drawn = paint.filter(|p| slot.paints.contains(p)).or_else(|| random.pick(&slot.paints).copied());
+            paint = paint.or(drawn);
+            Material { base_color: drawn.unwrap_or(slot.material.base_color), ..slot.material.clone() }
+        });
+        self.pieces.push(Piece {
+            materials: materials.collect(),
+            mesh: Arc::new(mesh),
+            world_from_mesh: DAffine3::from_translation(origin),
+            class: asset.class,
+            kind: Some(kind),
+            asset: asset.id.clone(),
+        });
+    }
+}
+
+/// Part of a line that is one object.
+#[derive(Default)]
+struct Object<'a> {
+    asset: Option<&'a Asset>,
+    origin: Option<glam::DVec3>,
+    mesh: Mesh,
+}
+
+/// Adds a piece between two places, stretched to fill it and sheared to the slope.
+fn append(mesh: &mut Mesh, asset: &Asset, [a, b]: [Vec3; 2], scale: f32) {
+    let piece = &asset.mesh;
+    let length_m = asset.size_m.x as f32;
+    let along = (b - a).truncate().normalize_or(glam::Vec2::X);
+    let turn = Mat3::from_cols(along.extend(0.0), along.perp().extend(0.0), Vec3::Z);
+    let base = mesh.positions.len() as u32;
+    mesh.positions.extend(piece.positions.iter().map(|p| {
+        let across = turn.y_axis * p.y;
+        a.lerp(b, p.x / length_m + 0.5) + across + Vec3::Z * (p.z * scale)
+    }));
+    mesh.normals.extend(piece.normals.iter().map(|n| turn * *n));
+    mesh.uvs.extend(&piece.uvs);
+    mesh.triangles.extend(piece.triangles.iter().map(|t| t.map(|i| i + base)));
+    mesh.slots.extend((0..piece.triangles.len()).map(|t| piece.slot(t)));
+}
+
+fn bucket(p: DVec2) -> [i64; 2] {
+    let cell = (p / BUCKET_M).floor();
+    [cell.x as i64, cell.y as i64]
+}
+
+fn samples(a: DVec2, b: DVec2) -> impl Iterator<Item = DVec2> {
+    let steps = (a.distance(b) / SAMPLE_M).ceil().max(1.0) as usize;
+    (0..=steps).map(move |i| a.lerp(b, i as f64 / steps as f64))
+}
+
+/// The straight stretches of a line of some half width, none of them in another: at a bend one fills the corner and the
+/// next begins beside it, and both of the line's ends stop short of what they may meet.
+fn apart(line: &[DVec2], half_m: f64) -> Vec<[DVec2; 2]> {
+    let along = |i: usize| (line[i + 1] - line[i]).normalize_or_zero();
+    let last = line.len().saturating_sub(2);
+    let bend = |i: usize| along(i).perp_dot(along(i + 1)).abs() * half_m;
+    let mut stretches = Vec::new();
+    for i in 0..line.len().saturating_sub(1) {
+        let cut_m = if i == 0 { half_m } else { bend(i - 1) };
+        let reach_m = if i == last { -half_m } else { bend(i) };
+        let stretch = [line[i] + along(i) * cut_m, line[i + 1] + along(i) * reach_m];
+        if line[i].distance(line[i + 1]) > cut_m - reach_m + 0.2 {
+            stretches.push(stretch);
+        }
+    }
+    stretches
+}
+
+/// The line without vertices that hardly bend it, and without steps of no length.
+fn simplified(line: &[DVec2]) -> Vec<DVec2> {
+    let mut kept: Vec<DVec2> = Vec::new();
+    for (i, &p) in line.iter().enumerate() {
+        if kept.last().is_some_and(|last| last.distance(p) < 0.05) {
+            continue;
+        }
+        while kept.len() > 1 {
+            let [a, b] = [kept[kept.len() - 2], kept[kept.len() - 1]];
+            let off_m = (p - a).normalize_or_zero().perp_dot(b - a).abs();
+            let first = line[..i].iter().rposition(|q| *q == a).unwrap_or(0);
+            let straight =
+                line[first..i].iter().all(|q| (p - a).normalize_or_zero().perp_dot(*q - a).abs() < STRAIGHT_M);
+            if off_m >= STRAIGHT_M || !straight || (p - b).dot(b - a) < 0.0 {
+                break;
+            }
+            kept.pop();
+        }
+        kept.push(p);
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn a_piece_reaches_from_end_to_end_and_follows_the_slope() {
+        let asset = testing::asset("fence/a", Kind::Fence, [2.0, 0.1, 1.5]);
+        let mut mesh = Mesh::default();
+        append(&mut mesh, &asset, [Vec3::ZERO, Vec3::new(0.0, 3.0, 1.0)], 2.0);
+        let (low, high) = mesh.bounds().unwrap();
+        assert!((low - Vec3::new(-0.05, 0.0, 0.0)).length() < 1e-5, "{low}");
+        assert!((high - Vec3::new(0.05, 3.0, 4.0)).length() < 1e-5, "{high}");
+    }
+
+    #[test]
+    fn a_straight_line_of_many_vertices_is_one_step_and_a_bend_stays() {
+        let line: Vec<DVec2> = (0..9).map(|i| DVec2::new(f64::from(i), 0.01 * f64::from(i % 2))).collect();
+        assert_eq!(simplified(&line), [line[0], line[8]]);
+        let bent = [[0.0, 0.0], [2.0, 0.0], [4.0, 1.0]].map(DVec2::from_array);
+        assert_eq!(simplified(&bent), bent);
+    }
+
+    #[test]
+    fn stretches_of_a_wall_share_no_corner() {
+        let line = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]].map(DVec2::from_array);
+        let found = apart(&line, 0.2);
+        assert_eq!(found.len(), 2);
+        let near = |p: DVec2, x: f64, y: f64| p.distance(DVec2::new(x, y)) < 1e-9;
+        assert!(near(found[0][0], 0.2, 0.0) && near(found[0][1], 4.2, 0.0), "{found:?}");
+        assert!(near(found[1][0], 4.0, 0.2) && near(found[1][1], 4.0, 2.8), "{found:?}");
+    }
+}

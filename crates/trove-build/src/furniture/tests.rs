@@ -1,0 +1,194 @@
+//! What holds for the furniture of made-up places.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use trove_model::{
+    Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, MapLine, MapProjection, Mesh, Polygon,
+    Report, Road, RoadKind, Seed, Slot, StreetMap,
+};
+
+use super::furniture;
+use crate::clearance::Clearance;
+use crate::kerbs::Kerbs;
+use crate::piece::Piece;
+use crate::placement::Stand;
+use crate::roads::{self, Footing};
+use crate::surroundings::Surroundings;
+use crate::testing;
+
+const BERLIN: [f64; 2] = [52.5, 13.4];
+const SINGAPORE: [f64; 2] = [1.3, 103.8];
+const BOSTON: [f64; 2] = [42.35, -71.05];
+
+/// What a test looks at: models with their places, and what was built.
+struct Furnished {
+    scenery: Vec<(String, DVec3, f64)>,
+    pieces: Vec<Piece>,
+    on_carriageway: usize,
+    off_ground_m: f64,
+}
+
+/// Furnishes a map of roads, buildings and lines somewhere on earth.
+fn furnished([origin_lat_deg, origin_lon_deg]: [f64; 2], map: &StreetMap) -> Furnished {
+    let mut drive = Drive { lane_map: None, tracks: Vec::new(), ..testing::drive() };
+    drive.projection = MapProjection { origin_lat_deg, origin_lon_deg, anchor_m: DVec2::ZERO };
+    for keyframe in &mut drive.keyframes {
+        keyframe.boxes.clear();
+    }
+    let (library, report) = (library(), Report::default());
+    let bounds = Bounds::square(DVec2::ZERO, 400.0);
+    let ground = HeightField::flat(bounds.grown(20.0), 0.0);
+    let surfaces = roads::surfaces(&drive, Some(map), &ground, bounds, &library, Seed(0), &report);
+    let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
+    let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
+    let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);
+    let stand = Stand { ground: &ground, surfaces: &surfaces };
+    let around = Surroundings { drive: &drive, map: Some(map), bounds, kerbs: &kerbs, stand };
+    let found = furniture(&around, &library, &mut clearance, Seed(1), &report);
+    let feet = || found.scenery.iter().map(|s| s.foot_world);
+    Furnished {
+        on_carriageway: feet().filter(|p| surfaces.footing(p.truncate()) == Footing::Carriageway).count(),
+        off_ground_m: feet().map(|p| (p.z - stand.surface_m(p.truncate())).abs()).fold(0.0, f64::max),
+        scenery: found.scenery.iter().map(|s| (s.asset.id.clone(), s.foot_world, s.yaw_rad)).collect(),
+        pieces: found.pieces,
+    }
+}
+
+/// Blocks for the models that are asked for, and a pole with two insulators.
+fn library() -> AssetLibrary {
+    let mut assets: Vec<Asset> = [
+        ("sign/give-way", Kind::TrafficSign),
+        ("sign/us/stop", Kind::TrafficSign),
+        ("sign/us/speed-25", Kind::TrafficSign),
+        ("sign/disc/speed-50", Kind::TrafficSign),
+        ("lamp/cobra", Kind::StreetLamp),
+        ("bench/a", Kind::Bench),
+    ]
+    .map(|(id, kind)| testing::asset(id, kind, [0.1, 0.1, 2.5]))
+    .to_vec();
+    for hand in ["right", "left"] {
+        for state in ["red", "green"] {
+            for make in ["post", "arm", "us-arm", "us-long-arm"] {
+                let id = format!("signal/{make}/{hand}/{state}");
+                assets.push(testing::asset(&id, Kind::TrafficSignal, [0.2, 0.2, 4.0]));
+            }
+        }
+    }
+    let pole = testing::asset("utility-pole/a", Kind::UtilityPole, [0.2, 0.2, 9.0]);
+    let mut mesh: Mesh = (*pole.mesh).clone();
+    mesh.slots = vec![0; mesh.triangles.len()];
+    for y in [-1.0, 1.0] {
+        let base = mesh.positions.len() as u32;
+        mesh.positions.extend([[0.0, y, 8.6], [0.05, y, 8.6], [0.0, y, 8.7]].map(glam::Vec3::from_array));
+        mesh.triangles.push([base, base + 1, base + 2]);
+        mesh.slots.push(1);
+    }
+    let mut insulator = pole.slots[0].material.clone();
+    insulator.name = "insulator".into();
+    let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new() }];
+    assets.push(Asset { mesh: Arc::new(mesh), slots, ..pole });
+    assets.push(testing::asset("fence/bars", Kind::Fence, [2.4, 0.06, 1.3]));
+    assets.push(testing::asset("fence/wood", Kind::Fence, [2.0, 0.1, 1.7]));
+    assets.push(testing::asset("fence/chain-link", Kind::Fence, [2.5, 0.06, 1.8]));
+    assets.sort_by(|a, b| a.id.cmp(&b.id));
+    AssetLibrary { assets, ..AssetLibrary::default() }
+}
+
+/// A main road along x, and a lesser one that comes to it from the south.
+fn junction(main: RoadKind, lesser: RoadKind) -> StreetMap {
+    let limit = |road| Road { speed_limit_kmh: Some(if main == RoadKind::Primary { 50.0 } else { 40.2 }), ..road };
+    let roads = vec![
+        limit(testing::road(1, main, &[[-190.0, 0.0], [0.0, 0.0], [190.0, 0.0]])),
+        limit(testing::road(2, lesser, &[[0.0, -190.0], [0.0, 0.0]])),
+    ];
+    StreetMap { roads, ..StreetMap::default() }
+}
+
+fn line(kind: LineKind, line: &[[f64; 2]]) -> MapLine {
+    let line = line.iter().copied().map(DVec2::from_array).collect();
+    MapLine { id: 1, kind, line, height_m: None, detail: String::new() }
+}
+
+#[test]
+fn a_sign_faces_its_traffic_where_traffic_keeps_right_and_where_it_keeps_left() {
+    for (place, side) in [(BERLIN, 1.0), (SINGAPORE, -1.0)] {
+        let found = furnished(place, &junction(RoadKind::Primary, RoadKind::Residential));
+        let gives_way: Vec<_> = found.scenery.iter().filter(|(id, ..)| id == "sign/give-way").collect();
+        assert_eq!(gives_way.len(), 1, "{:?}", found.scenery);
+        let (_, foot, yaw_rad) = gives_way[0];
+        // Those who come from the south see it from the south, at their side of the road.
+        assert!((yaw_rad + std::f64::consts::FRAC_PI_2).abs() < 0.05, "{yaw_rad}");
+        assert!(foot.x * side > 1.0 && (-30.0..-3.0).contains(&foot.y), "{foot}");
+    }
+}
+
+#[test]
+fn signals_of_one_axis_are_green_while_the_other_s_are_red() {
+    for place in [BERLIN, SINGAPORE, BOSTON] {
+        let found = furnished(place, &junction(RoadKind::Primary, RoadKind::Secondary));
+        let along_x = |yaw_rad: f64| yaw_rad.cos().abs() > 0.7;
+        let states: Vec<(bool, bool)> = found
+            .scenery
+            .iter()
+            .filter(|(id, ..)| id.starts_with("signal/"))
+            .map(|(id, _, yaw_rad)| (along_x(*yaw_rad), id.ends_with("green")))
+            .collect();
+        assert_eq!(states.len(), 3, "{:?}", found.scenery);
+        assert!(states.iter().all(|(x, green)| (*x == states[0].0) == (*green == states[0].1)), "{states:?}");
+    }
+}
+
+#[test]
+fn limits_are_in_the_country_s_unit_and_nothing_stands_on_the_carriageway_or_off_the_ground() {
+    for (place, main, sign) in
+        [(BERLIN, RoadKind::Primary, "sign/disc/speed-50"), (BOSTON, RoadKind::Tertiary, "sign/us/speed-25")]
+    {
+        let found = furnished(place, &junction(main, RoadKind::Residential));
+        let limits: Vec<&str> =
+            found.scenery.iter().map(|(id, ..)| id.as_str()).filter(|id| id.contains("/speed-")).collect();
+        assert!(!limits.is_empty() && limits.iter().all(|id| *id == sign), "{limits:?}");
+        assert!(found.scenery.len() > 20, "{}", found.scenery.len());
+        assert_eq!(found.on_carriageway, 0);
+        assert!(found.off_ground_m < 0.03);
+    }
+}
+
+#[test]
+fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
+    let house = [[30.0, -62.0], [50.0, -62.0], [50.0, -48.0], [30.0, -48.0]].map(DVec2::from_array);
+    let house = Building::new(9, Polygon::simple(house.to_vec()), "house");
+    let power = line(LineKind::PowerLine, &[[-60.0, -55.0], [-20.0, -55.0], [20.0, -55.0], [60.0, -55.0]]);
+    let map = StreetMap {
+        buildings: vec![house],
+        lines: vec![power],
+        ..junction(RoadKind::Secondary, RoadKind::Residential)
+    };
+    let found = furnished(BERLIN, &map);
+    let poles = found.scenery.iter().filter(|(id, ..)| id == "utility-pole/a").count();
+    assert_eq!(poles, 4, "{:?}", found.scenery);
+    let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
+    let points: Vec<DVec3> =
+        wires.mesh.positions.iter().map(|p| wires.world_from_mesh.transform_point3(p.as_dvec3())).collect();
+    // Two spans of two wires; the third would pass the house.
+    assert!(points.iter().all(|p| (-60.1..20.1).contains(&p.x) && p.z > 5.0 && (p.y + 55.0).abs() < 1.1));
+    for x in [-60.0, -20.0, 20.0] {
+        assert!(points.iter().any(|p| (p.x - x).abs() < 0.1 && (p.z - 8.7).abs() < 0.25), "{x}");
+    }
+}
+
+#[test]
+fn a_fence_stands_along_its_line_and_is_open_where_a_path_crosses_it() {
+    let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
+    map.lines = vec![line(LineKind::Fence, &[[-60.0, 40.0], [60.0, 40.0], [60.0, 80.0]])];
+    map.roads.push(testing::road(3, RoadKind::Footway, &[[10.0, 5.0], [10.0, 90.0]]));
+    let found = furnished(BERLIN, &map);
+    let fences: Vec<&Piece> = found.pieces.iter().filter(|p| p.kind == Some(Kind::Fence)).collect();
+    assert!(fences.len() >= 3);
+    let points =
+        fences.iter().flat_map(|f| f.mesh.positions.iter().map(|p| f.world_from_mesh.transform_point3(p.as_dvec3())));
+    for p in points {
+        let beside_m = (p.y - 40.0).abs().min((p.x - 60.0).abs());
+        assert!(beside_m < 0.1 && (p.x - 10.0).abs() > 0.9, "{p}");
+    }
+}
