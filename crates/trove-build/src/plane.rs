@@ -10,6 +10,8 @@ use geo::{BooleanOps, Buffer, TriangulateEarcut};
 use glam::DVec2;
 use trove_model::{Bounds, Polygon};
 
+use crate::ground::clipped;
+
 /// A millimetre, as a power of two.
 const GRID_M: f64 = 1.0 / 1024.0;
 /// Smaller than this is rounding, m².
@@ -30,12 +32,25 @@ pub(crate) fn union(polygons: &[Polygon]) -> Vec<Polygon> {
 
 /// What lies in `a` and not in `b`.
 pub(crate) fn difference(a: &[Polygon], b: &[Polygon]) -> Vec<Polygon> {
-    from_geo(to_geo(a).difference(&to_geo(b)))
+    // What lies apart from the other is not looked at: operations cost as much as all that takes part in them.
+    let Some(reach) = reach(b) else { return a.to_vec() };
+    let (near, mut left): (Vec<Polygon>, Vec<Polygon>) =
+        a.iter().cloned().partition(|p| p.bounds().is_some_and(|p| p.overlaps(&reach)));
+    let Some(window) = self::reach(&near) else { return left };
+    left.extend(from_geo(to_geo(&near).difference(&to_geo(&clipped(b, window)))));
+    left
 }
 
 /// What lies in both.
 pub(crate) fn intersection(a: &[Polygon], b: &[Polygon]) -> Vec<Polygon> {
-    from_geo(to_geo(a).intersection(&to_geo(b)))
+    let (Some(of_a), Some(of_b)) = (reach(a), reach(b)) else { return Vec::new() };
+    let (a, b) = (clipped(a, of_b), clipped(b, of_a));
+    from_geo(to_geo(&a).intersection(&to_geo(&b)))
+}
+
+/// A rectangle around an area, with room for rounding; `None` for an empty one.
+fn reach(area: &[Polygon]) -> Option<Bounds> {
+    Bounds::around(area.iter().flat_map(|p| p.exterior.iter().copied())).map(|b| b.grown(0.01))
 }
 
 /// Everything within `distance_m` of an area, with round corners; negative: everything further than that inside it.

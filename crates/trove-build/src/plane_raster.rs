@@ -1,6 +1,6 @@
 //! A fast answer to what lies at a point.
 
-use glam::DVec2;
+use glam::{DVec2, IVec2, UVec2};
 use trove_model::{Bounds, Polygon, Raster};
 
 /// Values over World's plane in square cells; 0 outside.
@@ -26,6 +26,14 @@ impl PlaneRaster {
     /// Sets some bits of the cells whose centres lie in an area.
     pub(crate) fn mark(&mut self, area: &[Polygon], bits: u8) {
         self.change(area, |cells| cells.iter_mut().for_each(|cell| *cell |= bits));
+    }
+
+    /// Sets some bits of a cell, counted from the south-west corner; none outside.
+    pub(crate) fn mark_cell(&mut self, cell: IVec2, bits: u8) {
+        let limit = UVec2::new(self.cells.width, self.cells.height);
+        if cell.cmpge(IVec2::ZERO).all() && cell.as_uvec2().cmplt(limit).all() {
+            *self.cells.at_mut(cell.x as u32, cell.y as u32) |= bits;
+        }
     }
 
     fn change(&mut self, area: &[Polygon], change: impl Fn(&mut [u8])) {

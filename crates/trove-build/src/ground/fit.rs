@@ -1,6 +1,8 @@
 //! A smooth surface through scattered, noisy heights.
 
-use glam::DVec2;
+use std::collections::BTreeMap;
+
+use glam::{DVec2, IVec2};
 use rayon::prelude::*;
 use trove_model::{Bounds, HeightField, Raster};
 
@@ -68,11 +70,22 @@ fn correction(
     let cell_m = width_m / 3.0;
     let size = DVec2::new(f64::from(flat.nodes.width), f64::from(flat.nodes.height)) * flat.cell_m;
     let nodes = (size / cell_m).ceil().as_uvec2() + 1;
+    // Kernels that end see no farther than the neighbouring buckets.
+    let bucket = |p: DVec2| if coarsest { IVec2::ZERO } else { ((p - flat.origin) / width_m).floor().as_ivec2() };
+    let mut buckets: BTreeMap<[i32; 2], Vec<usize>> = BTreeMap::new();
+    for (i, o) in observations.iter().enumerate() {
+        buckets.entry(bucket(o.position).to_array()).or_default().push(i);
+    }
+    let buckets = &buckets;
     let row = |y: u32| {
         (0..nodes.x).map(move |x| {
             let node = flat.origin + DVec2::new(f64::from(x), f64::from(y)) * cell_m;
             let (mut sum, mut total) = (0.0, 0.0);
-            for ((o, w), r) in observations.iter().zip(weights).zip(residuals) {
+            let at = bucket(node);
+            let around = if coarsest { 0 } else { 1 };
+            let near = (-around..=around).flat_map(|dy| (-around..=around).map(move |dx| at + IVec2::new(dx, dy)));
+            for &i in near.filter_map(|b| buckets.get(&b.to_array())).flatten() {
+                let (o, w, r) = (&observations[i], weights[i], residuals[i]);
                 let d2 = node.distance_squared(o.position) / (width_m * width_m);
                 // The coarsest kernel never ends, so that everywhere is some known height.
                 let kernel = if coarsest {

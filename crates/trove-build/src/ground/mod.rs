@@ -11,7 +11,7 @@ use trove_model::{Bounds, Drive, HeightField, Report};
 
 pub(crate) use drape::Drape;
 pub(crate) use ramps::Ramps;
-pub(crate) use rings::polygons as polygons_of_rings;
+pub(crate) use rings::{clipped, polygons as polygons_of_rings};
 
 /// Distance of the height field's nodes, metres: wheels are 2–4 m apart, so a finer field would only copy noise.
 const CELL_M: f64 = 2.0;

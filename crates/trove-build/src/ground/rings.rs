@@ -4,7 +4,7 @@
 //! them. Both halves get the very same points on the line, so that what is cut here fits together again.
 
 use glam::DVec2;
-use trove_model::Polygon;
+use trove_model::{Bounds, Polygon};
 
 pub(crate) type Ring = Vec<DVec2>;
 
@@ -125,6 +125,28 @@ fn joined(chains: Vec<Chain>) -> Vec<Ring> {
     rings
 }
 
+/// What of some polygons lies in a rectangle; those that lie in it whole stay as they are.
+pub(crate) fn clipped(area: &[Polygon], window: Bounds) -> Vec<Polygon> {
+    let sides = [(DVec2::X, window.min.x, window.max.x), (DVec2::Y, window.min.y, window.max.y)];
+    let mut inside = Vec::new();
+    for polygon in area {
+        match polygon.bounds() {
+            Some(b) if window.contains(b.min) && window.contains(b.max) => inside.push(polygon.clone()),
+            Some(b) if window.overlaps(&b) => {
+                let oriented = polygon.clone().oriented();
+                let mut rings: Vec<Ring> = oriented.rings().cloned().collect();
+                for (normal, low, high) in sides {
+                    rings = split(rings, Line { normal, offset: low }).1;
+                    rings = split(rings, Line { normal, offset: high }).0;
+                }
+                inside.extend(polygons(rings));
+            }
+            _ => {}
+        }
+    }
+    inside
+}
+
 /// Rings put together to polygons: every inner ring goes to the smallest outer one around it.
 pub(crate) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
     let (outer, inner): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|r| signed_area(r) > 0.0);
@@ -162,6 +184,16 @@ mod tests {
         let (left, right) = split(vec![square(0.0, 10.0), hole], Line { normal: DVec2::X, offset: 5.0 });
         assert_eq!((left.len(), right.len()), (1, 1));
         assert_eq!((area(&left), area(&right)), (48.0, 48.0));
+    }
+
+    #[test]
+    fn a_window_shows_the_part_of_an_area_that_lies_in_it() {
+        let hole: Ring = square(4.0, 6.0).into_iter().rev().collect();
+        let frame = Polygon { exterior: square(0.0, 10.0), holes: vec![hole] };
+        let window = Bounds { min: DVec2::new(5.0, -3.0), max: DVec2::new(20.0, 8.0) };
+        let seen = clipped(&[frame, Polygon::simple(square(5.5, 5.8)), Polygon::simple(square(30.0, 31.0))], window);
+        let total: f64 = seen.iter().map(Polygon::area_m2).sum();
+        assert!((total - (40.0 - 2.0 + 0.09)).abs() < 1e-9, "{total}");
     }
 
     #[test]

@@ -24,16 +24,6 @@ pub(super) struct Course {
     pub line: Vec<DVec2>,
     /// Lanes from the left to the right, seen along the line; at least one.
     pub bands: Vec<Band>,
-    /// Kind of a road; `None` for a recorded lane.
-    pub kind: Option<RoadKind>,
-}
-
-impl Course {
-    /// Half of its width at its wider side, metres.
-    pub(super) fn half_width_m(&self) -> f64 {
-        let edges = |b: &Band| b.left_m.abs().max(b.right_m.abs());
-        self.bands.iter().map(edges).fold(0.0, f64::max)
-    }
 }
 
 /// What a lane is for; directions are the line's.
@@ -77,14 +67,11 @@ pub(super) fn courses(drive: &Drive, stretches: &[Stretch<'_>], bays: &[Bay]) ->
         let length_m: f64 = lane.centreline.windows(2).map(|w| w[0].distance(w[1])).sum();
         let half_m = (lane.polygon.area_m2() / length_m.max(1.0) / 2.0).clamp(1.2, 3.0);
         let band = Band { usage: Use::Forward, left_m: half_m, right_m: -half_m };
-        Course { line: lane.centreline.clone(), bands: vec![band], kind: None }
+        Course { line: lane.centreline.clone(), bands: vec![band] }
     });
-    let mapped = stretches.iter().map(|stretch| Course {
-        line: stretch.line.clone(),
-        bands: stretch.section.bands.clone(),
-        kind: Some(stretch.road.kind),
-    });
-    let bays = bays.iter().map(|bay| Course { line: bay.line.clone(), bands: vec![bay.band], kind: Some(bay.kind) });
+    let mapped =
+        stretches.iter().map(|stretch| Course { line: stretch.line.clone(), bands: stretch.section.bands.clone() });
+    let bays = bays.iter().map(|bay| Course { line: bay.line.clone(), bands: vec![bay.band] });
     recorded.chain(mapped).chain(bays).filter(|c| !c.bands.is_empty()).collect()
 }
 
@@ -94,7 +81,6 @@ pub(super) struct Bay {
     /// The road's line along it.
     pub line: Vec<DVec2>,
     pub band: Band,
-    kind: RoadKind,
 }
 
 impl Bay {
@@ -115,7 +101,7 @@ pub(super) fn bays(stretches: &[Stretch<'_>], nodes: &[Node], crossings: &[Polyg
         };
         let runs = stretch.line.chunk_by(|&a, &b| clear(a) && clear(b)).filter(|run| run.len() > 2);
         for run in runs {
-            let bay = |band: &Band| Bay { line: run.to_vec(), band: *band, kind: stretch.road.kind };
+            let bay = |band: &Band| Bay { line: run.to_vec(), band: *band };
             bays.extend(stretch.section.bays.iter().flatten().map(bay));
         }
     }

@@ -8,6 +8,8 @@ use trove_model::{Bounds, Polygon};
 use crate::plane_raster::PlaneRaster;
 
 const CELL_M: f64 = 0.5;
+/// The bit of cells that edges pass.
+const EDGES: u8 = 1 << 7;
 
 /// What lies under a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,14 +29,14 @@ pub(crate) enum Footing {
 pub(super) struct Footings {
     origin: DVec2,
     areas: Vec<Footing>,
-    /// One bit an area: the cells whose middle lies in it.
+    /// One bit an area: the cells whose middle lies in it; and [`EDGES`].
     middles: PlaneRaster,
     /// Edges that pass a cell, with the bit of their area. Only ever looked up.
     edges: HashMap<IVec2, Vec<(DVec2, DVec2, u8)>>,
 }
 
 impl Footings {
-    /// At most eight areas of polygons that do not overlap.
+    /// At most seven areas of polygons that do not overlap.
     pub(super) fn new(bounds: Bounds, areas: &[(Footing, &[Polygon])]) -> Self {
         let mut middles = PlaneRaster::new(bounds, CELL_M);
         let mut edges: HashMap<IVec2, Vec<(DVec2, DVec2, u8)>> = HashMap::new();
@@ -44,6 +46,7 @@ impl Footings {
             for (a, b) in area.iter().flat_map(Polygon::edges) {
                 for cell in cells_along((a - bounds.min) / CELL_M, (b - bounds.min) / CELL_M) {
                     edges.entry(cell).or_default().push((a, b, bit));
+                    middles.mark_cell(cell, EDGES);
                 }
             }
         }
@@ -54,9 +57,11 @@ impl Footings {
     pub(super) fn at(&self, p: DVec2) -> Footing {
         let cell = ((p - self.origin) / CELL_M).floor();
         let middle = self.origin + (cell + 0.5) * CELL_M;
-        let mut bits = self.middles.at(middle);
+        let marks = self.middles.at(middle);
+        let mut bits = marks & !EDGES;
+        let edges = (marks != bits).then(|| self.edges.get(&cell.as_ivec2())).flatten();
         // Every edge between the point and the cell's middle leads into its area or out of it.
-        for &(a, b, bit) in self.edges.get(&cell.as_ivec2()).into_iter().flatten() {
+        for &(a, b, bit) in edges.into_iter().flatten() {
             let side = |from: DVec2, to: DVec2, of: DVec2| (to - from).perp_dot(of - from) > 0.0;
             if side(p, middle, a) != side(p, middle, b) && side(a, b, p) != side(a, b, middle) {
                 bits ^= bit;

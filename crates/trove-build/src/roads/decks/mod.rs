@@ -18,7 +18,7 @@ use super::network::resampled;
 use crate::plane::strip;
 use crate::plane_raster::PlaneRaster;
 
-pub(super) use self::sweep::{DeckMeshes, meshes};
+pub(super) use self::sweep::meshes;
 
 /// From one level to the next, metres: 4.5 m for lorries, and the deck.
 const LEVEL_M: f64 = 5.6;

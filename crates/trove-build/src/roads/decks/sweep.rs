@@ -27,7 +27,7 @@ const DASH: [usize; 2] = [2, 6];
 
 /// Meshes of all decks together.
 #[derive(Debug, Default)]
-pub(crate) struct DeckMeshes {
+pub(in crate::roads) struct DeckMeshes {
     pub asphalt: Mesh,
     pub paint: Mesh,
     pub concrete: Mesh,
