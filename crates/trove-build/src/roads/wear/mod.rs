@@ -4,7 +4,7 @@
 //! it, with what wheels leave on them; then patches, sealed cracks and drips, coats, paint and iron covers. Layers are
 //! apart by more than what rays take for one surface, and within a layer nothing overlaps.
 
-mod alignment;
+pub(super) mod alignment;
 mod damage;
 mod ironwork;
 mod stretches;
