@@ -99,6 +99,8 @@ pub(super) struct Customs {
     pub cycle_coat: [f32; 3],
     /// What an aged road reflects: factor on the library's aged asphalt.
     pub road_tone: f64,
+    /// Share of the stretches that are cast in concrete.
+    pub concrete_share: f64,
     /// Width of the strip of concrete along the kerb; 0: none.
     pub gutter_m: f64,
     /// Words in the ids of the surfaces of sidewalks and kerbs.
@@ -131,6 +133,7 @@ const VIENNA: Customs = Customs {
     motorcycle_box: false,
     cycle_coat: [1.3, 0.42, 0.3],
     road_tone: 1.0,
+    concrete_share: 0.02,
     gutter_m: 0.0,
     sidewalk: &["slabs"],
     kerb: &["kerb/concrete"],
@@ -182,6 +185,7 @@ const SINGAPORE: Customs = Customs {
     centre: (Paint::White, Pattern::Dashed(dash(2.0, 4.0)), Pattern::Double),
     words: false,
     road_tone: 1.12,
+    concrete_share: 0.15,
     gutter_m: 0.4,
     sidewalk: &["paving/concrete"],
     kerb: &["black-white"],
@@ -202,6 +206,7 @@ const NORTH_AMERICA: Customs = Customs {
     minor: Minor::Stop,
     arrow_m: 2.9,
     words: true,
+    concrete_share: 0.05,
     cycle_coat: [0.35, 0.95, 0.45],
     gutter_m: 0.45,
     sidewalk: &["paving/concrete"],

@@ -1,7 +1,7 @@
 //! Where traffic waits for a junction: stop lines, give ways, arrows, boxes.
 
 use glam::DVec2;
-use trove_model::{Furniture, FurnitureKind, Polygon, RoadKind, Seed, StreetMap, Turns};
+use trove_model::{FurnitureKind, Polygon, RoadKind, Seed, StreetMap, Turns};
 
 use super::crossings::Crossing;
 use super::legs::{Junction, Leg};
@@ -27,25 +27,34 @@ const HATCH_M: f64 = 0.12;
 const HATCH_PERIOD_M: f64 = 1.6;
 
 /// What stands at the roads and says who waits.
-pub(super) struct Control<'a> {
-    furniture: &'a [Furniture],
+pub(super) struct Control {
+    signals: Vec<DVec2>,
+    stops: Vec<DVec2>,
+    give_ways: Vec<DVec2>,
 }
 
-impl<'a> Control<'a> {
-    pub(super) fn new(map: Option<&'a StreetMap>) -> Self {
-        Self { furniture: map.map_or(&[], |m| &m.furniture) }
-    }
-
-    fn any(&self, kind: FurnitureKind, at: DVec2, reach_m: f64) -> bool {
-        self.furniture.iter().any(|f| f.kind == kind && f.position.distance(at) < reach_m)
+impl Control {
+    pub(super) fn new(map: Option<&StreetMap>) -> Self {
+        let of_kind = |kind: FurnitureKind| {
+            map.iter().flat_map(|m| &m.furniture).filter(|f| f.kind == kind).map(|f| f.position).collect()
+        };
+        Self {
+            signals: of_kind(FurnitureKind::TrafficSignal),
+            stops: of_kind(FurnitureKind::StopSign),
+            give_ways: of_kind(FurnitureKind::GiveWaySign),
+        }
     }
 
     pub(super) fn is_signalised(&self, at: DVec2) -> bool {
-        self.any(FurnitureKind::TrafficSignal, at, SIGNAL_M)
+        self.signals.iter().any(|p| p.distance(at) < SIGNAL_M)
     }
 
     pub(super) fn stops(&self, at: DVec2) -> bool {
-        self.any(FurnitureKind::StopSign, at, SIGN_M)
+        self.stops.iter().any(|p| p.distance(at) < SIGN_M)
+    }
+
+    fn gives_way(&self, at: DVec2) -> bool {
+        self.give_ways.iter().any(|p| p.distance(at) < SIGN_M)
     }
 }
 
@@ -53,7 +62,7 @@ impl<'a> Control<'a> {
 pub(super) fn approach(
     leg: &Leg<'_>,
     usage: Use,
-    control: &Control<'_>,
+    control: &Control,
     crossings: &[Crossing],
     customs: &Customs,
     seed: Seed,
@@ -73,9 +82,10 @@ pub(super) fn approach(
     let middle_m = (left_m + right_m) / 2.0;
 
     let steps = (CROSSING_REACH_M.min(leg.length_m()) / 0.25) as usize;
+    let near: Vec<&Crossing> = crossings.iter().filter(|c| c.is_near(place(0.0, middle_m))).collect();
     let crossed = |i: &usize| {
         let p = place(*i as f64 * 0.25, middle_m);
-        crossings.iter().any(|c| c.area.iter().any(|a| a.contains(p)))
+        near.iter().any(|c| c.area.iter().any(|a| a.contains(p)))
     };
     let stop_m = (0..steps).rfind(crossed).map_or(0.6, |i| i as f64 * 0.25 + customs.setback_m);
     if stop_m > leg.length_m() - 2.0 {
@@ -90,7 +100,7 @@ pub(super) fn approach(
     let at = place(stop_m, middle_m);
     let minor = junction.is_minor(leg.road().kind, along(0.0)) && leg.road().kind < RoadKind::Service;
     let signalised = control.is_signalised(junction.position);
-    let gives_way = control.any(FurnitureKind::GiveWaySign, at, SIGN_M);
+    let gives_way = control.gives_way(at);
     let stops = signalised || control.stops(at) || (minor && !gives_way && customs.minor == Minor::Stop);
     let mut paint = Vec::new();
     let mut wait_m = stop_m;
@@ -175,8 +185,8 @@ fn give_way(customs: &Customs, at: DVec2, along: DVec2, width_m: f64) -> Vec<Pol
     }
 }
 
-/// Hatching over the middle of a junction that must be kept clear, within the carriageway.
-pub(super) fn box_junction(junction: &Junction, carriageway: &[Polygon]) -> Vec<Polygon> {
+/// Hatching over the middle of a junction that must be kept clear.
+pub(super) fn box_junction(junction: &Junction) -> Vec<Polygon> {
     let Some((half_m, axis)) = junction.square().filter(|(half_m, _)| (3.0..=9.0).contains(half_m)) else {
         return Vec::new();
     };
@@ -195,7 +205,7 @@ pub(super) fn box_junction(junction: &Junction, carriageway: &[Polygon]) -> Vec<
         }
     }
     let hatched = intersection(&crate::plane::union(&lines), &[square]);
-    intersection(&laid(&hatched, junction.position, axis), carriageway)
+    laid(&hatched, junction.position, axis)
 }
 
 #[cfg(test)]

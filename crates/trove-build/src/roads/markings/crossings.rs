@@ -1,5 +1,7 @@
 //! Where people cross, and what is painted there.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 use trove_model::{Bounds, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
 
@@ -54,40 +56,49 @@ pub(super) fn crossings(
             _ => Some(customs.zebra),
         }
     };
-    let mut found: Vec<Crossing> = Vec::new();
-    let mut add = |outline: &Polygon, tag: &str| {
-        let Some((middle, walk, half)) = long_axis(outline) else { return };
-        let near = outline.bounds().is_some_and(|b| b.overlaps(&bounds));
-        if !near || found.iter().any(|c| c.area.iter().any(|a| a.contains(middle))) {
-            return;
+    let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
+    let mut outlines: Vec<(Polygon, &str)> =
+        drive.lane_map.iter().flat_map(|m| &m.crossings).map(|outline| (outline.clone(), "")).collect();
+    if let Some(map) = map {
+        let ways = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && r.layer == 0 && !r.tunnel && !r.bridge);
+        for way in ways {
+            // Segment by segment: a way may go round a corner on an island.
+            let segments = way.centreline.windows(2).filter(|w| w[0].distance(w[1]) > 1.5);
+            outlines.extend(segments.flat_map(|w| strip(w, CROSSING_M / 2.0)).map(|o| (o, way.crossing.as_str())));
         }
-        let mut area = intersection(&union(std::slice::from_ref(outline)), carriageway);
+        let vertices = vertices(map);
+        for point in map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing) {
+            let across = vertices.get(&key(point.position)).map(|&along| across(point.position, along));
+            outlines.extend(across.into_iter().flatten().map(|o| (o, point.detail.as_str())));
+        }
+    }
+    outlines.retain(|(outline, _)| near(outline));
+    let all: Vec<Polygon> = outlines.iter().map(|(outline, _)| outline.clone()).collect();
+    let on_road = intersection(&union(&all), carriageway);
+
+    let mut found: Vec<Crossing> = Vec::new();
+    for (outline, tag) in &outlines {
+        let (Some((middle, walk, half)), Some(bounds)) = (long_axis(outline), outline.bounds()) else { continue };
+        if found.iter().any(|c| c.is_near(middle) && c.area.iter().any(|a| a.contains(middle))) {
+            continue;
+        }
+        let pieces: Vec<Polygon> =
+            on_road.iter().filter(|p| p.bounds().is_some_and(|b| b.overlaps(&bounds))).cloned().collect();
+        let mut area = intersection(&pieces, &union(std::slice::from_ref(outline)));
         area.retain(|p| p.area_m2() > LEAST_M2);
         if !area.is_empty() {
             found.push(Crossing { area, walk, middle, half, style: style(tag, middle) });
-        }
-    };
-    for outline in drive.lane_map.iter().flat_map(|m| &m.crossings) {
-        add(outline, "");
-    }
-    let Some(map) = map else { return found };
-    for way in map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && r.layer == 0 && !r.tunnel && !r.bridge) {
-        // Segment by segment: a way may go round a corner on an island.
-        for pair in way.centreline.windows(2).filter(|w| w[0].distance(w[1]) > 1.5) {
-            for outline in strip(pair, CROSSING_M / 2.0) {
-                add(&outline, &way.crossing);
-            }
-        }
-    }
-    for point in map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing) {
-        for outline in across(map, point.position) {
-            add(&outline, &point.detail);
         }
     }
     found
 }
 
 impl Crossing {
+    /// Whether it may reach within a crossing's length of a point.
+    pub(super) fn is_near(&self, p: DVec2) -> bool {
+        self.middle.distance(p) < self.half.x + 2.0 * POINT_HALF_M
+    }
+
     /// What is white, cut off at the kerbs.
     pub(super) fn painted(&self, customs: &Customs) -> Vec<Polygon> {
         let Some(style) = self.style else { return Vec::new() };
@@ -127,15 +138,28 @@ pub(super) fn kept_clear(crossings: &[Crossing]) -> Vec<Polygon> {
     grown(&union(&marked.collect::<Vec<_>>()), 0.15)
 }
 
-/// A crossing of the road that has a vertex at `at`.
-fn across(map: &StreetMap, at: DVec2) -> Vec<Polygon> {
-    let on = |r: &&trove_model::Road| r.kind.is_for_cars() && r.centreline.iter().any(|p| p.distance(at) < 0.05);
-    let Some(road) = map.roads.iter().find(on) else { return Vec::new() };
-    let Some(i) = road.centreline.iter().position(|p| p.distance(at) < 0.05) else { return Vec::new() };
-    let (before, after) =
-        (road.centreline[i.saturating_sub(1)], road.centreline[(i + 1).min(road.centreline.len() - 1)]);
-    let side = (after - before).normalize_or_zero().perp() * POINT_HALF_M;
+/// A crossing of a road that runs along `along` at a point.
+fn across(at: DVec2, along: DVec2) -> Vec<Polygon> {
+    let side = along.perp() * POINT_HALF_M;
     strip(&[at - side, at + side], CROSSING_M / 2.0)
+}
+
+/// Directions of the roads for cars at their vertices, by place.
+fn vertices(map: &StreetMap) -> BTreeMap<[i64; 2], DVec2> {
+    let mut vertices = BTreeMap::new();
+    for road in map.roads.iter().filter(|r| r.kind.is_for_cars()) {
+        let line = &road.centreline;
+        for (i, &p) in line.iter().enumerate() {
+            let along = line[(i + 1).min(line.len() - 1)] - line[i.saturating_sub(1)];
+            vertices.entry(key(p)).or_insert(along.normalize_or_zero());
+        }
+    }
+    vertices
+}
+
+/// A place to a tenth of a metre.
+fn key(p: DVec2) -> [i64; 2] {
+    (p * 10.0).round().as_i64vec2().to_array()
 }
 
 /// The middle, the long side's direction, half length and half width of a polygon.

@@ -75,12 +75,10 @@ pub(super) fn strokes(leg: &Leg<'_>, customs: &Customs) -> Vec<Stroke> {
                 add(from_m, a_m, offset_m, Paint::White, Pattern::Solid, 1.0);
                 add(b_m, to_m, offset_m, Paint::White, Pattern::Solid, 1.0);
             }
-            (Use::Forward, Use::Backward) | (Use::Backward, Use::Forward) => {
-                if is_marked_out(leg, pair, customs) {
-                    let lanes = bands.iter().filter(|b| matches!(b.usage, Use::Forward | Use::Backward)).count();
-                    let (paint, narrow, wide) = customs.centre;
-                    add(from_m, to_m, offset_m, paint, if lanes > 2 { wide } else { narrow }, 1.0);
-                }
+            (Use::Forward, Use::Backward) | (Use::Backward, Use::Forward) if is_marked_out(leg, pair, customs) => {
+                let lanes = bands.iter().filter(|b| matches!(b.usage, Use::Forward | Use::Backward)).count();
+                let (paint, narrow, wide) = customs.centre;
+                add(from_m, to_m, offset_m, paint, if lanes > 2 { wide } else { narrow }, 1.0);
             }
             (Use::Cycle, _) | (_, Use::Cycle) => {
                 add(from_m, to_m, offset_m, Paint::White, Pattern::Solid, CYCLE_LINE);

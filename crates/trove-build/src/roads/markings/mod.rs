@@ -90,7 +90,7 @@ pub(super) fn markings(
             let chosen = seed.child("box").nth(place(j.position)).random().chance(BOX_SHARE);
             chosen && bounds.contains(j.position) && control.is_signalised(j.position)
         };
-        let boxes = junctions.values().filter(boxed).flat_map(|j| box_junction(j, &layout.carriageway));
+        let boxes = junctions.values().filter(boxed).flat_map(box_junction);
         areas.entry(Paint::Yellow).or_default().extend(boxes);
     }
     let (paint, from_kerb_m) = match customs.kerb_lines {
@@ -99,7 +99,9 @@ pub(super) fn markings(
         KerbLines::Red => (Paint::Red, &KERB_LINES_M[..1]),
     };
     let beside = no_parking(layout, near);
-    areas.entry(paint).or_default().extend(lines::along_kerbs(&layout.carriageway, &beside, from_kerb_m, KERB_LINE_M));
+    // A little more than is near, so that no line runs where only the path's surroundings end.
+    let road = intersection(&layout.carriageway, &grown(near, 3.0));
+    areas.entry(paint).or_default().extend(lines::along_kerbs(&road, &beside, from_kerb_m, KERB_LINE_M));
 
     // Nothing else is painted on a crossing.
     let clear = crossings::kept_clear(&crossings);
@@ -124,7 +126,7 @@ pub(super) fn markings(
 /// What is painted on a leg besides its lines, white, and what is coated.
 fn details(
     leg: &Leg<'_>,
-    control: &Control<'_>,
+    control: &Control,
     crossings: &[Crossing],
     customs: &Customs,
     on_left: bool,
@@ -183,7 +185,12 @@ fn no_parking(layout: &Layout<'_>, near: &[Polygon]) -> Vec<Polygon> {
     let parks = |s: &&super::network::Stretch<'_>| {
         s.road.kind >= RoadKind::Service || s.section.bands.iter().any(|b| matches!(b.usage, Use::Parking(_)))
     };
-    let quiet = layout.stretches.iter().filter(parks).flat_map(|s| strip(&s.line, s.width_m / 2.0 + 1.0));
+    let reach = Bounds::around(near.iter().flat_map(|p| p.exterior.iter().copied()));
+    let is_near = |s: &&super::network::Stretch<'_>| {
+        reach.zip(Bounds::around(s.line.iter().copied())).is_some_and(|(a, b)| a.overlaps(&b))
+    };
+    let quiet =
+        layout.stretches.iter().filter(is_near).filter(parks).flat_map(|s| strip(&s.line, s.width_m / 2.0 + 1.0));
     difference(near, &grown(&union(&quiet.collect::<Vec<_>>()), 0.5))
 }
 

@@ -8,8 +8,8 @@ use crate::plane::{difference, grown, intersection, strip, union};
 use crate::roads::path::Path;
 
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
-const PATCH_EVERY_M: f64 = 22.0;
-const CRACK_EVERY_M: f64 = 14.0;
+const PATCH_EVERY_M: f64 = 15.0;
+const CRACK_EVERY_M: f64 = 9.0;
 const SKID_EVERY_M: f64 = 260.0;
 const ERASED_EVERY_M: f64 = 140.0;
 const DRIP_EVERY_M: f64 = 7.0;

@@ -81,7 +81,14 @@ impl Surfacing<'_> {
         self.tint(&mut strip, Look::Concrete, tone, |p| 0.86 + 0.14 * tone.at(p, 2.0));
         add(1, Look::Concrete, &strip);
 
-        let regions = stretches::regions(self.drive, self.layout, &inner, tone, self.seed.child("stretches"));
+        let regions = stretches::regions(
+            self.drive,
+            self.layout,
+            &inner,
+            self.customs.concrete_share,
+            tone,
+            self.seed.child("stretches"),
+        );
         let stops: Vec<DVec2> = self.furniture(FurnitureKind::BusStop);
         let built: Vec<(Mesh, Vec<Polygon>, Damage)> =
             regions.par_iter().map(|r| (self.stretch(r, tone), stretches::joints(r), damage(r, &stops))).collect();

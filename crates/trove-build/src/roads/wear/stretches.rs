@@ -1,13 +1,13 @@
 //! The road's surface, stretch by stretch: what it is made of, how old it is, and what wheels have left on it.
 
 use glam::DVec2;
-use trove_model::{Drive, Polygon, RoadKind, Seed, SurfaceKind};
+use trove_model::{Bounds, Drive, Polygon, Seed, SurfaceKind};
 
 use super::tone::Tone;
 use crate::plane::{difference, intersection, strip, union};
 use crate::roads::course::Use;
 use crate::roads::layout::{Layout, shifted};
-use crate::roads::network::resampled;
+use crate::roads::network::{Stretch, resampled};
 use crate::roads::path::Path;
 use crate::segments::SegmentIndex;
 
@@ -15,8 +15,8 @@ use crate::segments::SegmentIndex;
 const WHEEL_M: f64 = 0.85;
 const TRACK_HALF_M: f64 = 0.45;
 /// What a wheel track and the drip of oil between two reflect, as a factor.
-const TRACK_TONE: f64 = 0.89;
-const OIL_TONE: f64 = 0.93;
+const TRACK_TONE: f64 = 0.83;
+const OIL_TONE: f64 = 0.9;
 /// Surfaces change at most this often along a road.
 const LONGEST_M: f64 = 90.0;
 /// Recorded lanes that turn more than this, or are shorter, belong to a junction.
@@ -24,6 +24,8 @@ const TURN_RAD: f64 = 0.35;
 const SHORTEST_M: f64 = 12.0;
 /// Share of the stretches that were laid anew of late.
 const FRESH_SHARE: f64 = 0.14;
+/// Lanes go on this far into the junctions at their ends, where the dataset has no lanes.
+const BEYOND_M: f64 = 18.0;
 /// Length of a cast slab.
 const SLAB_M: f64 = 5.0;
 
@@ -92,15 +94,26 @@ struct Strip {
     edges_m: [f64; 2],
     lanes: Vec<Vec<DVec2>>,
     tagged: Option<Look>,
-    kind: Option<RoadKind>,
     number: u64,
 }
 
 /// Cuts the carriageway near the driven path into stretches that do not overlap; what is left belongs to none.
-pub(super) fn regions(drive: &Drive, layout: &Layout<'_>, inner: &[Polygon], tone: Tone, seed: Seed) -> Vec<Region> {
+pub(super) fn regions(
+    drive: &Drive,
+    layout: &Layout<'_>,
+    inner: &[Polygon],
+    concrete_share: f64,
+    tone: Tone,
+    seed: Seed,
+) -> Vec<Region> {
     let mut left = inner.to_vec();
     let mut regions = Vec::new();
-    for strip in recorded(drive).into_iter().chain(mapped(layout)) {
+    let Some(reach) = Bounds::around(inner.iter().flat_map(|p| p.exterior.iter().copied())) else { return regions };
+    for strip in recorded(drive).into_iter().chain(mapped(layout, reach)) {
+        let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&reach));
+        if !strip.outline.iter().any(near) {
+            continue;
+        }
         let area = intersection(&left, &strip.outline);
         if area.is_empty() {
             continue;
@@ -109,16 +122,16 @@ pub(super) fn regions(drive: &Drive, layout: &Layout<'_>, inner: &[Polygon], ton
         let seed = seed.nth(strip.number);
         let mut random = seed.random();
         let middle = strip.line[strip.line.len() / 2];
-        let drawn = match strip.kind {
-            Some(RoadKind::Motorway | RoadKind::Trunk) if random.chance(0.2) => Look::Concrete,
-            _ if random.chance(FRESH_SHARE) => Look::Fresh,
+        let drawn = match random.unit() {
+            u if u < concrete_share => Look::Concrete,
+            u if u < concrete_share + FRESH_SHARE => Look::Fresh,
             _ => Look::Aged,
         };
         regions.push(Region {
             area,
             look: strip.tagged.unwrap_or(drawn),
             // Neighbours are of about the same age.
-            tone: 1.0 + 0.12 * tone.at(middle, 70.0) + random.range(-0.06, 0.06),
+            tone: 1.0 + 0.14 * tone.at(middle, 70.0) + random.range(-0.1, 0.1),
             line: strip.line,
             left_m: strip.edges_m[0],
             right_m: strip.edges_m[1],
@@ -129,8 +142,33 @@ pub(super) fn regions(drive: &Drive, layout: &Layout<'_>, inner: &[Polygon], ton
     regions
 }
 
-/// The recorded lanes that go straight on; lanes within junctions overlap and are none.
+/// The recorded lanes that go straight on, then how they go on into junctions; lanes within junctions overlap and are
+/// none.
 fn recorded(drive: &Drive) -> Vec<Strip> {
+    let mut strips = straight_lanes(drive);
+    let beyond: Vec<Strip> = strips.iter().flat_map(|s| [beyond(s, false), beyond(s, true)]).collect();
+    strips.extend(beyond);
+    strips
+}
+
+/// How a lane would go on behind one of its ends.
+fn beyond(lane: &Strip, at_end: bool) -> Strip {
+    let path = Path::new(&lane.line);
+    let (from, along) = path.at(if at_end { path.length_m() } else { 0.0 });
+    let far = from + along * if at_end { BEYOND_M } else { -BEYOND_M };
+    let line = resampled(&if at_end { [from, far] } else { [far, from] });
+    let number = lane.number ^ 1 << (40 + u32::from(at_end));
+    Strip {
+        outline: strip(&line, lane.edges_m[0]),
+        lanes: vec![line.clone()],
+        line,
+        edges_m: lane.edges_m,
+        tagged: None,
+        number,
+    }
+}
+
+fn straight_lanes(drive: &Drive) -> Vec<Strip> {
     let lanes = drive.lane_map.iter().flat_map(|m| &m.lanes).enumerate().filter(|(_, l)| l.centreline.len() > 1);
     lanes
         .filter_map(|(i, lane)| {
@@ -147,7 +185,6 @@ fn recorded(drive: &Drive) -> Vec<Strip> {
                 line,
                 edges_m: [half_m, -half_m],
                 tagged: None,
-                kind: None,
                 number: i as u64,
             })
         })
@@ -155,9 +192,10 @@ fn recorded(drive: &Drive) -> Vec<Strip> {
 }
 
 /// The map's roads, cut into pieces.
-fn mapped(layout: &Layout<'_>) -> Vec<Strip> {
+fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
     let mut strips = Vec::new();
-    for stretch in layout.stretches.iter().filter(|s| s.line.len() > 1) {
+    let near = |s: &&Stretch<'_>| Bounds::around(s.line.iter().copied()).is_some_and(|b| b.overlaps(&reach));
+    for stretch in layout.stretches.iter().filter(near).filter(|s| s.line.len() > 1) {
         let path = Path::new(&stretch.line);
         let pieces = (path.length_m() / LONGEST_M).ceil().max(1.0);
         for i in 0..pieces as usize {
@@ -174,7 +212,6 @@ fn mapped(layout: &Layout<'_>) -> Vec<Strip> {
                 line,
                 edges_m: [half_m, -half_m],
                 tagged: Look::tagged(&stretch.road.surface),
-                kind: Some(stretch.road.kind),
                 number: (stretch.road.id as u64) << 8 ^ i as u64,
             });
         }
