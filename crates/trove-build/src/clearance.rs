@@ -23,8 +23,13 @@ pub(crate) struct Clearance<'a> {
     buildings_m: DistanceField,
     /// Annotated boxes over the whole drive, and the recording vehicle's way.
     recorded_m: DistanceField,
-    placed: HashMap<[i64; 2], Vec<(DVec2, f64)>>,
+    placed: Taken,
+    /// Plants grow into each other, and not into what else stands there: they are kept apart from it.
+    planted: Taken,
 }
+
+/// Circles that are taken, by place; only ever looked up, so the order inside does not reach a result.
+type Taken = HashMap<[i64; 2], Vec<(DVec2, f64)>>;
 
 /// The room that a thing needs around its foot, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +40,7 @@ pub(crate) struct Room {
     pub buildings_m: f64,
     /// From recorded objects and the driven path.
     pub recorded_m: f64,
-    /// Half the distance that it keeps from its like.
+    /// From other things, half of it each: half its own width, or half the distance that it keeps from its like.
     pub radius_m: f64,
 }
 
@@ -54,7 +59,7 @@ impl<'a> Clearance<'a> {
                 )
             },
         );
-        Self { surfaces, road_m, buildings_m, recorded_m, placed: HashMap::new() }
+        Self { surfaces, road_m, buildings_m, recorded_m, placed: Taken::new(), planted: Taken::new() }
     }
 
     /// Whether a thing may stand at a position.
@@ -65,12 +70,22 @@ impl<'a> Clearance<'a> {
             && far(&self.road_m, room.road_m)
             && far(&self.buildings_m, room.buildings_m)
             && far(&self.recorded_m, room.recorded_m)
-            && self.is_apart(p, room.radius_m)
+            && is_apart(&self.placed, p, room.radius_m)
     }
 
     /// Takes a position, so that nothing else is placed there.
     pub(crate) fn take(&mut self, p: DVec2, radius_m: f64) {
         self.placed.entry(bucket(p)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
+    }
+
+    /// Whether no other plant needs the room around a position.
+    pub(crate) fn is_unplanted(&self, p: DVec2, radius_m: f64) -> bool {
+        is_apart(&self.planted, p, radius_m)
+    }
+
+    /// Takes the room that a plant needs among plants.
+    pub(crate) fn plant(&mut self, p: DVec2, radius_m: f64) {
+        self.planted.entry(bucket(p)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
     }
 
     /// Whether neither carriageway nor sidewalk nor water lies at a position.
@@ -87,16 +102,16 @@ impl<'a> Clearance<'a> {
     pub(crate) fn building_distance_m(&self, p: DVec2) -> f64 {
         self.buildings_m.at(p)
     }
+}
 
-    fn is_apart(&self, p: DVec2, radius_m: f64) -> bool {
-        let radius_m = radius_m.min(MAX_RADIUS_M);
-        let (low, high) = (bucket(p - radius_m - MAX_RADIUS_M), bucket(p + radius_m + MAX_RADIUS_M));
-        let near = |x, y| self.placed.get(&[x, y]).into_iter().flatten();
-        !(low[0]..=high[0])
-            .flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y)))
-            .flat_map(|(x, y)| near(x, y))
-            .any(|(other, other_m)| other.distance(p) < radius_m + other_m)
-    }
+fn is_apart(taken: &Taken, p: DVec2, radius_m: f64) -> bool {
+    let radius_m = radius_m.min(MAX_RADIUS_M);
+    let (low, high) = (bucket(p - radius_m - MAX_RADIUS_M), bucket(p + radius_m + MAX_RADIUS_M));
+    let near = |x, y| taken.get(&[x, y]).into_iter().flatten();
+    !(low[0]..=high[0])
+        .flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y)))
+        .flat_map(|(x, y)| near(x, y))
+        .any(|(other, other_m)| other.distance(p) < radius_m + other_m)
 }
 
 fn bucket(p: DVec2) -> [i64; 2] {

@@ -32,6 +32,7 @@ pub(super) fn hedge(line: &[DVec2], height_m: f64, seed: Seed) -> impl Iterator<
                     length_m: along.length() / count + OVERLAP_M,
                     width_m,
                 },
+                paved: false,
             }
         })
     })

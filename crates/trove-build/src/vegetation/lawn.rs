@@ -1,6 +1,7 @@
 //! How lawns look from place to place: lush and dry by patches, and bare where people walk.
 
 use glam::{DVec2, Vec3, vec3};
+use rayon::prelude::*;
 use trove_model::{Drive, Mesh, Polygon, Seed};
 
 use super::climate::Climate;
@@ -53,7 +54,7 @@ impl Lawn {
 
     /// Colours a mesh of grass.
     pub(crate) fn color(&self, mesh: &mut Mesh) {
-        mesh.tints = mesh.positions.iter().map(|p| self.tint(p.truncate().as_dvec2())).collect();
+        mesh.tints = mesh.positions.par_iter().map(|p| self.tint(p.truncate().as_dvec2())).collect();
     }
 }
 

@@ -100,11 +100,12 @@ impl Seen {
                 // What the highest beam cuts off has a street tree's height, or a little more than was seen.
                 let top_m = self.columns.around(centre, 2.5);
                 let grown_m = if top_m.cut { (top_m.top_m * 1.25).max(5.5 + 4.5 * height) } else { top_m.top_m };
-                Wish::new(Kind::Tree, position, grown_m, species_group(seed, centre))
+                let tree = Wish::new(Kind::Tree, position, grown_m, species_group(seed, centre));
+                Wish { paved: true, ..tree }
             } else {
                 let height_m = column.top_m.clamp(0.5, 1.8);
                 let bush = Wish::new(Kind::Bush, position, height_m, species_group(seed.child("bush"), centre));
-                Wish { radius_m: Some(0.45 * height_m.max(0.8)), ..bush }
+                Wish { radius_m: Some(0.45 * height_m.max(0.8)), paved: true, ..bush }
             };
             // Weighted order without replacement: Efraimidis and Spirakis, 2006.
             drawn.push((!is_tree, -(1.0 - order).ln() / mass, wish));

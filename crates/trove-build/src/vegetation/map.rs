@@ -52,6 +52,7 @@ pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) 
             genus: Genus::parse(&tree.detail),
             radius_m: Some(1.0),
             form: Form::Free,
+            paved: true,
         });
     }
     for line in map.lines.iter().filter(|l| l.kind == LineKind::Hedge) {

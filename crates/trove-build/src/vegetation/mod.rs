@@ -20,6 +20,7 @@ use glam::DVec2;
 use trove_model::{AssetLibrary, Kind, Outcome, Report, Seed};
 
 use crate::clearance::{Clearance, Room};
+use crate::plane_raster::PlaneRaster;
 use crate::scenery::Scenery;
 use crate::surroundings::Surroundings;
 use blue_noise::BlueNoise;
@@ -32,6 +33,8 @@ pub(crate) use undergrowth::undergrowth;
 /// Side of the squares in which plants are of one species, metres.
 const SPECIES_SQUARE_M: f64 = 60.0;
 
+/// Cells of the raster that tells lawns from paved ground, metres.
+const LAWN_CELL_M: f64 = 0.5;
 /// Feet are sunk into a slope by at most this, metres.
 const MOST_SUNK_M: f64 = 0.025;
 
@@ -52,6 +55,8 @@ struct Wish {
     radius_m: Option<f64>,
     /// How it is clipped.
     form: Form,
+    /// It may stand in paving too.
+    paved: bool,
 }
 
 /// How a plant is clipped.
@@ -64,9 +69,20 @@ enum Form {
 }
 
 impl Wish {
-    /// A free plant of whatever grows there, with as much room as its size asks.
+    /// A free plant of whatever grows there, on open land, with as much room as its size asks.
     fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
-        Self { kind, position, height_m, group, genus: None, radius_m: None, form: Form::Free }
+        Self { kind, position, height_m, group, genus: None, radius_m: None, form: Form::Free, paved: false }
+    }
+
+    /// Where it needs room for its width: a hedge's piece at both ends and in its middle.
+    fn spots(&self) -> [DVec2; 3] {
+        let reach = match self.form {
+            Form::Free => DVec2::ZERO,
+            Form::Hedge { yaw_rad, length_m, width_m } => {
+                DVec2::from_angle(yaw_rad) * ((length_m - width_m) / 2.0).max(0.0)
+            }
+        };
+        [self.position - reach, self.position, self.position + reach]
     }
 }
 
@@ -95,6 +111,8 @@ pub(crate) fn vegetation<'a>(
     report.measure("vegetation.lidar_wishes", counted as f64);
     report.measure("vegetation.wishes", wishes.len() as f64);
 
+    let mut lawns = PlaneRaster::new(around.bounds, LAWN_CELL_M);
+    lawns.fill(&around.stand.surfaces.lawns, 1);
     let mut plants = Vec::new();
     for (i, wish) in wishes.iter().enumerate().filter(|(_, w)| around.bounds.contains(w.position)) {
         let space = Space {
@@ -103,26 +121,28 @@ pub(crate) fn vegetation<'a>(
         };
         let Some(grown) = species.grow(wish, space, seed.child("plant").nth(i as u64)) else { continue };
         let radius_m = wish.radius_m.unwrap_or(grown.radius_m * 0.6);
-        let room = match (wish.kind, wish.form) {
+        let body_m = grown.body_radius_m + 0.1;
+        let room = match wish.kind {
             // A trunk beside the road; what hangs low keeps off what passes by.
-            (Kind::Tree, _) => {
-                Room { road_m: 0.7, buildings_m: 0.8, recorded_m: (grown.low_radius_m * 0.8).max(1.0), radius_m }
-            }
-            (_, Form::Hedge { .. }) => Room {
-                road_m: grown.radius_m + 0.1,
-                buildings_m: grown.radius_m + 0.1,
-                recorded_m: grown.radius_m + 0.3,
-                radius_m,
+            Kind::Tree => Room {
+                road_m: 0.7,
+                buildings_m: 0.8,
+                recorded_m: (grown.low_radius_m * 0.8).max(body_m).max(1.0),
+                radius_m: body_m,
             },
             _ => Room {
                 road_m: grown.radius_m + 0.2,
-                buildings_m: grown.radius_m * 0.9,
+                buildings_m: grown.radius_m + 0.1,
                 recorded_m: grown.radius_m + 0.3,
-                radius_m,
+                radius_m: body_m,
             },
         };
-        if clearance.is_free(wish.position, &room) {
-            clearance.take(wish.position, radius_m);
+        // Bushes grow out of grass; trees and hedges have soil of their own.
+        let is_loose = wish.kind == Kind::Bush && wish.form == Form::Free;
+        let grows = wish.paved || (clearance.is_land(wish.position) && (!is_loose || lawns.at(wish.position) == 1));
+        let is_free = wish.spots().iter().all(|&spot| clearance.is_free(spot, &room));
+        if grows && is_free && clearance.is_unplanted(wish.position, radius_m) {
+            clearance.plant(wish.position, radius_m);
             plants.push(grown.scenery(wish.position.extend(foot_m(around, wish))));
         }
     }

@@ -16,6 +16,8 @@ const VARIATION: f64 = 0.1;
 const LEAST_WIDTH: f64 = 0.5;
 /// What is driven on is clear up to this height: the clearance that road authorities keep over carriageways, metres.
 pub(super) const LANE_CLEARANCE_M: f64 = 4.5;
+/// Up to this height plants would stand in furniture and in people, metres.
+const BODY_M: f64 = 2.0;
 
 /// A model and how it grows here.
 #[derive(Clone, Debug)]
@@ -52,6 +54,8 @@ pub(super) struct Grown<'a> {
     pub(super) radius_m: f64,
     /// Half the width of what hangs below [`LANE_CLEARANCE_M`], metres.
     pub(super) low_radius_m: f64,
+    /// Half the width of what is at the height of people and furniture, metres.
+    pub(super) body_radius_m: f64,
 }
 
 impl<'a> Species<'a> {
@@ -113,6 +117,7 @@ impl<'a> Species<'a> {
             seed,
             radius_m: model.crown.reach_m() * scale.x,
             low_radius_m: model.crown.reach_below_m(LANE_CLEARANCE_M / scale.z) * scale.x,
+            body_radius_m: model.crown.reach_below_m(BODY_M / scale.z) * scale.x,
         })
     }
 
@@ -126,7 +131,15 @@ impl<'a> Species<'a> {
         let radius_m = size_m[1] / 2.0;
         // All of a hedge is of one green.
         let seed = Seed(wish.group);
-        Some(Grown { asset, scale, yaw_rad: yaw_rad + turn, seed, radius_m, low_radius_m: radius_m })
+        Some(Grown {
+            asset,
+            scale,
+            yaw_rad: yaw_rad + turn,
+            seed,
+            radius_m,
+            low_radius_m: radius_m,
+            body_radius_m: radius_m,
+        })
     }
 }
 

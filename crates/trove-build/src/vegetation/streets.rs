@@ -54,7 +54,8 @@ fn row_of_trees(stretch: &[KerbPoint], height_m: f64, seed: Seed, wishes: &mut V
         let position = kerb.position + kerb.outward * TREE_OFF_KERB_M;
         // Here and there one has been replaced.
         let age = if random.chance(0.1) { 0.55 } else { random.range(0.85, 1.15) };
-        wishes.push(Wish { radius_m: Some(2.2), ..Wish::new(Kind::Tree, position, height_m * age, seed.0) });
+        let tree = Wish::new(Kind::Tree, position, height_m * age, seed.0);
+        wishes.push(Wish { radius_m: Some(2.2), paved: true, ..tree });
         at_m += spacing_m * random.range(0.92, 1.08);
     }
 }

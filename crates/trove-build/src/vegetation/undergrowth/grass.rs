@@ -1,7 +1,7 @@
 //! Blades on the lawns, and what flowers among them.
 
 use glam::DVec2;
-use trove_model::{Bounds, Class, CoverKind, GroundCover, Random};
+use trove_model::{Class, CoverKind, GroundCover, Random};
 
 use super::{Lay, REACH_M, Sower};
 use crate::piece::Piece;
@@ -120,6 +120,7 @@ fn share(sower: &Sower, low: DVec2, side_m: f64) -> Share {
 /// Clover and dandelions, in swarms.
 pub(super) fn flowers(sower: &Sower) -> Vec<Piece> {
     const LEAST_M: f64 = 0.7;
+    const HALF_M: f64 = 0.3;
     const SWARM_M: f64 = 6.0;
     const FLOWERS_M: f64 = 20.0;
     let sorts = sower.covers(CoverKind::Flowers);
@@ -127,16 +128,16 @@ pub(super) fn flowers(sower: &Sower) -> Vec<Piece> {
     let seed = sower.seed.child("flowers");
     let mut random = seed.random();
     let mut pieces = Vec::new();
-    let near: Bounds = sower.bounds;
-    for middle in sower.blue_noise.over(near, LEAST_M, seed) {
+    if sorts.is_empty() {
+        return pieces;
+    }
+    let places = sower.blue_noise.over(sower.bounds, LEAST_M, seed);
+    for middle in places.filter(|p| sower.path_distance_m(*p) < FLOWERS_M) {
         let [keep, turn, size, which] = std::array::from_fn(|_| random.unit());
         let swarm = noise(seed, middle, SWARM_M);
-        if sorts.is_empty() || keep > common * ((swarm - 0.5) / 0.3) || sower.path_distance_m(middle) > FLOWERS_M {
-            continue;
-        }
-        let reach_m = 0.3;
-        let corners = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
-        if !corners.iter().all(|&(x, y)| sower.is_lawn(middle + DVec2::new(x, y) * reach_m)) {
+        let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
+        let on_lawn = || corners.iter().all(|c| sower.is_lawn(middle + *c * HALF_M));
+        if keep > common * ((swarm - 0.5) / 0.3) || !on_lawn() {
             continue;
         }
         // One sort has most of a swarm.

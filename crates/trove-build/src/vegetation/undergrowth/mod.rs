@@ -147,11 +147,10 @@ impl Sower<'_> {
         let axes = DMat3::from_cols(axis(0.0), axis(std::f64::consts::FRAC_PI_2), DVec3::Z * lay.scale[1]);
         let foot = lay.middle.extend(self.around.stand.surface_m(lay.middle) + lay.lift_m);
         // Between two paints one is drawn: neighbours lead from one to the next.
-        let paint = |paints: &[Vec3]| {
+        let mut paint = |paints: &[Vec3]| {
             let at = lay.shade.clamp(0.0, 1.0) * (paints.len() as f64 - 1.0) + random.unit();
             paints.get((at as usize).min(paints.len().saturating_sub(1))).copied()
         };
-        let mut paint = paint;
         let materials = cover.slots.iter().map(|slot| {
             let base_color = paint(&slot.paints).unwrap_or(slot.material.base_color);
             Material { base_color, ..slot.material.clone() }

@@ -13,7 +13,7 @@ const KERB_M: f64 = 5.0;
 /// A pit is made smaller to this where the sidewalk is narrow.
 const LEAST: f64 = 0.6;
 
-/// A pit for every tree on a sidewalk, along its kerb.
+/// A pit for every tree in paving, along its kerb.
 pub(super) fn pits(sower: &Sower, plants: &[Scenery]) -> Vec<Piece> {
     let sorts = sower.covers(CoverKind::TreePit);
     let mut random = sower.seed.child("pits").random();
@@ -24,13 +24,18 @@ pub(super) fn pits(sower: &Sower, plants: &[Scenery]) -> Vec<Piece> {
         let street = (middle / 150.0).floor().as_i64vec2();
         let alike = sower.seed.child("pit").nth(street.x as u64).nth(street.y as u64);
         let Some(&cover) = alike.random().pick(&sorts) else { return pieces };
-        if !sower.bounds.contains(middle) || sower.footing(middle) != Footing::Sidewalk {
+        let is_paved = |p: DVec2| match sower.footing(p) {
+            Footing::Sidewalk => true,
+            Footing::Land => !sower.is_lawn(p),
+            Footing::Carriageway | Footing::Water => false,
+        };
+        if !sower.bounds.contains(middle) || !is_paved(middle) {
             continue;
         }
         let along = sower.around.kerbs.near(middle, KERB_M).first().map_or(DVec2::X, |kerb| kerb.outward);
         let fits = |scale: f64| {
             let half = along.rotate(DVec2::splat(cover.side_m / 2.0 * scale + 0.02));
-            [half, half.perp(), -half, -half.perp()].iter().all(|c| sower.footing(middle + *c) == Footing::Sidewalk)
+            [half, half.perp(), -half, -half.perp()].iter().all(|c| is_paved(middle + *c))
         };
         let Some(scale) = [1.0, 0.8, LEAST].into_iter().find(|s| fits(*s)) else { continue };
         let lay = Lay {
