@@ -1,35 +1,79 @@
-//! Buildings that no map has, from the walls that the LiDAR saw.
+//! Buildings that no map has, from the walls that the LiDAR saw, and how high it saw the walls of mapped ones.
 //!
-//! Seen from above a wall is a line, while leaves fill the plane. A line of such pieces is a facade; what lies behind
-//! it is made up.
+//! Seen from above a wall is a line of points, while leaves fill the plane. What lies behind it is made up.
 
-use glam::{DVec2, DVec3};
-use trove_model::{Building, Drive, HeightField, Outcome, Polygon, Report, Seed};
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::volumes::STOREY_M;
+use glam::{DVec2, DVec3, IVec3};
+use trove_model::{Bounds, Building, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed};
+
+use super::region::Region;
+use super::volumes::{Near, STOREY_M};
 use crate::clearance::recorded;
 use crate::plane::{difference, grown, strip, union};
 use crate::roads::{Footing, RoadSurfaces};
-use crate::wall_pieces::{CUBE_M, WallPiece, wall_pieces};
 
 /// Ids of these buildings start here, far below those of any relation.
 pub(super) const FIRST_ID: i64 = i64::MIN / 2;
 /// Points further from the sensor are too few to tell, metres.
-const REACH_M: f64 = 60.0;
+const REACH_M: f64 = 100.0;
+/// Recorded objects are seen past buildings up to this distance, metres.
+const SIGHT_M: f64 = 60.0;
 /// Fences, cars and people are below, metres over the ground.
 const LOWEST_M: f64 = 2.5;
-/// Pieces of one facade run alike to this (cosine), and lie no further apart and off its line than this, metres.
-const ALIKE: f64 = 0.94;
-const GAP_M: f64 = 4.0;
-const OFF_LINE_M: f64 = 0.8;
-/// A facade is at least this long and seen up to this height, of at least so many pieces.
+/// One point is kept a cube of this side, so that near walls do not outweigh far ones, metres.
+const CUBE_M: f64 = 0.25;
+/// Directions of lines, and the width of the strips that are looked along, metres.
+const DIRECTIONS: usize = 180;
+const STRIP_M: f64 = 0.3;
+/// A line is seen in steps of this length, of which it fills this share, without a gap longer than that, metres.
+const STEP_M: f64 = 1.5;
+const FILLED: f64 = 0.45;
+const GAP_M: f64 = 5.0;
+/// A facade is at least this long, of at least so many points, seen up to this height and down to that, metres.
 const MIN_FACADE_M: f64 = 8.0;
+const MIN_POINTS: usize = 12;
 const MIN_TOP_M: f64 = 3.4;
-const MIN_PIECES: usize = 4;
+const MAX_LOW_M: f64 = 3.6;
+/// Points within the first distance of a line are its own; up to the second crowns have as many a square metre, and a
+/// wall has this many times fewer.
+const OWN_M: f64 = 0.3;
+const BESIDE_M: f64 = 1.6;
+const CONTRAST: f64 = 4.0;
+/// Lines that run along each other no further apart than this belong to one building, metres.
+const LAYERS_M: f64 = 6.0;
+/// So many facades are looked for.
+const MOST_FACADES: usize = 16;
 /// What a map that has buildings does not show this near to them is none, metres.
 const MAPPED_M: f64 = 40.0;
 /// Smaller than this is not built, m².
 const LEAST_M2: f64 = 30.0;
+/// A longer facade is that of an office or a block of flats, metres.
+const LARGE_M: f64 = 16.0;
+/// Points within this distance of a wall belong to it; of so many of them the highest twentieth is left out.
+const WALL_M: f64 = 0.6;
+const MIN_WALL_POINTS: usize = 20;
+
+/// A point that may be of a wall.
+#[derive(Clone, Copy)]
+struct Seen {
+    at: DVec2,
+    above_m: f64,
+    /// Where it was seen from.
+    origin: DVec2,
+}
+
+/// A wall as a line on the ground.
+#[derive(Clone, Copy, Debug)]
+struct Facade {
+    from: DVec2,
+    to: DVec2,
+    /// Away from the sensor, unit.
+    away: DVec2,
+    /// From the sensor to its line.
+    distance_m: f64,
+    top_m: f64,
+}
 
 /// Buildings behind the facades that the LiDAR saw and the map does not have, in a fixed order.
 pub(super) fn unmapped(
@@ -43,27 +87,17 @@ pub(super) fn unmapped(
     if drive.keyframes.iter().all(|k| k.lidar.is_none()) {
         return Vec::new();
     }
-    let is_unknown = |p: &WallPiece| {
-        let near =
-            |b: &Building| b.footprint.bounds().is_some_and(|bounds| bounds.grown(MAPPED_M).contains(p.position));
-        !mapped.iter().any(near)
-    };
-    let above_m = |position: DVec3| {
-        let plane = position.truncate();
-        let above_m = position.z - ground.height_m(plane);
-        let is_structure = above_m > LOWEST_M && streets.footing(plane) != Footing::Carriageway;
-        is_structure.then_some(above_m)
-    };
-    let pieces: Vec<WallPiece> =
-        drive.keyframes.iter().flat_map(|k| wall_pieces(k, REACH_M, above_m)).filter(is_unknown).collect();
-    let mut facades: Vec<Vec<WallPiece>> = facades(&pieces);
-    facades.sort_by_key(|f| std::cmp::Reverse(f.len()));
+    let near = Near::new(mapped.iter().map(|b| Some(b.footprint.bounds()?.grown(MAPPED_M))));
+    let is_unknown = |p: &Seen| near.at(Bounds { min: p.at, max: p.at }).next().is_none();
+    let off_road = |p: &Seen| streets.footing(p.at) != Footing::Carriageway;
+    let points = structures(drive, ground).filter(|p| is_unknown(p) && off_road(p));
     let mut taken = kept_free(drive);
     let mut random = seed.child("lidar").random();
+    let region = Region::of(&drive.projection);
     let mut built = Vec::new();
-    for facade in &facades {
-        let (depth_m, storeys) = (random.range(8.0, 14.0), random.range(3.0, 7.0).round());
-        let Some((footprint, seen_m)) = behind(facade, depth_m) else { continue };
+    for facade in facades(points.collect()) {
+        let (kind, storeys, depth_m) = guess(facade.from.distance(facade.to), region, &mut random);
+        let footprint = facade.behind(depth_m);
         let road = streets.carriageway_near(&footprint);
         let left = difference(&difference(&[footprint], &road), &taken);
         let largest = left.into_iter().max_by(|a, b| a.area_m2().total_cmp(&b.area_m2()));
@@ -76,11 +110,70 @@ pub(super) fn unmapped(
         );
         taken = union(&[taken, vec![footprint.clone()]].concat());
         // The beams do not reach the eaves.
-        let height_m = Some((storeys * STOREY_M).max(seen_m));
-        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, "yes") });
+        let height_m = Some((storeys * STOREY_M).max(facade.top_m));
+        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, kind) });
     }
     report.measure("buildings.from_lidar", built.len() as f64);
     built
+}
+
+/// Kind, storeys and depth of a building of which only a facade of some length is known.
+fn guess(length_m: f64, region: Region, random: &mut Random) -> (&'static str, f64, f64) {
+    let (drawn, storeys, depth) = (random.unit(), random.unit(), random.unit());
+    let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::NorthAmerica);
+    if length_m < LARGE_M {
+        return (
+            if drawn < 0.6 { "commercial" } else { "apartments" },
+            (3.0 + 3.0 * storeys).round(),
+            8.0 + 6.0 * depth,
+        );
+    }
+    let kind = if drawn < if is_dense { 0.85 } else { 0.4 } { "office" } else { "apartments" };
+    let storeys = if is_dense { 5.0 + 6.0 * storeys } else { 4.0 + 3.0 * storeys };
+    (kind, storeys.round(), 14.0 + 10.0 * depth)
+}
+
+/// The height above the ground up to which the LiDAR saw each building's walls; `None` where it saw too little.
+pub(super) fn seen_walls(drive: &Drive, buildings: &[&Building], ground: &HeightField) -> Vec<Option<f64>> {
+    let near = Near::new(buildings.iter().map(|b| Some(b.footprint.bounds()?.grown(WALL_M))));
+    let mut heights: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for point in structures(drive, ground) {
+        let is_at = |&i: &usize| buildings[i].footprint.edge_distance_m(point.at) < WALL_M;
+        for i in near.at(Bounds { min: point.at, max: point.at }).filter(is_at) {
+            heights.entry(i).or_default().push(point.above_m);
+        }
+    }
+    let mut seen_m = vec![None; buildings.len()];
+    for (i, mut heights) in heights {
+        heights.sort_by(f64::total_cmp);
+        seen_m[i] = (heights.len() >= MIN_WALL_POINTS).then(|| heights[(heights.len() - 1) * 19 / 20]);
+    }
+    seen_m
+}
+
+/// Points high above the ground that belong to nothing recorded, one a small cube.
+fn structures<'a>(drive: &'a Drive, ground: &'a HeightField) -> impl Iterator<Item = Seen> + 'a {
+    let mut cubes: BTreeSet<[i32; 3]> = BTreeSet::new();
+    drive.keyframes.iter().filter_map(|k| Some((k, k.lidar.as_ref()?))).flat_map(move |(keyframe, sweep)| {
+        let boxes: Vec<_> = keyframe.boxes.iter().map(|b| b.cuboid.grown(0.25)).collect();
+        let labels = (sweep.classes.len() == sweep.points_world.len()).then_some(&sweep.classes);
+        let is_new = |position: DVec3, cubes: &mut BTreeSet<[i32; 3]>| {
+            let cube: IVec3 = (position / CUBE_M).floor().as_ivec3();
+            cubes.insert(cube.to_array())
+        };
+        let mut found = Vec::new();
+        for (i, point) in sweep.points_world.iter().enumerate() {
+            let position = point.as_dvec3();
+            if labels.is_some_and(|l| l[i] != LidarClass::Manmade) || position.distance(sweep.origin_world) > REACH_M {
+                continue;
+            }
+            let above_m = position.z - ground.height_m(position.truncate());
+            if above_m > LOWEST_M && !boxes.iter().any(|b| b.contains(position)) && is_new(position, &mut cubes) {
+                found.push(Seen { at: position.truncate(), above_m, origin: sweep.origin_world.truncate() });
+            }
+        }
+        found
+    })
 }
 
 /// What nothing may stand on: recorded objects with the vehicle's way, and the sight lines from it to them.
@@ -93,7 +186,7 @@ fn kept_free(drive: &Drive) -> Vec<Polygon> {
         let seen = keyframe.boxes.iter().filter(|b| b.lidar_points != Some(0));
         for cuboid in seen.map(|b| &b.cuboid) {
             let at = cuboid.world_from_body.translation.truncate();
-            if at.distance(eye) < REACH_M {
+            if at.distance(eye) < SIGHT_M {
                 free.extend(strip(&[eye, at], cuboid.size_m.truncate().min_element() / 2.0 + 0.3));
             }
         }
@@ -101,53 +194,98 @@ fn kept_free(drive: &Drive) -> Vec<Polygon> {
     union(&free)
 }
 
-/// Pieces in one line that follow one another, in the order of their first piece.
-fn facades(pieces: &[WallPiece]) -> Vec<Vec<WallPiece>> {
-    let follows = |a: &WallPiece, b: &WallPiece| {
-        let way = b.position - a.position;
-        let off_m = a.axis.perp_dot(way).abs().max(b.axis.perp_dot(way).abs());
-        way.length() < GAP_M && off_m < OFF_LINE_M && a.axis.dot(b.axis).abs() > ALIKE
-    };
-    let mut is_free = vec![true; pieces.len()];
-    let mut found = Vec::new();
-    for first in 0..pieces.len() {
-        if !std::mem::take(&mut is_free[first]) {
-            continue;
-        }
-        let mut facade = vec![pieces[first]];
-        let mut next = 0;
-        while let Some(&piece) = facade.get(next) {
-            for (other, free) in pieces.iter().zip(&mut is_free) {
-                if *free && follows(&piece, other) {
-                    *free = false;
-                    facade.push(*other);
-                }
-            }
-            next += 1;
-        }
-        found.push(facade);
+/// The straight lines in some points, the longest first; of several before one another the nearest to the sensor.
+fn facades(points: Vec<Seen>) -> Vec<Facade> {
+    let mut left = points.clone();
+    let mut found: Vec<Facade> = Vec::new();
+    for _ in 0..MOST_FACADES {
+        let Some(line) = longest_line(&left) else { break };
+        left.retain(|p| !line.is_near(p.at, 0.8));
+        found.extend(line.facade(&points));
     }
-    found
+    let hides = |a: &Facade, b: &Facade| {
+        let along = (b.to - b.from).normalize_or_zero();
+        let alike = (a.to - a.from).normalize_or_zero().perp_dot(along).abs() < 0.15;
+        let offset_m = ((a.from + a.to) / 2.0 - b.from).perp_dot(along).abs();
+        let reach = [a.from, a.to].map(|p| (p - b.from).dot(along).clamp(0.0, b.from.distance(b.to)));
+        let overlap_m = (reach[0] - reach[1]).abs();
+        alike && offset_m < LAYERS_M && overlap_m > 0.5 * b.from.distance(b.to) && a.distance_m < b.distance_m
+    };
+    (0..found.len()).filter(|&i| !found.iter().any(|a| hides(a, &found[i]))).map(|i| found[i]).collect()
 }
 
-/// The rectangle behind a facade, as seen from the sensor, and the height that was seen of it.
-fn behind(facade: &[WallPiece], depth_m: f64) -> Option<(Polygon, f64)> {
-    let n = facade.len() as f64;
-    let mean = facade.iter().map(|p| p.position).sum::<DVec2>() / n;
-    // Directions repeat after half a turn: angles are averaged twice as large.
-    let doubled: DVec2 = facade.iter().map(|p| DVec2::from_angle(2.0 * p.axis.to_angle())).sum();
-    let axis = DVec2::from_angle(doubled.to_angle() / 2.0);
-    let away = if axis.perp().dot(mean - facade.first()?.origin) < 0.0 { -axis.perp() } else { axis.perp() };
-    let along = facade.iter().map(|p| (p.position - mean).dot(axis));
-    let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-    let (low, high) = (low - CUBE_M / 2.0, high + CUBE_M / 2.0);
-    let top_m = facade.iter().map(|p| p.top_m).fold(0.0, f64::max);
-    if high - low < MIN_FACADE_M || top_m < MIN_TOP_M || facade.len() < MIN_PIECES {
-        return None;
+/// A stretch of a line.
+struct Line {
+    along: DVec2,
+    /// Of the line to the left of World's origin.
+    offset_m: f64,
+    from_m: f64,
+    to_m: f64,
+}
+
+/// The line along which most of a wall's length is seen; `None` where none is long enough.
+fn longest_line(points: &[Seen]) -> Option<Line> {
+    use rayon::prelude::*;
+    let of_direction = |i: usize| -> Option<(usize, f64, f64, [f64; 2])> {
+        let along = DVec2::from_angle(i as f64 * std::f64::consts::PI / DIRECTIONS as f64);
+        let mut placed: Vec<(i64, f64)> =
+            points.iter().map(|p| ((p.at.dot(along.perp()) / STRIP_M).floor() as i64, p.at.dot(along))).collect();
+        placed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let mut best: Option<(usize, f64, f64, [f64; 2])> = None;
+        for run in placed.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 < GAP_M) {
+            let (from_m, to_m) = (run[0].1, run[run.len() - 1].1);
+            let steps = run.chunk_by(|a, b| (a.1 / STEP_M).floor() == (b.1 / STEP_M).floor()).count();
+            let filled_m = steps as f64 * STEP_M;
+            let is_long = to_m - from_m >= MIN_FACADE_M && run.len() >= MIN_POINTS;
+            if is_long && filled_m > FILLED * (to_m - from_m) && best.is_none_or(|b| filled_m > b.1) {
+                best = Some((i, filled_m, (run[0].0 as f64 + 0.5) * STRIP_M, [from_m, to_m]));
+            }
+        }
+        best
+    };
+    let all: Vec<_> = (0..DIRECTIONS).into_par_iter().filter_map(of_direction).collect();
+    let (i, _, offset_m, [from_m, to_m]) = all.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+    let along = DVec2::from_angle(i as f64 * std::f64::consts::PI / DIRECTIONS as f64);
+    Some(Line { along, offset_m, from_m, to_m })
+}
+
+impl Line {
+    fn off_m(&self, p: DVec2) -> f64 {
+        (p.dot(self.along.perp()) - self.offset_m).abs()
     }
-    let corner = |along_m: f64, depth_m: f64| mean + axis * along_m + away * depth_m;
-    let ring = vec![corner(low, 0.0), corner(high, 0.0), corner(high, depth_m), corner(low, depth_m)];
-    Some((Polygon::simple(ring).oriented(), top_m))
+
+    fn is_near(&self, p: DVec2, distance_m: f64) -> bool {
+        let s = p.dot(self.along);
+        self.off_m(p) < distance_m && s > self.from_m - 1.0 && s < self.to_m + 1.0
+    }
+
+    /// The facade along the line, if it stands out from what is beside it and comes down to the ground.
+    fn facade(&self, points: &[Seen]) -> Option<Facade> {
+        let beside: Vec<&Seen> = points.iter().filter(|p| self.is_near(p.at, BESIDE_M)).collect();
+        let (own, others): (Vec<&Seen>, Vec<&Seen>) = beside.iter().partition(|p| self.off_m(p.at) < OWN_M);
+        let others = others.iter().filter(|p| self.off_m(p.at) > 1.5 * OWN_M).count() as f64;
+        let density = [own.len() as f64 / OWN_M, others / (BESIDE_M - 1.5 * OWN_M)];
+        let top_m = own.iter().map(|p| p.above_m).fold(0.0, f64::max);
+        let low_m = own.iter().map(|p| p.above_m).fold(f64::INFINITY, f64::min);
+        if density[0] < CONTRAST * density[1] || top_m < MIN_TOP_M || low_m > MAX_LOW_M {
+            return None;
+        }
+        let origin = own.first()?.origin;
+        let normal = self.along.perp();
+        let side = self.offset_m - origin.dot(normal);
+        let at = |s: f64| self.along * s + normal * self.offset_m;
+        let away = if side < 0.0 { -normal } else { normal };
+        let (from, to) = (at(self.from_m - STEP_M / 2.0), at(self.to_m + STEP_M / 2.0));
+        Some(Facade { from, to, away, distance_m: side.abs(), top_m })
+    }
+}
+
+impl Facade {
+    /// The rectangle behind it, as seen from the sensor.
+    fn behind(&self, depth_m: f64) -> Polygon {
+        let back = self.away * depth_m;
+        Polygon::simple(vec![self.from, self.to, self.to + back, self.from + back]).oriented()
+    }
 }
 
 #[cfg(test)]

@@ -4,13 +4,16 @@ use glam::{DAffine3, DQuat, DVec2, DVec3};
 use trove_model::{Asset, AssetLibrary, Kind, Random};
 
 use super::rectangle::{Base, base};
-use super::volumes::House;
+use super::region::Region;
+use super::volumes::{House, is_house};
 use crate::roads::{Footing, RoadSurfaces};
 
 /// Of the buildings that could be replaced so many are; the rest keeps streets from repeating few models.
 const SHARE: f64 = 0.75;
 /// A footprint that fills less of its box is no rectangle.
-const LEAST_FILLED: f64 = 0.88;
+const LEAST_FILLED: f64 = 0.94;
+/// Assets stand alone: this far from their neighbours, metres.
+const LEAST_ROOM_M: f64 = 0.25;
 /// Higher buildings are landmarks, and no model is meant for them.
 const HIGHEST_M: f64 = 25.0;
 /// An asset is stretched by no more than this against its own proportions.
@@ -25,8 +28,8 @@ pub(super) struct Replacement<'a> {
 }
 
 /// The asset that fits a building best by 0.8 · error of aspect + 0.2 · error of volume, drawn for [`SHARE`] of the
-/// rectangular ones, its front to the street; `None` for all others, for those with parts, and for those whose look
-/// the map describes.
+/// rectangular ones that stand alone, its front to the street; `None` for all others, for those with parts, and for
+/// those whose look the map describes.
 pub(super) fn replacement<'a>(
     house: &House<'_>,
     library: &'a AssetLibrary,
@@ -42,7 +45,9 @@ pub(super) fn replacement<'a>(
         || building.roof.is_some()
         || !building.material.is_empty()
         || building.color.is_some();
-    if !drawn || described || volume.top_m > HIGHEST_M || !volume.footprint.holes.is_empty() {
+    let stands_alone = volume.sides.iter().all(|s| s.covers.is_empty() && s.room_m >= LEAST_ROOM_M);
+    let is_plain = !volume.is_canopy && !volume.is_built_on && volume.footprint.holes.is_empty();
+    if !drawn || described || !is_plain || !stands_alone || volume.top_m > HIGHEST_M {
         return None;
     }
     let base = base(&volume.footprint).filter(|b| b.filled >= LEAST_FILLED)?;
@@ -56,7 +61,8 @@ pub(super) fn replacement<'a>(
         misfit(asset.size_m, size_m).map(|misfit| (misfit, asset, front, size_m))
     };
     let best = |front: DVec2| {
-        let fitting = library.of_kind(Kind::Building).filter_map(|a| candidate(a, front));
+        let suitable = |a: &&Asset| suits(&a.id, &building.kind, house.region);
+        let fitting = library.of_kind(Kind::Building).filter(suitable).filter_map(|a| candidate(a, front));
         fitting.min_by(|a, b| a.0.total_cmp(&b.0))
     };
     let (_, asset, front, size_m) = sides.into_iter().find_map(best)?;
@@ -66,6 +72,28 @@ pub(super) fn replacement<'a>(
         base.centre.extend(house.floor_m),
     );
     Some(Replacement { asset, world_from_mesh })
+}
+
+/// Whether a model, by the words in its id, may stand for a kind of building in a region; any other model may for all.
+fn suits(id: &str, kind: &str, region: Region) -> bool {
+    let has = |words: &[&str]| words.iter().any(|w| id.contains(w));
+    let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia);
+    let is_unknown = matches!(kind, "yes" | "");
+    if has(&["house"]) && !has(&["warehouse"]) {
+        is_house(kind) || (kind == "terrace" && has(&["row"])) || (is_unknown && !is_dense)
+    } else if has(&["apartments", "slab"]) {
+        matches!(kind, "apartments" | "residential" | "dormitory") || is_unknown
+    } else if has(&["office"]) {
+        matches!(kind, "office" | "commercial" | "public" | "civic") || (is_unknown && is_dense)
+    } else if has(&["warehouse"]) {
+        matches!(kind, "industrial" | "warehouse" | "hangar")
+    } else if has(&["hotel"]) {
+        kind == "hotel"
+    } else if has(&["shop", "mixed"]) {
+        matches!(kind, "retail" | "commercial" | "residential" | "apartments") || is_unknown
+    } else {
+        true
+    }
 }
 
 /// How badly an asset fits a box; `None` where it would be stretched or scaled too much.
@@ -90,6 +118,16 @@ fn street_distance_m(base: &Base, side: DVec2, streets: &RoadSurfaces) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_country_house_stands_in_a_business_park() {
+        assert!(suits("building/detached-house", "house", Region::TropicalAsia));
+        assert!(suits("building/detached-house", "yes", Region::NorthernEurope));
+        assert!(!suits("building/detached-house", "yes", Region::TropicalAsia));
+        assert!(!suits("building/row-houses", "office", Region::NorthAmerica));
+        assert!(suits("building/office-ribbon", "office", Region::TropicalAsia));
+        assert!(suits("my/own-model", "office", Region::Elsewhere));
+    }
 
     #[test]
     fn an_asset_is_never_stretched_beyond_a_quarter() {

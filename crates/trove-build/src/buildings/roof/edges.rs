@@ -8,7 +8,7 @@ use crate::buildings::shell::{Shell, Slot};
 use crate::buildings::volumes::Volume;
 
 /// Eaves reach out this far, if nothing is in the way, and never drop lower than this under the walls' top, metres.
-const EAVES_M: f64 = 0.45;
+const EAVES_M: f64 = 0.4;
 const EAVES_DROP_M: f64 = 0.3;
 const EAVES_THICK_M: f64 = 0.16;
 /// Verges reach out and in this far, and stand this much above the roof, metres.

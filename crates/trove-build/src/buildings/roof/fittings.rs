@@ -159,14 +159,14 @@ fn slab(shell: &mut Shell, roof: &Pitched, side: usize, at: DVec2, size_m: [f64;
         return;
     }
     let normal = own.along.extend(0.0).cross(up);
-    let thick = if slot == Slot::Glazing { 0.075 } else { 0.06 };
+    let [low, high] = if slot == Slot::Glazing { [-0.03, 0.075] } else { [-0.05, 0.06] };
     let ring = |height_m: f64| {
         corners.map(|c| {
             let p = at + c * half;
             (own.from + own.along * p.x + own.along.perp() * p.y).extend(roof.level(p.y)) + normal * height_m
         })
     };
-    shell.sweep([slot; 4], &[ring(-0.04), ring(thick)]);
+    shell.sweep([slot; 4], &[ring(low), ring(high)]);
 }
 
 impl Pitched {

@@ -16,13 +16,12 @@ mod tests;
 use trove_model::{Outcome, Random, Report, RoofShape};
 
 use super::shell::Shell;
-use super::volumes::{House, Volume, name};
+use super::volumes::{EAVES_SEEN_M, House, Volume, name};
 pub(super) use canopy::canopy;
 pub(super) use materials::materials;
 
-/// Eaves and verges are seen up to this distance from the driven path, gutters, ridge tiles and skylights up to
-/// the second, what stands on flat roofs up to the third, metres.
-const EDGES_SEEN_M: f64 = 250.0;
+/// Gutters and ridge tiles are seen up to the first distance from the driven path, what stands on flat roofs up to the
+/// second, metres.
 const FINE_SEEN_M: f64 = 90.0;
 const PLANT_SEEN_M: f64 = 300.0;
 
@@ -68,7 +67,7 @@ pub(super) fn roof(
         report.note(Outcome::Substituted, &what, name(volume.building));
     }
     pitched.cover(shell);
-    if house.path_m < EDGES_SEEN_M {
+    if house.path_m < EAVES_SEEN_M {
         edges::edges(shell, &pitched, volume, house.path_m < FINE_SEEN_M);
         fittings::fittings(shell, &pitched, volume, house, random);
     }

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
-use trove_model::{Bounds, Polygon};
+use trove_model::{Bounds, Polygon, RoofShape};
 
-use super::House;
 use super::near::Near;
+use super::{EAVES_SEEN_M, House, Volume};
 
 /// Walls of two volumes that run along each other are at least this far apart, metres.
 const APART_M: f64 = 0.01;
@@ -51,12 +51,19 @@ impl Beside {
 /// A volume as others see it.
 struct Neighbour {
     floor_m: f64,
+    has_eaves: bool,
     rings: Vec<Vec<DVec2>>,
     /// World heights.
     bottom_m: f64,
     eaves_m: f64,
     top_m: f64,
 }
+
+/// Outlines of houses are traced from above, where their eaves are seen: walls below eaves stand this far within, metres,
+/// in front of as much room as eaves need, if the house is not too small.
+const UNDER_EAVES_M: f64 = 0.35;
+const EAVES_ROOM_M: f64 = 0.6;
+const LEAST_UNDER_EAVES_M2: f64 = 25.0;
 
 /// Draws touching walls apart, and tells every volume what stands beside it.
 pub(super) fn beside(houses: &mut [House<'_>]) {
@@ -67,6 +74,7 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
             boxes.push(volume.footprint.bounds());
             neighbours.push(Neighbour {
                 floor_m: house.floor_m,
+                has_eaves: has_eaves(volume) && house.path_m < EAVES_SEEN_M,
                 rings: volume.footprint.rings().cloned().collect(),
                 bottom_m: volume.bottom_m + house.floor_m,
                 eaves_m: volume.eaves_m + house.floor_m,
@@ -83,10 +91,22 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
         .map(|i| {
             let own = &neighbours[i];
             let near: Vec<(usize, &Neighbour)> = around(i).into_iter().map(|j| (j, &neighbours[j])).collect();
-            let rings = own.rings.iter().map(|ring| drawn_in(ring, own, i, &near));
-            let mut rings: Vec<Vec<DVec2>> = rings.collect();
-            let footprint = Polygon { exterior: rings.remove(0), holes: rings };
-            let sides = footprint.edges().map(|edge| side(edge, own, &near)).collect();
+            let touching = |edge: (DVec2, DVec2)| moved_by_touch(edge, own, i, &near);
+            let footprint = drawn_in(&own.rings, touching);
+            let mut sides: Vec<Beside> = footprint.edges().map(|edge| side(edge, own, &near)).collect();
+            if !own.has_eaves || footprint.area_m2() < LEAST_UNDER_EAVES_M2 {
+                return (footprint, sides);
+            }
+            let mut next = sides.iter().map(|s| if s.room_m >= EAVES_ROOM_M { UNDER_EAVES_M } else { 0.0 });
+            let rings: Vec<Vec<DVec2>> = footprint.rings().cloned().collect();
+            let footprint = drawn_in(&rings, |_| next.next().unwrap_or(0.0));
+            if sides.len() == footprint.edges().count() {
+                for (side, (a, b)) in sides.iter_mut().zip(footprint.edges()) {
+                    side.length_m = a.distance(b);
+                }
+            } else {
+                sides = footprint.edges().map(|edge| side(edge, own, &near)).collect();
+            }
             (footprint, sides)
         })
         .collect();
@@ -95,6 +115,13 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
         volume.footprint = footprint;
         volume.sides = sides;
     }
+}
+
+/// Whether a volume's roof reaches out over its walls.
+fn has_eaves(volume: &Volume<'_>) -> bool {
+    use RoofShape::{Gabled, Gambrel, HalfHipped, Hipped, Mansard, Round};
+    let reaches_out = matches!(volume.roof, Gabled | Gambrel | HalfHipped | Hipped | Mansard | Round);
+    reaches_out && !volume.building.part && !volume.is_canopy
 }
 
 /// Where another edge runs along an edge against its direction: from, to, and how far outside.
@@ -122,26 +149,33 @@ fn edges(ring: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
     (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
 }
 
-/// A ring with those of its edges moved in that would lie on the wall of an earlier volume, or of a higher one.
-fn drawn_in(ring: &[DVec2], own: &Neighbour, index: usize, near: &[(usize, &Neighbour)]) -> Vec<DVec2> {
-    let moved: Vec<f64> = edges(ring)
-        .map(|(a, b)| {
-            let yields = |(j, n): &&(usize, &Neighbour)| {
-                n.bottom_m < own.top_m && own.bottom_m < n.top_m && (n.top_m, index) > (own.top_m, *j)
-            };
-            let against = near.iter().filter(yields).flat_map(|(_, n)| n.rings.iter().flat_map(|r| edges(r)));
-            against
-                .filter_map(|edge| along(a, b, edge))
-                .filter(|[_, _, out]| (-OVERLAP_M..APART_M).contains(out))
-                .map(|[_, _, out]| APART_M - out)
-                .fold(0.0, f64::max)
-        })
-        .collect();
-    if moved.iter().all(|m| *m == 0.0) {
-        return ring.to_vec();
-    }
+/// How far an edge has to move in not to lie on the wall of an earlier volume, or of a higher one, metres.
+fn moved_by_touch((a, b): (DVec2, DVec2), own: &Neighbour, index: usize, near: &[(usize, &Neighbour)]) -> f64 {
+    let yields = |(j, n): &&(usize, &Neighbour)| {
+        n.bottom_m < own.top_m && own.bottom_m < n.top_m && (n.top_m, index) > (own.top_m, *j)
+    };
+    let against = near.iter().filter(yields).flat_map(|(_, n)| n.rings.iter().flat_map(|r| edges(r)));
+    against
+        .filter_map(|edge| along(a, b, edge))
+        .filter(|[_, _, out]| (-OVERLAP_M..APART_M).contains(out))
+        .map(|[_, _, out]| APART_M - out)
+        .fold(0.0, f64::max)
+}
+
+/// Rings with their edges moved in; a ring that would cross itself stays.
+fn drawn_in(rings: &[Vec<DVec2>], mut moved_m: impl FnMut((DVec2, DVec2)) -> f64) -> Polygon {
+    let mut drawn = rings.iter().map(|ring| {
+        let moved: Vec<f64> = edges(ring).map(&mut moved_m).collect();
+        drawn_in_ring(ring, &moved).unwrap_or_else(|| ring.clone())
+    });
+    let exterior = drawn.next().unwrap_or_default();
+    Polygon { exterior, holes: drawn.collect() }
+}
+
+fn drawn_in_ring(ring: &[DVec2], moved: &[f64]) -> Option<Vec<DVec2>> {
     let n = ring.len();
     let mut drawn = Vec::with_capacity(n + 2);
+    let mut starts = Vec::with_capacity(n);
     for i in 0..n {
         let (k, at) = ((i + n - 1) % n, ring[i]);
         let [before, after] = [at - ring[k], ring[(i + 1) % n] - at].map(DVec2::normalize_or_zero);
@@ -157,8 +191,13 @@ fn drawn_in(ring: &[DVec2], own: &Neighbour, index: usize, near: &[(usize, &Neig
                 drawn.push(at + after.perp() * moved[i]);
             }
         }
+        starts.push(drawn.len() - 1);
     }
-    drawn
+    let keeps_its_way = |i: usize| {
+        let (from, to) = (drawn[starts[i]], drawn[(starts[i] + 1) % drawn.len()]);
+        (to - from).dot(ring[(i + 1) % n] - ring[i]) > 0.0
+    };
+    (0..n).all(keeps_its_way).then_some(drawn)
 }
 
 /// What stands before an edge.

@@ -4,6 +4,8 @@ mod apart;
 mod beside;
 mod heights;
 mod near;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 use trove_model::{Bounds, Building, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
@@ -14,7 +16,7 @@ use crate::roads::{Footing, KERB_M, RoadSurfaces};
 use crate::segments::SegmentIndex;
 pub(super) use beside::Beside;
 use heights::{Neighbourhood, heights};
-use near::Near;
+pub(super) use near::Near;
 
 /// Height of a storey that is not measured.
 pub(super) const STOREY_M: f64 = 3.2;
@@ -31,6 +33,8 @@ const CANOPY_THICK_M: f64 = 0.45;
 /// Posts of a canopy stand this far in from its edge and at most this far apart, metres.
 const POST_INSET_M: f64 = 0.5;
 const POSTS_APART_M: f64 = 6.0;
+/// Eaves are seen up to this distance from the driven path, metres.
+pub(super) const EAVES_SEEN_M: f64 = 250.0;
 /// Nothing is told apart further from the driven path, metres.
 const FAR_M: f64 = 400.0;
 /// The ground below a building is looked at in these steps, metres.
