@@ -7,10 +7,12 @@ use rayon::prelude::*;
 use trove_model::{Bounds, Polygon, Road, RoadKind};
 
 use super::network::Stretch;
-use crate::plane::{closed, disc, intersection, rectangle, union};
+use crate::plane::{closed, difference, disc, intersection, rectangle, union};
 
 /// Vertices nearer than this are one, metres; ways that meet share a node.
 const SAME_M: f64 = 0.01;
+/// Islands that roads leave between them are as large as this, m².
+const ISLAND_M2: f64 = 8.0;
 /// What lies at a corner reaches this many times as far as its road is wide and its corner round.
 const REACH: f64 = 1.3;
 
@@ -79,8 +81,12 @@ pub(super) fn corners(nodes: &[Node], strips: &[Polygon]) -> Vec<Polygon> {
         }
         let window = Bounds::square(node.at, 2.0 * node.reach_m());
         let near = strips.iter().zip(&bounds).filter(|(_, b)| b.is_some_and(|b| b.overlaps(&window)));
-        let near: Vec<Polygon> = near.map(|(strip, _)| strip.clone()).collect();
-        closed(&intersection(&union(&near), &[rectangle(window)]), node.radius_m)
+        let joined = union(&near.map(|(strip, _)| strip.clone()).collect::<Vec<_>>());
+        let filled = closed(&intersection(&joined, &[rectangle(window)]), node.radius_m);
+        // What roads go around stays: roundabouts have their island.
+        let islands = joined.into_iter().flat_map(|p| p.holes).map(|hole| Polygon::simple(hole).oriented());
+        let islands: Vec<Polygon> = islands.filter(|island| island.area_m2() > ISLAND_M2).collect();
+        difference(&filled, &islands)
     };
     nodes.par_iter().flat_map_iter(corner).collect()
 }
@@ -114,5 +120,15 @@ mod tests {
         // The corner's arc leaves r·(1 − 1/√2) of its diagonal to the road.
         assert!(covers(3.8, 3.8) && covers(-3.8, 3.8) && !covers(5.0, 5.0) && !covers(3.5, -3.5));
         assert!(covers(-1.5, 52.0));
+
+        let ring: Vec<[f64; 2]> =
+            (0..=16).map(|i| (DVec2::from_angle(i as f64 * 0.392_699_081) * 6.0).to_array()).collect();
+        let mut ring = road(4, &ring);
+        ring.centreline[16] = ring.centreline[0];
+        let roads = [ring, road(5, &[[6.0, 0.0], [60.0, 0.0]])];
+        let stretches: Vec<Stretch<'_>> = roads.iter().map(stretch).collect();
+        let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, 3.0)).collect();
+        let corners = super::corners(&super::nodes(&stretches), &strips);
+        assert!(!corners.iter().any(|c| c.contains(DVec2::ZERO)), "a roundabout has lost its island");
     }
 }

@@ -1,5 +1,7 @@
 //! Carriageways of OpenStreetMap's roads, where the dataset's own map ends.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 use trove_model::{Outcome, Report, Road};
 
@@ -36,13 +38,20 @@ pub(super) fn stretches<'a>(
     on_left: bool,
     report: &Report,
 ) -> Vec<Stretch<'a>> {
+    let key = |p: &DVec2| (*p * 100.0).round().as_i64vec2().to_array();
+    let mut touches: BTreeMap<[i64; 2], u32> = BTreeMap::new();
+    for p in ground.iter().flat_map(|(_, line)| line) {
+        *touches.entry(key(p)).or_default() += 1;
+    }
+    let is_met = |p: Option<&DVec2>| p.is_some_and(|p| touches[&key(p)] > 1);
     let mut stretches = Vec::new();
     for (road, centreline) in ground {
+        let meets = [is_met(centreline.first()), is_met(centreline.last())];
         let points = resampled(&centreline);
         let measured = measured_width_m(&points, road.oneway, recorded);
         let known_m = measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w)));
         let section = cross_section(road, known_m, on_left);
-        for line in beyond(&points, recorded) {
+        for line in beyond(&points, meets, recorded) {
             if known_m.is_none() {
                 let what = "width of a road, from its lanes or kind";
                 report.note(Outcome::Guessed, what, format_args!("osm way {}", road.id));
@@ -98,8 +107,8 @@ fn lies_open(line: &[DVec2], recorded: &PlaneRaster) -> bool {
     line.len() > 1 && 2 * (0..line.len()).filter(open).count() > line.len()
 }
 
-/// The parts of a resampled road outside the recorded area.
-fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
+/// The parts of a resampled road outside the recorded area; `meets` tells whether other roads go on at its ends.
+fn beyond(points: &[DVec2], meets: [bool; 2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
     let state: Vec<u8> = points.iter().map(|&p| recorded.at(p)).collect();
     let near_steps = (BESIDE_M * 1.5 / STEP_M) as usize;
     let mut lines = Vec::new();
@@ -111,7 +120,8 @@ fn beyond(points: &[DVec2], recorded: &PlaneRaster) -> Vec<Vec<DVec2>> {
         }
         let end = (i..points.len()).find(|&k| state[k] == RECORDED).unwrap_or(points.len());
         let far = (i..end).find(|&k| state[k] != NEAR).zip((i..end).rfind(|&k| state[k] != NEAR));
-        let between = i > 0 && end < points.len() && end - i <= LONGEST_GAP_STEPS;
+        let joins = (i > 0 || meets[0]) && (end < points.len() || meets[1]);
+        let between = joins && end - i <= LONGEST_GAP_STEPS;
         if far.is_none() && between && lies_open(&points[i..end], recorded) {
             lines.push(points[i.saturating_sub(OVERLAP_STEPS)..(end + OVERLAP_STEPS).min(points.len())].to_vec());
         }
@@ -156,6 +166,21 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert!((found[0].width_m - 12.0).abs() <= 1.0, "{}", found[0].width_m);
         assert!(found[0].line[0].x < 100.0 && found[0].line[0].x > 90.0);
+    }
+
+    #[test]
+    fn a_junction_that_was_not_recorded_is_filled_by_the_roads_that_meet_there() {
+        let square = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            plane::rectangle(Bounds { min: DVec2::new(x0, y0), max: DVec2::new(x1, y1) })
+        };
+        let area = [square(-100.0, -4.0, -8.0, 4.0), square(8.0, -4.0, 100.0, 4.0), square(-4.0, 8.0, 4.0, 90.0)];
+        let mut raster = PlaneRaster::new(Bounds::square(DVec2::ZERO, 400.0), 0.5);
+        raster.fill(&plane::grown(&area, BESIDE_M), NEAR);
+        raster.fill(&area, RECORDED);
+        let roads =
+            [[(-90.0, 0.0), (0.0, 0.0)], [(0.0, 0.0), (90.0, 0.0)], [(0.0, 80.0), (0.0, 0.0)]].map(|r| road(&r));
+        let ground = roads.iter().map(|r| (r, r.centreline.clone())).collect();
+        assert_eq!(stretches(ground, &raster, false, &Report::default()).len(), 3);
     }
 
     #[test]
