@@ -1,7 +1,8 @@
 """Measures the installed program on real data (the folder in TROVE_TEST_DATA).
 
 `bench.py build` times the building of scene-0103, `bench.py frame` CAM_FRONT at 1600×900 with all labels at 64 spp,
-denoised, of both scenes, and `bench.py memory` the peak memory over 100 frames.
+denoised, of both scenes, and `bench.py memory` the peak memory over 100 frames. `bench.py city` makes up a city of 20,000
+buildings and measures how it is read and built; it needs no data.
 """
 
 import json
@@ -11,6 +12,8 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+from city import LAT_DEG, LON_DEG, city
 
 PLACES = {"scene-0103": "boston-seaport", "scene-0061": "singapore-onenorth"}
 
@@ -92,6 +95,25 @@ def memory(folder):
     print(f"peak memory {marks[early]:.0f} MiB after {early} frames, {marks[max(marks)]:.0f} MiB after {max(marks)}")
 
 
+def large(folder):
+    """Time and peak memory of reading and building a city of 20,000 buildings."""
+    made, side_m = city(20_000)
+    with open(folder / "city.osm", "w", encoding="utf-8") as file:
+        made.write(file)
+    path = folder / "city.toml"
+    place = f"lat_deg = {LAT_DEG}\nlon_deg = {LON_DEG}\nsize_m = {side_m - 120:.0f}"
+    path.write_text(f'[place]\n{place}\n[map]\nosm = "{folder / "city.osm"}"\n')
+    run, peak = trove("build", path, "--out", folder / "city.glb", "--json"), 0.0
+    while run.poll() is None:
+        peak = max(peak, peak_mib(run.pid))
+        time.sleep(0.05)
+    measured = json.loads(run.stdout.read())["report"]["measurements"]
+    print(
+        f"20,000 buildings are read in {measured['read.seconds']:.2f} s, built in {measured['build.seconds']:.1f} s, "
+        f"peak {peak:.0f} MiB"
+    )
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
-        {"build": build, "frame": frame, "memory": memory}[sys.argv[1]](Path(temporary))
+        {"build": build, "frame": frame, "memory": memory, "city": large}[sys.argv[1]](Path(temporary))

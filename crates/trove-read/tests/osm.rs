@@ -303,6 +303,35 @@ fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
 }
 
 #[test]
+fn an_empty_extract_is_an_error_and_an_empty_part_of_one_an_empty_map() {
+    assert!(read_bytes(b"<osm></osm>").0.unwrap_err().to_string().contains("nodes that have coordinates"));
+    // All around the area, but nothing in it.
+    let (map, report) = read(&nodes(&[(1, -5000.0, -5000.0), (2, -5000.0, 5000.0), (3, 5000.0, 5000.0)]));
+    assert_eq!(map, StreetMap { licence: map.licence.clone(), ..StreetMap::default() });
+    assert_eq!((accounts("way", &report), accounts("relation", &report)), ([0; 3], [0; 3]));
+}
+
+#[test]
+fn a_place_at_the_antimeridian_is_whole() {
+    let node = |id: i64, x_m: f64, y_m: f64| {
+        let lon_deg = (360.0 + x_m * METRE_DEG) % 360.0 - 180.0;
+        format!("<node id='{id}' lat='{}' lon='{lon_deg}'/>", y_m * METRE_DEG)
+    };
+    let nodes: String =
+        [(1, -40.0, 0.0), (2, 40.0, 0.0), (3, 40.0, 30.0), (4, -40.0, 30.0)].map(|(i, x, y)| node(i, x, y)).concat();
+    let content = nodes + &way(1, &[1, 2, 3, 4, 1], "building=yes") + &way(2, &[1, 2], "highway=residential");
+    let dir = tempfile::tempdir().unwrap();
+    let path = file(&dir, "map.osm", format!("<osm>{content}</osm>").as_bytes());
+    for origin_lon_deg in [180.0, -180.0, 179.9999, -179.9999] {
+        let projection = MapProjection { origin_lon_deg, ..ORIGIN };
+        let area = Bounds::square(DVec2::ZERO, 500.0);
+        let map = osm::read(&path, &projection, area, &Report::default()).unwrap();
+        assert!((map.buildings[0].footprint.area_m2() - 80.0 * 30.0).abs() < 1e-3, "{origin_lon_deg}");
+        assert!((map.roads[0].centreline[0].distance(map.roads[0].centreline[1]) - 80.0).abs() < 1e-6);
+    }
+}
+
+#[test]
 fn files_that_are_no_extract_are_named_with_their_place() {
     let refused = |bytes: &[u8]| read_bytes(bytes).0.unwrap_err().to_string();
     let check = |bytes: &[u8], parts: &[&str]| {
@@ -448,18 +477,49 @@ fn real_places_are_read_with_every_way_and_relation_used_or_reported() {
         let found = [map.roads.len(), map.buildings.len(), map.land.len(), map.furniture.len(), map.lines.len()];
         let accounted = (accounts("way", &report), accounts("relation", &report));
         assert_eq!((found, accounted), (counts, (ways, relations)), "{name}: {:#?}", report.entries());
-        for [used, reported, all] in [ways, relations] {
-            assert_eq!(used + reported, all, "{name}");
-        }
-        for polygon in map.buildings.iter().map(|b| &b.footprint).chain(map.land.iter().map(|l| &l.polygon)) {
-            assert!(polygon.area_m2() > 0.0 && polygon.rings().all(|r| r.len() > 2 && r.iter().all(|p| p.is_finite())));
-        }
+        assert_sound(&map, &report, &path);
     };
     check("boston-seaport.osm", [1780, 936, 0, 6, 0], [2742, 1, 2743], [22, 0, 22]);
     check("singapore-onenorth.osm", [1537, 0, 0, 0, 0], [1537, 0, 1537], [0; 3]);
     check("neukolln.osm", [210, 210, 84, 539, 59], [589, 111, 700], [5, 13, 18]);
     check("taipei.osm", [49, 63, 5, 168, 1], [120, 7, 127], [0, 74, 74]);
     check("monaco-latest.osm.pbf", [2330, 1218, 222, 1319, 60], [3886, 220, 4106], [31, 178, 209]);
+}
+
+#[test]
+fn every_odd_file_gives_a_sound_map_or_a_clear_error() {
+    let Some(folder) = real("edge-cases") else { return };
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    for path in files {
+        // Around the first of its places, as a drive there would ask for it.
+        let Ok(extent) = osm::extent(&path) else { continue };
+        let projection = MapProjection {
+            origin_lat_deg: extent.min_lat_deg,
+            origin_lon_deg: extent.min_lon_deg,
+            anchor_m: DVec2::ZERO,
+        };
+        for side_m in [600.0, 3000.0] {
+            let report = Report::default();
+            match osm::read(&path, &projection, Bounds::square(DVec2::ZERO, side_m), &report) {
+                Ok(map) => assert_sound(&map, &report, &path),
+                Err(error) => assert!(error.to_string().contains("expected"), "{error}"),
+            }
+        }
+        let (map, report) = read_real(&path);
+        assert_sound(&map, &report, &path);
+    }
+}
+
+fn assert_sound(map: &StreetMap, report: &Report, path: &Path) {
+    for [used, reported, all] in [accounts("way", report), accounts("relation", report)] {
+        assert_eq!(used + reported, all, "{}", path.display());
+    }
+    for polygon in map.buildings.iter().map(|b| &b.footprint).chain(map.land.iter().map(|l| &l.polygon)) {
+        let is_ring = |ring: &Vec<DVec2>| ring.len() > 2 && ring.iter().all(|p| p.is_finite());
+        assert!(polygon.area_m2() > 0.0 && polygon.rings().all(is_ring), "{}", path.display());
+    }
+    assert!(map.roads.iter().all(|road| road.centreline.len() > 1), "{}", path.display());
 }
 
 #[test]

@@ -31,7 +31,9 @@ pub(crate) fn run(
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
     let (name, _) = scenes.first().context("the recipe has no scene")?;
+    let started = std::time::Instant::now();
     let (drive, map) = sources.drive(name, &report)?;
+    report.measure("read.seconds", started.elapsed().as_secs_f64());
     let first = match &recipe.drive {
         Some(section) => section.keyframes.of(drive.keyframes.len())?[0],
         None => 0,

@@ -20,10 +20,37 @@ pub(super) struct Edges {
     pub(super) spent: BTreeSet<i64>,
 }
 
+/// What became of the ways or relations in the area.
+#[derive(Debug, Default)]
+pub(super) struct Account {
+    pub(super) in_area: u32,
+    used: u32,
+    reported: u32,
+}
+
+impl Account {
+    /// Counts a thing that was used, or reports why it was not.
+    pub(super) fn add(&mut self, done: Result<(), String>, what: &str, id: i64, report: &Report) {
+        match done {
+            Ok(()) => self.used += 1,
+            Err(reason) => {
+                self.reported += 1;
+                report.note(Outcome::Dropped, &format!("osm: {what} not used: {reason}"), format!("{what} {id}"));
+            }
+        }
+    }
+
+    pub(super) fn measure(&self, what: &str, report: &Report) {
+        report.measure(&format!("osm.{what}s_in_area"), f64::from(self.in_area));
+        report.measure(&format!("osm.{what}s_used"), f64::from(self.used));
+        report.measure(&format!("osm.{what}s_accounted"), f64::from(self.used + self.reported));
+    }
+}
+
 /// Adds every area that a relation shapes.
 pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Report) -> Edges {
     let ways: BTreeMap<i64, &RawWay> = raw.ways.iter().map(|way| (way.id, way)).collect();
-    let (mut edges, mut seen, mut used) = (Edges::default(), 0u32, 0u32);
+    let (mut edges, mut account) = (Edges::default(), Account::default());
     for relation in &raw.relations {
         let ids: BTreeSet<i64> = relation.ways.iter().copied().collect();
         let members: Vec<&RawWay> = ids.iter().filter_map(|id| ways.get(id).copied()).collect();
@@ -32,7 +59,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
         if !places.touched_by(&points) {
             continue;
         }
-        seen += 1;
+        account.in_area += 1;
         let owner = format!("relation {}", relation.id);
         let done = match relation.tags.get("type") {
             "multipolygon" | "boundary" => {
@@ -46,13 +73,9 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
             "" => Err("no type".into()),
             kind => Err(format!("{kind}, which draws nothing")),
         };
-        match done {
-            Ok(()) => used += 1,
-            Err(reason) => report.note(Outcome::Dropped, &format!("osm: relation not used: {reason}"), &owner),
-        }
+        account.add(done, "relation", relation.id, report);
     }
-    report.measure("osm.relations_in_area", f64::from(seen));
-    report.measure("osm.relations_used", f64::from(used));
+    account.measure("relation", report);
     edges
 }
 

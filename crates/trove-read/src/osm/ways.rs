@@ -8,7 +8,7 @@ use super::buildings::{building, is_shop};
 use super::coast::is_coastline;
 use super::meaning::{Meaning, Outline, line_kind, meaning};
 use super::raw::{Raw, RawWay, Tags};
-use super::relations::Edges;
+use super::relations::{Account, Edges};
 use super::rings::{Repaired, polygons};
 use super::roads::road;
 use super::tagged::Tagged;
@@ -29,7 +29,7 @@ pub(super) fn add(
     shops: &mut Vec<DVec2>,
     report: &Report,
 ) {
-    let (mut seen, mut used) = (0u32, 0u32);
+    let mut account = Account::default();
     for way in &raw.ways {
         let line = Line::new(way, places);
         if line.runs.is_empty() {
@@ -39,20 +39,13 @@ pub(super) fn add(
         if !line.runs.iter().any(|run| places.touched_by(run)) {
             continue;
         }
-        seen += 1;
+        account.in_area += 1;
         // What a relation says of its edge is not said again; the sea's edge is looked at elsewhere.
         let is_edge = edges.used.contains(&way.id) || is_coastline(way);
         let done = if edges.spent.contains(&way.id) { Ok(()) } else { add_way(way, &line, places, map, shops, report) };
-        match done {
-            Err(_) if is_edge => used += 1,
-            Err(reason) => {
-                report.note(Outcome::Dropped, &format!("osm: way not used: {reason}"), format!("way {}", way.id))
-            }
-            Ok(()) => used += 1,
-        }
+        account.add(if is_edge { Ok(()) } else { done }, "way", way.id, report);
     }
-    report.measure("osm.ways_in_area", f64::from(seen));
-    report.measure("osm.ways_used", f64::from(used));
+    account.measure("way", report);
 }
 
 /// A way's nodes in World.
