@@ -8,7 +8,7 @@ use trove_model::{
 
 use super::corners;
 use super::course::{self, Band, Bay, Course, CrossSection};
-use super::decks::{self, Deck};
+use super::decks::{self, Deck, Trench};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
@@ -70,8 +70,10 @@ pub(super) struct Layout<'a> {
     pub tracks: Vec<Polygon>,
     /// What is left.
     pub land: Vec<Polygon>,
-    /// Roads above the ground, their solid ramps, which belong to none of the areas above, and where one passes below.
+    /// Roads above and below the ground; their solid and open ramps, which belong to none of the areas above; and
+    /// where one passes below.
     pub decks: Vec<(Deck<'a>, CrossSection)>,
+    pub trenches: Vec<(Trench<'a>, CrossSection)>,
     pub ramps: Vec<Polygon>,
     pub above: Vec<Polygon>,
     /// Where kerbs are dropped; may reach into all of the above.
@@ -94,12 +96,10 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
     let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), report)).unwrap_or_default();
     let stretches = network::stretches(levels.ground, &recorded, on_left, report);
-    let sections = |deck: Deck<'a>| {
-        let section = course::cross_section(deck.road, deck.road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
-        (deck, section)
-    };
-    let decks: Vec<(Deck<'a>, CrossSection)> = levels.decks.into_iter().map(sections).collect();
-    let [ramps, above] = footprints(&decks, &whole);
+    let section = |road: &Road| course::cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
+    let decks: Vec<_> = levels.decks.into_iter().map(|d| (d.clone(), section(d.road))).collect();
+    let trenches: Vec<_> = levels.trenches.into_iter().map(|t| (t.clone(), section(t.deck.road))).collect();
+    let [ramps, above] = footprints(&decks, &trenches, &whole);
     let nodes = corners::nodes(&stretches);
     let dropped = kerb::dropped(drive, map, &stretches, bounds);
     let bays = course::bays(&stretches, &nodes, &dropped);
@@ -164,6 +164,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
         tracks,
         land,
         decks,
+        trenches,
         ramps,
         above,
         dropped,
@@ -244,9 +245,14 @@ fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// Where decks are solid ramps and where one passes below them.
-fn footprints(decks: &[(Deck<'_>, CrossSection)], whole: &[Polygon]) -> [Vec<Polygon>; 2] {
+/// Where ramps lie in the place of the ground, and where one passes below decks.
+fn footprints(
+    decks: &[(Deck<'_>, CrossSection)],
+    trenches: &[(Trench<'_>, CrossSection)],
+    whole: &[Polygon],
+) -> [Vec<Polygon>; 2] {
     let mut areas = [Vec::new(), Vec::new()];
+    areas[0].extend(trenches.iter().flat_map(|(trench, section)| trench.footprint(section.width_m)));
     for (deck, section) in decks {
         for (area, part) in areas.iter_mut().zip(deck.footprint(section.width_m)) {
             area.extend(part);

@@ -108,7 +108,7 @@ pub(crate) fn surfaces(
     let layout = layout::layout(drive, map, bounds, report);
     let (customs, near) = (customs::customs(&drive.projection), wear::near(drive));
     let (markings, covers) = rayon::join(
-        || markings::markings(drive, map, &layout, &near, customs, seed.child("markings")),
+        || markings::markings(drive, map, &layout, &near, customs, seed.child("markings"), report),
         || land::covers(layout.land.clone(), &layout.car_parks, map, bounds),
     );
     let palette = Palette { library, report };
@@ -182,7 +182,7 @@ pub(crate) fn surfaces(
     }
     let below = Footings::new(bounds, &[(Footing::Carriageway, &layout.above)]);
     let free = |p: DVec2| footings.at(p) != Footing::Carriageway;
-    let decks = decks::meshes(&layout.decks, &drape, free);
+    let decks = decks::meshes(&layout.decks, &layout.trenches, &drape, free);
     add(decks.asphalt, Class::Road, SurfaceKind::Asphalt);
     add(decks.paint, Class::Road, SurfaceKind::MarkingWhite);
     add(decks.concrete, Class::Void, SurfaceKind::Concrete);

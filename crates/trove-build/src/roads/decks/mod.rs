@@ -1,4 +1,4 @@
-//! Roads above the ground: which they are, and how high they run.
+//! Roads above and below the ground: which they are, and how high they run.
 //!
 //! A bridge rises from where it meets roads on the ground, at the slope that its crossings ask for; the road that
 //! leads up to it rises with it as far as nothing else meets it.
@@ -6,6 +6,7 @@
 mod crossings;
 mod heights;
 mod sweep;
+mod trenches;
 
 use std::collections::BTreeMap;
 
@@ -19,6 +20,7 @@ use crate::plane::strip;
 use crate::plane_raster::PlaneRaster;
 
 pub(super) use self::sweep::meshes;
+pub(super) use self::trenches::Trench;
 
 /// From one level to the next, metres: 4.5 m for lorries, and the deck.
 const LEVEL_M: f64 = 5.6;
@@ -44,6 +46,7 @@ pub(super) struct Levels<'a> {
     /// Lines that lie on the ground; less than their roads' where these rise.
     pub ground: Vec<(&'a Road, Vec<DVec2>)>,
     pub decks: Vec<Deck<'a>>,
+    pub trenches: Vec<Trench<'a>>,
 }
 
 /// Vertices with the same key are one node of the map.
@@ -59,12 +62,13 @@ pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bou
     let cars: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars()).filter(reaches).collect();
     let mut ground: Vec<&Road> = Vec::new();
     let mut raised: Vec<&Road> = Vec::new();
+    let mut tunnels: Vec<&Road> = Vec::new();
     for &road in &cars {
         let points = resampled(&road.centreline);
         let beside = points.iter().filter(|&&p| recorded.at(p) != 0).count();
         let is_recorded = beside as f64 > RECORDED_SHARE * points.len() as f64;
         if road.tunnel {
-            report.note(Outcome::Dropped, "road in a tunnel", format_args!("osm way {}", road.id));
+            tunnels.push(road);
         } else if (road.bridge || road.layer > 0) && !is_recorded {
             raised.push(road);
         } else {
@@ -103,7 +107,8 @@ pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bou
         ground.iter().enumerate().map(|(i, road)| (*road, shortened(&road.centreline, ends(i)))).collect();
     lines.extend(level.into_iter().map(|road| (road, road.centreline.clone())));
     lines.retain(|(_, line)| line.len() > 1);
-    Levels { ground: lines, decks }
+    let trenches = trenches::trenches(&tunnels, &ground, map, recorded, report);
+    Levels { ground: lines, decks, trenches }
 }
 
 /// Roads in groups that share nodes.

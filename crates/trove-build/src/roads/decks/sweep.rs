@@ -1,9 +1,9 @@
-//! The shape of roads above the ground: deck, parapets, sides, piers.
+//! The shape of roads above and below the ground: deck, parapets, sides, piers; trenches with their walls and portals.
 
 use glam::{DVec2, DVec3, Vec2};
 use trove_model::Mesh;
 
-use super::{Deck, EDGE_M, SOLID_M};
+use super::{Deck, EDGE_M, SOLID_M, Trench};
 use crate::ground::Drape;
 use crate::roads::course::{CrossSection, Use};
 
@@ -17,6 +17,9 @@ const PIER_M: DVec2 = DVec2::new(1.2, 2.4);
 const PIERED_M: f64 = 3.0;
 /// Solid ramps go this far into the ground.
 const FOOT_M: f64 = 0.3;
+/// Height of a tunnel inside, and of the walls of its mouth above the ground.
+const INSIDE_M: f64 = 4.6;
+const RIM_M: f64 = 1.0;
 /// Decks that overlap where roads part lie this much apart, and no nearer than so many decks.
 const APART_M: f64 = 0.002;
 const APART: usize = 8;
@@ -47,6 +50,7 @@ struct Sweep<'a> {
 /// The meshes of decks with their cross-sections; `is_free` tells where a pier may stand.
 pub(in crate::roads) fn meshes(
     decks: &[(Deck<'_>, CrossSection)],
+    trenches: &[(Trench<'_>, CrossSection)],
     drape: &Drape<'_>,
     is_free: impl Fn(DVec2) -> bool,
 ) -> DeckMeshes {
@@ -65,6 +69,14 @@ pub(in crate::roads) fn meshes(
         }
         sweep.underside(&mut meshes.concrete);
         sweep.piers(&mut meshes.concrete, &is_free);
+    }
+    for (trench, section) in trenches {
+        let deck = &trench.deck;
+        let sweep = Sweep::new(deck, deck.half_width_m(section.width_m), 0.0, drape);
+        let half_m = sweep.half_m - PARAPET_M.x;
+        sweep.strip(&mut meshes.asphalt, [half_m, -half_m], [0.0, 0.0], |_| true);
+        sweep.paint(&mut meshes.paint, section);
+        sweep.trench(&mut meshes.concrete, trench.portal);
     }
     meshes
 }
@@ -190,6 +202,56 @@ impl<'a> Sweep<'a> {
         }
     }
 
+    /// Walls of a tunnel's mouth up to its portal, and what is seen of the tunnel behind it.
+    fn trench(&self, mesh: &mut Mesh, portal: usize) {
+        let (inner_m, outer_m) = (self.half_m - PARAPET_M.x, self.half_m);
+        let last = self.deck.line.len() - 1;
+        let rim_m = |i: usize| self.grounds_m[i] + RIM_M;
+        let mut along_m = 0.0;
+        for i in 0..last {
+            let next_m = along_m + self.deck.line[i].distance(self.deck.line[i + 1]);
+            let mut face = |offsets_m: [f64; 2], low: &dyn Fn(usize) -> f64, high: &dyn Fn(usize) -> f64| {
+                let corner = |k: usize, at: usize, z: f64| self.point(k, offsets_m[at], z);
+                // Faces look to the right of the line's direction where they are given from right to left.
+                let corners = [
+                    corner(i, 0, low(i)),
+                    corner(i + 1, 0, low(i + 1)),
+                    corner(i + 1, 1, high(i + 1)),
+                    corner(i, 1, high(i)),
+                ];
+                let height_m = corners[0].distance(corners[3]);
+                quad(mesh, corners, [along_m, next_m], [0.0, height_m]);
+            };
+            let road = |k: usize| self.tops_m[k];
+            let ceiling = |k: usize| self.tops_m[k] + INSIDE_M;
+            let foot = |k: usize| self.grounds_m[k] - FOOT_M;
+            if i < portal {
+                face([inner_m, inner_m], &road, &rim_m);
+                face([inner_m, outer_m], &rim_m, &rim_m);
+                face([outer_m, outer_m], &rim_m, &foot);
+                face([-inner_m, -inner_m], &rim_m, &road);
+                face([-outer_m, -inner_m], &rim_m, &rim_m);
+                face([-outer_m, -outer_m], &foot, &rim_m);
+            } else {
+                face([inner_m, inner_m], &road, &ceiling);
+                face([-inner_m, -inner_m], &ceiling, &road);
+                face([inner_m, -inner_m], &ceiling, &ceiling);
+            }
+            along_m = next_m;
+        }
+        // The wall above the portal, from both sides, and the dark at the end of what is seen.
+        let mut across = |i: usize, low_m: f64, high_m: f64, side: f64, half_m: f64| {
+            let (a, b) = (half_m * side, -half_m * side);
+            let corners =
+                [self.point(i, a, low_m), self.point(i, b, low_m), self.point(i, b, high_m), self.point(i, a, high_m)];
+            quad(mesh, corners, [0.0, 2.0 * half_m], [0.0, high_m - low_m]);
+        };
+        let lintel_m = self.tops_m[portal] + INSIDE_M;
+        across(portal, lintel_m, rim_m(portal), 1.0, inner_m);
+        across(portal, self.grounds_m[portal] - FOOT_M, rim_m(portal), -1.0, outer_m);
+        across(last, self.tops_m[last], self.tops_m[last] + INSIDE_M, 1.0, inner_m);
+    }
+
     fn piers(&self, mesh: &mut Mesh, is_free: impl Fn(DVec2) -> bool) {
         let mut along_m = 0.0;
         let mut next_m = PIERS_M / 2.0;
@@ -251,13 +313,32 @@ mod tests {
     use trove_model::{Bounds, HeightField, Road, RoadKind};
 
     #[test]
+    fn a_trench_is_seen_from_its_road_and_from_above() {
+        let road = crate::testing::road(1, RoadKind::Secondary, &[[0.0, 0.0], [60.0, 0.0]]);
+        let deck = super::super::deck(&road, &road.centreline, |along_m| -(along_m * 0.11).min(5.2));
+        let section = cross_section(&road, None, false);
+        let field = HeightField::flat(Bounds::square(DVec2::ZERO, 600.0), 0.0);
+        let trench = Trench { deck, portal: 24 };
+        let mesh = meshes(&[], &[(trench, section)], &Drape::new(&field), |_| true).concrete;
+        assert_eq!(mesh.defect(), None);
+        // Someone on the road sees the front of whatever is not above or behind the walls.
+        let eye = DVec3::new(10.0, 0.0, 0.5);
+        for t in &mesh.triangles {
+            let [a, b, c] = t.map(|i| mesh.positions[i as usize].as_dvec3());
+            let (normal, middle) = ((b - a).cross(c - a).normalize(), (a + b + c) / 3.0);
+            let hidden = middle.y.abs() > 4.0 || normal.x > 0.5 || normal.z.abs() > 0.5;
+            assert!(hidden || normal.dot(eye - middle) > 0.0, "{middle} {normal}");
+        }
+    }
+
+    #[test]
     fn a_deck_faces_up_on_top_and_down_below_and_has_no_open_side() {
         let road = Road { bridge: true, ..crate::testing::road(1, RoadKind::Secondary, &[[0.0, 0.0], [200.0, 20.0]]) };
         let rise = |along_m: f64| (along_m * 0.06).min((201.0 - along_m) * 0.06).clamp(0.0, 5.6);
         let deck = super::super::deck(&road, &road.centreline, rise);
         let section = cross_section(&road, None, false);
         let field = HeightField::flat(Bounds::square(DVec2::ZERO, 600.0), 0.0);
-        let meshes = meshes(&[(deck, section.clone())], &Drape::new(&field), |_| true);
+        let meshes = meshes(&[(deck, section.clone())], &[], &Drape::new(&field), |_| true);
         for mesh in [&meshes.asphalt, &meshes.paint, &meshes.concrete] {
             assert_eq!(mesh.defect(), None);
         }
