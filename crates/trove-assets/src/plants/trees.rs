@@ -176,8 +176,8 @@ pub(super) fn assets() -> Vec<Asset> {
             growth: Growth { step_m: 0.24, kill_m: 0.38, lift: 0.6, trunk_radius_m: 0.15 },
             sprig: Sprig::Needles,
             green: vec3(0.055, 0.088, 0.035),
-            card_m: 0.42,
-            cards: 4,
+            card_m: 0.5,
+            cards: 5,
             bark: vec3(0.12, 0.1, 0.08),
         },
     ]

@@ -92,9 +92,9 @@ fn dirt(kind: SurfaceKind) -> f32 {
     match kind {
         SurfaceKind::Asphalt | SurfaceKind::MarkingWhite | SurfaceKind::MarkingYellow | SurfaceKind::RoadCover => 0.7,
         SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete | SurfaceKind::FlatRoof => 0.6,
-        SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor | SurfaceKind::Wall => 0.5,
+        SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor => 0.5,
         SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel | SurfaceKind::RoofTiles => 0.4,
-        SurfaceKind::ShopSign => 0.3,
+        SurfaceKind::Wall | SurfaceKind::ShopSign => 0.3,
         SurfaceKind::Water | SurfaceKind::RoomBack => 0.0,
     }
 }
@@ -128,7 +128,7 @@ fn ground_recipes() -> Vec<Recipe> {
         plain("kerb/black-white", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), true, 32)),
         plain("concrete/plain", Concrete, || paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33)),
         plain("grass/lawn", Grass, move || ground::grass(green, straw, 0.12, 41)),
-        plain("grass/worn", Grass, move || ground::grass(vec3(0.098, 0.117, 0.044), straw, 0.42, 42)),
+        plain("grass/worn", Grass, move || ground::grass(vec3(0.084, 0.136, 0.04), straw, 0.42, 42)),
         plain("soil/earth", Soil, || ground::soil(43)),
         plain("gravel/grey", Gravel, || ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44)),
         plain("water/still", Water, ground::water),

@@ -9,8 +9,8 @@ use super::noise::noise;
 use crate::ground::Drape;
 
 /// What dried grass and bare earth are to fresh grass: factors on its colour.
-const DRY: Vec3 = vec3(1.7, 1.28, 1.6);
-const BARE: Vec3 = vec3(1.8, 1.05, 1.95);
+const DRY: Vec3 = vec3(1.3, 1.1, 1.2);
+const BARE: Vec3 = vec3(1.5, 1.0, 1.5);
 
 /// The look of a place's lawns.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ impl Lawn {
 
     /// What the colour of grass is multiplied by.
     fn tint(&self, p: DVec2) -> Vec3 {
-        let green = Vec3::splat(0.92).lerp(DRY, self.dryness(p) as f32);
+        let green = Vec3::splat(0.85).lerp(DRY, self.dryness(p) as f32);
         green.lerp(BARE, self.bareness(p) as f32)
     }
 
@@ -74,7 +74,7 @@ mod tests {
         assert!(mesh.positions.iter().all(|p| (p.z - 1.12).abs() < 1e-5));
         let hue = |t: &Vec3| t.x / t.y;
         let (least, most) = mesh.tints.iter().map(hue).fold((f32::INFINITY, 0.0f32), |(l, m), h| (l.min(h), m.max(h)));
-        assert!(mesh.tints.len() > 800 && most / least > 1.3, "{least} {most}");
+        assert!(mesh.tints.len() > 800 && most / least > 1.1, "{least} {most}");
         assert!(mesh.tints.iter().all(|t| t.cmpgt(Vec3::splat(0.5)).all() && t.cmplt(Vec3::splat(2.6)).all()));
     }
 }

@@ -68,8 +68,8 @@ fn hedges(stretch: &[KerbPoint], clearance: &Clearance, seed: Seed, wishes: &mut
     for run in stretch.get(skip..).unwrap_or_default().chunks(run_points).step_by(2) {
         let line: Vec<DVec2> =
             run.iter().step_by(2).filter_map(|k| land_behind(k.position, k.outward, clearance)).collect();
-        // Where the sidewalk's edge jumps the hedge ends.
-        for part in line.chunk_by(|a, b| a.distance(*b) < 3.0 * KERB_STEP_M) {
+        // Where the sidewalk's edge jumps the hedge ends; no one plants a piece alone.
+        for part in line.chunk_by(|a, b| a.distance(*b) < 3.0 * KERB_STEP_M).filter(|part| part.len() > 3) {
             wishes.extend(hedge(part, height_m, seed));
         }
     }

@@ -7,11 +7,11 @@ use super::patch::{Blade, Patch, heading, point, varied};
 
 /// Grass from above, from well watered to dried up.
 const SHADES: [Vec3; 5] = [
-    vec3(0.125, 0.215, 0.06),
-    vec3(0.15, 0.22, 0.068),
-    vec3(0.185, 0.228, 0.082),
-    vec3(0.23, 0.24, 0.105),
-    vec3(0.28, 0.25, 0.13),
+    vec3(0.14, 0.235, 0.068),
+    vec3(0.17, 0.242, 0.078),
+    vec3(0.21, 0.252, 0.095),
+    vec3(0.26, 0.265, 0.12),
+    vec3(0.315, 0.275, 0.15),
 ];
 /// What makes a fresh blade straw.
 const STRAW: Vec3 = vec3(1.7, 1.15, 1.6);

@@ -74,7 +74,7 @@ fn square(
                 yaw_rad: std::f64::consts::FRAC_PI_2 * random.index(4) as f64,
                 scale: [1.0, height * fades.clamp(0.6, 1.0)],
                 class: Class::Ground,
-                shade: sower.lawn.dryness(middle) + 0.3 * bare,
+                shade: sower.lawn.dryness(middle) * 1.1 + 0.3 * bare,
                 lift_m: 0.0,
             };
             pieces.push(sower.piece(cover, &lay, random));
@@ -95,26 +95,23 @@ enum Share {
     All,
 }
 
-/// How much of a square is lawn.
+/// How much of a square is lawn, as far as eight rows of places tell, or those of the raster.
 fn share(sower: &Sower, low: DVec2, side_m: f64) -> Share {
-    const STEP_M: f64 = super::LAWN_CELL_M;
-    let steps = (side_m / STEP_M) as u32;
-    let (mut any, mut all) = (false, true);
-    if sower.clearance.building_distance_m(low + side_m / 2.0) < OFF_WALL_M + side_m {
-        all = sower.clearance.building_distance_m(low + side_m / 2.0) >= OFF_WALL_M + side_m / 2.0;
-    }
+    let step_m = (side_m / 8.0).max(super::LAWN_CELL_M);
+    let steps = (side_m / step_m) as u32;
+    let wall_m = sower.clearance.building_distance_m(low + side_m / 2.0);
+    let (mut any, mut all) = (false, wall_m >= OFF_WALL_M + side_m * std::f64::consts::FRAC_1_SQRT_2);
     for y in 0..steps {
         for x in 0..steps {
-            let is_lawn = sower.is_lawn(low + (DVec2::new(f64::from(x), f64::from(y)) + 0.5) * STEP_M);
+            let is_lawn = sower.is_lawn(low + (DVec2::new(f64::from(x), f64::from(y)) + 0.5) * step_m);
             any |= is_lawn;
             all &= is_lawn;
         }
+        if any && !all {
+            return Share::Some;
+        }
     }
-    match (any, all) {
-        (false, _) => Share::None,
-        (true, true) => Share::All,
-        _ => Share::Some,
-    }
+    if any { Share::All } else { Share::None }
 }
 
 /// Clover and dandelions, in swarms.
