@@ -58,9 +58,7 @@ impl Finish {
 
     /// That surface.
     pub(super) fn bare(self, seed: u32) -> Canvas {
-        let mut canvas = self.paint(Grid { cells: [1, 1], cell_m: Vec2::splat(1.8) }, self.color(), seed);
-        weather(&mut canvas, 0.08, seed);
-        canvas
+        self.paint(Grid { cells: [1, 1], cell_m: Vec2::splat(1.8) }, self.color(), seed)
     }
 
     /// A wall of a colour.

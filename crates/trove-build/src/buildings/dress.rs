@@ -57,7 +57,12 @@ impl Dress {
 pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, random: &mut Random) -> Dress {
     let building = house.building;
     let kind = building.kind.as_str();
-    let facade = palette.fitting(SurfaceKind::Facade, facade_words(house, kind, height_m, random), random);
+    // A garage is a ground floor and nothing else.
+    let facade = if matches!(kind, "garage" | "garages" | "carport") {
+        palette.fitting(SurfaceKind::FacadeGroundFloor, &["garage"], random)
+    } else {
+        palette.fitting(SurfaceKind::Facade, facade_words(house, kind, height_m, random), random)
+    };
     let words = ground_floor_words(house, kind, height_m, &facade.id, random);
     let ground_floor = words.map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
     let paints = facade.design.as_ref().map_or(&[][..], |d| &d.paints);
@@ -119,7 +124,7 @@ fn fittings(
     ];
     let (door, cloth) = (pick(&doors), pick(&cloths));
     let floor = pick(&[vec3(0.2, 0.12, 0.07), vec3(0.25, 0.24, 0.22), vec3(0.1, 0.07, 0.05)]);
-    let warm = pick(&[vec3(0.5, 0.4, 0.26), vec3(0.45, 0.3, 0.22), vec3(0.33, 0.4, 0.42), vec3(0.4, 0.45, 0.35)]);
+    let warm = pick(&[vec3(0.4, 0.31, 0.2), vec3(0.34, 0.2, 0.14), vec3(0.22, 0.28, 0.3), vec3(0.28, 0.32, 0.24)]);
     let drapes = pick(&[vec3(0.42, 0.3, 0.2), vec3(0.3, 0.06, 0.05), vec3(0.2, 0.24, 0.3), vec3(0.4, 0.38, 0.3)]);
     let shutter = design
         .shutters
@@ -139,7 +144,7 @@ fn fittings(
         Material { base_color: cast.base_color * color, name: "facade stone".into(), ..cast.clone() }
     };
     let plain = |name: &str, color: Vec3, roughness: f32| Material::plain(name, color, roughness);
-    let tint = design.glass.lerp(Vec3::ONE, 0.3).min(Vec3::ONE);
+    let tint = (design.glass * 0.87).min(Vec3::ONE);
     let glass = |name: &str, color: Vec3| Material { transmission: 0.92, ..plain(name, color, 0.02) };
     vec![
         stone(design.trim),
@@ -159,11 +164,11 @@ fn fittings(
         Material { sheen: 0.3, translucency: 0.4, ..plain("curtain", vec3(0.6, 0.59, 0.56), 0.9) },
         Material { sheen: 0.3, translucency: 0.2, ..plain("drapes", drapes, 0.9) },
         Material { translucency: 0.2, ..plain("blind", vec3(0.5, 0.49, 0.46), 0.7) },
-        plain("room pale", vec3(0.62, 0.61, 0.58), 0.9),
+        plain("room pale", vec3(0.45, 0.44, 0.41), 0.9),
         plain("room warm", warm, 0.9),
         plain("room floor", floor, 0.5),
         back,
-        plain("lit room", vec3(0.66, 0.63, 0.56), 0.9),
+        plain("lit room", vec3(0.6, 0.55, 0.46), 0.9),
         plain("lamp lens", Vec3::splat(0.6), 0.3),
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
@@ -191,7 +196,7 @@ fn facade_words(house: &House<'_>, kind: &str, height_m: f64, random: &mut Rando
     let home = matches!(kind, "apartments" | "residential" | "dormitory" | "terrace" | "yes");
     match kind {
         "industrial" | "warehouse" | "hangar" => return &["warehouse", "mill"],
-        "garage" | "garages" | "shed" | "carport" => return &["plaster-plain"],
+        "shed" => return &["wood", "plaster-plain"],
         "hotel" => return &["hotel", "panel"],
         "parking" => return &["ribbon"],
         "office" | "commercial" => return &["glass", "ribbon", "panel", "mill"],
@@ -236,9 +241,9 @@ fn ground_floor_words(
     let shop = building.shop || random.chance(0.35);
     let is = |word: &str| facade.contains(word);
     match kind {
-        "garage" | "garages" | "carport" => Some(&["garage"]),
         kind if is_house(kind) && !building.shop => None,
-        "shed" | "roof" | "hut" | "church" | "cathedral" | "construction" | "parking" => None,
+        "garage" | "garages" | "carport" | "shed" | "roof" | "hut" | "church" | "cathedral" | "construction"
+        | "parking" => None,
         "industrial" | "warehouse" | "hangar" => Some(&["loading"]),
         "office" | "commercial" | "hotel" => Some(&["lobby"]),
         "retail" | "supermarket" => Some(&["shops"]),
@@ -269,4 +274,50 @@ fn pick_shade(random: &mut Random) -> Vec3 {
 pub(super) fn tinted(base: Vec3, color: Vec3) -> Vec3 {
     let hue = color / color.max_element().max(0.05);
     (base * hue * (0.5 + color.max_element())).clamp(Vec3::splat(0.05), Vec3::splat(1.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::buildings::shell::Slot;
+
+    fn house(building: &Building, region: Region) -> House<'_> {
+        House { region, ..House::alone(building, Vec::new()) }
+    }
+
+    #[test]
+    fn a_mesh_keeps_the_materials_that_it_uses() {
+        let material = |i: usize| Material::plain(&i.to_string(), Vec3::ONE, 0.5);
+        let storeys = Storeys { grid: Grid { bay_m: 3.0, storey_m: 3.0 }, design: None };
+        let dress = Dress { materials: (0..9).map(material).collect(), upper: storeys, ground_floor: None };
+        let mut mesh = Mesh { slots: vec![7, 2, 7], ..Mesh::default() };
+        let names: Vec<String> = dress.for_mesh(&mut mesh).into_iter().map(|m| m.name).collect();
+        assert_eq!((mesh.slots, names), (vec![0, 1, 0], vec!["7".to_owned(), "2".to_owned()]));
+    }
+
+    #[test]
+    fn there_is_a_material_for_every_slot() {
+        let building = Building::new(1, trove_model::Polygon::default(), "apartments");
+        let (library, report) = (trove_model::AssetLibrary::default(), trove_model::Report::default());
+        let palette = Palette { library: &library, report: &report };
+        let dress = dress(&house(&building, Region::EastAsia), 20.0, &palette, &mut trove_model::Seed(1).random());
+        assert_eq!(dress.materials.len(), Slot::Plank as usize + 1);
+        assert_eq!(dress.materials[Slot::Glass as usize].name, "window glass");
+        assert_eq!(dress.materials[Slot::Lamp as usize].name, "lamp lens");
+        assert_eq!(dress.materials[Slot::LitRoom as usize].name, "lit room");
+    }
+
+    #[test]
+    fn the_same_flats_wear_what_people_build_there() {
+        let building = Building::new(1, trove_model::Polygon::default(), "apartments");
+        let worn = |region, random: &mut Random| {
+            let words = facade_words(&house(&building, region), "apartments", 20.0, random);
+            (0..8).map(|_| *random.pick(words).unwrap()).collect::<Vec<&str>>()
+        };
+        let mut random = trove_model::Seed(3).random();
+        assert!(worn(Region::EastAsia, &mut random).contains(&"tiled"));
+        assert!(worn(Region::TropicalAsia, &mut random).contains(&"public-flats"));
+        assert!(worn(Region::Mediterranean, &mut random).iter().all(|w| w.contains("plaster") || *w == "ornate"));
+        assert!(worn(Region::NorthAmerica, &mut random).iter().all(|w| *w != "tiled" && *w != "ornate"));
+    }
 }

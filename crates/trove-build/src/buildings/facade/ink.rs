@@ -155,7 +155,7 @@ impl Ink<'_> {
         let ahead = (to - from).normalize_or(DVec3::X);
         let side = ahead.cross(if ahead.z.abs() > 0.9 { DVec3::X } else { DVec3::Z }).normalize_or(DVec3::Y);
         let up = side.cross(ahead);
-        let corners = [side + up, up - side, -side - up, side - up].map(|d| d * thick_m / 2.0);
+        let corners = [side + up, side - up, -side - up, up - side].map(|d| d * thick_m / 2.0);
         for k in 0..4 {
             let (a, b) = (corners[k], corners[(k + 1) % 4]);
             self.face(slot, &[from + a, from + b, to + b, to + a]);

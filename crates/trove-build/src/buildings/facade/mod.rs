@@ -30,6 +30,9 @@ const LEAST_HOLE_M: f64 = 0.3;
 const SLAB_M: f64 = 0.22;
 /// Rooms take at most this share of what is behind a wall.
 const ROOM_SHARE: f64 = 0.42;
+/// Windows no further apart than this may share a room, up to a width, metres.
+const NARROW_PIER_M: f64 = 0.5;
+const WIDEST_ROOM_M: f64 = 9.5;
 /// Shallower walks behind columns are not built, metres.
 const LEAST_ARCADE_M: f64 = 1.2;
 /// Bays that stand out do so by this, metres.
@@ -56,6 +59,7 @@ struct Placed<'a> {
     high: DVec2,
     /// What of the building is its own, as seen from the front.
     room: [DVec2; 2],
+    bay_x: [f64; 2],
     storey: usize,
 }
 
@@ -129,9 +133,7 @@ impl<'b> Work<'_, 'b> {
         for (low, high, depth_m, openings) in pits {
             self.pit(low, high, depth_m, &openings, random);
         }
-        for opening in &placed {
-            self.fill(opening, random);
-        }
+        self.fill_all(&placed, random);
         if self.full {
             self.decorate(&placed, random);
         }
@@ -174,7 +176,7 @@ impl<'b> Work<'_, 'b> {
                 if (high - low).min_element() > LEAST_HOLE_M {
                     let top = origin.y + self.storey_m - SLAB_M;
                     let room = [DVec2::new(x0 + 0.02, origin.y + 0.03), DVec2::new(x1 - 0.02, top)];
-                    found.push(Placed { opening, low, high, room, storey });
+                    found.push(Placed { opening, low, high, room, bay_x: [x0, x1], storey });
                 }
             }
         }
@@ -276,9 +278,7 @@ impl<'b> Work<'_, 'b> {
         let openings: Vec<Placed<'b>> = openings.iter().filter_map(inside).collect();
         let cells = self.cells(&openings, [low.x + SEAM_M, high.x - SEAM_M]);
         self.skin(&outline, &[Row { y: [low.y + SEAM_M, high.y - SEAM_M], cells }]);
-        for opening in &openings {
-            self.fill(opening, random);
-        }
+        self.fill_all(&openings, random);
         self.ink.frame = own;
         if behind {
             self.columns(low, high);
@@ -300,6 +300,48 @@ impl<'b> Work<'_, 'b> {
         }
     }
 
+    /// Closes openings, which lie storey by storey from left to right, with rooms behind the glazed ones.
+    fn fill_all(&mut self, placed: &[Placed<'_>], random: &mut Random) {
+        for opening in placed {
+            self.fill(opening, random);
+        }
+        if !self.full {
+            return;
+        }
+        // Offices and shops have one room behind windows that hardly a pier parts.
+        let is_glazed = |p: &Placed<'_>| matches!(p.opening.filling, Filling::Window | Filling::GlassDoor);
+        let glazed: Vec<Placed<'_>> = placed.iter().copied().filter(is_glazed).collect();
+        let mut first = 0;
+        for i in 1..=glazed.len() {
+            let goes_on = glazed.get(i).is_some_and(|next| {
+                let (from, last) = (&glazed[first], &glazed[i - 1]);
+                matches!(self.design.interior, Interior::Office | Interior::Shop)
+                    && next.storey == last.storey
+                    && next.low.x - last.high.x < NARROW_PIER_M
+                    && next.high.x - from.low.x < WIDEST_ROOM_M
+            });
+            if goes_on {
+                continue;
+            }
+            let holes: Vec<Hole<'_>> = glazed[first..i].iter().map(|p| self.hole(p)).collect();
+            let room = self.room(&glazed[first..i]);
+            window::room(&mut self.ink, &holes, room, self.design, random);
+            first = i;
+        }
+    }
+
+    fn hole<'c>(&self, placed: &Placed<'c>) -> Hole<'c> {
+        Hole {
+            opening: placed.opening,
+            low: placed.low,
+            high: placed.high,
+            floor: self.floor(placed.storey),
+            bay_x: placed.bay_x,
+            wall: self.band.wall,
+            frame: if self.band.slot == Slot::GroundFloor { Slot::ShopFrame } else { Slot::Frame },
+        }
+    }
+
     /// Closes an opening and puts around it what belongs there.
     fn fill(&mut self, placed: &Placed<'_>, random: &mut Random) {
         let recess_m = f64::from(self.design.recess_m).min(ROOM_SHARE * self.wall.thick_m);
@@ -309,15 +351,13 @@ impl<'b> Work<'_, 'b> {
             let pane = ink::ring(low, high).map(|p| (p.extend(-recess_m), self.uv(p)));
             return self.ink.mapped(self.band.slot, &pane);
         }
-        let hole = Hole {
-            opening: placed.opening,
-            low,
-            high,
-            room: self.room(placed),
-            wall: self.band.wall,
-            frame: if self.band.slot == Slot::GroundFloor { Slot::ShopFrame } else { Slot::Frame },
-        };
+        let hole = self.hole(placed);
         window::fill(&mut self.ink, &hole, self.design, random);
+        let rise_m = low.y - self.band.floor_m;
+        if placed.opening.filling == Filling::Door && rise_m > 0.1 && self.ink.frame.set_back_m <= 0.0 {
+            let foot = DVec3::new(low.x - 0.15, self.band.bottom_m + 0.01, -0.02);
+            self.ink.block(Slot::Slab, foot, DVec3::new(high.x + 0.15, low.y - 0.006, 0.38));
+        }
         let plain = !self.wall.is_front;
         ornament::surround(&mut self.ink, &hole, self.design, plain, random);
         if placed.opening.is_shop(self.design.interior) {
@@ -330,10 +370,12 @@ impl<'b> Work<'_, 'b> {
         }
     }
 
-    /// The room behind an opening: as wide as its cell, within the building.
-    fn room(&self, placed: &Placed<'_>) -> Room {
-        let low = placed.room[0].min(placed.low - SEAM_M / 2.0);
-        let high = placed.room[1].max(placed.high + SEAM_M / 2.0);
+    /// The room behind openings: as wide as their cells, within the building.
+    fn room(&self, placed: &[Placed<'_>]) -> Room {
+        let low = |p: &Placed<'_>| p.room[0].min(p.low - SEAM_M / 2.0);
+        let high = |p: &Placed<'_>| p.room[1].max(p.high + SEAM_M / 2.0);
+        let low = placed.iter().map(low).fold(DVec2::INFINITY, DVec2::min);
+        let high = placed.iter().map(high).fold(DVec2::NEG_INFINITY, DVec2::max);
         let reveal_m = f64::from(self.design.recess_m) + self.ink.frame.set_back_m.max(0.0);
         let wanted_m = match self.design.interior {
             Interior::Home => 2.8,

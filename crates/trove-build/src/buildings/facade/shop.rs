@@ -18,14 +18,13 @@ pub(super) fn front(ink: &mut Ink<'_>, hole: &Hole<'_>, shares: &Fixtures, top: 
     let (low, high) = (hole.low, hole.high);
     let which = random.index(SIGNS[0] * SIGNS[1]);
     // The stall riser.
-    if low.y - hole.room.low.y > 0.25 {
-        ink.block(hole.frame, DVec3::new(low.x, hole.room.low.y, -0.02), DVec3::new(high.x, low.y - 0.07, 0.03));
+    if low.y - hole.floor > 0.25 {
+        ink.block(hole.frame, DVec3::new(low.x, hole.floor + 0.03, -0.02), DVec3::new(high.x, low.y - 0.07, 0.03));
     }
     let room_m = top - high.y;
     if signed && room_m > 0.45 {
         let tall = (room_m - 0.2).min(0.65);
-        let length_m = ink.frame.length_m;
-        let (left, right) = ((low.x - 0.1).max(0.05), (high.x + 0.9).min(length_m - 0.05).min(low.x + 3.4));
+        let (left, right) = (hole.bay_x[0] + 0.06, hole.bay_x[1] - 0.06);
         let foot = high.y + 0.12;
         let (from, to) = (DVec3::new(left, foot, -0.02), DVec3::new(right, foot + tall, 0.12));
         use super::ink::Side::{Bottom, Left, Right, Top};

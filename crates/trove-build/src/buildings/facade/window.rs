@@ -3,7 +3,8 @@
 use glam::{DVec2, DVec3};
 use trove_model::{FacadeDesign, Filling, Interior, Opening, Random};
 
-use super::ink::Ink;
+use super::ink::{Ink, ring};
+use super::skin::{Cell, Row, Vertex, skin};
 use crate::buildings::shell::Slot;
 
 /// Frames stand this far in front of their glass.
@@ -14,13 +15,15 @@ const FRAME_BACK_M: f64 = 0.02;
 const INNER_REVEAL_M: f64 = 0.08;
 /// Panes hang askew by this at most, radians (0.3°): each mirrors another piece of the sky.
 const ASKEW_RAD: f64 = 0.005;
+/// A room's front and back are cut this far from their edges, metres: less than openings keep from them.
+const SKIRT_M: f64 = 0.002;
 /// Shares of rooms with a light on.
 const LIT_SHARE: f64 = 0.3;
 /// Rooms' pictures across and up in their texture, and its size in metres.
 const BACKS: [usize; 2] = [4, 3];
 const BACK_M: DVec2 = DVec2::new(3.2, 2.6);
 
-/// The space behind an opening.
+/// The space behind openings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Room {
     /// Its front, around the opening.
@@ -38,7 +41,10 @@ pub(super) struct Hole<'a> {
     pub opening: &'a Opening,
     pub low: DVec2,
     pub high: DVec2,
-    pub room: Room,
+    /// World height of its storey's floor.
+    pub floor: f64,
+    /// Ends of its bay.
+    pub bay_x: [f64; 2],
     /// Of the wall around it.
     pub wall: Slot,
     pub frame: Slot,
@@ -50,17 +56,12 @@ impl Hole<'_> {
     }
 }
 
-/// Closes an opening.
+/// Closes an opening; behind glass a room has to follow.
 pub(super) fn fill(ink: &mut Ink<'_>, hole: &Hole<'_>, design: &FacadeDesign, random: &mut Random) {
     let recess_m = f64::from(design.recess_m);
     match hole.opening.filling {
-        Filling::Window | Filling::GlassDoor if hole.room.depth_m > 0.0 => {
-            glazing(ink, hole, design, random);
-            room(ink, hole, design, random);
-        }
         Filling::Window | Filling::GlassDoor => {
-            ink.tube([hole.wall; 4], hole.low, hole.high, [-recess_m - 0.1, 0.0]);
-            ink.pane(Slot::Dark, hole.low, hole.high, -recess_m - 0.1, true);
+            ink.tube([hole.wall; 4], hole.low, hole.high, [-recess_m - INNER_REVEAL_M, 0.0]);
             glazing(ink, hole, design, random);
         }
         Filling::Door => leaf(ink, hole, recess_m),
@@ -68,7 +69,7 @@ pub(super) fn fill(ink: &mut Ink<'_>, hole: &Hole<'_>, design: &FacadeDesign, ra
             ink.tube([hole.wall; 4], hole.low, hole.high, [-recess_m, 0.0]);
             // Turned by a right angle, so that ribs lie across.
             let corner = |p: DVec2| (p.extend(-recess_m), DVec2::new(p.y, p.x));
-            ink.mapped(Slot::Roller, &super::ink::ring(hole.low, hole.high).map(corner));
+            ink.mapped(Slot::Roller, &ring(hole.low, hole.high).map(corner));
         }
     }
 }
@@ -105,55 +106,108 @@ fn glazing(ink: &mut Ink<'_>, hole: &Hole<'_>, design: &FacadeDesign, random: &m
             let bend = tilt.dot(p - corner - size / 2.0).clamp(-0.012, 0.012);
             p.extend(glass_z + bend)
         };
-        ink.face(Slot::Glass, &super::ink::ring(corner - 0.004, corner + size + 0.004).map(at));
+        ink.face(Slot::Glass, &ring(corner - 0.004, corner + size + 0.004).map(at));
     }
 }
 
-/// The room behind a window, with what hangs in the window.
-fn room(ink: &mut Ink<'_>, hole: &Hole<'_>, design: &FacadeDesign, random: &mut Random) {
-    let room = hole.room;
+/// The room behind glazed openings of one storey, from left to right, with what hangs and stands in them.
+pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &FacadeDesign, random: &mut Random) {
     let front_z = -f64::from(design.recess_m) - INNER_REVEAL_M;
+    if room.depth_m <= 0.0 {
+        for hole in holes {
+            ink.pane(Slot::Dark, hole.low, hole.high, front_z, true);
+        }
+        return;
+    }
     let back_z = front_z - room.depth_m;
-    let interior = if hole.opening.is_shop(design.interior) { Interior::Shop } else { design.interior };
+    let is_shop = holes.iter().any(|h| h.opening.is_shop(design.interior));
+    let interior = match design.interior {
+        Interior::Shop if !is_shop => Interior::Home,
+        interior => interior,
+    };
     let lit = interior != Interior::Bare && random.chance(LIT_SHARE);
     let wall = if lit { Slot::LitRoom } else { *random.pick(&[Slot::RoomPale, Slot::RoomWarm]).unwrap_or(&Slot::Dark) };
     let ceiling = if lit { Slot::LitRoom } else { Slot::RoomPale };
-    ink.tube([hole.wall; 4], hole.low, hole.high, [front_z, 0.0]);
-    ink.frame(wall, [room.low, room.high], [hole.low, hole.high], front_z, false);
+    let cell = |i: usize| {
+        let left = if i == 0 { room.low.x + SKIRT_M } else { (holes[i - 1].high.x + holes[i].low.x) / 2.0 };
+        let next = holes.get(i + 1).map(|next| (holes[i].high.x + next.low.x) / 2.0);
+        Cell { x: [left, next.unwrap_or(room.high.x - SKIRT_M)], hole: Some([holes[i].low, holes[i].high]) }
+    };
+    let front = [room.low, room.high];
+    let row = Row { y: [room.low.y + SKIRT_M, room.high.y - SKIRT_M], cells: (0..holes.len()).map(cell).collect() };
+    plane(ink, front, row, front_z, false, wall, |p, _| p);
     // Where the building's corner is near, the sides run towards its bisector.
-    let front = super::ink::ring(room.low, room.high).map(|p| p.extend(front_z));
     let [left, right] = room.back_x;
-    let back = super::ink::ring(DVec2::new(left, room.low.y), DVec2::new(right, room.high.y)).map(|p| p.extend(back_z));
+    let back = [DVec2::new(left, room.low.y), DVec2::new(right, room.high.y)];
+    let rings = [(front, front_z), (back, back_z)].map(|([low, high], z)| ring(low, high).map(|p| p.extend(z)));
     for (k, slot) in [Slot::RoomFloor, wall, ceiling, wall].into_iter().enumerate() {
         let next = (k + 1) % 4;
-        ink.face(slot, &[front[k], front[next], back[next], back[k]]);
+        ink.face(slot, &[rings[0][k], rings[0][next], rings[1][next], rings[1][k]]);
     }
-    if interior == Interior::Bare || (lit && interior == Interior::Home) {
-        ink.face(wall, &back);
-    } else {
-        let row = match interior {
-            Interior::Office => 1,
-            Interior::Shop => 2,
-            _ => 0,
-        };
-        let cell = DVec2::new(random.index(BACKS[0]) as f64, f64::from(row)) * BACK_M;
-        let size = back[2] - back[0];
-        let uv = |p: DVec3| cell + ((p - back[0]).truncate() / size.truncate().max(DVec2::splat(0.01))) * BACK_M;
-        ink.mapped(Slot::RoomBack, &back.map(|p| (p, uv(p))));
-    }
-    hangings(ink, hole, interior, front_z - 0.05, random);
-    if interior == Interior::Shop {
-        display(ink, hole, front_z, random);
+    let pictures = ((right - left) / BACK_M.x).round().max(1.0);
+    let wide = (right - left - 2.0 * SKIRT_M) / pictures;
+    let cell = |i: usize| {
+        let at = |i: usize| left + SKIRT_M + wide * i as f64;
+        Cell { x: [at(i), at(i + 1)], hole: None }
+    };
+    let cells: Vec<Cell> = (0..pictures as usize).map(cell).collect();
+    let row = Row { y: [room.low.y + SKIRT_M, room.high.y - SKIRT_M], cells };
+    let bare = interior == Interior::Bare || (lit && interior == Interior::Home);
+    let kind = match interior {
+        Interior::Office => 1.0,
+        Interior::Shop => 2.0,
+        _ => 0.0,
+    };
+    let first = random.index(BACKS[0]);
+    let high = room.high.y - room.low.y;
+    let uv = |p: DVec2, middle: DVec2| {
+        let picture = ((middle.x - left) / wide).floor().clamp(0.0, pictures - 1.0);
+        let within = ((p.x - left) / wide - picture).clamp(0.0, 1.0);
+        let column = ((first + picture as usize) % BACKS[0]) as f64;
+        DVec2::new(column + within, kind + (p.y - room.low.y) / high) * BACK_M
+    };
+    let slot = if bare { wall } else { Slot::RoomBack };
+    plane(ink, back, row, back_z, true, slot, uv);
+    for hole in holes {
+        hangings(ink, hole, room, interior, front_z - 0.05, random);
+        if hole.opening.is_shop(design.interior) {
+            display(ink, hole, room, front_z, random);
+        }
     }
 }
 
+/// A rectangle parallel to the wall, of a row of cells; the texture coordinates come from a point and from the middle of
+/// the face that it is a corner of.
+fn plane(
+    ink: &mut Ink<'_>,
+    [low, high]: [DVec2; 2],
+    row: Row,
+    z: f64,
+    outwards: bool,
+    slot: Slot,
+    uv: impl Fn(DVec2, DVec2) -> DVec2,
+) {
+    let frame = ink.frame;
+    let place = |p: DVec2| frame.world(p.extend(z));
+    let corners = ring(low, high).map(|local| Vertex { world: place(local), local });
+    let outline = [0, 1, 2, 3].map(|k| vec![corners[k], corners[(k + 1) % 4]]);
+    skin(&outline, &[row], place, |face| {
+        let middle = face.iter().map(|v| v.local).sum::<DVec2>() / face.len() as f64;
+        let mut points: Vec<(DVec3, DVec2)> = face.iter().map(|v| (v.world, uv(v.local, middle))).collect();
+        if !outwards {
+            points.reverse();
+        }
+        ink.shell.face(slot, &points);
+    });
+}
+
 /// Curtains at the sides or all across, or a blind some way down.
-fn hangings(ink: &mut Ink<'_>, hole: &Hole<'_>, interior: Interior, z: f64, random: &mut Random) {
-    if hole.room.depth_m < 0.3 {
+fn hangings(ink: &mut Ink<'_>, hole: &Hole<'_>, room: Room, interior: Interior, z: f64, random: &mut Random) {
+    if room.depth_m < 0.3 {
         return;
     }
-    let low = (hole.low - 0.06).max(hole.room.low + 0.01);
-    let high = (hole.high + 0.06).min(hole.room.high - 0.01);
+    let low = (hole.low - 0.06).max(room.low + 0.01);
+    let high = (hole.high + 0.06).min(room.high - 0.01);
     let draw = random.unit();
     match interior {
         Interior::Home if draw < 0.3 => {
@@ -169,7 +223,8 @@ fn hangings(ink: &mut Ink<'_>, hole: &Hole<'_>, interior: Interior, z: f64, rand
                 pleats(ink, cloth, DVec2::new(x, low.y), DVec2::new(x + wide, high.y), z);
             }
         }
-        Interior::Office if draw < 0.45 => {
+        // Nobody draws blinds in a lobby.
+        Interior::Office if draw < 0.35 && hole.frame == Slot::Frame => {
             let down = random.unit() * random.unit();
             ink.pane(Slot::Blind, DVec2::new(low.x, high.y - (high.y - low.y) * (0.1 + 0.9 * down)), high, z, true);
         }
@@ -190,8 +245,8 @@ fn pleats(ink: &mut Ink<'_>, slot: Slot, low: DVec2, high: DVec2, z: f64) {
 }
 
 /// Goods on plinths behind a shop's window.
-fn display(ink: &mut Ink<'_>, hole: &Hole<'_>, front_z: f64, random: &mut Random) {
-    if hole.room.depth_m < 1.4 {
+fn display(ink: &mut Ink<'_>, hole: &Hole<'_>, room: Room, front_z: f64, random: &mut Random) {
+    if room.depth_m < 1.4 {
         return;
     }
     let goods = [Slot::Blind, Slot::CurtainWarm, Slot::Door, Slot::Stripe, Slot::Zinc];
@@ -199,7 +254,7 @@ fn display(ink: &mut Ink<'_>, hole: &Hole<'_>, front_z: f64, random: &mut Random
     while x < hole.high.x - 0.5 {
         let wide = random.range(0.25, 0.5);
         let (near, deep) = (front_z - random.range(0.25, 0.5), random.range(0.3, 0.4));
-        let foot = hole.low.y - 0.3_f64.min(hole.low.y - hole.room.low.y - 0.01);
+        let foot = hole.low.y - 0.3_f64.min(hole.low.y - room.low.y - 0.01);
         let plinth = foot + random.range(0.3, 0.6);
         let top = plinth + random.range(0.2, 0.7);
         ink.block(Slot::RoomPale, DVec3::new(x, foot, near - deep), DVec3::new(x + wide, plinth, near));
