@@ -12,7 +12,7 @@ const EAVES_M: f64 = 0.4;
 const EAVES_DROP_M: f64 = 0.3;
 const EAVES_THICK_M: f64 = 0.16;
 /// Verges reach out and in this far, and stand this much above the roof, metres.
-const VERGE_M: f64 = 0.2;
+const VERGE_M: f64 = 0.3;
 const VERGE_IN_M: f64 = 0.12;
 const VERGE_ABOVE_M: f64 = 0.05;
 /// Eaves and verges stay this far from what is next to them, metres.

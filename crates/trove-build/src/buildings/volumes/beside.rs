@@ -119,9 +119,8 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
 
 /// Whether a volume's roof reaches out over its walls.
 fn has_eaves(volume: &Volume<'_>) -> bool {
-    use RoofShape::{Gabled, Gambrel, HalfHipped, Hipped, Mansard, Round};
-    let reaches_out = matches!(volume.roof, Gabled | Gambrel | HalfHipped | Hipped | Mansard | Round);
-    reaches_out && !volume.building.part && !volume.is_canopy
+    let reaches_out = matches!(volume.roof, RoofShape::Gabled | RoofShape::HalfHipped | RoofShape::Hipped);
+    reaches_out && !volume.building.part && !volume.is_canopy && volume.bottom_m <= 0.0
 }
 
 /// Where another edge runs along an edge against its direction: from, to, and how far outside.

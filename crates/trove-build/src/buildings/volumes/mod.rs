@@ -26,6 +26,10 @@ const LEAST_M2: f64 = 4.0;
 const CLEAR_SHARE: f64 = 0.5;
 /// A building that starts this high stands over the road, not on it.
 const HEADROOM_M: f64 = 4.0;
+/// Height of a passage through a building, of what stands beside it, and how much of the building either side is, metres.
+const PASSAGE_M: f64 = 4.2;
+const UNDER_M: f64 = PASSAGE_M - 0.01;
+const PASSAGE_SIDE_SHARE: f64 = 0.08;
 /// An outline without a part on it is built only if it is this share of the whole.
 const REST_SHARE: f64 = 0.1;
 /// Thickness of a canopy's slab, metres.
@@ -121,9 +125,26 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed
             let mut shapes = shapes(whole, seen_m, &parts, &around, &mut random, report);
             let mut volumes = Vec::new();
             for shape in &mut shapes {
-                for footprint in clear(std::mem::take(&mut shape.footprint), shape, plot.streets, report) {
-                    let posts = if shape.is_canopy { posts(&footprint, plot.streets) } else { Vec::new() };
-                    volumes.push(Volume { footprint: without_straight_points(footprint), posts, ..shape.clone() });
+                let whole = std::mem::take(&mut shape.footprint);
+                let left = clear(whole.clone(), shape, plot.streets, report);
+                let upper = is_passage(&whole, &left, shape, plot.drive).then(|| {
+                    report.note(
+                        Outcome::Guessed,
+                        "passage through a building where a road crosses it",
+                        name(shape.building),
+                    );
+                    let upper = Volume { footprint: whole, bottom_m: PASSAGE_M, ..shape.clone() };
+                    *shape = Volume {
+                        is_built_on: true,
+                        ..Volume::new(shape.building, 0.0, UNDER_M, UNDER_M, RoofShape::Flat)
+                    };
+                    upper
+                });
+                let lower = left.into_iter().map(|footprint| Volume { footprint, ..shape.clone() });
+                for volume in lower.chain(upper) {
+                    let posts = if volume.is_canopy { posts(&volume.footprint, plot.streets) } else { Vec::new() };
+                    let footprint = without_straight_points(volume.footprint);
+                    volumes.push(Volume { footprint, posts, ..volume });
                 }
             }
             let floor_m = lowest_ground_m(&volumes, plot.ground) + KERB_M;
@@ -242,6 +263,14 @@ fn clear(footprint: Polygon, volume: &Volume<'_>, keep_clear: &RoadSurfaces, rep
     let mut left = difference(&whole, &road);
     left.retain(|p| p.area_m2() >= LEAST_M2);
     left
+}
+
+/// Whether a road goes through a building, which goes on above it: it parts a high one in two, and nobody drove there.
+fn is_passage(whole: &Polygon, left: &[Polygon], volume: &Volume<'_>, drive: &Drive) -> bool {
+    let is_large = |p: &&Polygon| p.area_m2() > PASSAGE_SIDE_SHARE * whole.area_m2();
+    let is_high = volume.bottom_m <= 0.0 && volume.eaves_m > PASSAGE_M + STOREY_M && !volume.is_canopy;
+    let path = || drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
+    is_high && left.iter().filter(is_large).count() > 1 && !path().any(|p| whole.contains(p))
 }
 
 /// Whether an edge of the footprint comes to lie on the road, to half a metre.

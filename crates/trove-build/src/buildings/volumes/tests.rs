@@ -102,3 +102,13 @@ fn a_carport_is_a_slab_on_posts() {
     let volume = &houses[0].volumes[0];
     assert!(volume.is_canopy && volume.bottom_m > 2.2 && volume.posts.len() >= 4, "{volume:?}");
 }
+
+#[test]
+fn a_road_through_a_high_building_leaves_a_passage() {
+    // The made-up street runs from y = −4 to 12; the vehicle stays between x = 0 and 45.
+    let across = |height_m| square(1, 60.0, 44.0, [12.0, 60.0], height_m);
+    let found = built(&[across(15.0)]);
+    let spans: Vec<String> = found.iter().map(|f| format!("{:.2} {:.2}", f.1, f.2)).collect();
+    assert_eq!(spans, ["0.00 4.19", "0.00 4.19", "4.20 15.00"]);
+    assert!(built(&[across(6.0)]).iter().all(|f| f.1 == 0.0));
+}
