@@ -29,7 +29,6 @@ mod surroundings;
 mod testing;
 mod vegetation;
 mod views;
-mod wall_pieces;
 mod weather;
 
 pub use agreement::OnDisagreement;

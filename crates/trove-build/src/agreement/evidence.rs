@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Bounds, Drive, Keyframe, Road, StreetMap, drives_on_left};
+use trove_model::{Bounds, Drive, Keyframe, Polygon, Road, StreetMap, drives_on_left};
 
 use super::correction::Correction;
+use super::walls::{WallPiece, wall_pieces};
 use crate::segments::SegmentIndex;
-use crate::wall_pieces::{WallPiece, wall_pieces};
 
 /// Distance of places on a road, metres.
 const STEP_M: f64 = 4.0;
@@ -19,6 +19,9 @@ const PARALLEL: f64 = 0.94;
 /// A road's lanes are looked for within this; they lie side by side with gaps up to this, metres.
 const LANE_REACH_M: f64 = 16.0;
 const LANE_GAP_M: f64 = 6.0;
+/// A carriageway is so wide, metres.
+const MIN_WIDTH_M: f64 = 4.0;
+const MAX_WIDTH_M: f64 = 22.0;
 /// A wall's outline is looked for within this, metres.
 const OUTLINE_REACH_M: f64 = 8.0;
 /// The vehicle's own road is looked for within this, metres.
@@ -34,6 +37,8 @@ const NEAR_M: f64 = 100.0;
 /// The recorded side, which does not move.
 pub(super) struct Evidence {
     lanes: SegmentIndex,
+    /// Edges of what can be driven on, for places whose lanes have no centre lines.
+    edges: SegmentIndex,
     /// Positions of the vehicle and where it looks.
     path: Vec<(DVec2, DVec2)>,
     walls: Vec<WallPiece>,
@@ -82,8 +87,7 @@ impl<'a> Movable<'a> {
     pub(super) fn new(map: &'a StreetMap) -> Self {
         let roads: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel).collect();
         let low = map.buildings.iter().filter(|b| b.min_height_m < *WALL_M.start());
-        let closed = |ring: &Vec<DVec2>| ring.iter().chain(ring.first()).copied().collect();
-        let rings: Vec<Vec<DVec2>> = low.flat_map(|b| b.footprint.rings()).map(closed).collect();
+        let rings: Vec<Vec<DVec2>> = low.flat_map(|b| b.footprint.rings()).map(|ring| closed(ring)).collect();
         Self {
             lines: SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice())),
             roads,
@@ -92,19 +96,24 @@ impl<'a> Movable<'a> {
     }
 }
 
+/// A ring with its first place again at its end.
+fn closed(ring: &[DVec2]) -> Vec<DVec2> {
+    ring.iter().chain(ring.first()).copied().collect()
+}
+
 impl Evidence {
     pub(super) fn new(drive: &Drive, bounds: Bounds) -> Self {
         let lanes = drive.lane_map.iter().flat_map(|map| &map.lanes);
+        let drivable = drive.lane_map.iter().flat_map(|map| &map.drivable);
+        let edges: Vec<Vec<DVec2>> = drivable.flat_map(Polygon::rings).map(|ring| closed(ring)).collect();
         let pose = |k: &Keyframe| {
             let forward = k.world_from_ego.rotation * DVec3::X;
             Some((k.world_from_ego.translation.truncate(), forward.truncate().try_normalize()?))
         };
-        let walls = |k: &Keyframe| {
-            let wheels_m = k.world_from_ego.translation.z;
-            wall_pieces(k, WALL_REACH_M, |p| Some(p.z - wheels_m).filter(|above_m| WALL_M.contains(above_m)))
-        };
+        let walls = |k: &Keyframe| wall_pieces(k, WALL_REACH_M, WALL_M);
         Self {
             lanes: SegmentIndex::new(lanes.map(|lane| lane.centreline.as_slice())),
+            edges: SegmentIndex::new(edges.iter().map(Vec::as_slice)),
             path: drive.keyframes.iter().filter_map(pose).collect(),
             walls: drive.keyframes.iter().flat_map(walls).collect(),
             bounds,
@@ -121,7 +130,7 @@ impl Evidence {
     /// Where a corrected map should still move.
     pub(super) fn pulls(&self, map: &Movable, correction: &Correction) -> Pulls {
         Pulls {
-            roads: map.roads.iter().flat_map(|road| self.along_road(road, correction)).collect(),
+            roads: (0..map.roads.len()).flat_map(|road| self.along_road(road, map, correction)).collect(),
             path: self.path.iter().filter_map(|&pose| self.at_pose(pose, map, correction)).collect(),
             facades: self.at_walls(map, correction),
         }
@@ -133,8 +142,8 @@ impl Evidence {
         if near_m.is_finite() { 1.0 / (1.0 + (near_m / NEAR_M).powi(2)) } else { 1.0 }
     }
 
-    fn along_road(&self, road: &Road, correction: &Correction) -> Vec<Pull> {
-        let mut pulls = Vec::new();
+    fn along_road(&self, number: usize, map: &Movable, correction: &Correction) -> Vec<Pull> {
+        let (road, mut pulls) = (map.roads[number], Vec::new());
         for pair in road.centreline.windows(2) {
             let [a, b] = [pair[0], pair[1]].map(|p| correction.apply(p));
             let Some(ahead) = (b - a).try_normalize() else { continue };
@@ -144,7 +153,14 @@ impl Evidence {
                 if !self.bounds.contains(at) {
                     continue;
                 }
-                if let Some(distance_m) = self.lanes_middle_m(at, ahead, road.oneway) {
+                let is_alone = || {
+                    let others =
+                        map.lines.around(correction.undo(at), LANE_REACH_M).into_iter().filter(|o| o.0 != number);
+                    others.filter_map(|(_, [a, b])| (b - a).try_normalize()).all(|o| o.dot(ahead).abs() < PARALLEL)
+                };
+                let middle_m = self.lanes_middle_m(at, ahead, road.oneway);
+                let middle_m = middle_m.or_else(|| self.drivable_middle_m(at, ahead).filter(|_| is_alone()));
+                if let Some(distance_m) = middle_m {
                     let weight = self.nearness(at) * (a.distance(b) / count / ALIKE_M);
                     pulls.push(Pull { at, along: ahead.perp(), distance_m, weight });
                 }
@@ -180,6 +196,26 @@ impl Evidence {
         }
         let of_both = crossings[first..=last].iter().any(|c| c.1) && crossings[first..=last].iter().any(|c| !c.1);
         (oneway || of_both).then_some((crossings[first].0 + crossings[last].0) / 2.0)
+    }
+
+    /// How far to the left the middle between the edges of what can be driven on is; `None` where a place lies outside or
+    /// the edges run otherwise, as at junctions. A street with two carriageways has one such middle for both.
+    fn drivable_middle_m(&self, at: DVec2, ahead: DVec2) -> Option<f64> {
+        let (mut left_m, mut right_m) = (None::<(f64, bool)>, None::<(f64, bool)>);
+        for (_, [a, b]) in self.edges.around(at, LANE_REACH_M) {
+            let (from, to) = ((a - at).dot(ahead), (b - at).dot(ahead));
+            if (from < 0.0) == (to < 0.0) {
+                continue;
+            }
+            let crossing_m = (a.lerp(b, from / (from - to)) - at).dot(ahead.perp());
+            let is_parallel = (to - from).abs() > PARALLEL * a.distance(b);
+            let side = if crossing_m > 0.0 { &mut left_m } else { &mut right_m };
+            if crossing_m.abs() < LANE_REACH_M && side.is_none_or(|(other_m, _)| crossing_m.abs() < other_m.abs()) {
+                *side = Some((crossing_m, is_parallel));
+            }
+        }
+        let ((left_m, left), (right_m, right)) = left_m.zip(right_m)?;
+        (left && right && (MIN_WIDTH_M..MAX_WIDTH_M).contains(&(left_m - right_m))).then_some((left_m + right_m) / 2.0)
     }
 
     /// How far the vehicle is beside the lanes that lead its way, on the road that it drives along.

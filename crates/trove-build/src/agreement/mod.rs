@@ -3,6 +3,7 @@
 mod correction;
 mod evidence;
 mod fit;
+mod walls;
 
 use glam::DVec2;
 use trove_model::{Bounds, Drive, Outcome, Report, StreetMap};

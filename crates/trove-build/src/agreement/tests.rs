@@ -99,6 +99,24 @@ fn a_map_does_not_slide_along_a_straight_road() {
 }
 
 #[test]
+fn a_map_is_laid_between_the_edges_of_what_can_be_driven_on() {
+    let mut drive = drive(&STREETS);
+    let lane_map = drive.lane_map.as_mut().unwrap();
+    lane_map.lanes.clear();
+    lane_map.drivable = STREETS[..2]
+        .iter()
+        .map(|ends| {
+            let [a, b] = ends.map(DVec2::from_array);
+            let side = (b - a).normalize().perp() * 5.0;
+            Polygon::simple(vec![a - side, b - side, b + side, a + side])
+        })
+        .collect();
+    let right = map(&STREETS[..2], 0.0);
+    let (found, _) = checked(&drive, &moved(&right, 2.0, -1.5, 0.4));
+    assert!(apart_m(&found, &right) < 0.15, "{}", apart_m(&found, &right));
+}
+
+#[test]
 fn a_map_is_laid_on_the_walls_that_the_lidar_saw() {
     let mut drive = Drive { lane_map: None, ..on_the_right() };
     let mut random = Seed(5).random();

@@ -1,12 +1,13 @@
 //! Walls that the LiDAR saw, a piece a cube: from above a wall is a line, while leaves fill the plane.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use trove_model::{Cuboid, Keyframe, LidarClass};
 
 /// Side of the cubes that geometry is judged in, metres.
-pub(crate) const CUBE_M: f64 = 1.5;
+const CUBE_M: f64 = 1.5;
 /// Fewer points in a cube tell nothing.
 const MIN_POINTS: f64 = 6.0;
 /// A wall from above: at most this thick (standard deviation), at most this share of its length, and so long, metres.
@@ -16,14 +17,10 @@ const MIN_RUN_M: f64 = 0.2;
 
 /// A cube in which the points form an upright plane.
 #[derive(Clone, Copy)]
-pub(crate) struct WallPiece {
+pub(super) struct WallPiece {
     pub position: DVec2,
     /// Along the wall.
     pub axis: DVec2,
-    /// Highest point above the ground.
-    pub top_m: f64,
-    /// Where it was seen from.
-    pub origin: DVec2,
 }
 
 /// Sums of the points in a cube, seen from above and from its corner.
@@ -33,12 +30,11 @@ struct Sums {
     sum: DVec2,
     squares: DVec2,
     product: f64,
-    top_m: f64,
 }
 
-/// The pieces of wall that a keyframe's sweep shows within `reach_m`, in a fixed order; `above_m` is a point's height above
-/// the ground, `None` for one that is no structure. Points on annotated objects are left out.
-pub(crate) fn wall_pieces(keyframe: &Keyframe, reach_m: f64, above_m: impl Fn(DVec3) -> Option<f64>) -> Vec<WallPiece> {
+/// The pieces of wall that a keyframe's sweep shows within `reach_m` and so high above the vehicle's wheels, in a fixed order.
+/// Points on annotated objects are left out.
+pub(super) fn wall_pieces(keyframe: &Keyframe, reach_m: f64, above_wheels_m: RangeInclusive<f64>) -> Vec<WallPiece> {
     let Some(sweep) = &keyframe.lidar else { return Vec::new() };
     let boxes: Vec<Cuboid> = keyframe.boxes.iter().map(|b| b.cuboid.grown(0.25)).collect();
     let labels = (sweep.classes.len() == sweep.points_world.len()).then_some(&sweep.classes);
@@ -48,8 +44,8 @@ pub(crate) fn wall_pieces(keyframe: &Keyframe, reach_m: f64, above_m: impl Fn(DV
         if labels.is_some_and(|l| l[i] != LidarClass::Manmade) || position.distance(sweep.origin_world) > reach_m {
             continue;
         }
-        let Some(above_m) = above_m(position) else { continue };
-        if boxes.iter().any(|b| b.contains(position)) {
+        let above_m = position.z - keyframe.world_from_ego.translation.z;
+        if !above_wheels_m.contains(&above_m) || boxes.iter().any(|b| b.contains(position)) {
             continue;
         }
         let key = (position / CUBE_M).floor().as_ivec3();
@@ -59,15 +55,13 @@ pub(crate) fn wall_pieces(keyframe: &Keyframe, reach_m: f64, above_m: impl Fn(DV
         sums.sum += p;
         sums.squares += p * p;
         sums.product += p.x * p.y;
-        sums.top_m = sums.top_m.max(above_m);
     }
-    let origin = sweep.origin_world.truncate();
-    cubes.iter().filter_map(|(key, sums)| sums.wall(DVec3::from_array(key.map(f64::from)) * CUBE_M, origin)).collect()
+    cubes.iter().filter_map(|(key, sums)| sums.wall(DVec3::from_array(key.map(f64::from)) * CUBE_M)).collect()
 }
 
 impl Sums {
     /// The wall in a cube, if its points form a line seen from above.
-    fn wall(&self, corner: DVec3, origin: DVec2) -> Option<WallPiece> {
+    fn wall(&self, corner: DVec3) -> Option<WallPiece> {
         if self.count < MIN_POINTS {
             return None;
         }
@@ -79,6 +73,6 @@ impl Sums {
         let axis = DVec2::from_angle((2.0 * across).atan2(spread.x - spread.y) / 2.0);
         let is_wall =
             run_m >= MIN_RUN_M && thickness_m <= MAX_THICKNESS_M && thickness_m <= MAX_THICKNESS_SHARE * run_m;
-        is_wall.then_some(WallPiece { position: corner.truncate() + mean, axis, top_m: self.top_m, origin })
+        is_wall.then_some(WallPiece { position: corner.truncate() + mean, axis })
     }
 }
