@@ -122,7 +122,7 @@ mod tests {
         assert!(covers(-1.5, 52.0));
 
         let ring: Vec<[f64; 2]> =
-            (0..=16).map(|i| (DVec2::from_angle(i as f64 * 0.392_699_081) * 6.0).to_array()).collect();
+            (0..=16).map(|i| (DVec2::from_angle(i as f64 * std::f64::consts::FRAC_PI_8) * 6.0).to_array()).collect();
         let mut ring = road(4, &ring);
         ring.centreline[16] = ring.centreline[0];
         let roads = [ring, road(5, &[[6.0, 0.0], [60.0, 0.0]])];

@@ -12,6 +12,7 @@ use super::decks::{self, Deck, Trench};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
+use crate::distance_field::DistanceField;
 use crate::plane::{closed, difference, grown, intersection, rectangle, strip, union};
 use crate::plane_raster::PlaneRaster;
 
@@ -124,7 +125,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     }
     let parked = evidence::parked(drive);
     let lots = map.map(|m| car_parks(m, &recorded, bounds)).unwrap_or_default();
-    let carriageway = intersection(&with_bays(carriageway, &parked, &lots), &whole);
+    let carriageway = intersection(&with_bays(carriageway, &parked, &lots, bounds), &whole);
     let carriageway = without_islands(without_specks(carriageway, ISLAND_M2), map, bounds);
 
     // Walkways of the dataset, bands along the other roads, footpaths.
@@ -187,20 +188,21 @@ fn car_parks(map: &StreetMap, recorded: &PlaneRaster, bounds: Bounds) -> Vec<Pol
 }
 
 /// The carriageway with bays for the vehicles that were parked beside it, and the car parks that it touches.
-fn with_bays(carriageway: Vec<Polygon>, parked: &[Polygon], lots: &[Polygon]) -> Vec<Polygon> {
+fn with_bays(carriageway: Vec<Polygon>, parked: &[Polygon], lots: &[Polygon], bounds: Bounds) -> Vec<Polygon> {
     if parked.is_empty() && lots.is_empty() {
         return carriageway;
     }
-    let reach = grown(&carriageway, BAY_REACH_M);
-    let beside = |p: &&Polygon| reach.iter().any(|r| r.contains(p.centroid()));
-    let touches = |p: &&Polygon| p.exterior.iter().any(|&v| reach.iter().any(|r| r.contains(v)));
+    let road_m = DistanceField::to(carriageway.iter().cloned(), bounds, 1.0);
+    let beside = |p: &&Polygon| road_m.at(p.centroid()) < BAY_REACH_M;
+    let touches = |p: &&Polygon| p.exterior.iter().any(|&v| road_m.at(v) < BAY_REACH_M);
     let bays: Vec<Polygon> = parked.iter().filter(beside).cloned().collect();
     let lots: Vec<Polygon> = lots.iter().filter(touches).cloned().collect();
     let bays = union(&[grown(&union(&bays), CLEARANCE_M), lots].concat());
     if bays.is_empty() {
         return carriageway;
     }
-    let filled = closed(&union(&[carriageway.clone(), bays.clone()].concat()), BAY_GAP_M);
+    let road = intersection(&carriageway, &grown(&bays, 4.0 * BAY_GAP_M));
+    let filled = closed(&union(&[road, bays.clone()].concat()), BAY_GAP_M);
     let near = intersection(&filled, &grown(&bays, BAY_GAP_M));
     union(&[carriageway, bays, near].concat())
 }

@@ -220,7 +220,10 @@ mod tests {
         StreetMap { roads, ..StreetMap::default() }
     }
 
-    fn levels_of(map: &StreetMap, report: &Report) -> (Vec<(i64, f64)>, Vec<(i64, f64)>) {
+    /// Ways on the ground with their lengths, and above it with their heights.
+    type Ways = Vec<(i64, f64)>;
+
+    fn levels_of(map: &StreetMap, report: &Report) -> (Ways, Ways) {
         let bounds = Bounds::square(DVec2::ZERO, 500.0);
         let levels = levels(map, &PlaneRaster::new(bounds, 1.0), bounds, report);
         let length = |line: &[DVec2]| line.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
