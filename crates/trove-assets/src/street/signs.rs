@@ -42,7 +42,7 @@ pub(super) fn assets() -> Vec<Asset> {
         sign(&format!("sign/us/speed-{limit}"), vec![board(vec2(0.61, 0.76), 2.45, us_speed_limit(&limit.to_string()))])
     });
     #[rustfmt::skip]
-    let others: [fn() -> Asset; 21] = [
+    let others: [fn() -> Asset; 20] = [
         || sign("sign/us/stop", vec![stop()]),
         || sign("sign/us/yield", vec![give_way(true)]),
         || sign("sign/us/one-way-left", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(PI))]),
@@ -62,7 +62,6 @@ pub(super) fn assets() -> Vec<Asset> {
         || sign("sign/warning", vec![warning()]),
         || sign("sign/bus-stop", vec![board(vec2(0.4, 0.55), 2.6, bus("BUS", vec3(0.55, 0.4, 0.02), BLACK))]),
         || sign("sign/haltestelle", vec![disc(0.25, 2.6, haltestelle())]),
-        direction,
         street_name,
     ];
     let others = others.par_iter().map(|sign| sign());
@@ -348,40 +347,6 @@ fn parking() -> Picture {
         let rim = (vec2(0.3, 0.3) - p.abs()).min_element();
         choose(writing.distance(p / 0.38) < 0.1 || (0.012..0.028).contains(&rim), WHITE, BLUE)
     })
-}
-
-/// An arrow that points to a direction, 0 to the right.
-fn arrow(ground: Vec3, ink: Vec3, turn_rad: f32) -> Picture {
-    Box::new(move |p| {
-        let q = Vec2::from_angle(-turn_rad).rotate(p);
-        let shaft = q.x.abs() < 0.26 && q.y.abs() < 0.016;
-        let head = (0.16..0.27).contains(&q.x) && (q.y.abs() - (0.27 - q.x) * 0.55).abs() < 0.018;
-        choose(shaft || head, ink, ground)
-    })
-}
-
-/// A large board over two posts with places and arrows.
-fn direction() -> Asset {
-    let mut model = Model::default();
-    let steel = model.slot(galvanised(), &[]);
-    let back = model.slot(painted(Vec3::splat(0.27)), &[]);
-    for y in [-0.75, 0.75] {
-        model.add(steel, post(vec3(0.0, y, 0.0), 0.057, 3.6, 16));
-    }
-    let size = vec2(2.4, 1.5);
-    let words = [Lettering::new("CENTRE"), Lettering::new("HARBOUR"), Lettering::new("AIRPORT")];
-    let picture = Box::new(move |p: Vec2| {
-        let rim = (size / 2.0 - p.abs()).min_element();
-        let rows = words.iter().enumerate().any(|(i, word)| {
-            let at = vec2(0.12, 0.42 - 0.42 * i as f32);
-            let turn = [FRAC_PI_2, 0.0, PI][i];
-            let pointer = arrow(Vec3::ZERO, Vec3::ONE, turn)((p - vec2(-0.95, at.y)) * 1.7).x > 0.5;
-            word.distance((p - at) / 0.22) < 0.085 || pointer
-        });
-        choose(rows || (0.02..0.045).contains(&rim), WHITE, GREEN)
-    });
-    mount(&mut model, back, "sign/direction", vec![board(size, 2.85, picture)], vec2(0.0, 0.08));
-    model.asset("sign/direction", Kind::TrafficSign, Class::TrafficSign)
 }
 
 /// An advertisement with no words in it.

@@ -67,8 +67,8 @@ fn lamps<'r>(
             continue;
         }
         let models = habits.lamps[usize::from(!main)];
-        let square = (kerb.position / 200.0).floor();
-        let draw = seed.nth(square.x as i64 as u64).nth(square.y as i64 as u64).random().index(models.len());
+        // A street's lamps are alike on both its sides.
+        let draw = seed.child(road.map_or("", |r| &r.name)).random().index(models.len());
         if yard.place_at_kerb(Kind::StreetLamp, models[draw], kerb, Source::MadeUp, report) {
             since_m = 0.0;
         }

@@ -30,8 +30,11 @@ const CROSSING_REACH_M: f64 = 14.0;
 
 /// Signs of priority, entry and crossings, then those along the kerbs.
 pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
+    let is_priority = |kind| matches!(kind, FurnitureKind::StopSign | FurnitureKind::GiveWaySign);
+    let furniture = yard.around.map.iter().flat_map(|m| &m.furniture);
+    let mapped: Vec<DVec2> = furniture.filter(|f| is_priority(f.kind)).map(|f| f.position).collect();
     for junction in junctions.iter().filter(|j| j.arms.len() > 2) {
-        if !junction.signalled {
+        if !junction.signalled && !mapped.iter().any(|p| p.distance(junction.centre) < MAPPED_REACH_M) {
             priority(junction, yard, report);
         }
         for arm in junction.arms.iter().filter(|a| a.road.oneway && !a.road.roundabout) {
@@ -59,12 +62,6 @@ fn at_kerb(
 
 /// Who comes from a lesser road stops or gives way; among equals America stops, and Europe gives way to the right.
 fn priority(junction: &Junction<'_>, yard: &mut Yard<'_, '_, '_>, report: &Report) {
-    let is_priority = |kind| matches!(kind, FurnitureKind::StopSign | FurnitureKind::GiveWaySign);
-    let furniture = yard.around.map.iter().flat_map(|m| &m.furniture);
-    let near = |p: DVec2| p.distance(junction.centre) < MAPPED_REACH_M;
-    if furniture.into_iter().any(|f| is_priority(f.kind) && near(f.position)) {
-        return;
-    }
     let american = yard.habits.signs == Signs::American;
     let Some(main) = junction.arms.iter().map(|a| a.road.kind).min() else { return };
     // A road goes straight on over the junction or ends at it.

@@ -178,6 +178,19 @@ fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
 }
 
 #[test]
+fn a_tram_s_wire_follows_its_track_between_poles_on_both_sides() {
+    let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
+    map.lines = vec![line(LineKind::Tram, &[[-150.0, 0.0], [150.0, 0.0]])];
+    let found = furnished(BERLIN, &map);
+    let poles: Vec<DVec3> = found.scenery.iter().filter(|(id, ..)| id == "utility-pole/a").map(|s| s.1).collect();
+    assert!(poles.iter().any(|p| p.y > 3.0) && poles.iter().any(|p| p.y < -3.0), "{poles:?}");
+    let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
+    let points = wires.mesh.positions.iter().map(|p| wires.world_from_mesh.transform_point3(p.as_dvec3()));
+    assert!(points.clone().all(|p| p.z > 5.0));
+    assert!(points.filter(|p| p.y.abs() < 0.02).count() > 30);
+}
+
+#[test]
 fn a_fence_stands_along_its_line_and_is_open_where_a_path_crosses_it() {
     let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
     map.lines = vec![line(LineKind::Fence, &[[-60.0, 40.0], [60.0, 40.0], [60.0, 80.0]])];

@@ -1,4 +1,4 @@
-//! Utility poles with their wires: along mapped power lines, and along side streets where the region has them.
+//! Wires and their poles: along mapped power lines, over trams, and along side streets where the region has them.
 
 use std::sync::Arc;
 
@@ -27,6 +27,12 @@ const JOINTS: usize = 10;
 const INSULATOR: &str = "insulator";
 /// Parts of it nearer than this are one insulator, metres.
 const INSULATOR_M: f32 = 0.15;
+/// A tram's wire hangs this high over the track, its holders rise by so much to their poles, every so many metres; poles
+/// stand within reach of the track, metres.
+const TRAM_WIRE_M: f64 = 5.6;
+const TRAM_RISE_M: f64 = 0.9;
+const TRAM_SPAN_M: f64 = 25.0;
+const TRAM_REACH_M: f64 = 14.0;
 /// A kerb's road is at most this far from it, metres.
 const ROAD_REACH_M: f64 = 12.0;
 
@@ -50,6 +56,9 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
             .map(|i| pole(at(i), at(i + 1) - at(i.saturating_sub(1)), Source::Mapped, yard, report));
         let poles: Vec<Option<Pole>> = poles.collect();
         pieces.extend(strung(&poles, yard, report));
+    }
+    for line in map.lines.iter().filter(|l| l.kind == LineKind::Tram) {
+        pieces.extend(over_track(&line.line, yard, report));
     }
     for thing in map.furniture.iter().filter(|f| f.kind == FurnitureKind::UtilityPole) {
         if !yard.has_near(Kind::UtilityPole, thing.position, 3.0) {
@@ -151,6 +160,11 @@ fn strung(poles: &[Option<Pole>], yard: &Yard<'_, '_, '_>, report: &Report) -> O
             }
         }
     }
+    piece(mesh, origin)
+}
+
+/// Wires as stuff of no class: too thin to be counted; `None` without any.
+fn piece(mesh: Mesh, origin: DVec3) -> Option<Piece> {
     (!mesh.triangles.is_empty()).then(|| Piece {
         mesh: Arc::new(mesh),
         world_from_mesh: DAffine3::from_translation(origin),
@@ -159,6 +173,47 @@ fn strung(poles: &[Option<Pole>], yard: &Yard<'_, '_, '_>, report: &Report) -> O
         kind: None,
         asset: String::new(),
     })
+}
+
+/// The contact wire over a tram's track, held between poles on both sides of the street where there is room for them.
+fn over_track(track: &[DVec2], yard: &mut Yard<'_, '_, '_>, report: &Report) -> Option<Piece> {
+    let around = yard.around;
+    let places: Vec<DVec2> = spaced(track, TRAM_SPAN_M).into_iter().filter(|p| around.bounds.contains(*p)).collect();
+    let over = |p: &DVec2| p.extend(around.stand.surface_m(*p) + TRAM_WIRE_M);
+    let origin = over(places.first()?);
+    let mut mesh = Mesh::default();
+    for pair in places.windows(2) {
+        if !is_open(pair[0], pair[1], yard) {
+            continue;
+        }
+        tube(&mut mesh, [over(&pair[0]), over(&pair[1])].into_iter().map(|p| (p - origin).as_vec3()));
+        let across = (pair[1] - pair[0]).normalize_or_zero().perp();
+        let kerbs = around.kerbs.near(pair[0], TRAM_REACH_M);
+        let sides = [across, -across].map(|side| {
+            let kerb = kerbs.iter().find(|k| (k.position - pair[0]).normalize_or_zero().dot(side) > 0.95)?;
+            let position = kerb.position + kerb.outward * 0.8;
+            pole(position, across.perp(), Source::MadeUp, yard, report)
+        });
+        let [Some(left), Some(right)] = sides else { continue };
+        let ends = [left, right].map(|pole| pole.foot_world + DVec3::Z * (TRAM_WIRE_M + TRAM_RISE_M));
+        let held = [ends[0], over(&pair[0]) + DVec3::Z * TRAM_RISE_M / 2.0, ends[1]];
+        tube(&mut mesh, held.into_iter().map(|p| (p - origin).as_vec3()));
+    }
+    piece(mesh, origin)
+}
+
+/// Places along a line, the first at its start.
+fn spaced(line: &[DVec2], step_m: f64) -> Vec<DVec2> {
+    let (mut places, mut ahead_m) = (Vec::new(), 0.0);
+    for pair in line.windows(2) {
+        let length_m = pair[0].distance(pair[1]);
+        while ahead_m < length_m {
+            places.push(pair[0].lerp(pair[1], ahead_m / length_m));
+            ahead_m += step_m;
+        }
+        ahead_m -= length_m;
+    }
+    places
 }
 
 /// Whether a span is of a usual length and passes no building.

@@ -118,7 +118,10 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             return false;
         }
         let foot_world = wish.position.extend(self.around.stand.surface_m(wish.position));
-        let seed = self.seed.child("piece").nth(self.placed.len() as u64);
+        // Lamps of a model are painted alike.
+        let alike = wish.kind == Kind::StreetLamp;
+        let seed = self.seed.child(if alike { wish.model } else { "piece" });
+        let seed = if alike { seed } else { seed.nth(self.placed.len() as u64) };
         self.placed.push(Scenery { asset, foot_world, yaw_rad: wish.yaw_rad, scale: DVec3::ONE, seed });
         true
     }
@@ -188,22 +191,18 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             || self.crossing_edges.nearest(p, AROUND_CROSSING_M + radius_m).is_some()
     }
 
-    /// A model of the name that is wanted, of a library that has none any of the kind.
+    /// A model of the name that is wanted; of a library that has none any of the kind, but no sign for another.
     fn model(&self, wish: &Wish, report: &Report) -> Option<&'a Asset> {
         let library = self.library;
         let named: Vec<&'a Asset> = library.of_kind(wish.kind).filter(|a| is_named(a, wish.model)).collect();
-        let others = || library.of_kind(wish.kind).collect();
-        if named.is_empty() {
-            let what = "furniture of a model that the asset library lacks, by another of its kind";
-            report.note(Outcome::Substituted, what, wish.model);
-        }
-        let models = if named.is_empty() { others() } else { named };
+        let says_something = matches!(wish.kind, Kind::TrafficSign | Kind::TrafficSignal);
+        let models = if named.is_empty() && !says_something { library.of_kind(wish.kind).collect() } else { named };
         let square = (wish.position / ALIKE_SQUARE_M).floor();
         let seed = self.seed.child("model").nth(square.x as i64 as u64).nth(square.y as i64 as u64);
         let found = seed.child(wish.model).random().pick(&models).copied();
-        if found.is_none() {
-            let what = format!("furniture without an asset of kind {:?}", wish.kind);
-            report.note(Outcome::Dropped, &what, format_args!("{} at {:.0}", wish.model, wish.position));
+        if found.is_none_or(|asset| !is_named(asset, wish.model)) {
+            let outcome = if found.is_none() { Outcome::Dropped } else { Outcome::Substituted };
+            report.note(outcome, "furniture of a model that the asset library lacks", wish.model);
         }
         found
     }
