@@ -1,7 +1,7 @@
 //! Where traffic waits for a junction: stop lines, give ways, arrows, boxes.
 
 use glam::DVec2;
-use trove_model::{FurnitureKind, Polygon, RoadKind, Seed, StreetMap, Turns};
+use trove_model::{FurnitureKind, Outcome, Polygon, Report, RoadKind, Seed, StreetMap, Turns};
 
 use super::crossings::Crossing;
 use super::legs::{Junction, Leg};
@@ -66,6 +66,7 @@ pub(super) fn approach(
     crossings: &[Crossing],
     customs: &Customs,
     seed: Seed,
+    report: &Report,
 ) -> Vec<Polygon> {
     let forward = usage == Use::Forward;
     let Some(junction) = leg.ends[usize::from(forward)] else { return Vec::new() };
@@ -102,6 +103,10 @@ pub(super) fn approach(
     let signalised = control.is_signalised(junction.position);
     let gives_way = control.gives_way(at);
     let stops = signalised || control.stops(at) || (minor && !gives_way && customs.minor == Minor::Stop);
+    if minor && !signalised && !gives_way && !control.stops(at) && customs.minor != Minor::Unmarked {
+        let what = "who gives way at a junction, by the classes of its roads";
+        report.note(Outcome::Guessed, what, format_args!("osm way {}", leg.road().id));
+    }
     let mut paint = Vec::new();
     let mut wait_m = stop_m;
     if stops {
@@ -124,6 +129,8 @@ pub(super) fn approach(
     let turns: Vec<Turns> = if tagged.len() == lanes.len() {
         tagged.clone()
     } else if lanes.len() > 1 && (signalised || leg.road().kind <= RoadKind::Secondary) {
+        let what = "where lanes lead at a junction, from its roads";
+        report.note(Outcome::Guessed, what, format_args!("osm way {}", leg.road().id));
         shared_out(junction.turns(along(0.0)), lanes.len())
     } else {
         Vec::new()

@@ -5,7 +5,8 @@ use trove_model::{ParkingOrientation, Polygon, Seed};
 use super::legs::Leg;
 use super::symbols::{bicycle, laid};
 use crate::plane::strip;
-use crate::roads::course::{Band, Use};
+use crate::roads::course::{Band, Course, Use};
+use crate::roads::path::Path;
 
 /// Width of a bay's lines.
 const LINE_M: f64 = 0.1;
@@ -14,30 +15,37 @@ const PARALLEL_M: f64 = 6.0;
 const PERPENDICULAR_M: f64 = 2.5;
 /// Cars stand at 60° to the kerb.
 const DIAGONAL_SLANT: f64 = 0.577;
+/// Share of the rows on the carriageway that are marked.
+const MARKED_SHARE: f64 = 0.55;
 /// Nobody parks this near to a junction.
 const CLEAR_M: f64 = 6.0;
 /// Bicycles are painted this far from each other.
 const SYMBOL_PERIOD_M: f64 = 45.0;
 
-/// The lines of the bays of a road between two junctions; all white. Rows of which the map draws no bays are marked by
-/// chance.
-pub(super) fn bays(leg: &Leg<'_>, seed: Seed) -> Vec<Polygon> {
-    let section = &leg.stretch.section;
-    let beside = section.bays.iter().flatten().map(|b| (b, true));
-    let within = section.bands.iter().map(|b| (b, false));
+/// The lines of the rows in which cars stand on a road between two junctions, marked by chance; all white.
+pub(super) fn rows(leg: &Leg<'_>, seed: Seed) -> Vec<Polygon> {
     let mut paint = Vec::new();
-    for (i, (band, mapped)) in within.chain(beside).enumerate() {
-        let Use::Parking(orientation) = band.usage else { continue };
-        let marked = mapped || seed.nth(i as u64).random().chance(0.55);
+    for (i, band) in leg.stretch.section.bands.iter().enumerate() {
+        let marked = seed.nth(i as u64).random().chance(MARKED_SHARE);
         if marked && leg.length_m() > 3.0 * CLEAR_M {
-            paint.extend(row(leg, band, orientation));
+            paint.extend(row(&leg.path, [leg.from_m + CLEAR_M, leg.to_m - CLEAR_M], band));
         }
     }
     paint
 }
 
-fn row(leg: &Leg<'_>, band: &Band, orientation: ParkingOrientation) -> Vec<Polygon> {
-    let (from_m, to_m) = (leg.from_m + CLEAR_M, leg.to_m - CLEAR_M);
+/// The lines of the bays beside the roads; all white.
+pub(super) fn bays(courses: &[Course]) -> Vec<Polygon> {
+    let bays = courses.iter().filter(|course| course.line.len() > 1).filter_map(|course| match course.bands[..] {
+        [band] => Some((Path::new(&course.line), band)),
+        _ => None,
+    });
+    bays.flat_map(|(path, band)| row(&path, [0.5, path.length_m() - 0.5], &band)).collect()
+}
+
+/// The lines of a row of cars between two lengths; none where the band is no row of cars.
+fn row(path: &Path<'_>, [from_m, to_m]: [f64; 2], band: &Band) -> Vec<Polygon> {
+    let Use::Parking(orientation) = band.usage else { return Vec::new() };
     let (pitch_m, slant) = match orientation {
         ParkingOrientation::Parallel => (PARALLEL_M, 0.0),
         ParkingOrientation::Diagonal => (PERPENDICULAR_M / 0.866, DIAGONAL_SLANT),
@@ -51,11 +59,11 @@ fn row(leg: &Leg<'_>, band: &Band, orientation: ParkingOrientation) -> Vec<Polyg
         .flat_map(|i| {
             let s_m = from_m + i as f64 * pitch_m;
             let lean_m = slant * (kerb_m - lane_m).abs();
-            strip(&[leg.path.beside(s_m, lane_m), leg.path.beside(s_m + lean_m, kerb_m)], LINE_M / 2.0)
+            strip(&[path.beside(s_m, lane_m), path.beside(s_m + lean_m, kerb_m)], LINE_M / 2.0)
         })
         .collect();
     if orientation == ParkingOrientation::Parallel {
-        paint.extend(strip(&leg.path.part(from_m, from_m + count as f64 * pitch_m, lane_m), LINE_M / 2.0));
+        paint.extend(strip(&path.part(from_m, from_m + count as f64 * pitch_m, lane_m), LINE_M / 2.0));
     }
     paint
 }

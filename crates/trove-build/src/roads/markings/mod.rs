@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
-use trove_model::{Bounds, Drive, Polygon, RoadKind, Seed, StreetMap, drives_on_left};
+use trove_model::{Bounds, Drive, Polygon, Report, RoadKind, Seed, StreetMap, drives_on_left};
 
 use self::approaches::{Control, approach, box_junction};
 use self::crossings::Crossing;
@@ -35,8 +35,9 @@ const KERB_LINES_M: [f64; 2] = [0.5, 0.7];
 const KERB_LINE_M: f64 = 0.1;
 /// Share of the junctions with signals that have a box where boxes are usual.
 const BOX_SHARE: f64 = 0.4;
-/// Share of the cycle lanes that are coated.
+/// Share of the cycle lanes that are coated, where they are longer than this.
 const COAT_SHARE: f64 = 0.4;
+const SHORTEST_COAT_M: f64 = 15.0;
 /// Share of the slow streets that have their limit painted at their entrances.
 const LIMIT_SHARE: f64 = 0.5;
 /// Limits of speed that are painted, km/h.
@@ -58,6 +59,7 @@ pub(super) fn markings(
     near: &[Polygon],
     customs: &Customs,
     seed: Seed,
+    report: &Report,
 ) -> Markings {
     let bounds = Bounds::around(layout.carriageway.iter().flat_map(|p| p.exterior.iter().copied()));
     let Some(bounds) = bounds else { return Markings::default() };
@@ -74,7 +76,7 @@ pub(super) fn markings(
         areas.entry(stroke.paint).or_default().extend(stroke.painted(&mut painted));
     }
     let detailed: Vec<(Vec<Polygon>, Vec<Polygon>)> =
-        legs.par_iter().map(|leg| details(leg, &control, &crossings, customs, on_left, seed)).collect();
+        legs.par_iter().map(|leg| details(leg, &control, &crossings, customs, on_left, seed, report)).collect();
     let white = areas.entry(Paint::White).or_default();
     let mut coated = Vec::new();
     for (paint, coat) in detailed {
@@ -82,6 +84,7 @@ pub(super) fn markings(
         coated.extend(coat);
     }
     white.extend(recorded::at_junctions(drive, &control, &crossings, customs));
+    white.extend(bays::bays(&layout.courses));
     white.extend(
         drive.lane_map.iter().flat_map(|m| &m.stop_lines).filter_map(|area| stop_line(area, customs.stop_line_m)),
     );
@@ -93,15 +96,17 @@ pub(super) fn markings(
         let boxes = junctions.values().filter(boxed).flat_map(box_junction);
         areas.entry(Paint::Yellow).or_default().extend(boxes);
     }
-    let (paint, from_kerb_m) = match customs.kerb_lines {
-        KerbLines::None => (Paint::White, &[][..]),
-        KerbLines::DoubleYellow => (Paint::Yellow, &KERB_LINES_M[..]),
-        KerbLines::Red => (Paint::Red, &KERB_LINES_M[..1]),
+    let kerb_lines = match customs.kerb_lines {
+        KerbLines::None => None,
+        KerbLines::DoubleYellow => Some((Paint::Yellow, &KERB_LINES_M[..])),
+        KerbLines::Red => Some((Paint::Red, &KERB_LINES_M[..1])),
     };
-    let beside = no_parking(layout, near);
-    // A little more than is near, so that no line runs where only the path's surroundings end.
-    let road = intersection(&layout.carriageway, &grown(near, 3.0));
-    areas.entry(paint).or_default().extend(lines::along_kerbs(&road, &beside, from_kerb_m, KERB_LINE_M));
+    if let Some((paint, from_kerb_m)) = kerb_lines {
+        let beside = no_parking(layout, near);
+        // A little more than is near, so that no line runs where only the path's surroundings end.
+        let road = intersection(&layout.carriageway, &grown(near, 3.0));
+        areas.entry(paint).or_default().extend(lines::along_kerbs(&road, &beside, from_kerb_m, KERB_LINE_M));
+    }
 
     // Nothing else is painted on a crossing.
     let clear = crossings::kept_clear(&crossings);
@@ -131,19 +136,20 @@ fn details(
     customs: &Customs,
     on_left: bool,
     seed: Seed,
+    report: &Report,
 ) -> (Vec<Polygon>, Vec<Polygon>) {
     let seed = seed.child("leg").nth(leg.number);
     let mut white = Vec::new();
     if leg.road().kind < RoadKind::Service {
         for usage in [Use::Forward, Use::Backward] {
-            white.extend(approach(leg, usage, control, crossings, customs, seed));
+            white.extend(approach(leg, usage, control, crossings, customs, seed, report));
         }
     }
-    white.extend(bays::bays(leg, seed.child("bays")));
+    white.extend(bays::rows(leg, seed.child("bays")));
     let (symbols, lanes) = bays::cycle_lanes(leg, on_left);
     white.extend(symbols);
     white.extend(limit(leg, seed.child("limit")));
-    let coated = seed.child("coat").random().chance(COAT_SHARE);
+    let coated = leg.length_m() > SHORTEST_COAT_M && seed.child("coat").random().chance(COAT_SHARE);
     (white, if coated { lanes } else { Vec::new() })
 }
 

@@ -38,7 +38,7 @@ fn painted((lat_deg, lon_deg): (f64, f64), map: &StreetMap) -> (Markings, Vec<Po
     let drive = drive(lat_deg, lon_deg);
     let layout = layout(&drive, Some(map), bounds(), &Report::default());
     let near = [crate::plane::rectangle(bounds())];
-    let found = markings(&drive, Some(map), &layout, &near, customs(&drive.projection), Seed(3));
+    let found = markings(&drive, Some(map), &layout, &near, customs(&drive.projection), Seed(3), &Report::default());
     (found, layout.carriageway.clone())
 }
 

@@ -10,14 +10,16 @@ use crate::roads::path::Path;
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
 const PATCH_EVERY_M: f64 = 15.0;
 const CRACK_EVERY_M: f64 = 9.0;
-const SKID_EVERY_M: f64 = 260.0;
+const SKID_EVERY_M: f64 = 500.0;
 const ERASED_EVERY_M: f64 = 140.0;
 const DRIP_EVERY_M: f64 = 7.0;
+/// A skid mark darkens in so many steps.
+const SKID_STEPS: usize = 6;
 /// Points of a crack are this far apart.
 const STEP_M: f64 = 0.35;
 /// Bitumen and rubber, and a line's ground-off place, as factors on aged asphalt.
 const BITUMEN_TONE: f64 = 0.3;
-const RUBBER_TONE: f64 = 0.6;
+const RUBBER_TONE: f64 = 0.72;
 const ERASED_TONE: f64 = 0.82;
 const DRIP_TONE: f64 = 0.55;
 
@@ -91,8 +93,13 @@ pub(super) fn damage(region: &Region, bus_stops: &[DVec2]) -> Damage {
     trace(&mut damage, seals, BITUMEN_TONE);
     let drips = (0..count(length_m / DRIP_EVERY_M * age, &mut random)).filter_map(|_| drip(region, &mut random));
     trace(&mut damage, drips.collect(), region.tone * DRIP_TONE);
-    let skids = (0..count(length_m / SKID_EVERY_M, &mut random)).flat_map(|_| skid(region, &mut random));
-    trace(&mut damage, skids.collect(), region.tone * RUBBER_TONE);
+    for _ in 0..count(length_m / SKID_EVERY_M, &mut random) {
+        // Rubber comes off more and more until the car stands.
+        for (i, track) in skid(region, &mut random).into_iter().enumerate() {
+            let share = (i + 1) as f64 / SKID_STEPS as f64;
+            trace(&mut damage, track, region.tone * (1.0 + (RUBBER_TONE - 1.0) * share));
+        }
+    }
     let erased = (0..count(length_m / ERASED_EVERY_M * age, &mut random)).flat_map(|_| {
         let (s_m, offset_m) = (random.range(0.0, length_m), within(region, 0.5, &mut random));
         strip(&path.part(s_m, s_m + random.range(6.0, 25.0), offset_m), 0.07)
@@ -178,14 +185,19 @@ fn drip(region: &Region, random: &mut Random) -> Option<Polygon> {
     Some(Polygon::simple((0..9).map(corner).collect()))
 }
 
-/// Two tracks of a car that braked hard.
-fn skid(region: &Region, random: &mut Random) -> Vec<Polygon> {
+/// Two tracks of a car that braked hard, in steps along the lane.
+fn skid(region: &Region, random: &mut Random) -> Vec<Vec<Polygon>> {
     if region.lanes.is_empty() {
         return Vec::new();
     }
     let path = Path::new(&region.lanes[random.index(region.lanes.len())]);
     let (s_m, long_m, aside_m) = (random.range(0.0, path.length_m()), random.range(5.0, 14.0), random.range(-0.4, 0.4));
-    [-0.75, 0.75].iter().flat_map(|w| strip(&path.part(s_m, s_m + long_m, aside_m + w), 0.09)).collect()
+    let step_m = long_m / SKID_STEPS as f64;
+    let step = |i: usize| {
+        let from_m = s_m + i as f64 * step_m;
+        [-0.75, 0.75].iter().flat_map(|w| strip(&path.part(from_m, from_m + step_m, aside_m + w), 0.08)).collect()
+    };
+    (0..SKID_STEPS).map(step).collect()
 }
 
 #[cfg(test)]

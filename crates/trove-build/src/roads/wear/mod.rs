@@ -39,6 +39,8 @@ const TRACE_M: f64 = 0.0045;
 const COAT_M: f64 = 0.006;
 const PAINT_M: f64 = 0.0075;
 const COVER_M: f64 = 0.009;
+/// A piece of kerb at least this long is straight enough to lay paving along.
+const STRAIGHT_M: f64 = 3.0;
 /// Bitumen in joints, as a factor on aged asphalt.
 const JOINT_TONE: f64 = 0.3;
 /// Red paint, as a factor on white.
@@ -123,9 +125,12 @@ impl Surfacing<'_> {
         pieces
     }
 
-    /// Turns paving along its street.
+    /// Turns paving along the straight kerbs of its street.
     pub(super) fn align(&self, mesh: &mut Mesh) {
-        alignment::align(mesh, &SegmentIndex::new(self.layout.courses.iter().map(|c| c.line.as_slice())));
+        let edges = self.layout.carriageway.iter().flat_map(Polygon::edges);
+        let straight: Vec<[DVec2; 2]> =
+            edges.filter(|(a, b)| a.distance(*b) > STRAIGHT_M).map(|(a, b)| [a, b]).collect();
+        alignment::align(mesh, &SegmentIndex::new(straight.iter().map(|edge| &edge[..])));
     }
 
     fn furniture(&self, kind: FurnitureKind) -> Vec<DVec2> {
@@ -168,7 +173,12 @@ impl Surfacing<'_> {
 
     /// Tints a surface by its own tone, what the country's roads reflect, and some variation from place to place.
     fn tint(&self, mesh: &mut Mesh, look: Look, tone: Tone, own: impl Fn(DVec2) -> f64) {
-        let country = if look.is_asphalt() { self.customs.road_tone } else { 1.0 };
+        let country = match look {
+            Look::Aged | Look::Fresh => self.customs.road_tone,
+            // Roads are cast in paler concrete than yards.
+            Look::Concrete => 1.12,
+            _ => 1.0,
+        };
         let at = |p: &Vec3| {
             let p = p.truncate().as_dvec2();
             let varied = 1.0 + 0.05 * tone.at(p, 23.0) + 0.04 * tone.at(p, 6.0);
