@@ -63,13 +63,13 @@ fn eaves(shell: &mut Shell, roof: &Pitched, side: usize, reach_m: f64, has_eaves
     let ends = [own.from, roof.chains_end(side)];
     let outward = -own.along.perp();
     let [before, after] = neighbours(roof, side);
-    // Where the next side has eaves too they meet in a mitre; over a gable they run on to the verge.
-    let stretch = |other: usize, sign: f64| -> DVec2 {
+    // Where the next side has eaves too they meet in a mitre.
+    let stretch = |other: usize| -> DVec2 {
         let away = -roof.skeleton.sides[other].along.perp();
         let fits = has_eaves[other] && 1.0 + outward.dot(away) > 0.4;
-        if fits { (outward + away) / (1.0 + outward.dot(away)) } else { outward + own.along * sign * 0.0 }
+        if fits { (outward + away) / (1.0 + outward.dot(away)) } else { outward }
     };
-    let [first, last] = [stretch(before, -1.0), stretch(after, 1.0)];
+    let [first, last] = [before, after].map(stretch);
     let slope = roof.slope_at_eaves().min(EAVES_DROP_M / reach_m);
     let eaves = roof.level(0.0);
     let at = |end: usize, out_m: f64, z: f64| {

@@ -18,10 +18,10 @@ pub(super) fn triangles(ring: &[DVec2]) -> Vec<[usize; 3]> {
         found.push(corners(i));
         left.remove(i);
     }
-    if let [a, b, c] = left[..] {
-        if (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]) > 0.0 {
-            found.push([a, b, c]);
-        }
+    if let [a, b, c] = left[..]
+        && (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]) > 0.0
+    {
+        found.push([a, b, c]);
     }
     found
 }

@@ -29,7 +29,7 @@ pub(super) fn apart(houses: &mut [House<'_>], report: &Report) {
         let top_m = |k: usize| all[k].1.top_m + all[k].2;
         top_m(i).total_cmp(&top_m(j)).reverse().then(i.cmp(&j)).is_lt()
     };
-    let cut: Vec<Option<Vec<Volume<'_>>>> = (0..all.len())
+    let mut cut: Vec<Option<Vec<Volume<'_>>>> = (0..all.len())
         .into_par_iter()
         .map(|i| {
             let (house, volume, floor_m) = all[i];
@@ -57,7 +57,6 @@ pub(super) fn apart(houses: &mut [House<'_>], report: &Report) {
             is_cut.then_some(left)
         })
         .collect();
-    let mut cut: Vec<Option<Vec<Volume<'_>>>> = cut;
     let mut next = 0;
     let mut new: Vec<Vec<Volume<'_>>> = Vec::with_capacity(houses.len());
     for house in houses.iter() {
