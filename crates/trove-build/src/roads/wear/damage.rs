@@ -8,7 +8,7 @@ use crate::plane::{difference, grown, intersection, strip, union};
 use crate::roads::path::Path;
 
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
-const PATCH_EVERY_M: f64 = 15.0;
+const PATCH_EVERY_M: f64 = 24.0;
 const CRACK_EVERY_M: f64 = 9.0;
 const SKID_EVERY_M: f64 = 500.0;
 const ERASED_EVERY_M: f64 = 140.0;
