@@ -51,6 +51,18 @@ impl SegmentIndex {
 
     /// The nearest segment within `reach_m`; of equally near ones the first given.
     pub(crate) fn nearest(&self, p: DVec2, reach_m: f64) -> Option<Nearest> {
+        // Most have one near; what is found within a radius is the nearest of all.
+        let mut radius_m = BUCKET_M.min(reach_m);
+        loop {
+            let found = self.nearest_within(p, radius_m);
+            if found.is_some() || radius_m >= reach_m {
+                return found;
+            }
+            radius_m = (3.0 * radius_m).min(reach_m);
+        }
+    }
+
+    fn nearest_within(&self, p: DVec2, reach_m: f64) -> Option<Nearest> {
         let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
         let mut best: Option<(f64, usize)> = None;
         for x in low[0]..=high[0] {
