@@ -128,7 +128,8 @@ fn shop(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
             texel.albedo = vec3(0.3, 0.25, 0.2);
         } else if row < rows - 1.3 && up < 0.35 + 0.55 * thing && thing > 0.12 {
             let hue = vec3(hash(column, shelf, salt + 1), hash(column, shelf, salt + 2), hash(column, shelf, salt + 3));
-            texel.albedo = 0.04 + 0.5 * hue * hue;
+            // Packages are printed in many colours, most of them dull.
+            texel.albedo = 0.04 + 0.45 * (hue * hue).lerp(Vec3::splat(hue.y * hue.y), 0.6);
         } else if row < rows - 1.3 {
             texel.albedo *= 0.45;
         }

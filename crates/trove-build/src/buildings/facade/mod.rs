@@ -363,6 +363,8 @@ impl<'b> Work<'_, 'b> {
         if placed.opening.is_shop(self.design.interior) {
             let top = self.floor(placed.storey) + self.storey_m;
             shop::front(&mut self.ink, &hole, &self.design.fixtures, top, random);
+        } else if placed.opening.is_french() && placed.storey == 0 && self.band.bottom_m < self.band.floor_m {
+            // It leads to the ground.
         } else if placed.opening.filling == Filling::Window {
             fixtures::fixtures(&mut self.ink, &hole, &self.design.fixtures, random);
         } else if random.chance(f64::from(self.design.fixtures.lamps)) {

@@ -32,7 +32,7 @@ pub(super) fn scaffold(ink: &mut Ink<'_>, [foot, top]: [f64; 2], random: &mut Ra
     }
     for i in 0..bays {
         for k in 0..lifts {
-            if (i + k) % 4 == 0 {
+            if (i + k).is_multiple_of(4) {
                 let z = ROWS_M[1] + 0.1;
                 ink.bar(Slot::Zinc, DVec3::new(x(i), y(k), z), DVec3::new(x(i + 1), y(k + 1), z), 0.045);
             }

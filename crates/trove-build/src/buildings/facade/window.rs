@@ -237,7 +237,7 @@ fn pleats(ink: &mut Ink<'_>, slot: Slot, low: DVec2, high: DVec2, z: f64) {
     let folds = ((high.x - low.x) / 0.09).ceil().clamp(2.0, 12.0) as usize;
     let at = |i: usize, y: f64| {
         let x = low.x + (high.x - low.x) * i as f64 / folds as f64;
-        DVec3::new(x, y, z - if i % 2 == 0 { 0.0 } else { 0.05 })
+        DVec3::new(x, y, z - if i.is_multiple_of(2) { 0.0 } else { 0.05 })
     };
     for i in 0..folds {
         ink.face(slot, &[at(i, low.y), at(i + 1, low.y), at(i + 1, high.y), at(i, high.y)]);
