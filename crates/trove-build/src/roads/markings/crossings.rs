@@ -6,7 +6,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
 
 use super::lines::dashes;
-use crate::plane::{grown, intersection, strip, union};
+use crate::plane::{difference, grown, intersection, strip, union};
 use crate::roads::customs::{CrossingStyle, Customs, Dash};
 
 /// Width of a crossing that the map draws as a line.
@@ -85,6 +85,9 @@ pub(super) fn crossings(
         let pieces: Vec<Polygon> =
             on_road.iter().filter(|p| p.bounds().is_some_and(|b| b.overlaps(&bounds))).cloned().collect();
         let mut area = intersection(&pieces, &union(std::slice::from_ref(outline)));
+        // Where a way bends, its two crossings share a corner, and one has it.
+        let taken: Vec<Polygon> = found.iter().filter(|c| c.is_near(middle)).flat_map(|c| c.area.clone()).collect();
+        area = difference(&area, &taken);
         area.retain(|p| p.area_m2() > LEAST_M2);
         if !area.is_empty() {
             found.push(Crossing { area, walk, middle, half, style: style(tag, middle) });
