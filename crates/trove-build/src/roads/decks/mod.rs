@@ -15,7 +15,7 @@ use trove_model::{Bounds, Outcome, Polygon, Report, Road, StreetMap};
 
 use self::crossings::Crossings;
 use self::heights::Attempt;
-use super::network::resampled;
+use super::network::{RECORDED, resampled};
 use crate::plane::strip;
 use crate::plane_raster::PlaneRaster;
 
@@ -26,6 +26,8 @@ pub(super) use self::trenches::Trench;
 const LEVEL_M: f64 = 5.6;
 /// Below this a deck is a solid ramp, metres.
 const SOLID_M: f64 = 1.6;
+/// Recorded traffic passes below a deck that is at least this high, metres.
+const ABOVE_TRAFFIC_M: f64 = 4.5;
 /// From the outermost lane's gutter to the deck's outer side.
 const EDGE_M: f64 = 0.6;
 /// A bridge of which more than this share lies along the recorded area is the level of the recording.
@@ -88,7 +90,17 @@ pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bou
         }
         match Attempt::first_that_clears(&group, &ground, &crossings) {
             Some(attempt) => {
-                decks.extend(attempt.decks(&group, &ground));
+                let built = attempt.decks(&group, &ground);
+                // What would rise out of the recorded road is that road.
+                let rises = |d: &Deck<'_>| {
+                    let mut points = d.line.iter().zip(&d.heights_m);
+                    points.any(|(&p, &height_m)| height_m < ABOVE_TRAFFIC_M && recorded.at(p) == RECORDED)
+                };
+                if built.iter().any(rises) {
+                    level.extend(group);
+                    continue;
+                }
+                decks.extend(built);
                 for (road, ends) in attempt.risen {
                     let known = risen.entry(road).or_default();
                     *known = [known[0].max(ends[0]), known[1].max(ends[1])];
