@@ -166,7 +166,7 @@ fn key(p: DVec2) -> [i64; 2] {
 }
 
 /// The middle, the long side's direction, half length and half width of a polygon.
-pub(super) fn long_axis(polygon: &Polygon) -> Option<(DVec2, DVec2, DVec2)> {
+pub(in crate::roads) fn long_axis(polygon: &Polygon) -> Option<(DVec2, DVec2, DVec2)> {
     let direction = polygon
         .edges()
         .map(|(a, b)| b - a)

@@ -30,6 +30,8 @@ use super::network::RECORDED;
 use crate::plane::{difference, grown, intersection, strip, union};
 use crate::plane_raster::PlaneRaster;
 
+pub(super) use self::crossings::long_axis;
+
 /// Lines along the kerb, from it inwards to their outer edge, and their width.
 const KERB_LINES_M: [f64; 2] = [0.5, 0.7];
 const KERB_LINE_M: f64 = 0.1;

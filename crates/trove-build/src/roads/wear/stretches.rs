@@ -7,6 +7,7 @@ use super::tone::Tone;
 use crate::plane::{difference, intersection, strip, union};
 use crate::roads::course::Use;
 use crate::roads::layout::{Layout, shifted};
+use crate::roads::markings::long_axis;
 use crate::roads::network::{Stretch, resampled};
 use crate::roads::path::Path;
 use crate::segments::SegmentIndex;
@@ -169,10 +170,11 @@ fn beyond(lane: &Strip, at_end: bool) -> Strip {
 }
 
 fn straight_lanes(drive: &Drive) -> Vec<Strip> {
-    let lanes = drive.lane_map.iter().flat_map(|m| &m.lanes).enumerate().filter(|(_, l)| l.centreline.len() > 1);
+    let lanes = drive.lane_map.iter().flat_map(|m| &m.lanes).enumerate();
     lanes
         .filter_map(|(i, lane)| {
-            let line = resampled(&lane.centreline);
+            let known = (lane.centreline.len() > 1).then(|| lane.centreline.clone());
+            let line = resampled(&known.or_else(|| middle(&lane.polygon))?);
             let path = Path::new(&line);
             let turned_rad = path.at(0.0).1.angle_to(path.at(path.length_m()).1).abs();
             if turned_rad > TURN_RAD || path.length_m() < SHORTEST_M {
@@ -189,6 +191,13 @@ fn straight_lanes(drive: &Drive) -> Vec<Strip> {
             })
         })
         .collect()
+}
+
+/// The middle of a lane that is long and straight; it may run against the traffic.
+fn middle(lane: &Polygon) -> Option<Vec<DVec2>> {
+    let (middle, along, half) = long_axis(lane)?;
+    let straight = lane.area_m2() > 0.7 * 4.0 * half.x * half.y && half.x > 3.0 * half.y;
+    straight.then(|| vec![middle - along * half.x, middle + along * half.x])
 }
 
 /// The map's roads, cut into pieces.
