@@ -169,7 +169,7 @@ fn fittings(
         plain("room floor", floor, 0.5),
         back,
         plain("lit room", vec3(0.6, 0.55, 0.46), 0.9),
-        plain("lamp lens", Vec3::splat(0.6), 0.3),
+        plain("wall lamp", Vec3::splat(0.6), 0.3),
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
         sign,
@@ -303,7 +303,7 @@ mod tests {
         let dress = dress(&house(&building, Region::EastAsia), 20.0, &palette, &mut trove_model::Seed(1).random());
         assert_eq!(dress.materials.len(), Slot::Plank as usize + 1);
         assert_eq!(dress.materials[Slot::Glass as usize].name, "window glass");
-        assert_eq!(dress.materials[Slot::Lamp as usize].name, "lamp lens");
+        assert_eq!(dress.materials[Slot::Lamp as usize].name, "wall lamp");
         assert_eq!(dress.materials[Slot::LitRoom as usize].name, "lit room");
     }
 

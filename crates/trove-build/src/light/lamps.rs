@@ -15,7 +15,11 @@ const DIMMED: f32 = 0.15;
 
 /// Radiance of lamps by their material's name, in the light's scale, where 1 is 32,000 cd/m²: a street lamp's lens of
 /// 0.1 m² that gives 10,000 lm, the walls of a room (60 cd/m²), a headlamp's beam spread over its lens, tail lamps of 5 cd.
-const STREET: [(&str, Vec3); 2] = [("lamp lens", vec3(1.4, 0.95, 0.5)), ("lit room", vec3(0.0024, 0.0018, 0.0011))];
+const STREET: [(&str, Vec3); 3] = [
+    ("lamp lens", vec3(1.4, 0.95, 0.5)),
+    ("wall lamp", vec3(0.14, 0.1, 0.06)),
+    ("lit room", vec3(0.0024, 0.0018, 0.0011)),
+];
 const VEHICLE: [(&str, Vec3); 3] =
     [("lamp", vec3(0.5, 0.47, 0.4)), ("red lens", vec3(0.03, 0.001, 0.001)), ("reflector", vec3(0.03, 0.001, 0.001))];
 
