@@ -35,6 +35,7 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
             SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete => 0.12..0.4,
             SurfaceKind::RoadCover => 0.04..0.16,
             SurfaceKind::FlatRoof => 0.05..0.5,
+            SurfaceKind::RoofTiles => 0.05..0.4,
             SurfaceKind::Grass => 0.04..0.14,
             SurfaceKind::Water => 0.01..0.03,
             SurfaceKind::FacadeGroundFloor | SurfaceKind::Facade => 0.04..0.5,
@@ -44,7 +45,8 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
         let albedo = mean_albedo(surface);
         assert!(range.contains(&albedo.y), "{}: {albedo}", surface.id);
         if surface.kind == SurfaceKind::Grass {
-            assert!(albedo.y > albedo.x && albedo.x > albedo.z, "{}: {albedo}", surface.id);
+            // Worn grass is as red as green.
+            assert!(albedo.y > 0.85 * albedo.x && albedo.x > albedo.z, "{}: {albedo}", surface.id);
         }
         for texture in surface.material.textures() {
             for transposed in [false, true] {

@@ -14,6 +14,8 @@ use crate::roads::Footing;
 const SAME_WALL_RAD: f64 = 0.35;
 /// Of a wall narrower than this share of a bay only the pier between two bays is shown.
 const NARROWEST_BAY: f64 = 0.55;
+/// Places along a wall at which it is known how far the wall behind it is.
+const STATIONS: usize = 24;
 /// A wall is straight if its corners are this near to the line between its ends, metres.
 const STRAIGHT_M: f64 = 0.03;
 /// A neighbour that hides this share of a wall's height leaves the rest blank: nobody has windows towards it.
@@ -89,12 +91,22 @@ pub(super) struct Wall {
     pub is_blank: bool,
     /// Towards a street.
     pub is_front: bool,
-    /// Cotangent of half the angle between it and its neighbours before and after, where those have rooms too; else 0.
+    /// How much of its length rooms lose at its ends for each metre that they are deep.
     pub corner: [f64; 2],
     /// How far ledges reach beyond its ends for each metre that they stand out, where they go on around the corner.
     pub mitre: [Option<f64>; 2],
-    /// From it to the wall behind it, metres.
+    /// From its middle to the wall behind it, metres.
     pub thick_m: f64,
+    /// The same from places evenly along it.
+    pub thicknesses_m: [f64; STATIONS],
+}
+
+impl Wall {
+    /// The least distance to the wall behind a stretch of it, metres.
+    pub(super) fn thick_behind_m(&self, from_m: f64, to_m: f64, length_m: f64) -> f64 {
+        let at = |x: f64| ((x / length_m * STATIONS as f64) as usize).min(STATIONS - 1);
+        self.thicknesses_m[at(from_m)..=at(to_m).max(at(from_m))].iter().copied().fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// The walls of a volume whose floor is at 0 and whose walls reach up to a level.
@@ -117,9 +129,14 @@ pub(super) fn walls_of(volume: &Volume<'_>, top_m: f64, sight: &Sight<'_>) -> Ve
             let (a, b) = (line[0], line[line.len() - 1]);
             let is_straight = line.iter().all(|p| (*p - a).perp_dot((b - a).normalize_or_zero()).abs() < STRAIGHT_M);
             let detail = if is_blank || !is_straight { Detail::Flat } else { sight.detail(a, b) };
+            let thickness_m = |t: f64| match detail {
+                Detail::Flat => 0.0,
+                _ => thickness(&volume.footprint, a.lerp(b, t), (b - a).normalize_or_zero().perp()),
+            };
             walls.push(Wall {
                 is_front: detail != Detail::Flat && faces_a_street(a, b, sight),
-                thick_m: if detail == Detail::Flat { 0.0 } else { thickness(&volume.footprint, a, b) },
+                thick_m: thickness_m(0.5),
+                thicknesses_m: std::array::from_fn(|i| thickness_m((i as f64 + 0.5) / STATIONS as f64)),
                 line,
                 number: walls.len() as u64,
                 first_bay: (which * 5 + number * 3) % 8,
@@ -146,9 +163,11 @@ fn corners(walls: &mut [Wall]) {
         let slope = (turn / 2.0).tan();
         let built = [i, k].map(|w| walls[w].detail != Detail::Flat);
         let full = [i, k].iter().all(|&w| walls[w].detail == Detail::Full);
-        if n > 2 && built == [true; 2] {
-            walls[i].corner[1] = slope.max(0.0);
-            walls[k].corner[0] = slope.max(0.0);
+        if n > 2 {
+            // Half of a corner is either wall's; of one beside a wall without rooms only what is acute is lost.
+            let lost = if built == [true; 2] { slope } else { (turn - PI / 2.0).clamp(0.0, 0.45 * PI).tan() };
+            walls[i].corner[1] = lost.max(0.0);
+            walls[k].corner[0] = lost.max(0.0);
         }
         if n > 2 && full && slope.abs() < 1.3 {
             walls[i].mitre[1] = Some(slope);
@@ -164,9 +183,8 @@ fn faces_a_street(a: DVec2, b: DVec2, sight: &Sight<'_>) -> bool {
     [0.25, 0.5, 0.75].iter().any(|&t| (1..=9).any(|k| street(a.lerp(b, t) + out * (FRONT_M * f64::from(k) / 9.0))))
 }
 
-/// From the middle of a wall to the next wall behind it.
-fn thickness(footprint: &Polygon, a: DVec2, b: DVec2) -> f64 {
-    let (from, inward) = ((a + b) / 2.0, (b - a).normalize_or_zero().perp());
+/// From a place on a wall to the next wall behind it.
+fn thickness(footprint: &Polygon, from: DVec2, inward: DVec2) -> f64 {
     let hit = |(p, q): (DVec2, DVec2)| {
         let edge = q - p;
         let across = inward.perp_dot(edge);

@@ -25,6 +25,11 @@ impl WallFrame {
         Self { origin: a, along, out: -along.perp(), length_m: a.distance(b), mitre: [None; 2], set_back_m: 0.0 }
     }
 
+    /// Where the wall runs to, as a share of a full turn, 0 to 1.
+    pub(super) fn heading(&self) -> f64 {
+        self.along.to_angle() / std::f64::consts::TAU + 0.5
+    }
+
     pub(super) fn world(&self, p: DVec3) -> DVec3 {
         (self.origin + self.along * p.x + self.out * (p.z - self.set_back_m)).extend(p.y)
     }

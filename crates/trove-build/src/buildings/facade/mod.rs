@@ -22,6 +22,10 @@ use ink::{Ink, WallFrame};
 use skin::{Cell, Row, Vertex, skin};
 use window::{Hole, Room};
 
+/// Floors of rooms lie this much above the storey's, and so clear of the ground.
+const FLOOR_M: f64 = 0.02;
+/// Floors and ceilings differ by up to this much from wall to wall, metres.
+const LEVELS_M: f64 = 0.04;
 /// Rows, cells and holes keep this far from each other and from the wall's edges, metres.
 const SEAM_M: f64 = 0.012;
 /// Smaller holes are left out, metres.
@@ -96,11 +100,15 @@ impl<'b> Work<'_, 'b> {
         let whole = [SEAM_M, length_m - SEAM_M];
         let arcade_m = f64::from(self.design.arcade_m).min(ROOM_SHARE * self.wall.thick_m);
         let has_arcade = arcade_m >= LEAST_ARCADE_M && self.wall.is_front && self.bays > 0;
+        // Behind openings nearer to a corner the reveals of both walls would cross.
+        let reveal_m = f64::from(self.design.recess_m) + window::INNER_REVEAL_M + SEAM_M;
+        let [from, to] = self.wall.corner.map(|cot| cot * reveal_m + SEAM_M);
+        let within = [from, length_m - to];
         let oriels = self.oriels(random);
         let (mut rows, mut pits, mut placed) = (Vec::new(), Vec::new(), Vec::new());
         for storey in 0..self.storeys {
             let y = [self.floor(storey) + SEAM_M, self.floor(storey) + self.storey_m - SEAM_M];
-            let mut openings = self.openings(storey, whole);
+            let mut openings = self.openings(storey, within);
             if has_arcade {
                 let [from, to] = self.wall.corner.map(|cot| 0.45 + cot * (arcade_m + 0.3));
                 let (low, high) =
@@ -376,18 +384,32 @@ impl<'b> Work<'_, 'b> {
     fn room(&self, placed: &[Placed<'_>]) -> Room {
         let low = |p: &Placed<'_>| p.room[0].min(p.low - SEAM_M / 2.0);
         let high = |p: &Placed<'_>| p.room[1].max(p.high + SEAM_M / 2.0);
-        let low = placed.iter().map(low).fold(DVec2::INFINITY, DVec2::min);
-        let high = placed.iter().map(high).fold(DVec2::NEG_INFINITY, DVec2::max);
-        let reveal_m = f64::from(self.design.recess_m) + self.ink.frame.set_back_m.max(0.0);
+        let mut low = placed.iter().map(low).fold(DVec2::INFINITY, DVec2::min);
+        let mut high = placed.iter().map(high).fold(DVec2::NEG_INFINITY, DVec2::max);
+        let front_m = f64::from(self.design.recess_m) + self.ink.frame.set_back_m.max(0.0) + window::INNER_REVEAL_M;
+        let ends = |depth_m: f64| self.wall.corner.map(|cot| cot * depth_m + 0.04);
+        // Short of the bisectors of the building's corners and clear of the ground below, as far as the openings let it.
+        let openings = |at: fn(&Placed<'_>) -> f64| placed.iter().map(at);
+        let [from, to] = ends(front_m);
+        let [left, foot] = [openings(|p| p.low.x), openings(|p| p.low.y)].map(|at| at.fold(f64::INFINITY, f64::min));
+        let right = openings(|p| p.high.x).fold(f64::NEG_INFINITY, f64::max);
+        low.x = low.x.max(from.min(left - SEAM_M / 2.0));
+        high.x = high.x.min((self.length_m() - to).max(right + SEAM_M / 2.0));
+        // Rooms behind two walls may meet: their floors and ceilings are never level.
+        let own_m = self.ink.frame.heading() * LEVELS_M;
+        low.y = (low.y + FLOOR_M + own_m).min(foot - SEAM_M / 2.0 + own_m * 0.08);
+        high.y = (high.y - own_m)
+            .max(openings(|p| p.high.y).fold(f64::NEG_INFINITY, f64::max) + SEAM_M / 2.0 - own_m * 0.08);
         let wanted_m = match self.design.interior {
             Interior::Home => 2.8,
             Interior::Office => 3.8,
             Interior::Shop => 3.4,
             Interior::Bare => 3.0,
         };
-        let mut depth_m = f64::min(wanted_m, ROOM_SHARE * self.wall.thick_m - reveal_m - 0.1);
+        let thick_m = self.wall.thick_behind_m(low.x, high.x, self.length_m());
+        let mut depth_m = f64::min(wanted_m, ROOM_SHARE * thick_m - front_m);
         for _ in 0..4 {
-            let [from, to] = self.wall.corner.map(|cot| cot * (depth_m + reveal_m) + 0.04);
+            let [from, to] = ends(front_m + depth_m);
             let back_x = [low.x.max(from), high.x.min(self.length_m() - to)];
             if depth_m > 0.2 && back_x[1] - back_x[0] > 0.3 {
                 return Room { low, high, depth_m, back_x };

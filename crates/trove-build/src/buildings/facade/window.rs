@@ -12,7 +12,7 @@ const FRAME_FRONT_M: f64 = 0.035;
 /// And this far behind it.
 const FRAME_BACK_M: f64 = 0.02;
 /// Between the glass and the inner face of the wall.
-const INNER_REVEAL_M: f64 = 0.08;
+pub(super) const INNER_REVEAL_M: f64 = 0.08;
 /// Panes hang askew by this at most, radians (0.3°): each mirrors another piece of the sky.
 const ASKEW_RAD: f64 = 0.005;
 /// A room's front and back are cut this far from their edges, metres: less than openings keep from them.

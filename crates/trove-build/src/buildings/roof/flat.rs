@@ -12,7 +12,8 @@ const PARAPET_THICK_M: f64 = 0.3;
 /// A body this high has a parapet that keeps people from falling.
 const WALKED_ON_M: f64 = 6.0;
 
-/// A deck behind a parapet: its areas and its level, for what stands on it; none where there is no room for a parapet.
+/// A deck behind a parapet, which goes on above the storeys' walls: its areas and its level; none where there is no room
+/// for a parapet and the deck lies on the walls.
 pub(super) fn flat(
     shell: &mut Shell,
     footprint: &Polygon,
@@ -31,8 +32,9 @@ pub(super) fn flat(
     let reversed = inner.iter().flat_map(Polygon::rings).map(|r| r.iter().rev().copied().collect());
     let coping = polygons_of_rings(footprint.rings().cloned().chain(reversed).collect());
     shell.cover(Slot::Trim, &coping, |_| top, true);
-    for (a, b) in inner.iter().flat_map(Polygon::edges) {
-        shell.slope(Slot::Gable, &[b.extend(deck), a.extend(deck), a.extend(top), b.extend(top)]);
+    let reversed = inner.iter().flat_map(Polygon::edges).map(|(a, b)| (b, a));
+    for (a, b) in footprint.edges().chain(reversed) {
+        shell.slope(Slot::Gable, &[a.extend(deck), b.extend(deck), b.extend(top), a.extend(top)]);
     }
     shell.cover(Slot::FlatRoof, &inner, |_| deck, true);
     Some((inner, deck))

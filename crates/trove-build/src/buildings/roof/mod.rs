@@ -42,10 +42,11 @@ pub(super) fn roof(
     }
     if volume.roof == RoofShape::Flat || top - eaves < 0.1 {
         let deck = flat::flat(shell, footprint, house.floor_m + volume.bottom_m, top, random);
-        if let Some((deck, z)) = deck.filter(|_| house.path_m < PLANT_SEEN_M && !volume.is_canopy) {
-            plant::plant(shell, &deck, z, volume, house, random);
+        let Some((areas, z)) = deck else { return top };
+        if house.path_m < PLANT_SEEN_M && !volume.is_canopy {
+            plant::plant(shell, &areas, z, volume, house, random);
         }
-        return top;
+        return z;
     }
     if volume.roof == RoofShape::Skillion {
         flat::skillion(shell, footprint, volume.building.roof_direction_rad, eaves, top);
@@ -59,8 +60,8 @@ pub(super) fn roof(
         let what = format!("{:?} roof on a footprint that cannot carry it, built flat", volume.roof);
         report.note(Outcome::Substituted, &what, name(volume.building));
         let level = (eaves + top) / 2.0;
-        flat::flat(shell, footprint, house.floor_m + volume.bottom_m, level, random);
-        return level;
+        let deck = flat::flat(shell, footprint, house.floor_m + volume.bottom_m, level, random);
+        return deck.map_or(level, |(_, z)| z);
     };
     if pitched.became != volume.roof || matches!(volume.roof, RoofShape::Cone | RoofShape::Onion) {
         let what = format!("{:?} roof on a footprint that cannot carry it, built as its nearest form", volume.roof);

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
-use trove_model::{Bounds, Polygon, RoofShape};
+use trove_model::{Bounds, Polygon};
 
+use super::House;
 use super::near::Near;
-use super::{EAVES_SEEN_M, House, Volume};
 
 /// Walls of two volumes that run along each other are at least this far apart, metres.
 const APART_M: f64 = 0.01;
@@ -51,19 +51,12 @@ impl Beside {
 /// A volume as others see it.
 struct Neighbour {
     floor_m: f64,
-    has_eaves: bool,
     rings: Vec<Vec<DVec2>>,
     /// World heights.
     bottom_m: f64,
     eaves_m: f64,
     top_m: f64,
 }
-
-/// Outlines of houses are traced from above, where their eaves are seen: walls below eaves stand this far within, metres,
-/// in front of as much room as eaves need, if the house is not too small.
-const UNDER_EAVES_M: f64 = 0.35;
-const EAVES_ROOM_M: f64 = 0.6;
-const LEAST_UNDER_EAVES_M2: f64 = 25.0;
 
 /// Draws touching walls apart, and tells every volume what stands beside it.
 pub(super) fn beside(houses: &mut [House<'_>]) {
@@ -74,7 +67,6 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
             boxes.push(volume.footprint.bounds());
             neighbours.push(Neighbour {
                 floor_m: house.floor_m,
-                has_eaves: has_eaves(volume) && house.path_m < EAVES_SEEN_M,
                 rings: volume.footprint.rings().cloned().collect(),
                 bottom_m: volume.bottom_m + house.floor_m,
                 eaves_m: volume.eaves_m + house.floor_m,
@@ -93,20 +85,7 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
             let near: Vec<(usize, &Neighbour)> = around(i).into_iter().map(|j| (j, &neighbours[j])).collect();
             let touching = |edge: (DVec2, DVec2)| moved_by_touch(edge, own, i, &near);
             let footprint = drawn_in(&own.rings, touching);
-            let mut sides: Vec<Beside> = footprint.edges().map(|edge| side(edge, own, &near)).collect();
-            if !own.has_eaves || footprint.area_m2() < LEAST_UNDER_EAVES_M2 {
-                return (footprint, sides);
-            }
-            let mut next = sides.iter().map(|s| if s.room_m >= EAVES_ROOM_M { UNDER_EAVES_M } else { 0.0 });
-            let rings: Vec<Vec<DVec2>> = footprint.rings().cloned().collect();
-            let footprint = drawn_in(&rings, |_| next.next().unwrap_or(0.0));
-            if sides.len() == footprint.edges().count() {
-                for (side, (a, b)) in sides.iter_mut().zip(footprint.edges()) {
-                    side.length_m = a.distance(b);
-                }
-            } else {
-                sides = footprint.edges().map(|edge| side(edge, own, &near)).collect();
-            }
+            let sides: Vec<Beside> = footprint.edges().map(|edge| side(edge, own, &near)).collect();
             (footprint, sides)
         })
         .collect();
@@ -115,12 +94,6 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
         volume.footprint = footprint;
         volume.sides = sides;
     }
-}
-
-/// Whether a volume's roof reaches out over its walls.
-fn has_eaves(volume: &Volume<'_>) -> bool {
-    let reaches_out = matches!(volume.roof, RoofShape::Gabled | RoofShape::HalfHipped | RoofShape::Hipped);
-    reaches_out && !volume.building.part && !volume.is_canopy && volume.bottom_m <= 0.0
 }
 
 /// Where another edge runs along an edge against its direction: from, to, and how far outside.

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use trove_model::{Bounds, Building, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
 
 use super::region::Region;
+use crate::clearance::recorded;
 use crate::plane::{difference, grown, intersection, union};
 use crate::roads::{Footing, KERB_M, RoadSurfaces};
 use crate::segments::SegmentIndex;
@@ -24,6 +25,9 @@ pub(super) const STOREY_M: f64 = 3.2;
 const LEAST_M2: f64 = 4.0;
 /// A building of which less than this share stands clear of the road is a mistake of one of the maps.
 const CLEAR_SHARE: f64 = 0.5;
+/// Walls are this far from what was recorded beside them, metres, and give way by at most this share of their building.
+const BESIDE_WALL_M: f64 = 0.4;
+const VACATED_SHARE: f64 = 0.1;
 /// A building that starts this high stands over the road, not on it.
 const HEADROOM_M: f64 = 4.0;
 /// Height of a passage through a building, of what stands beside it, and how much of the building either side is, metres.
@@ -118,6 +122,7 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed
     let around = Neighbourhood::new(buildings, Region::of(&plot.drive.projection));
     let path: Vec<_> = plot.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([[path.as_slice(), &path[path.len().saturating_sub(1)..]].concat().as_slice()]);
+    let recorded: Vec<Polygon> = recorded(plot.drive).collect();
     let mut houses: Vec<House<'a>> = grouped(buildings, plot)
         .into_par_iter()
         .filter_map(|(whole, seen_m, parts)| {
@@ -127,6 +132,7 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed
             for shape in &mut shapes {
                 let whole = std::mem::take(&mut shape.footprint);
                 let left = clear(whole.clone(), shape, plot.streets, report);
+                let left: Vec<Polygon> = left.into_iter().flat_map(|p| vacated(p, shape, &recorded, report)).collect();
                 let upper = is_passage(&whole, &left, shape, plot.drive).then(|| {
                     report.note(
                         Outcome::Guessed,
@@ -262,6 +268,28 @@ fn clear(footprint: Polygon, volume: &Volume<'_>, keep_clear: &RoadSurfaces, rep
     report.note(Outcome::Substituted, "building cut where it stands on the road", name(source));
     let mut left = difference(&whole, &road);
     left.retain(|p| p.area_m2() >= LEAST_M2);
+    left
+}
+
+/// What of a footprint nobody was recorded in: maps are some decimetres off, and people walk along walls. A building that
+/// would lose much stays, since it must have been entered.
+fn vacated(footprint: Polygon, volume: &Volume<'_>, recorded: &[Polygon], report: &Report) -> Vec<Polygon> {
+    let Some(bounds) = footprint.bounds().filter(|_| volume.bottom_m < HEADROOM_M) else { return vec![footprint] };
+    let is_inside = |p: &&Polygon| {
+        p.bounds().is_some_and(|b| b.overlaps(&bounds)) && p.exterior.iter().any(|&v| footprint.contains(v))
+    };
+    let inside: Vec<Polygon> = recorded.iter().filter(is_inside).cloned().collect();
+    if inside.is_empty() {
+        return vec![footprint];
+    }
+    let whole_m2 = footprint.area_m2();
+    let mut left = difference(std::slice::from_ref(&footprint), &grown(&union(&inside), BESIDE_WALL_M));
+    left.retain(|p| p.area_m2() >= LEAST_M2);
+    if left.iter().map(Polygon::area_m2).sum::<f64>() < (1.0 - VACATED_SHARE) * whole_m2 {
+        report.note(Outcome::Warned, "building with recorded objects in it", name(volume.building));
+        return vec![footprint];
+    }
+    report.note(Outcome::Substituted, "building cut where something was recorded", name(volume.building));
     left
 }
 
