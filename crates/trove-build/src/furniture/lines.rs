@@ -29,6 +29,8 @@ const RAILING_RUN_M: [f64; 2] = [14.0, 40.0];
 const RAILING_SHARE: f64 = 0.4;
 /// A kerb's road is at most this far from it, metres.
 const ROAD_REACH_M: f64 = 16.0;
+/// Pieces are let into the ground, which is not as straight as they are, metres.
+const SUNK_M: f64 = 0.04;
 /// Walls and fences whose height the map lacks are this share of their model's.
 const HEIGHTS: [f64; 2] = [0.7, 1.0];
 /// Vertices nearer than this to a straight line are left out, metres.
@@ -194,7 +196,7 @@ impl<'a> Layer<'_, 'a, '_, '_> {
                 if !free {
                     continue;
                 }
-                let ends = [a, b].map(|p| p.extend(self.yard.around.stand.surface_m(p)));
+                let ends = [a, b].map(|p| p.extend(self.yard.around.stand.surface_m(p) - SUNK_M));
                 let origin = *object.origin.get_or_insert(ends[0]);
                 object.asset = Some(asset);
                 append(&mut object.mesh, asset, ends.map(|p| (p - origin).as_vec3()), run.scale as f32);

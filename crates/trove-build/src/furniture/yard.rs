@@ -117,7 +117,14 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         if !self.take(asset, wish) {
             return false;
         }
-        let foot_world = wish.position.extend(self.around.stand.surface_m(wish.position));
+        // On a slope it stands on the lower end, let in at the upper one.
+        let plan = self.plan(asset);
+        let turn = DVec2::from_angle(wish.yaw_rad);
+        let corners = plan.spots.iter().flat_map(|s| [-1.0, 0.0, 1.0].map(|x| *s + DVec2::X * x * plan.radius_m));
+        let levels = corners.map(|s| self.around.stand.surface_m(wish.position + turn.rotate(s)));
+        let is_pole = wish.kind.is_on_pole();
+        let level = levels.fold(f64::INFINITY, f64::min);
+        let foot_world = wish.position.extend(if is_pole { self.around.stand.surface_m(wish.position) } else { level });
         // Lamps of a model are painted alike.
         let alike = wish.kind == Kind::StreetLamp;
         let seed = self.seed.child(if alike { wish.model } else { "piece" });

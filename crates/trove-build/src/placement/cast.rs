@@ -208,8 +208,10 @@ mod tests {
 
     #[test]
     fn a_kind_without_an_asset_is_reported() {
-        let library =
-            AssetLibrary { assets: vec![testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5])], ..AssetLibrary::default() };
+        let library = AssetLibrary {
+            assets: vec![testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5])],
+            ..AssetLibrary::default()
+        };
         let report = Report::default();
         let roles = roles(&library, 3, Seed(1), &report);
         assert!(roles[2].is_none() && roles[3].is_none());

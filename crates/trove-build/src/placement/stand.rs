@@ -38,10 +38,11 @@ impl Stand<'_> {
         centre.z - annotated.size_m.z / 2.0 - self.surface_m(centre.truncate())
     }
 
-    /// Puts an annotated box on the ground: position and heading are kept, vehicles follow the slope.
+    /// Puts an annotated box on the ground: position and heading are kept, vehicles and long things follow the slope.
     pub(crate) fn place(&self, annotated: &Cuboid, kind: Kind) -> Placement {
         let position = annotated.world_from_body.translation.truncate();
-        let (elevation_m, up) = if kind.is_vehicle() {
+        let follows_slope = kind.is_vehicle() || matches!(kind, Kind::Barrier | Kind::BicycleRack);
+        let (elevation_m, up) = if follows_slope {
             (self.wheels_elevation_m(annotated), self.ground.normal(position))
         } else {
             (self.surfaces.elevation_m(position), DVec3::Z)

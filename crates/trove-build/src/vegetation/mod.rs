@@ -154,8 +154,8 @@ pub(crate) fn vegetation<'a>(
 fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
     let reach_m = match (wish.kind, wish.form) {
         (Kind::Tree, _) => 0.25,
-        (_, Form::Hedge { length_m, .. }) => length_m * 0.35,
-        _ => 0.3,
+        (_, Form::Hedge { length_m, .. }) => length_m * 0.5,
+        _ => 0.4,
     };
     let middle_m = around.stand.surface_m(wish.position);
     let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
