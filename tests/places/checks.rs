@@ -5,15 +5,26 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 use trove_model::{Bounds, Class, Instance, Kind, Report, Scene};
 
-use crate::drawing::{Drawing, Triangle, is_built, triangles};
+use crate::drawing::{Drawing, Hit, Triangle, is_built, triangles};
 use crate::footing::{Ground, Solids, foot_outline, overlap_m};
 
 /// Surfaces nearer to each other than this fight for the same pixels, metres.
 const COPLANAR_M: f64 = 0.0005;
+/// Surfaces that meet at more than 0.2° (cosine) cross in a line; and so much two of a kind may have in common, m².
+const PARALLEL: f64 = 0.999_994;
+const COMMON_M2: f64 = 0.5;
+/// Buildings reach at most this far out of their place, metres.
+const REACH_M: f64 = 500.0;
+/// Slits behind reveals and where roofs meet walls show this much at most, m².
+const SLIT_M2: f64 = 10.0;
+/// Cloth, panes and thin metal have no inside.
+const SHEETS: [&str; 6] = ["awning", "awning stripe", "curtain", "drapes", "balustrade glass", "zinc"];
 /// Objects may sink into each other this far, metres.
 const OVERLAP_M: f64 = 0.05;
 /// Wheels and feet are this near to the ground, metres.
 const STANDS_M: f64 = 0.03;
+/// And everything else, which has no wheels or feet, metres.
+const LET_IN_M: f64 = 0.05;
 /// People who were recorded at least this high above the ground stood on something.
 const PLATFORM_M: f64 = 0.5;
 /// Directions in which a place is looked at from its sides.
@@ -35,7 +46,7 @@ pub(crate) fn solids(scene: &Scene, area: Bounds) -> Vec<String> {
     for i in 0..AZIMUTHS {
         let azimuth = std::f64::consts::TAU * (i as f64 + 0.137) / AZIMUTHS as f64;
         let towards = DVec3::new(azimuth.cos(), azimuth.sin(), -0.05).normalize();
-        look(scene, &buildings, area, towards, 0.4, &mut wrong);
+        look(scene, &buildings, area.grown(REACH_M), towards, 0.4, &mut wrong);
     }
     wrong
 }
@@ -43,47 +54,61 @@ pub(crate) fn solids(scene: &Scene, area: Bounds) -> Vec<String> {
 fn look(scene: &Scene, all: &[Triangle], area: Bounds, towards: DVec3, cell_m: f64, wrong: &mut Vec<String>) {
     let drawing = Drawing::new(all, area, towards, cell_m);
     let normals: Vec<DVec3> = all.iter().map(Triangle::normal).collect();
-    let name_of = |triangle: u32| name(&scene.instances[all[triangle as usize].instance]);
+    let name_of = |triangle: u32| {
+        let triangle = all[triangle as usize];
+        format!("{} ({})", name(&scene.instances[triangle.instance]), scene.materials[triangle.material].name)
+    };
     let mut fights: BTreeMap<String, (usize, DVec3)> = BTreeMap::new();
     let mut insides: BTreeMap<String, (usize, DVec3)> = BTreeMap::new();
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     for ray in drawing.rays() {
-        for pair in ray.windows(2) {
-            let alike = normals[pair[0].triangle as usize].dot(normals[pair[1].triangle as usize]) > 0.999;
-            if alike && pair[1].depth_m - pair[0].depth_m < COPLANAR_M {
+        // What lies behind the first opaque surface is not seen.
+        let seen_through = |hit: &Hit| scene.materials[all[hit.triangle as usize].material].transmission > 0.0;
+        let depth = ray.iter().position(|hit| !seen_through(hit)).unwrap_or(ray.len());
+        for pair in ray.windows(2).take(depth + 1) {
+            let [a, b] = [&pair[0], &pair[1]].map(|hit| &all[hit.triangle as usize]);
+            let alike = normals[pair[0].triangle as usize].dot(normals[pair[1].triangle as usize]) > PARALLEL;
+            // Nobody can tell two faces of one building and one material apart.
+            let name = |t: &Triangle| scene.materials[t.material].name.as_str();
+            let same = a.instance == b.instance && name(a) == name(b);
+            if alike && !same && pair[1].depth_m - pair[0].depth_m < COPLANAR_M {
                 let both = format!("{} and {}", name_of(pair[0].triangle), name_of(pair[1].triangle));
                 fights.entry(both).or_insert((0, drawing.point(&pair[0], towards))).0 += 1;
             }
         }
         let first = &ray[0];
-        if scene.instances[all[first.triangle as usize].instance].class == Class::Building {
+        let is_sheet = SHEETS.contains(&scene.materials[all[first.triangle as usize].material].name.as_str());
+        if !is_sheet && scene.instances[all[first.triangle as usize].instance].class == Class::Building {
             *seen.entry(name_of(first.triangle)).or_default() += 1;
             if !first.from_front {
                 insides.entry(name_of(first.triangle)).or_insert((0, drawing.point(first, towards))).0 += 1;
             }
         }
     }
-    // A ray in two triangles' common edge meets both.
-    let common = 2;
-    for (what, (rays, at)) in fights.into_iter().filter(|(_, (rays, _))| *rays > common) {
-        wrong.push(format!("{what} coincide over {:.2} m², such as at {at:.2}", rays as f64 * cell_m * cell_m));
+    for (what, (rays, at)) in fights {
+        let area_m2 = rays as f64 * cell_m * cell_m;
+        if area_m2 > COMMON_M2 {
+            wrong.push(format!("{what} coincide over {area_m2:.2} m², such as at {at:.2}"));
+        }
     }
     for (what, (rays, at)) in insides {
-        if rays as f64 > 2.0 + 0.002 * seen[&what] as f64 {
-            let area_m2 = rays as f64 * cell_m * cell_m;
+        let area_m2 = rays as f64 * cell_m * cell_m;
+        if area_m2 > SLIT_M2 && rays as f64 > 0.002 * seen[&what] as f64 {
             wrong.push(format!("{what} shows {area_m2:.2} m² of its inside towards {towards:.2}, such as at {at:.2}"));
         }
     }
 }
 
 /// Everything that stands does so on the ground: vehicles and people within 3 cm, other things without a gap.
-pub(crate) fn standing(scene: &Scene) -> Vec<String> {
+pub(crate) fn standing(scene: &Scene, area: Bounds) -> Vec<String> {
     let ground = Ground::new(scene);
     let mut wrong = Vec::new();
     for (instance, kind) in objects(scene).filter(|(_, kind)| *kind != Kind::Building) {
         for foot in feet(scene, instance, kind) {
             let Some(surface_m) = ground.height_near_m(foot) else {
-                wrong.push(format!("{} at {foot:.2} has no ground below it", name(instance)));
+                if area.contains(foot.truncate()) {
+                    wrong.push(format!("{} at {foot:.2} has no ground below it", name(instance)));
+                }
                 continue;
             };
             let above_m = foot.z - surface_m;
@@ -92,7 +117,8 @@ pub(crate) fn standing(scene: &Scene) -> Vec<String> {
                 continue;
             }
             let touches = kind.is_vehicle() || kind.class() == Class::Human;
-            if above_m > STANDS_M || (touches && above_m < -STANDS_M) {
+            let most_m = if touches { STANDS_M } else { LET_IN_M };
+            if above_m > most_m || (touches && above_m < -STANDS_M) {
                 wrong.push(format!("{} stands {above_m:.3} m above the ground at {foot:.2}", name(instance)));
                 break;
             }
@@ -180,7 +206,9 @@ pub(crate) fn bodies(scene: &Scene) -> Vec<String> {
         let [first, second] = [a, b].map(|k| &scene.instances[outlines[k].0]);
         let apart_m = (first.world_from_mesh.translation.z - second.world_from_mesh.translation.z).abs();
         // What was recorded may overlap as it was annotated, and plants grow into each other.
-        let excused = (is_recorded(first) && is_recorded(second)) || (is_plant(first) && is_plant(second));
+        // Walls and fences are joined where they meet.
+        let both = |is: fn(&Instance) -> bool| is(first) && is(second);
+        let excused = both(is_recorded) || both(is_plant) || both(is_line);
         if excused || apart_m > 2.0 {
             continue;
         }
@@ -225,6 +253,10 @@ fn is_recorded(instance: &Instance) -> bool {
 
 fn is_plant(instance: &Instance) -> bool {
     matches!(instance.class, Class::Tree | Class::Bush)
+}
+
+fn is_line(instance: &Instance) -> bool {
+    matches!(instance.object.as_ref().map(|o| o.kind), Some(Kind::Wall | Kind::Fence | Kind::GuardRail))
 }
 
 fn name(instance: &Instance) -> String {

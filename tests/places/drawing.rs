@@ -9,6 +9,8 @@ pub(crate) struct Triangle {
     pub(crate) corners: [DVec3; 3],
     /// Index into the scene's instances.
     pub(crate) instance: usize,
+    /// Index into the scene's materials.
+    pub(crate) material: usize,
 }
 
 impl Triangle {
@@ -24,9 +26,10 @@ pub(crate) fn triangles(scene: &Scene, wanted: impl Fn(usize) -> bool) -> Vec<Tr
     let mut triangles = Vec::new();
     for (index, instance) in scene.instances.iter().enumerate().filter(|(i, _)| wanted(*i)) {
         let mesh = &scene.meshes[instance.mesh];
-        for t in &mesh.triangles {
+        for (i, t) in mesh.triangles.iter().enumerate() {
             let corner = |i: u32| instance.world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());
-            triangles.push(Triangle { corners: t.map(corner), instance: index });
+            let material = instance.materials[usize::from(mesh.slot(i))];
+            triangles.push(Triangle { corners: t.map(corner), instance: index, material });
         }
     }
     triangles

@@ -11,6 +11,8 @@ use crate::drawing::{Triangle, is_built, triangles};
 const BUCKET_M: f64 = 4.0;
 /// A body is what of a thing lies between these heights above its foot, metres.
 const BODY_M: [f64; 2] = [0.05, 1.6];
+/// The same of a tree.
+const TRUNK_M: [f64; 2] = [0.05, 0.5];
 
 /// Triangles by where they lie in the plane.
 struct Buckets {
@@ -111,16 +113,17 @@ impl Solids {
     }
 }
 
-/// The convex outline of an object's body seen from above, counter-clockwise; a tree's is its trunk's.
+/// The convex outline of an object's body seen from above, counter-clockwise; a tree's is its trunk's foot.
 pub(crate) fn foot_outline(scene: &Scene, instance: &Instance) -> Vec<DVec2> {
+    let body_m = if instance.class == Class::Tree { TRUNK_M } else { BODY_M };
     let foot_m = instance.world_from_mesh.translation.z;
     let mesh = &scene.meshes[instance.mesh];
     let mut points = Vec::new();
     for t in &mesh.triangles {
         let corners = t.map(|i| instance.world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3()));
         for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
-            let [low, high] = BODY_M.map(|z| ((foot_m + z - a.z) / (b.z - a.z)).clamp(0.0, 1.0));
-            let touches = |t: f64| (BODY_M[0] - 1e-6..=BODY_M[1] + 1e-6).contains(&(a.z + t * (b.z - a.z) - foot_m));
+            let [low, high] = body_m.map(|z| ((foot_m + z - a.z) / (b.z - a.z)).clamp(0.0, 1.0));
+            let touches = |t: f64| (body_m[0] - 1e-6..=body_m[1] + 1e-6).contains(&(a.z + t * (b.z - a.z) - foot_m));
             points.extend([low, high].into_iter().filter(|&t| touches(t)).map(|t| a.lerp(b, t).truncate()));
         }
     }

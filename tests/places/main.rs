@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use glam::DVec2;
-use trove_build::{BuildSettings, LightChoice, OnDisagreement, SkyChoice, Weather};
+use trove_build::{BuildSettings, LightChoice, OnDisagreement, Site, SkyChoice, Weather};
 use trove_model::{AssetLibrary, Bounds, Drive, MapProjection, Report, Scene, Seed, StreetMap};
 use trove_read::{nuscenes::NuScenes, osm};
 
@@ -22,6 +22,7 @@ struct Place {
     drive: Drive,
     map: StreetMap,
     report: Report,
+    site: Site,
     scene: Scene,
 }
 
@@ -36,15 +37,16 @@ fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
     static LIBRARY: LazyLock<AssetLibrary> = LazyLock::new(trove_assets::library);
     let site = trove_build::build(&drive, Some(&map), &LIBRARY, &settings, &report).unwrap();
     let scene = site.scene(&drive, drive.keyframes.len() / 4);
-    Place { name: name.into(), drive, map, report, scene }
+    Place { name: name.into(), drive, map, report, site, scene }
 }
 
 /// Everything that must hold; prints at most a few of each kind.
 fn check(place: &Place) -> Vec<String> {
+    let area = trove_build::area(&place.drive).unwrap();
     let checks: [(&str, Vec<String>); 5] = [
         ("numbers", checks::numbers(&place.scene)),
-        ("solids", checks::solids(&place.scene, trove_build::area(&place.drive).unwrap())),
-        ("standing", checks::standing(&place.scene)),
+        ("solids", checks::solids(&place.scene, area)),
+        ("standing", checks::standing(&place.scene, area)),
         ("lanes", checks::lanes(&place.scene)),
         ("bodies", checks::bodies(&place.scene)),
     ];
@@ -124,7 +126,7 @@ fn assert_real(place: Option<Place>) {
     let Some(place) = place else { return };
     let mut wrong = checks::accounted(&place.report);
     wrong.extend(cover::road(&place.scene, &place.drive));
-    wrong.extend(cover::buildings(&place.scene, &place.drive, &place.map));
+    wrong.extend(cover::buildings(&place.site, &place.drive, &place.map));
     assert_sound(&place, wrong);
 }
 

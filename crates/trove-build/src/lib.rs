@@ -31,7 +31,7 @@ mod vegetation;
 mod views;
 mod weather;
 
-pub use agreement::OnDisagreement;
+pub use agreement::{OnDisagreement, agreed};
 pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use site::{BuildSettings, Site, area, build};

@@ -244,8 +244,8 @@ impl Site {
         Some(self.actors.get(track)?.as_ref()?.at(keyframe)?.cuboid)
     }
 
-    /// Outlines of the buildings.
-    pub(crate) fn footprints(&self) -> &[Polygon] {
+    /// Outlines of the buildings, those of their parts apart.
+    pub fn footprints(&self) -> &[Polygon] {
         &self.footprints
     }
 

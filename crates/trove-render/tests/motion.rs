@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Class, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
-    Scene, Seed, Shot, Shutter,
+    Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose, Scene,
+    Seed, Shot, Shutter,
 };
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 

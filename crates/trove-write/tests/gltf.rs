@@ -9,8 +9,8 @@ use glam::{DAffine3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::validation::Validate;
 use serde_json::Value;
 use trove_model::{
-    Class, ColorSpace, Cuboid, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Kind, Lens, Light,
-    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Seed, Shot, Shutter, Texture,
+    Class, ColorSpace, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Lens, Light,
+    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Shot, Texture,
 };
 use trove_write::gltf::{GlbStats, SunLight, write_environment, write_glb};
 
@@ -22,6 +22,7 @@ fn square() -> Mesh {
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         slots: vec![0, 1],
         positions,
+        ..Mesh::default()
     }
 }
 

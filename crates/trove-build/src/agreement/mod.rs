@@ -33,7 +33,7 @@ pub enum OnDisagreement {
 
 /// The map as it is to be built: moved by the rigid correction that lays it on the drive, where the recording asks for one
 /// clearly; `None` where it is refused. Distances before and after and the correction go into the report.
-pub(crate) fn agreed(
+pub fn agreed(
     drive: &Drive,
     map: &StreetMap,
     bounds: Bounds,

@@ -12,9 +12,9 @@ mod layout;
 mod markings;
 mod network;
 mod path;
-mod wear;
 #[cfg(test)]
 mod tests;
+mod wear;
 
 use std::sync::Arc;
 
@@ -177,7 +177,11 @@ pub(crate) fn surfaces(
         };
         add(mesh, Class::Ground, cover.kind);
         if is_water {
-            add(drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border), Class::Ground, SurfaceKind::Concrete);
+            add(
+                drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border),
+                Class::Ground,
+                SurfaceKind::Concrete,
+            );
         }
     }
     let below = Footings::new(bounds, &[(Footing::Carriageway, &layout.above)]);

@@ -44,7 +44,7 @@ fn luminance(rgb: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::{Distortion, Film, Lens, Pose, Seed, SensorModel, Shutter};
+    use trove_model::{Distortion, Film, Lens, Pose, Seed, SensorModel};
 
     fn shot(exposure: ExposureRule, sensor: Option<SensorModel>) -> Shot {
         let lens = Lens {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, vec2, vec3};
 use trove_model::{
-    Camera, Class, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light, Material, Mesh,
-    Pose, Raster, Scene, Seed, Shot, Shutter, World,
+    Camera, Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
+    Raster, Scene, Seed, Shot, World,
 };
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 
