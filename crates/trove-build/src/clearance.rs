@@ -6,6 +6,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Cuboid, Drive, Polygon};
 
 use crate::distance_field::DistanceField;
+use crate::plane_raster::bucket;
 use crate::roads::{Footing, RoadSurfaces};
 
 /// Cells of the distance fields, metres.
@@ -75,7 +76,7 @@ impl<'a> Clearance<'a> {
 
     /// Takes a position, so that nothing else is placed there.
     pub(crate) fn take(&mut self, p: DVec2, radius_m: f64) {
-        self.placed.entry(bucket(p)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
+        self.placed.entry(bucket(p, BUCKET_M)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
     }
 
     /// Whether no other plant needs the room around a position.
@@ -85,7 +86,7 @@ impl<'a> Clearance<'a> {
 
     /// Takes the room that a plant needs among plants.
     pub(crate) fn plant(&mut self, p: DVec2, radius_m: f64) {
-        self.planted.entry(bucket(p)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
+        self.planted.entry(bucket(p, BUCKET_M)).or_default().push((p, radius_m.min(MAX_RADIUS_M)));
     }
 
     /// Whether neither carriageway nor sidewalk nor water lies at a position.
@@ -106,17 +107,12 @@ impl<'a> Clearance<'a> {
 
 fn is_apart(taken: &Taken, p: DVec2, radius_m: f64) -> bool {
     let radius_m = radius_m.min(MAX_RADIUS_M);
-    let (low, high) = (bucket(p - radius_m - MAX_RADIUS_M), bucket(p + radius_m + MAX_RADIUS_M));
+    let (low, high) = (bucket(p - radius_m - MAX_RADIUS_M, BUCKET_M), bucket(p + radius_m + MAX_RADIUS_M, BUCKET_M));
     let near = |x, y| taken.get(&[x, y]).into_iter().flatten();
     !(low[0]..=high[0])
         .flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y)))
         .flat_map(|(x, y)| near(x, y))
         .any(|(other, other_m)| other.distance(p) < radius_m + other_m)
-}
-
-fn bucket(p: DVec2) -> [i64; 2] {
-    let cell = (p / BUCKET_M).floor();
-    [cell.x as i64, cell.y as i64]
 }
 
 /// Outlines of every box at every keyframe and of the recording vehicle on its way.

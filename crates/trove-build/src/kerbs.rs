@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 use trove_model::{Bounds, Drive, StreetMap, drives_on_left};
 
+use crate::plane_raster::bucket;
 use crate::roads::{Footing, RoadSurfaces};
 use crate::segments::SegmentIndex;
 
@@ -46,14 +47,14 @@ impl Kerbs {
         let runs = runs(drive, map, surfaces, bounds);
         let mut buckets: HashMap<[i64; 2], Vec<KerbPoint>> = HashMap::new();
         for point in runs.iter().flatten() {
-            buckets.entry(bucket(point.position)).or_default().push(*point);
+            buckets.entry(bucket(point.position, BUCKET_M)).or_default().push(*point);
         }
         Self { runs, buckets }
     }
 
     /// Kerb points within `reach_m` of a position, the nearest first.
     pub(crate) fn near(&self, p: DVec2, reach_m: f64) -> Vec<KerbPoint> {
-        let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
+        let (low, high) = (bucket(p - reach_m, BUCKET_M), bucket(p + reach_m, BUCKET_M));
         let mut found: Vec<(f64, KerbPoint)> = (low[0]..=high[0])
             .flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]))
             .flat_map(|key| self.buckets.get(&key).into_iter().flatten())
@@ -63,11 +64,6 @@ impl Kerbs {
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.into_iter().map(|(_, k)| k).collect()
     }
-}
-
-fn bucket(p: DVec2) -> [i64; 2] {
-    let cell = (p / BUCKET_M).floor();
-    [cell.x as i64, cell.y as i64]
 }
 
 fn runs(drive: &Drive, map: Option<&StreetMap>, surfaces: &RoadSurfaces, bounds: Bounds) -> Vec<Vec<KerbPoint>> {

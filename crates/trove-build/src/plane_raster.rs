@@ -75,6 +75,12 @@ impl PlaneRaster {
     }
 }
 
+/// The square of a grid from the origin that a point lies in, for what is looked up by its place.
+pub(crate) fn bucket(p: DVec2, side_m: f64) -> [i64; 2] {
+    let cell = (p / side_m).floor();
+    [cell.x as i64, cell.y as i64]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
+use crate::plane_raster::bucket;
+
 /// Segments in square buckets.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SegmentIndex {
@@ -37,7 +39,7 @@ impl SegmentIndex {
         let lines = lines.into_iter().enumerate();
         for (line, pair) in lines.flat_map(|(i, line)| line.windows(2).map(move |pair| (i, pair))) {
             let [a, b] = [pair[0], pair[1]];
-            let (low, high) = (bucket(a.min(b)), bucket(a.max(b)));
+            let (low, high) = (bucket(a.min(b), BUCKET_M), bucket(a.max(b), BUCKET_M));
             for x in low[0]..=high[0] {
                 for y in low[1]..=high[1] {
                     index.buckets.entry([x, y]).or_default().push(index.segments.len());
@@ -63,7 +65,7 @@ impl SegmentIndex {
     }
 
     fn nearest_within(&self, p: DVec2, reach_m: f64) -> Option<Nearest> {
-        let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
+        let (low, high) = (bucket(p - reach_m, BUCKET_M), bucket(p + reach_m, BUCKET_M));
         let mut best: Option<(f64, usize)> = None;
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
@@ -84,7 +86,7 @@ impl SegmentIndex {
 
     /// The line's number and the ends of all segments that may lie within `reach_m` along both axes, in the order given.
     pub(crate) fn around(&self, p: DVec2, reach_m: f64) -> Vec<(usize, [DVec2; 2])> {
-        let (low, high) = (bucket(p - reach_m), bucket(p + reach_m));
+        let (low, high) = (bucket(p - reach_m, BUCKET_M), bucket(p + reach_m, BUCKET_M));
         let buckets = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
         let in_bucket = buckets.filter_map(|bucket| self.buckets.get(&bucket));
         let mut numbers: Vec<usize> = in_bucket.flatten().copied().collect();
@@ -101,11 +103,6 @@ impl SegmentIndex {
         let t = if length2 > 0.0 { ((p - a).dot(ab) / length2).clamp(0.0, 1.0) } else { 0.0 };
         a + ab * t
     }
-}
-
-fn bucket(p: DVec2) -> [i64; 2] {
-    let cell = (p / BUCKET_M).floor();
-    [cell.x as i64, cell.y as i64]
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Small made-up drives and libraries for tests.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
@@ -174,4 +175,22 @@ pub(crate) fn road(id: i64, kind: RoadKind, points: &[[f64; 2]]) -> Road {
 pub(crate) fn map_with_road(ends: [[f64; 2]; 2]) -> StreetMap {
     let road = road(1, RoadKind::Residential, &ends);
     StreetMap { roads: vec![road], ..StreetMap::default() }
+}
+
+/// Edges that only one triangle has, and the volume that the triangles enclose.
+pub(crate) fn open_edges_and_volume(mesh: &Mesh) -> (Vec<[[u32; 3]; 2]>, f64) {
+    let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
+    let mut volume = 0.0;
+    for t in &mesh.triangles {
+        let p = t.map(|i| mesh.positions[i as usize]);
+        let [a, b, c] = p.map(|p| p.as_dvec3());
+        volume += a.dot(b.cross(c)) / 6.0;
+        // Adding 0 makes −0 and 0 one.
+        let key = p.map(|p| (p + 0.0).to_array().map(f32::to_bits));
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            *edges.entry([key[i], key[j]]).or_default() += 1;
+            *edges.entry([key[j], key[i]]).or_default() -= 1;
+        }
+    }
+    (edges.into_iter().filter(|(_, n)| *n > 0).map(|(e, _)| e).collect(), volume)
 }

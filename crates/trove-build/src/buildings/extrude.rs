@@ -110,9 +110,8 @@ fn storeys(volume: &Volume<'_>, grid: Grid, height_m: f64, above_ground_floor: b
 mod tests {
     use super::super::dress::Storeys;
     use super::*;
-    use crate::testing;
+    use crate::testing::{self, open_edges_and_volume};
     use glam::{DVec2, Vec2};
-    use std::collections::BTreeMap;
     use std::sync::Arc;
     use trove_model::{Bounds, Building, FacadeDesign, Filling, HeightField, Opening, Polygon, RoofShape, Seed};
 
@@ -144,24 +143,6 @@ mod tests {
 
     fn mesh(footprint: Polygon, roof: RoofShape, bottom_m: f64) -> Mesh {
         built(footprint, roof, bottom_m, &dress(false))
-    }
-
-    /// Edges that only one triangle has, and the volume that the triangles enclose.
-    fn open_edges_and_volume(mesh: &Mesh) -> (Vec<[[u32; 3]; 2]>, f64) {
-        let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
-        let mut volume = 0.0;
-        for t in &mesh.triangles {
-            let p = t.map(|i| mesh.positions[i as usize]);
-            let [a, b, c] = p.map(|p| p.as_dvec3());
-            volume += a.dot(b.cross(c)) / 6.0;
-            // Adding 0 makes −0 and 0 one.
-            let key = p.map(|p| (p + 0.0).to_array().map(f32::to_bits));
-            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-                *edges.entry([key[i], key[j]]).or_default() += 1;
-                *edges.entry([key[j], key[i]]).or_default() -= 1;
-            }
-        }
-        (edges.into_iter().filter(|(_, n)| *n > 0).map(|(e, _)| e).collect(), volume)
     }
 
     fn rectangle() -> Polygon {

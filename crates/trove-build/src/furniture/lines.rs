@@ -12,6 +12,7 @@ use super::yard::{Source, Yard};
 use crate::clearance::Room;
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::piece::Piece;
+use crate::plane_raster::bucket;
 use crate::segments::SegmentIndex;
 
 /// One object is at most this long, metres.
@@ -201,7 +202,7 @@ impl<'a> Layer<'_, 'a, '_, '_> {
                 object.asset = Some(asset);
                 append(&mut object.mesh, asset, ends.map(|p| (p - origin).as_vec3()), run.scale as f32);
                 object_m += a.distance(b);
-                self.laid.entry(bucket((a + b) / 2.0)).or_default().push([a, b]);
+                self.laid.entry(bucket((a + b) / 2.0, BUCKET_M)).or_default().push([a, b]);
             }
             self.finish(&mut object, run.kind);
         }
@@ -225,7 +226,7 @@ impl<'a> Layer<'_, 'a, '_, '_> {
 
     /// Whether a piece lies at a position already: maps draw a fence on a wall with the same nodes.
     fn is_laid(&self, p: DVec2) -> bool {
-        let [x, y] = bucket(p);
+        let [x, y] = bucket(p, BUCKET_M);
         let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
         let mut pieces = near.filter_map(|key| self.laid.get(&key)).flatten();
         pieces.any(|[a, b]| {
@@ -286,11 +287,6 @@ fn append(mesh: &mut Mesh, asset: &Asset, [a, b]: [Vec3; 2], scale: f32) {
     mesh.uvs.extend(&piece.uvs);
     mesh.triangles.extend(piece.triangles.iter().map(|t| t.map(|i| i + base)));
     mesh.slots.extend((0..piece.triangles.len()).map(|t| piece.slot(t)));
-}
-
-fn bucket(p: DVec2) -> [i64; 2] {
-    let cell = (p / BUCKET_M).floor();
-    [cell.x as i64, cell.y as i64]
 }
 
 fn samples(a: DVec2, b: DVec2) -> impl Iterator<Item = DVec2> {

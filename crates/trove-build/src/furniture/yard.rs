@@ -8,6 +8,7 @@ use trove_model::{Asset, AssetLibrary, Kind, Outcome, Report, RoadKind, Seed};
 use super::habits::Habits;
 use crate::clearance::{Clearance, Room};
 use crate::kerbs::KerbPoint;
+use crate::plane_raster::bucket;
 use crate::scenery::Scenery;
 use crate::segments::SegmentIndex;
 use crate::surroundings::Surroundings;
@@ -93,7 +94,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         for exposure in around.drive.keyframes.iter().flat_map(|k| &k.exposures) {
             let eye = exposure.world_from_ego.point(exposure.ego_from_camera.translation).truncate();
             if eye.is_finite() {
-                cameras.entry(bucket(eye)).or_default().push(eye);
+                cameras.entry(bucket(eye, BUCKET_M)).or_default().push(eye);
             }
         }
         Self {
@@ -117,20 +118,23 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         if !self.take(asset, wish) {
             return false;
         }
-        // On a slope it stands on the lower end, let in at the upper one.
-        let plan = self.plan(asset);
-        let turn = DVec2::from_angle(wish.yaw_rad);
-        let corners = plan.spots.iter().flat_map(|s| [-1.0, 0.0, 1.0].map(|x| *s + DVec2::X * x * plan.radius_m));
-        let levels = corners.map(|s| self.around.stand.surface_m(wish.position + turn.rotate(s)));
-        let is_pole = wish.kind.is_on_pole();
-        let level = levels.fold(f64::INFINITY, f64::min);
-        let foot_world = wish.position.extend(if is_pole { self.around.stand.surface_m(wish.position) } else { level });
+        let foot_world = wish.position.extend(self.foot_m(asset, wish));
         // Lamps of a model are painted alike.
         let alike = wish.kind == Kind::StreetLamp;
         let seed = self.seed.child(if alike { wish.model } else { "piece" });
         let seed = if alike { seed } else { seed.nth(self.placed.len() as u64) };
         self.placed.push(Scenery { asset, foot_world, yaw_rad: wish.yaw_rad, scale: DVec3::ONE, seed });
         true
+    }
+
+    /// Height at which a model stands: on a slope a wide one stands on its lower end, let in at the upper one.
+    fn foot_m(&mut self, asset: &'a Asset, wish: &Wish) -> f64 {
+        if wish.kind.is_on_pole() {
+            return self.around.stand.surface_m(wish.position);
+        }
+        let (plan, turn) = (self.plan(asset), DVec2::from_angle(wish.yaw_rad));
+        let corners = plan.spots.iter().flat_map(|s| [-1.0, 0.0, 1.0].map(|x| *s + DVec2::X * x * plan.radius_m));
+        corners.map(|s| self.around.stand.surface_m(wish.position + turn.rotate(s))).fold(f64::INFINITY, f64::min)
     }
 
     /// At a kerb, as far behind it as the model is deep, looking the way that things of its kind do.
@@ -178,7 +182,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         for spot in &spots {
             self.clearance.take(*spot, room.radius_m);
         }
-        self.by_place.entry(bucket(wish.position)).or_default().push((wish.kind, wish.position));
+        self.by_place.entry(bucket(wish.position, BUCKET_M)).or_default().push((wish.kind, wish.position));
         true
     }
 
@@ -261,14 +265,9 @@ fn lengthened(line: &[DVec2]) -> Vec<DVec2> {
     line
 }
 
-fn bucket(p: DVec2) -> [i64; 2] {
-    let cell = (p / BUCKET_M).floor();
-    [cell.x as i64, cell.y as i64]
-}
-
 /// What lies in the nine buckets around a position.
 fn neighbours<T>(buckets: &HashMap<[i64; 2], Vec<T>>, p: DVec2) -> impl Iterator<Item = &T> {
-    let [x, y] = bucket(p);
+    let [x, y] = bucket(p, BUCKET_M);
     (x - 1..=x + 1)
         .flat_map(move |x| (y - 1..=y + 1).map(move |y| [x, y]))
         .filter_map(|key| buckets.get(&key))
