@@ -1,7 +1,6 @@
 //! Small made-up drives and libraries for tests.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
@@ -25,16 +24,8 @@ pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {
         ..Mesh::default()
     };
     let paints = vec![Vec3::X, Vec3::Y, Vec3::Z];
-    Asset {
-        id: id.into(),
-        kind,
-        class: kind.class(),
-        size_m: DVec3::from_array(size_m),
-        mesh: Arc::new(mesh),
-        slots: vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints }],
-        frost_tender: false,
-        licence: "test".into(),
-    }
+    let slots = vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints }];
+    Asset { size_m: DVec3::from_array(size_m), ..Asset::new(id, kind, kind.class(), mesh, slots, "test") }
 }
 
 /// Four cars, two of each plant and of everything else one.

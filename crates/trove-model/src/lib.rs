@@ -28,7 +28,9 @@ mod seed;
 mod shot;
 mod street_map;
 
-pub use asset::{Asset, AssetLibrary, CoverKind, GroundCover, Slot, Surface, SurfaceKind};
+pub use asset::{
+    Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface, SurfaceKind,
+};
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
 pub use class::{CLASSES, Class, Class13, ClassRow};
 pub use cuboid::Cuboid;

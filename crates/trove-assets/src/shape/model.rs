@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec3, vec3};
-use trove_model::{Asset, Class, Kind, Material, Slot};
+use trove_model::{Asset, Class, Extra, Kind, Material, Mesh, Slot};
 
 use super::{Prism, Shape};
 
@@ -12,6 +12,7 @@ use super::{Prism, Shape};
 pub(crate) struct Model {
     shape: Shape,
     slots: Vec<Slot>,
+    extras: Vec<(Extra, Shape)>,
 }
 
 impl Model {
@@ -31,6 +32,12 @@ impl Model {
         self.shape = std::mem::take(&mut self.shape).and(shape);
     }
 
+    /// Adds what some variations have; its shape knows its slots, and [`Extra::mesh`] is taken from it.
+    pub(crate) fn add_extra(&mut self, group: &str, share: f32, when_driven: bool, shape: Shape) {
+        let extra = Extra { group: group.into(), share, when_driven, mesh: Arc::default() };
+        self.extras.push((extra, shape));
+    }
+
     /// What is in slot `from` inside a prism goes to slot `to`.
     pub(crate) fn mark(&mut self, prism: &Prism, from: u16, to: u16) {
         let (chosen, other) = std::mem::take(&mut self.shape).split_slot(from);
@@ -46,20 +53,23 @@ impl Model {
     /// The asset: slots without triangles go, the origin comes to the ground, and but for what stands on a pole to the
     /// middle of the bounds.
     pub(crate) fn asset(self, id: &str, kind: Kind, class: Class) -> Asset {
-        let mut mesh = self.shape.into_mesh();
-        let (low, high) = mesh.bounds().unwrap_or_default();
+        let (extras, shapes): (Vec<Extra>, Vec<Shape>) = self.extras.into_iter().unzip();
+        let mut meshes: Vec<Mesh> = std::iter::once(self.shape).chain(shapes).map(Shape::into_mesh).collect();
+        let (low, high) = meshes[0].bounds().unwrap_or_default();
         let middle = if kind.is_on_pole() { Vec3::ZERO } else { (low + high) / 2.0 };
         let origin = vec3(middle.x, middle.y, low.z);
-        mesh.positions.iter_mut().for_each(|p| *p -= origin);
 
-        let used: Vec<bool> = (0..self.slots.len()).map(|s| mesh.slots.contains(&(s as u16))).collect();
+        let mut used = vec![false; self.slots.len()];
+        meshes.iter().flat_map(|mesh| &mesh.slots).for_each(|s| used[usize::from(*s)] = true);
         let number = |s: u16| used[..usize::from(s)].iter().filter(|u| **u).count() as u16;
-        mesh.slots.iter_mut().for_each(|s| *s = number(*s));
+        for mesh in &mut meshes {
+            mesh.positions.iter_mut().for_each(|p| *p -= origin);
+            mesh.slots.iter_mut().for_each(|s| *s = number(*s));
+        }
         let slots = self.slots.into_iter().zip(&used).filter_map(|(slot, used)| used.then_some(slot)).collect();
-
-        let (low, high) = mesh.bounds().unwrap_or_default();
-        let size_m = high.as_dvec3() - low.as_dvec3();
-        let (id, mesh, licence) = (id.into(), Arc::new(mesh), crate::LICENCE.into());
-        Asset { id, kind, class, size_m, mesh, slots, frost_tender: false, licence }
+        let mut meshes = meshes.into_iter();
+        let mesh = meshes.next().unwrap_or_default();
+        let extras = extras.into_iter().zip(meshes).map(|(e, mesh)| Extra { mesh: Arc::new(mesh), ..e }).collect();
+        Asset { extras, ..Asset::new(id, kind, class, mesh, slots, crate::LICENCE) }
     }
 }
