@@ -34,7 +34,8 @@ fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
     };
-    static LIBRARY: LazyLock<AssetLibrary> = LazyLock::new(trove_assets::library);
+    static LIBRARY: LazyLock<AssetLibrary> =
+        LazyLock::new(|| trove_assets::library(&trove_assets::Ingredients::default()));
     let site = trove_build::build(&drive, Some(&map), &LIBRARY, &settings, &report).unwrap();
     let scene = site.scene(&drive, drive.keyframes.len() / 4);
     Place { name: name.into(), drive, map, report, site, scene }

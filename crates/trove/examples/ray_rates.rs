@@ -18,7 +18,7 @@ fn main() -> Result<()> {
     let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
     let renderer =
         Renderer::new(&RendererOptions { kernel: KernelChoice::Embree, denoise: false, threads: 1, search })?;
-    let library = trove_assets::library();
+    let library = trove_assets::library(&trove_assets::Ingredients::default());
     for (name, place) in [("scene-0103", "boston-seaport.osm"), ("scene-0061", "singapore-onenorth.osm")] {
         let drive = dataset.drive(name, &report)?;
         let area = trove_build::area(&drive).context("nothing was recorded")?;

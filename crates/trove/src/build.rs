@@ -49,7 +49,7 @@ pub(crate) fn run(
         on_disagreement: recipe.map.on_disagreement.into(),
     };
     let started = Instant::now();
-    let library = trove_assets::library();
+    let library = trove_assets::library(&trove_assets::Ingredients::default());
     report.measure("library.seconds", started.elapsed().as_secs_f64());
     let started = Instant::now();
     let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;

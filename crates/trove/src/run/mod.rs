@@ -78,7 +78,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         recipe,
         renderer,
         sources,
-        library: trove_assets::library(),
+        library: trove_assets::library(&trove_assets::Ingredients::default()),
         output,
         progress: Progress::new(planned),
         report,
