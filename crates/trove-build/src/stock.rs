@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::Vec3;
 use trove_model::{Asset, Mapping, Material, Mesh, Seed, Tiling};
 
 /// Meshes and materials, numbered in the order of their first use.
@@ -46,21 +45,9 @@ impl Stock {
         })
     }
 
-    /// The indices of an asset's materials, with paints drawn; slots with the same paints get the same one.
+    /// The indices of the materials of an asset's individual.
     pub(crate) fn painted(&mut self, asset: &Asset, seed: Seed) -> Vec<usize> {
-        let mut drawn: Vec<(&[Vec3], Vec3)> = Vec::new();
-        let mut indices = Vec::with_capacity(asset.slots.len());
-        for (i, slot) in asset.slots.iter().enumerate() {
-            let known = drawn.iter().find(|(paints, _)| *paints == slot.paints).map(|(_, paint)| *paint);
-            let paint = known.or_else(|| seed.child("paint").nth(i as u64).random().pick(&slot.paints).copied());
-            let Some(paint) = paint else {
-                indices.push(self.material(&slot.material));
-                continue;
-            };
-            drawn.push((&slot.paints, paint));
-            indices.push(self.material(&Material { base_color: paint, ..slot.material.clone() }));
-        }
-        indices
+        asset.materials(seed).iter().map(|material| self.material(material)).collect()
     }
 }
 
@@ -111,23 +98,5 @@ mod tests {
         let grey = Material::plain("grey", Vec3::splat(0.5), 0.5);
         let other = Material { roughness: 0.6, ..grey.clone() };
         assert_eq!((stock.material(&grey), stock.material(&other), stock.material(&grey.clone())), (0, 1, 0));
-    }
-
-    #[test]
-    fn slots_with_the_same_paints_are_painted_alike() {
-        let paints: Vec<Vec3> = (0..50).map(|i| Vec3::splat(i as f32 / 50.0)).collect();
-        let body = Slot { material: Material::plain("body", Vec3::ONE, 0.3), paints: paints.clone() };
-        let bumper = Slot { material: Material::plain("bumper", Vec3::ONE, 0.5), paints };
-        let tyre = Slot { material: Material::plain("tyre", Vec3::ZERO, 0.9), paints: Vec::new() };
-        let asset = Asset {
-            slots: vec![body, bumper, tyre],
-            ..crate::testing::asset("car/a", trove_model::Kind::Car, [4.0, 2.0, 1.5])
-        };
-        let mut stock = Stock::default();
-        let painted = stock.painted(&asset, Seed(1));
-        assert_eq!(stock.materials[painted[0]].base_color, stock.materials[painted[1]].base_color);
-        assert_eq!(stock.materials[painted[2]].base_color, Vec3::ZERO);
-        assert_eq!(stock.painted(&asset, Seed(1)), painted);
-        assert_ne!(stock.painted(&asset, Seed(2)), painted);
     }
 }

@@ -27,6 +27,7 @@ mod scene;
 mod seed;
 mod shot;
 mod street_map;
+mod variation;
 
 pub use asset::{
     Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface, SurfaceKind,

@@ -3,25 +3,19 @@
 //! The sheet is made from finished frames' files, so it is the same whatever order they were made in, by how many
 //! runs, and it can be made again at any time. One frame is in memory at once.
 
-mod letters;
 mod tiles;
 
 use std::path::{Path, PathBuf};
 
-use crate::{WriteError, png_file, write_atomically};
-use letters::draw_text;
+use crate::WriteError;
+use crate::letters::draw_text;
+use crate::sheet::{CAPTION_PX, GAP_PX, Sheet};
 use tiles::Tiles;
 
 /// Width of one picture on the sheet, pixels.
 const TILE_WIDTH_PX: u32 = 320;
-/// Gap around everything, pixels.
-const GAP_PX: u32 = 6;
-/// Height of the line with a frame's name, pixels.
-const CAPTION_PX: u32 = 14;
 /// Frames at most: a few seconds of reading, and a sheet of a few megabytes.
 const FRAMES: usize = 24;
-const PAPER: [u8; 3] = [24, 26, 30];
-const INK: [u8; 3] = [205, 208, 214];
 
 /// A frame to show.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,7 +50,7 @@ pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
             sheet.paste(x + t as u32 * (TILE_WIDTH_PX + 2), y + CAPTION_PX, TILE_WIDTH_PX, tile);
         }
     }
-    write_atomically(path, &png_file::rgb("contact_sheet.png", sheet.width, sheet.height, &sheet.pixels)?)
+    sheet.write(path)
 }
 
 /// At most [`FRAMES`] of the frames, the first and the last among them.
@@ -68,30 +62,4 @@ fn spread(frames: &[Frame]) -> Vec<&Frame> {
         return sorted;
     }
     (0..FRAMES).map(|i| sorted[i * (sorted.len() - 1) / (FRAMES - 1)]).collect()
-}
-
-/// The picture in the making.
-struct Sheet {
-    width: u32,
-    height: u32,
-    pixels: Vec<[u8; 3]>,
-}
-
-impl Sheet {
-    fn new(width: u32, height: u32) -> Self {
-        Self { width, height, pixels: vec![PAPER; width as usize * height as usize] }
-    }
-
-    /// Sets a pixel; outside the sheet nothing happens.
-    fn set(&mut self, x: u32, y: u32, color: [u8; 3]) {
-        if x < self.width && y < self.height {
-            self.pixels[y as usize * self.width as usize + x as usize] = color;
-        }
-    }
-
-    fn paste(&mut self, x: u32, y: u32, width: u32, tile: &[[u8; 3]]) {
-        for (i, &color) in tile.iter().enumerate() {
-            self.set(x + i as u32 % width, y + i as u32 / width, color);
-        }
-    }
 }

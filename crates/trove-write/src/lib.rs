@@ -11,10 +11,13 @@ mod frame;
 mod frame_table;
 pub mod gltf;
 mod jpeg;
+mod letters;
 mod picture;
 mod png_file;
+mod sheet;
 
 pub use error::WriteError;
 pub use files::{WrittenFile, sha256_file, write_atomically};
 pub use frame::{FrameMeta, Pictures, frame_files, write_frame};
 pub use picture::write_picture;
+pub use sheet::write_sheet;

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
 use trove_render::KernelChoice;
 
+use crate::assets::{self, AssetsCommand};
 use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{Dataset, Recipe};
@@ -78,6 +79,12 @@ enum Command {
         /// Prints the report as JSON.
         #[arg(long)]
         json: bool,
+    },
+    /// Shows what there is to build with.
+    #[command(after_help = "Example:\n  trove assets sheet --out sheet.png")]
+    Assets {
+        #[command(subcommand)]
+        command: AssetsCommand,
     },
     /// Does everything; running it again on the same folder finishes what is missing and redoes nothing.
     #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
@@ -154,6 +161,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             let recipe = Recipe::read(&recipe)?;
             build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
         }
+        Command::Assets { command } => assets::run(command, libraries::search(site_packages)).map(|()| 0),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
             produce(recipe, &out, &machine, site_packages, json)

@@ -2,6 +2,7 @@
 //!
 //! What goes in: arguments and a recipe. What comes out: folders of pictures with labels, and an exit status.
 
+mod assets;
 mod build;
 mod cache;
 mod cli;

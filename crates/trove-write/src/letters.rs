@@ -1,14 +1,14 @@
-//! Letters of three by five dots, drawn twice as large: enough for a frame's name.
+//! Letters of three by five dots, drawn twice as large: enough for a name.
 
-use super::{INK, Sheet};
+use crate::sheet::{INK, Sheet};
 
 /// Dots are squares of this side, pixels.
 const DOT_PX: u32 = 2;
 /// From one letter to the next, dots.
 const ADVANCE: u32 = 4;
 
-/// Writes capitals, digits and a frame name's punctuation; anything else is a dot.
-pub(super) fn draw_text(sheet: &mut Sheet, x: u32, y: u32, text: &str) {
+/// Writes capitals, digits and the punctuation of names; anything else is a dot.
+pub(crate) fn draw_text(sheet: &mut Sheet, x: u32, y: u32, text: &str) {
     for (i, letter) in text.chars().enumerate() {
         let left = x + i as u32 * ADVANCE * DOT_PX;
         for (row, dots) in rows(letter).iter().enumerate() {

@@ -1,0 +1,107 @@
+//! `trove assets sheet`: every model and material on one page.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use trove_model::{AssetLibrary, Environment, Raster};
+use trove_read::environment;
+use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_write::{write_picture, write_sheet};
+
+use super::studio::Studio;
+
+/// What to draw, and how.
+#[derive(Args)]
+pub(crate) struct Sheet {
+    /// The page to write.
+    #[arg(long, value_name = "FILE.png", required_unless_present = "each")]
+    out: Option<PathBuf>,
+    /// A folder for a picture each, beside the page or without one.
+    #[arg(long, value_name = "DIR")]
+    each: Option<PathBuf>,
+    /// Draws those whose id begins so; may be given several times.
+    #[arg(long, value_name = "ID")]
+    only: Vec<String>,
+    /// Size of a picture, pixels.
+    #[arg(long, value_name = "WxH", value_parser = size, default_value = "320x240")]
+    size: [u32; 2],
+    /// Samples a pixel.
+    #[arg(long, default_value_t = 16)]
+    spp: u32,
+    /// Draws the paint, the wear and what is carried.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Degrees by which things are turned to the left from the view on their front.
+    #[arg(long, default_value_t = 35.0, allow_hyphen_values = true)]
+    turn_deg: f64,
+    /// Sky to stand under, an .hdr or .exr file; without it a clear afternoon.
+    #[arg(long, visible_alias = "hdri", value_name = "FILE")]
+    environment: Option<PathBuf>,
+}
+
+impl Sheet {
+    pub(crate) fn run(&self, search: Vec<PathBuf>) -> Result<()> {
+        let environment = match &self.environment {
+            Some(path) => Some(Environment::Map(Arc::new(environment::read(path)?))),
+            None => None,
+        };
+        let library = trove_assets::library();
+        let studio =
+            Studio { size_px: self.size, spp: self.spp, seed: self.seed, turn_deg: self.turn_deg, environment };
+        let renderer =
+            Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
+        let mut pictures = Vec::new();
+        for (id, scene, shot) in self.chosen(&library).into_iter().map(|subject| studio.set(&library, subject)) {
+            let prepared = renderer.prepare(&scene).with_context(|| id.clone())?;
+            let picture: Raster<[u8; 3]> = renderer
+                .render(&prepared, &shot, true, &|_| false)
+                .and_then(|capture| capture.color)
+                .with_context(|| id.clone())?
+                .srgb;
+            if let Some(folder) = &self.each {
+                write_picture(&folder.join(format!("{}.png", id.replace('/', "-"))), &picture)?;
+            }
+            pictures.push((id, picture));
+        }
+        ensure!(
+            !pictures.is_empty(),
+            "--only: no model or material has an id that begins with {}",
+            self.only.join(" or ")
+        );
+        if let Some(path) = &self.out {
+            write_sheet(path, &pictures)?;
+            println!("{}: {} pictures", path.display(), pictures.len());
+        }
+        Ok(())
+    }
+
+    /// Models, then materials.
+    fn chosen<'a>(&self, library: &'a AssetLibrary) -> Vec<super::studio::Subject<'a>> {
+        use super::studio::Subject::{Model, Sample};
+        let wanted = |id: &str| self.only.is_empty() || self.only.iter().any(|only| id.starts_with(only.as_str()));
+        let models = library.assets.iter().filter(|a| wanted(&a.id)).map(Model);
+        models.chain(library.surfaces.iter().filter(|s| wanted(&s.id)).map(Sample)).collect()
+    }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides: Option<Vec<u32>> =
+        text.split('x').map(|side| side.parse().ok().filter(|s| (16..=8192).contains(s))).collect();
+    match sides.as_deref() {
+        Some(&[width, height]) => Ok([width, height]),
+        _ => Err("expected width and height of 16 to 8192 pixels, such as 800x600".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_two_sides() {
+        assert_eq!(size("800x600"), Ok([800, 600]));
+        assert!(size("800").is_err() && size("0x10").is_err() && size("axb").is_err());
+    }
+}
