@@ -88,7 +88,7 @@ fn key(material: &Material) -> MaterialKey {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::Slot;
+    use glam::Vec3;
 
     #[test]
     fn what_is_used_twice_is_kept_once() {

@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(mesh.defect(), None);
         let out = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|i| mesh.positions[i as usize]);
-            (b - a).cross(c - a).dot(mesh.normals[t[1] as usize]) >= 0.0
+            (b - a).cross(c - a).dot(mesh.normals[t[1] as usize]) > -1e-6
         };
         assert!(mesh.triangles.iter().all(out));
     }
