@@ -10,6 +10,7 @@ use trove_model::{Environment, Report, Seed};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
 
+use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
 use crate::run::{report_json, view_settings};
@@ -49,7 +50,7 @@ pub(crate) fn run(
         on_disagreement: recipe.map.on_disagreement.into(),
     };
     let started = Instant::now();
-    let library = trove_assets::library(&trove_assets::Ingredients::default());
+    let library = library::procedural(&recipe.assets.ingredients(), &report);
     report.measure("library.seconds", started.elapsed().as_secs_f64());
     let started = Instant::now();
     let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;

@@ -11,6 +11,7 @@ mod doctor;
 mod inspect;
 mod interrupt;
 mod libraries;
+mod library;
 mod message;
 mod overview;
 mod place;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
+use trove_assets::Ingredients;
 use trove_build::Weather;
 use trove_write::Pictures;
 
@@ -156,6 +157,15 @@ pub struct AssetsSection {
     pub libraries: Vec<String>,
     /// Draw among the k best fits; 1 is the best.
     pub top_k: usize,
+    /// Resolution of the built-in textures: 1 (at most 1024 texels a side), 2 or 4.
+    pub texture_scale: u32,
+}
+
+impl AssetsSection {
+    /// What the built-in library is made from.
+    pub fn ingredients(&self) -> Ingredients {
+        Ingredients { texture_scale: self.texture_scale }
+    }
 }
 
 /// `[views]`
@@ -222,7 +232,7 @@ pub struct VariationsSection {
 
 impl Default for AssetsSection {
     fn default() -> Self {
-        Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3 }
+        Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3, texture_scale: 1 }
     }
 }
 
@@ -329,6 +339,7 @@ impl Recipe {
             check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
         }
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
+        check("assets.texture_scale", assets.texture_scale, matches!(assets.texture_scale, 1 | 2 | 4), "1, 2 or 4")?;
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
         ensure!(!assets.libraries.is_empty(), "assets.libraries: expected at least one, found none");

@@ -2,11 +2,10 @@
 
 use anyhow::Result;
 use serde_json::{Value, json};
-use trove_model::{Asset, Surface};
+use trove_model::{Asset, AssetLibrary, Surface};
 
 /// Prints what the libraries hold.
-pub(crate) fn run(as_json: bool) -> Result<()> {
-    let library = trove_assets::library();
+pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
     if as_json {
         let assets: Vec<Value> = library.assets.iter().map(asset).collect();
         let materials: Vec<Value> = library.surfaces.iter().map(material).collect();

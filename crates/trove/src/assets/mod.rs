@@ -8,6 +8,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Subcommand;
+use trove_assets::Ingredients;
+use trove_model::Report;
+
+use crate::library;
 
 /// What to do with asset libraries.
 #[derive(Subcommand)]
@@ -28,8 +32,9 @@ pub(crate) enum AssetsCommand {
 
 /// Runs it; `search` is where Embree and the denoiser are looked for.
 pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<()> {
+    let library = library::procedural(&Ingredients::default(), &Report::default());
     match command {
-        AssetsCommand::List { json } => list::run(json),
-        AssetsCommand::Sheet(sheet) => sheet.run(search),
+        AssetsCommand::List { json } => list::run(&library, json),
+        AssetsCommand::Sheet(sheet) => sheet.run(&library, search),
     }
 }

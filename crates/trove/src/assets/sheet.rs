@@ -42,18 +42,17 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    pub(crate) fn run(&self, search: Vec<PathBuf>) -> Result<()> {
+    pub(crate) fn run(&self, library: &AssetLibrary, search: Vec<PathBuf>) -> Result<()> {
         let environment = match &self.environment {
             Some(path) => Some(Environment::Map(Arc::new(environment::read(path)?))),
             None => None,
         };
-        let library = trove_assets::library();
         let studio =
             Studio { size_px: self.size, spp: self.spp, seed: self.seed, turn_deg: self.turn_deg, environment };
         let renderer =
             Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
         let mut pictures = Vec::new();
-        for (id, scene, shot) in self.chosen(&library).into_iter().map(|subject| studio.set(&library, subject)) {
+        for (id, scene, shot) in self.chosen(library).into_iter().map(|subject| studio.set(library, subject)) {
             let prepared = renderer.prepare(&scene).with_context(|| id.clone())?;
             let picture: Raster<[u8; 3]> = renderer
                 .render(&prepared, &shot, true, &|_| false)

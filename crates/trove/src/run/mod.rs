@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
+use trove_assets::Ingredients;
 use trove_build::{ALL_CAMERAS, BuildSettings, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
@@ -16,7 +17,7 @@ use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_fram
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
-use crate::{interrupt, message};
+use crate::{interrupt, library, message};
 pub(crate) use manifest::report_json;
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 use output::OutputFolder;
@@ -63,7 +64,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         threads: recipe.render.threads,
         search: options.search.clone(),
     })?;
-    let identity = identity(recipe, &renderer)?;
+    let ingredients = recipe.assets.ingredients();
+    let identity = identity(recipe, &ingredients, &renderer)?;
     let report = Report::default();
     if let (true, Err(why)) = (recipe.render.denoise && recipe.render.light, renderer.capabilities().denoiser) {
         tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
@@ -78,7 +80,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         recipe,
         renderer,
         sources,
-        library: trove_assets::library(&trove_assets::Ingredients::default()),
+        library: library::procedural(&ingredients, &report),
         output,
         progress: Progress::new(planned),
         report,
@@ -102,12 +104,13 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
 }
 
 /// Everything that decides the output's bytes: a folder holds the frames of one identity.
-fn identity(recipe: &Recipe, renderer: &Renderer) -> Result<Value> {
+fn identity(recipe: &Recipe, ingredients: &Ingredients, renderer: &Renderer) -> Result<Value> {
     let found = renderer.capabilities();
     Ok(json!({
         "recipe": serde_json::to_value(recipe)?,
         "versions": {
             "trove": env!("CARGO_PKG_VERSION"),
+            "assets": library::fingerprint(ingredients),
             "kernel": found.kernel,
             "denoiser": found.denoiser.ok(),
         },
