@@ -25,9 +25,8 @@ const LEAVES_M: f64 = 1.0;
 pub(crate) struct Actor {
     /// What its pixels are.
     class: Class,
-    /// The asset's id.
-    pub asset: String,
-    mesh: usize,
+    /// The assets' ids: one, and for people one a posture.
+    assets: Vec<String>,
     /// Of each slot.
     pub materials: Vec<usize>,
     /// By keyframe, in the order of time.
@@ -41,6 +40,10 @@ pub(crate) struct ActorPose {
     pub world_from_mesh: DAffine3,
     /// Its box as placed.
     pub cuboid: Cuboid,
+    /// Index of its mesh.
+    mesh: usize,
+    /// Index of its asset among the actor's.
+    asset: usize,
 }
 
 impl Actor {
@@ -48,6 +51,11 @@ impl Actor {
     pub(crate) fn at(&self, keyframe: usize) -> Option<&ActorPose> {
         let found = self.poses.binary_search_by_key(&keyframe, |(k, _)| *k).ok()?;
         Some(&self.poses[found].1)
+    }
+
+    /// The id of the asset that a pose shows.
+    pub(crate) fn asset(&self, pose: &ActorPose) -> String {
+        self.assets[pose.asset].clone()
     }
 
     /// Whether it is somewhere else at some time.
@@ -65,12 +73,13 @@ impl Actor {
         object: SceneObject,
     ) -> Option<Instance> {
         let matrix = |k: Option<usize>| Some(self.at(k?)?.world_from_mesh);
+        let pose = self.at(keyframe)?;
         Some(Instance {
             id,
             class: self.class,
-            mesh: self.mesh,
+            mesh: pose.mesh,
             materials: self.materials.clone(),
-            world_from_mesh: self.at(keyframe)?.world_from_mesh,
+            world_from_mesh: pose.world_from_mesh,
             world_from_mesh_previous: matrix(previous),
             world_from_mesh_next: matrix(next),
             object: Some(Arc::new(object)),
@@ -105,19 +114,21 @@ pub(crate) struct Assembly {
 impl Assembly {
     /// Takes a recorded object.
     pub(crate) fn actor(&mut self, role: &Role) -> Actor {
-        let pose = |(k, p): &(usize, crate::placement::Placement)| {
-            (*k, ActorPose { world_from_mesh: role.world_from_mesh(p), cuboid: p.cuboid })
-        };
-        self.credit(role.asset);
-        let mut poses: Vec<(usize, ActorPose)> = role.placements.iter().map(pose).collect();
-        hold_still(&mut poses);
-        Actor {
-            class: role.asset.class,
-            asset: role.asset.id.clone(),
-            mesh: self.stock.mesh(&role.asset.mesh),
-            materials: self.stock.painted(role.asset, role.seed),
-            poses,
+        let mut assets: Vec<String> = Vec::new();
+        let mut poses = Vec::with_capacity(role.placements.len());
+        for ((k, placement), &shown) in role.placements.iter().zip(&role.postures) {
+            self.credit(shown);
+            let known = assets.iter().position(|id| *id == shown.id);
+            let asset = known.unwrap_or_else(|| {
+                assets.push(shown.id.clone());
+                assets.len() - 1
+            });
+            let mesh = self.stock.individual(shown, role.is_driven, role.seed);
+            let world_from_mesh = role.world_from_mesh(placement);
+            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, mesh, asset }));
         }
+        hold_still(&mut poses);
+        Actor { class: role.asset.class, assets, materials: self.stock.painted(role.asset, role.seed), poses }
     }
 
     /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
@@ -145,7 +156,7 @@ impl Assembly {
         let instance = Instance {
             id: take(next_id),
             class: scenery.asset.class,
-            mesh: self.stock.mesh(&scenery.asset.mesh),
+            mesh: self.stock.individual(scenery.asset, false, scenery.seed),
             materials: self.stock.painted(scenery.asset, scenery.seed),
             world_from_mesh,
             world_from_mesh_previous: Some(world_from_mesh),
@@ -209,7 +220,7 @@ mod tests {
     fn an_annotator_s_tremor_is_no_motion_and_a_creep_is() {
         let at = |x: f64| {
             let cuboid = Cuboid { world_from_body: Pose::from_yaw(0.0, DVec3::new(x, 0.0, 0.5)), size_m: DVec3::ONE };
-            ActorPose { world_from_mesh: DAffine3::from_translation(DVec3::X * x), cuboid }
+            ActorPose { world_from_mesh: DAffine3::from_translation(DVec3::X * x), cuboid, mesh: 0, asset: 0 }
         };
         let mut poses: Vec<(usize, ActorPose)> =
             [0.0, 0.008, 0.016, 0.024, 1.0].into_iter().map(at).enumerate().collect();

@@ -16,7 +16,7 @@ use crate::furniture::furniture;
 use crate::kerbs::Kerbs;
 use crate::light::{LightChoice, light, switch_on};
 use crate::moments::{apart_s, next, previous};
-use crate::placement::{Stand, cast};
+use crate::placement::{Cast, ObjectFit, Stand, cast};
 use crate::scenery::Scenery;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
@@ -64,6 +64,7 @@ pub struct Site {
     footprints: Vec<Polygon>,
     light: Light,
     provenance: Vec<Provenance>,
+    fits: Vec<ObjectFit>,
 }
 
 /// The square that is built around a drive: around the driven path, the annotated objects and the LiDAR points within
@@ -97,7 +98,7 @@ pub fn build(
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let roles = cast(drive, library, &stand, settings.top_k, seed.child("cast"), report);
+    let Cast { roles, fits } = cast(drive, library, &stand, settings.top_k, seed.child("cast"), report);
 
     // What is made up keeps clear of everything recorded; poles come before plants.
     let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
@@ -133,6 +134,7 @@ pub fn build(
         fixed: assembly.fixed,
         actors,
         footprints: buildings.footprints,
+        fits,
     })
 }
 
@@ -191,7 +193,7 @@ impl Site {
                 track_token: track.token.clone(),
                 annotation_token: annotated.token.clone(),
                 category: annotated.category.clone(),
-                asset: actor.asset.clone(),
+                asset: actor.asset(pose),
                 cuboid: pose.cuboid,
                 velocity_mps: annotated.velocity_mps,
             };
@@ -212,13 +214,14 @@ impl Site {
 
     fn ego_instance(&self, drive: &Drive, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
         let ego = self.actors.last()?.as_ref()?;
+        let pose = ego.at(keyframe)?;
         let object = SceneObject {
             kind: Kind::Car,
             track_token: String::new(),
             annotation_token: String::new(),
             category: "ego".into(),
-            asset: ego.asset.clone(),
-            cuboid: ego.at(keyframe)?.cuboid,
+            asset: ego.asset(pose),
+            cuboid: pose.cuboid,
             velocity_mps: None,
         };
         ego.instance(self.ego_id(drive), keyframe, neighbours, object)
@@ -237,6 +240,11 @@ impl Site {
     /// Where everything came from, with licences.
     pub fn provenance(&self) -> &[Provenance] {
         &self.provenance
+    }
+
+    /// How well the assets of the recorded objects fit their boxes, in the order of the tracks.
+    pub fn fits(&self) -> &[ObjectFit] {
+        &self.fits
     }
 
     /// The box of a track as placed at a keyframe; `None` where it was not annotated or has no asset.

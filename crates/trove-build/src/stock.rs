@@ -15,6 +15,8 @@ pub(crate) struct Stock {
     // Only ever looked up, so the order inside does not reach the scene.
     mesh_index: HashMap<usize, usize>,
     material_index: HashMap<MaterialKey, usize>,
+    // By the asset's mesh and the extras that join it.
+    individuals: HashMap<(usize, Vec<usize>), usize>,
 }
 
 /// Two materials with the same key look the same; images are told apart by where they lie.
@@ -34,6 +36,18 @@ impl Stock {
             meshes.push(mesh.clone());
             meshes.len() - 1
         })
+    }
+
+    /// The index of the mesh of an asset's individual: with what it carries.
+    pub(crate) fn individual(&mut self, asset: &Asset, is_driven: bool, seed: Seed) -> usize {
+        let extras = asset.drawn_extras(is_driven, seed);
+        let key = (Arc::as_ptr(&asset.mesh).addr(), extras);
+        if let Some(known) = self.individuals.get(&key) {
+            return *known;
+        }
+        let mesh = self.mesh(&asset.with_extras(&key.1));
+        self.individuals.insert(key, mesh);
+        mesh
     }
 
     /// The index of a material.

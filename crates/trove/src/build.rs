@@ -13,7 +13,7 @@ use trove_write::gltf::{SunLight, write_environment, write_glb};
 use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
-use crate::run::{report_json, view_settings};
+use crate::run::{fits_json, report_json, view_settings};
 use crate::sources::Sources;
 
 /// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
@@ -85,6 +85,7 @@ pub(crate) fn run(
             "instances": stats.instances,
             "triangles": stats.triangles,
             "report": report,
+            "fits": fits_json(site.fits()),
         });
         println!("{}", serde_json::to_string_pretty(&printed)?);
         return Ok(());

@@ -3,7 +3,9 @@
 use glam::{DAffine3, DVec3};
 use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Pose, Report, Seed, Track};
 
+use super::choice::{self, Candidate, ObjectFit, draw, measure, object_fit, ranked};
 use super::fit::Fit;
+use super::gait::{Gait, Mode};
 use super::rows::rows;
 use super::stand::{Placement, Stand};
 
@@ -15,14 +17,18 @@ const STOREY_M: f64 = 2.0;
 /// An object of the drive with its asset: the same at every keyframe.
 #[derive(Clone, Debug)]
 pub(crate) struct Role<'a> {
-    /// What stands for it.
+    /// What stands for it: the same over all its keyframes but for the posture of people.
     pub asset: &'a Asset,
     /// How it is made to fit.
     pub fit: Fit,
-    /// Draws its paints.
+    /// Draws its paints, its wear and what it carries.
     pub seed: Seed,
+    /// It moves by itself or is ridden at some time.
+    pub is_driven: bool,
     /// Where it stands, by keyframe, in the order of time.
     pub placements: Vec<(usize, Placement)>,
+    /// The asset at each of the placements.
+    pub postures: Vec<&'a Asset>,
 }
 
 impl Role<'_> {
@@ -32,8 +38,15 @@ impl Role<'_> {
     }
 }
 
-/// Chooses an asset for every track, and for the recording vehicle, which comes last; `None` where the library has
-/// nothing of the kind.
+/// Who plays whom, and how well they fit.
+pub(crate) struct Cast<'a> {
+    /// For every track, and last for the recording vehicle; `None` where the library has nothing of the kind.
+    pub roles: Vec<Option<Role<'a>>>,
+    /// For every track that has an asset.
+    pub fits: Vec<ObjectFit>,
+}
+
+/// Chooses an asset for every track, and for the recording vehicle.
 pub(crate) fn cast<'a>(
     drive: &Drive,
     library: &'a AssetLibrary,
@@ -41,7 +54,8 @@ pub(crate) fn cast<'a>(
     top_k: usize,
     seed: Seed,
     report: &Report,
-) -> Vec<Option<Role<'a>>> {
+) -> Cast<'a> {
+    let mut fits = Vec::new();
     let mut roles = Vec::with_capacity(drive.tracks.len() + 1);
     for (track, first) in drive.tracks.iter().zip(rows(&drive.tracks)) {
         let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
@@ -57,7 +71,14 @@ pub(crate) fn cast<'a>(
             let row_size_m =
                 median_size_m(&first.boxes).filter(|s| s.is_finite() && s.min_element() > 0.0).unwrap_or(size_m);
             let row_seed = root_seed.child(&first.token);
-            let Some((asset, _)) = choose(library, track.kind, row_size_m, top_k, row_seed) else {
+            let sits = track.kind == Kind::Adult;
+            let gait = Gait::new(drive, &boxes, size_m.z, sits);
+            let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
+            let mut ranked = ranked(of_kind(gait.main_mode()), row_size_m, track.kind);
+            if ranked.is_empty() {
+                ranked = choice::ranked(library.of_kind(track.kind), row_size_m, track.kind);
+            }
+            let Some(Candidate { asset, .. }) = draw(&ranked, top_k, row_seed) else {
                 report.note(
                     Outcome::Dropped,
                     &format!("object without an asset of kind {:?}", track.kind),
@@ -70,13 +91,16 @@ pub(crate) fn cast<'a>(
             let place = |(k, cuboid): &(usize, Cuboid)| {
                 (*k, if stays_up { stand.keep(cuboid) } else { stand.place(cuboid, track.kind) })
             };
-            Some(Role { asset, fit, seed, placements: boxes.iter().map(place).collect() })
+            fits.push(object_fit(track, size_m, &Candidate { asset, fit }, &ranked));
+            let placements = boxes.iter().map(place).collect();
+            let postures = gait.postures(asset, library.of_kind(track.kind), fit.scale.z, seed);
+            Some(Role { asset, fit, seed, is_driven: gait.moves(), placements, postures })
         });
         roles.push(role);
     }
-    measure_fit(&roles, report);
+    measure(&fits, report);
     roles.push(ego(drive, library, stand, top_k, seed));
-    roles
+    Cast { roles, fits }
 }
 
 /// Whether a track's annotated height is believed rather than the ground: over the whole drive its boxes are well above
@@ -101,26 +125,16 @@ fn stays_up(track: &Track, boxes: &[(usize, Cuboid)], stand: &Stand, report: &Re
 fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize, seed: Seed) -> Option<Role<'a>> {
     let body = drive.ego_body;
     let seed = seed.child("ego");
-    let (asset, fit) = choose(library, Kind::Car, body.size_m, top_k, seed)?;
+    let Candidate { asset, fit } = draw(&ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car), top_k, seed)?;
     let place = |(k, keyframe): (usize, &trove_model::Keyframe)| {
         let ego = keyframe.world_from_ego;
         let cuboid =
             Cuboid { world_from_body: Pose::new(ego.rotation, ego.point(body.centre_ego)), size_m: body.size_m };
         (k, stand.place(&cuboid, Kind::Car))
     };
-    Some(Role { asset, fit, seed, placements: drive.keyframes.iter().enumerate().map(place).collect() })
-}
-
-/// One of the `top_k` assets that fit best, drawn with equal chances, but for barriers of plastic: they are the most
-/// common.
-fn choose(library: &AssetLibrary, kind: Kind, size_m: DVec3, top_k: usize, seed: Seed) -> Option<(&Asset, Fit)> {
-    let mut fits: Vec<(&Asset, Fit)> =
-        library.of_kind(kind).map(|asset| (asset, Fit::new(asset.size_m, size_m, kind))).collect();
-    fits.sort_by(|(a, fa), (b, fb)| fb.quality_m.total_cmp(&fa.quality_m).then_with(|| a.id.cmp(&b.id)));
-    fits.truncate(top_k.max(1));
-    let lots = |asset: &Asset| if asset.id.starts_with("barrier/water") { 4 } else { 1 };
-    let lots: Vec<(&Asset, Fit)> = fits.into_iter().flat_map(|fit| std::iter::repeat_n(fit, lots(fit.0))).collect();
-    seed.child("asset").random().pick(&lots).copied()
+    let placements: Vec<(usize, Placement)> = drive.keyframes.iter().enumerate().map(place).collect();
+    let postures = vec![asset; placements.len()];
+    Some(Role { asset, fit, seed, is_driven: true, placements, postures })
 }
 
 fn is_sound(cuboid: &Cuboid) -> bool {
@@ -135,17 +149,6 @@ fn median_size_m(boxes: &[(usize, Cuboid)]) -> Option<DVec3> {
         sides.get(sides.len() / 2).copied()
     };
     Some(DVec3::new(median(0)?, median(1)?, median(2)?))
-}
-
-fn measure_fit(roles: &[Option<Role>], report: &Report) {
-    let fits: Vec<&Fit> = roles.iter().flatten().map(|r| &r.fit).collect();
-    if fits.is_empty() {
-        return;
-    }
-    let mean = |of: fn(&Fit) -> f64| fits.iter().map(|f| of(f)).sum::<f64>() / fits.len() as f64;
-    report.measure("fit.objects", fits.len() as f64);
-    report.measure("fit.mean_quality", mean(|f| f.quality_m));
-    report.measure("fit.mean_iou3d", mean(|f| f.iou3d));
 }
 
 #[cfg(test)]
@@ -168,7 +171,7 @@ mod tests {
     fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {
         let (ground, surfaces) = (slope(), surfaces());
         let stand = Stand { ground: &ground, surfaces: &surfaces };
-        cast(&testing::drive(), library, &stand, top_k, seed, report)
+        cast(&testing::drive(), library, &stand, top_k, seed, report).roles
     }
 
     #[test]
@@ -229,7 +232,7 @@ mod tests {
                 cuboid.world_from_body.translation.z = z;
             }
         }
-        let roles = cast(&drive, &library, &Stand { ground: &ground, surfaces: &surfaces }, 1, Seed(1), &report);
+        let roles = cast(&drive, &library, &Stand { ground: &ground, surfaces: &surfaces }, 1, Seed(1), &report).roles;
         let rise_m = |track: usize| {
             let placed = roles[track].as_ref().unwrap().placements[0].1.cuboid.world_from_body.translation;
             drive.tracks[track].boxes[0].1.world_from_body.translation.z - placed.z

@@ -1,9 +1,12 @@
 //! The annotated objects and the recording vehicle as assets on the ground.
 
 mod cast;
+mod choice;
 mod fit;
+mod gait;
 mod rows;
 mod stand;
 
-pub(crate) use cast::{Role, cast};
-pub(crate) use stand::{Placement, Stand};
+pub(crate) use cast::{Cast, Role, cast};
+pub use choice::{AssetFit, ObjectFit};
+pub(crate) use stand::Stand;

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use trove_build::{AssetFit, ObjectFit};
 use trove_model::{CLASSES, Drive, Outcome, Provenance, Report};
 use trove_write::{WrittenFile, write_atomically};
 
@@ -18,6 +19,8 @@ pub(super) struct SiteFile {
     pub(super) drive: Value,
     pub(super) sources: Vec<Source>,
     pub(super) report: Value,
+    /// What stands for which object, how well it fits, and what else would have.
+    pub(super) fits: Value,
     /// Frames as (keyframe, view).
     pub(super) frames: Vec<(usize, String)>,
 }
@@ -65,6 +68,21 @@ pub(super) fn drive_row(drive: &Drive) -> Value {
             "anchor_m": drive.projection.anchor_m.to_array(),
         },
     })
+}
+
+/// How well assets fit, an object a row.
+pub(crate) fn fits_json(fits: &[ObjectFit]) -> Value {
+    let asset = |fit: &AssetFit| json!({ "asset": fit.asset, "quality_m": fit.quality_m, "iou3d": fit.iou3d });
+    let row = |fit: &ObjectFit| {
+        json!({
+            "track": fit.track_token,
+            "kind": format!("{:?}", fit.kind),
+            "size_m": fit.size_m.to_array(),
+            "chosen": asset(&fit.chosen),
+            "runners_up": fit.runners_up.iter().map(asset).collect::<Vec<_>>(),
+        })
+    };
+    fits.iter().map(row).collect()
 }
 
 /// A frame's row in the manifest.

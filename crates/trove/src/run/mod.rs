@@ -18,8 +18,8 @@ use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
 use crate::{interrupt, library, message};
-pub(crate) use manifest::report_json;
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
+pub(crate) use manifest::{fits_json, report_json};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, refuse_foreign};
 
@@ -246,6 +246,7 @@ impl Run<'_> {
             drive: drive_row(&drive),
             sources: site.provenance().iter().map(Into::into).collect(),
             report: report_json(&report),
+            fits: fits_json(site.fits()),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { drive, site, shots }))

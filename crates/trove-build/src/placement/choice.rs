@@ -1,0 +1,112 @@
+//! Which asset fits a box best, and which others would have.
+
+use glam::DVec3;
+use trove_model::{Asset, Kind, Outcome, Report, Seed, Track};
+
+use super::fit::Fit;
+
+/// Runners-up that are told of.
+const RUNNERS_UP: usize = 3;
+/// True 3D IoU below which an asset is no good fit.
+const GOOD_IOU: f64 = 0.6;
+
+/// An asset and how well it fits a box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate<'a> {
+    /// The asset.
+    pub asset: &'a Asset,
+    /// What is done to it.
+    pub fit: Fit,
+}
+
+/// How well the asset that stands for a recorded object fits its box, and who came next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectFit {
+    /// The dataset's token of its track.
+    pub track_token: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Length, width and height of its box, the middle ones of all keyframes, metres.
+    pub size_m: DVec3,
+    /// What was taken.
+    pub chosen: AssetFit,
+    /// Others that fit, the best first, by the paper's measure.
+    pub runners_up: Vec<AssetFit>,
+}
+
+/// How well an asset fits a box.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssetFit {
+    /// The asset's id.
+    pub asset: String,
+    /// The paper's measure, IoU of the outlines seen from above times the lower height, metres, with the aspect kept.
+    pub quality_m: f64,
+    /// True 3D intersection over union after the asset was made to fit, 0 to 1.
+    pub iou3d: f64,
+}
+
+impl From<&Candidate<'_>> for AssetFit {
+    fn from(Candidate { asset, fit }: &Candidate) -> Self {
+        Self { asset: asset.id.clone(), quality_m: fit.quality_m, iou3d: fit.iou3d }
+    }
+}
+
+/// The assets by how well they fit, the best first.
+pub(super) fn ranked<'a>(assets: impl Iterator<Item = &'a Asset>, size_m: DVec3, kind: Kind) -> Vec<Candidate<'a>> {
+    let fit = |asset: &'a Asset| Candidate { asset, fit: Fit::new(asset.size_m, size_m, kind) };
+    let mut ranked: Vec<Candidate> = assets.map(fit).collect();
+    ranked.sort_by(|a, b| b.fit.quality_m.total_cmp(&a.fit.quality_m).then_with(|| a.asset.id.cmp(&b.asset.id)));
+    ranked
+}
+
+/// One of the `top_k` best, drawn by how common they are.
+pub(super) fn draw<'a>(ranked: &[Candidate<'a>], top_k: usize, seed: Seed) -> Option<Candidate<'a>> {
+    let best = &ranked[..ranked.len().min(top_k.max(1))];
+    let lots = |c: &Candidate| f64::from(c.asset.commonness.max(0.0));
+    let mut left = seed.child("asset").random().unit() * best.iter().map(lots).sum::<f64>();
+    let drawn = best.iter().find(|c| {
+        left -= lots(c);
+        left < 0.0
+    });
+    drawn.or(best.first()).copied()
+}
+
+/// The choice for a track, with those who came next.
+pub(super) fn object_fit(track: &Track, size_m: DVec3, chosen: &Candidate, ranked: &[Candidate]) -> ObjectFit {
+    let others = ranked.iter().filter(|c| c.asset.id != chosen.asset.id);
+    ObjectFit {
+        track_token: track.token.clone(),
+        kind: track.kind,
+        size_m,
+        chosen: chosen.into(),
+        runners_up: others.take(RUNNERS_UP).map(AssetFit::from).collect(),
+    }
+}
+
+/// Notes how well assets fit on the whole and by kind, and names what nothing fits well.
+pub(super) fn measure(fits: &[ObjectFit], report: &Report) {
+    if fits.is_empty() {
+        return;
+    }
+    let mean = |fits: &[&ObjectFit], of: fn(&AssetFit) -> f64| {
+        fits.iter().map(|f| of(&f.chosen)).sum::<f64>() / fits.len() as f64
+    };
+    let all: Vec<&ObjectFit> = fits.iter().collect();
+    report.measure("fit.objects", all.len() as f64);
+    report.measure("fit.mean_quality", mean(&all, |f| f.quality_m));
+    report.measure("fit.mean_iou3d", mean(&all, |f| f.iou3d));
+    for kind in Kind::ALL {
+        let of_kind: Vec<&ObjectFit> = fits.iter().filter(|f| f.kind == kind).collect();
+        if !of_kind.is_empty() {
+            report.measure(&format!("fit.mean_iou3d.{kind:?}"), mean(&of_kind, |f| f.iou3d));
+        }
+    }
+    for fit in fits.iter().filter(|f| f.chosen.iou3d < GOOD_IOU) {
+        let [length, width, height] = fit.size_m.to_array();
+        let example = format!(
+            "{}: {length:.2} × {width:.2} × {height:.2} m, {} with an IoU of {:.2}",
+            fit.track_token, fit.chosen.asset, fit.chosen.iou3d
+        );
+        report.note(Outcome::Warned, &format!("no asset of kind {:?} fits well", fit.kind), example);
+    }
+}

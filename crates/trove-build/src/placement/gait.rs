@@ -1,0 +1,194 @@
+//! In which posture people are seen at every keyframe: who walks is in the phase to which the way so far has led.
+
+use trove_model::{Asset, Cuboid, Drive, Posture, Seed};
+
+/// Slower than this is standing, m/s: annotators' hands tremble.
+const WALKS_MPS: f64 = 0.35;
+/// Faster than this is running, m/s (people change over at about 2 m/s: Hreljac 1993, Human Movement Science).
+const RUNS_MPS: f64 = 2.2;
+/// A box lower than this is of someone who sits, metres; children are a kind of their own.
+const SITS_M: f64 = 1.3;
+
+/// What someone does, whatever the phase.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    Standing,
+    Walking,
+    Running,
+    Sitting,
+}
+
+impl Mode {
+    fn of(asset: &Asset) -> Option<Self> {
+        Some(match asset.figure.as_ref()?.posture {
+            Posture::Standing => Self::Standing,
+            Posture::Walking { .. } => Self::Walking,
+            Posture::Running { .. } => Self::Running,
+            Posture::Sitting => Self::Sitting,
+        })
+    }
+
+    /// Whether an asset may stand for someone in this mode: all that are no figures may.
+    pub(super) fn allows(self, asset: &Asset) -> bool {
+        Self::of(asset).is_none_or(|mode| mode == self)
+    }
+}
+
+/// A track's course as far as postures need it.
+pub(super) struct Gait {
+    /// For each of its boxes.
+    modes: Vec<Mode>,
+    /// Way along its own heading since the first box, metres, for each of its boxes.
+    way_m: Vec<f64>,
+}
+
+impl Gait {
+    pub(super) fn new(drive: &Drive, boxes: &[(usize, Cuboid)], height_m: f64, sits: bool) -> Self {
+        let time_s = |k: usize| drive.keyframes.get(k).map_or(0.0, |k| k.time_ns as f64 * 1e-9);
+        let step_m = |a: &Cuboid, b: &Cuboid| {
+            let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
+            let moved = b.world_from_body.translation - a.world_from_body.translation;
+            (moved.x * cos + moved.y * sin, moved.truncate().length())
+        };
+        let mut way_m = vec![0.0; boxes.len()];
+        let mut speeds_mps: Vec<f64> = vec![0.0; boxes.len()];
+        for i in 1..boxes.len() {
+            let ((k, before), (l, now)) = (&boxes[i - 1], &boxes[i]);
+            let (ahead_m, far_m) = step_m(before, now);
+            way_m[i] = way_m[i - 1] + ahead_m;
+            let speed_mps = far_m / (time_s(*l) - time_s(*k)).max(1e-3);
+            speeds_mps[i] = speed_mps;
+            // The first has no step before it, and someone who sets out already does.
+            if i == 1 {
+                speeds_mps[0] = speed_mps;
+            }
+        }
+        let mode = |&speed_mps: &f64| match speed_mps {
+            _ if sits && height_m < SITS_M => Mode::Sitting,
+            v if v < WALKS_MPS => Mode::Standing,
+            v if v < RUNS_MPS => Mode::Walking,
+            _ => Mode::Running,
+        };
+        Self { modes: speeds_mps.iter().map(mode).collect(), way_m }
+    }
+
+    /// Whether it is ever on its way.
+    pub(super) fn moves(&self) -> bool {
+        self.modes.iter().any(|mode| matches!(mode, Mode::Walking | Mode::Running))
+    }
+
+    /// What it does at most keyframes.
+    pub(super) fn main_mode(&self) -> Mode {
+        let all = [Mode::Standing, Mode::Walking, Mode::Running, Mode::Sitting];
+        let count = |mode: &Mode| self.modes.iter().filter(|m| *m == mode).count();
+        all.into_iter().rev().max_by_key(count).unwrap_or(Mode::Standing)
+    }
+
+    /// For each box the asset of the chosen one's person that is in the right posture, which is the chosen one where
+    /// the library has no such posture; `scale` is how much larger than the asset the person is.
+    pub(super) fn postures<'a>(
+        &self,
+        chosen: &'a Asset,
+        library: impl Iterator<Item = &'a Asset>,
+        scale: f64,
+        seed: Seed,
+    ) -> Vec<&'a Asset> {
+        let Some(figure) = &chosen.figure else { return vec![chosen; self.modes.len()] };
+        let is_same = |asset: &&'a Asset| asset.figure.as_ref().is_some_and(|f| f.person == figure.person);
+        let postures: Vec<&'a Asset> =
+            library.filter(is_same).filter(|a| a.slots.len() == chosen.slots.len()).collect();
+        let of_mode = |mode: Mode| postures.iter().copied().filter(move |a| Mode::of(a) == Some(mode));
+        let start = seed.child("phase").random().unit();
+        let still: Vec<Vec<&Asset>> = [Mode::Standing, Mode::Sitting].map(|mode| of_mode(mode).collect()).to_vec();
+        let drawn = |from: &[&'a Asset]| seed.child("posture").random().pick(from).copied();
+        let posture = |(mode, way_m): (&Mode, &f64)| {
+            let found = match mode {
+                // Who was chosen in this mode stays as chosen.
+                Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen),
+                Mode::Standing => drawn(&still[0]),
+                Mode::Sitting => drawn(&still[1]),
+                Mode::Walking | Mode::Running => of_mode(*mode).min_by(|a, b| {
+                    let off = |asset: &Asset| phase_off(asset, start, *way_m / scale);
+                    off(a).total_cmp(&off(b))
+                }),
+            };
+            found.unwrap_or(chosen)
+        };
+        self.modes.iter().zip(&self.way_m).map(posture).collect()
+    }
+}
+
+/// How far an asset's phase is from the one that a way leads to, 0 to 0.5 of the cycle.
+fn phase_off(asset: &Asset, start: f64, way_m: f64) -> f64 {
+    let Some((phase, stride_m)) = asset.figure.as_ref().and_then(|f| match f.posture {
+        Posture::Walking { phase, stride_m } | Posture::Running { phase, stride_m } => Some((phase, stride_m)),
+        Posture::Standing | Posture::Sitting => None,
+    }) else {
+        return 0.5;
+    };
+    let wanted = start + way_m / f64::from(stride_m).max(0.1);
+    let off = (wanted - f64::from(phase)).rem_euclid(1.0);
+    off.min(1.0 - off)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+    use glam::DVec3;
+    use trove_model::{Figure, Kind, Pose};
+
+    fn person(posture: Posture) -> Asset {
+        let figure = Figure { person: "adult/a".into(), posture };
+        let id = format!("adult/a-{posture:?}");
+        Asset { figure: Some(figure), ..testing::asset(&id, Kind::Adult, [0.5, 0.5, 1.75]) }
+    }
+
+    fn people() -> Vec<Asset> {
+        let mut all: Vec<Asset> =
+            (0..8).map(|i| person(Posture::Walking { phase: i as f32 / 8.0, stride_m: 1.4 })).collect();
+        all.extend([person(Posture::Standing), person(Posture::Sitting)]);
+        all
+    }
+
+    /// Boxes at every keyframe of the test's drive, so far apart.
+    fn boxes(step_m: f64) -> Vec<(usize, Cuboid)> {
+        let at = |k: usize| Pose::from_yaw(0.0, DVec3::X * step_m * k as f64);
+        (0..10).map(|k| (k, Cuboid { world_from_body: at(k), size_m: DVec3::new(0.6, 0.6, 1.75) })).collect()
+    }
+
+    fn phase(asset: &Asset) -> Option<f32> {
+        match asset.figure.as_ref()?.posture {
+            Posture::Walking { phase, .. } => Some(phase),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn phases_follow_the_way_and_who_stands_stands() {
+        let (drive, people) = (testing::drive(), people());
+        let apart_s = (drive.keyframes[1].time_ns - drive.keyframes[0].time_ns) as f64 * 1e-9;
+        // An eighth of a cycle a keyframe, at a walking speed for half-second keyframes.
+        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), 1.75, true);
+        assert_eq!(gait.main_mode(), Mode::Walking, "{apart_s}");
+        let postures = gait.postures(&people[0], people.iter(), 1.0, Seed(1));
+        let phases: Vec<f32> = postures.iter().map(|a| phase(a).unwrap()).collect();
+        for pair in phases.windows(2) {
+            assert!(((pair[1] - pair[0]).rem_euclid(1.0) - 0.625).abs() < 1e-6, "{phases:?}");
+        }
+        let still = Gait::new(&drive, &boxes(0.01), 1.75, true);
+        assert_eq!(still.main_mode(), Mode::Standing);
+        assert!(still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == people[8].id));
+    }
+
+    #[test]
+    fn a_low_box_is_of_someone_who_sits_and_other_assets_have_no_posture() {
+        let (drive, people) = (testing::drive(), people());
+        let gait = Gait::new(&drive, &boxes(0.0), 1.2, true);
+        assert_eq!(gait.main_mode(), Mode::Sitting);
+        assert!(Mode::Sitting.allows(&people[9]) && !Mode::Sitting.allows(&people[0]));
+        let car = testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5]);
+        assert!(Mode::Walking.allows(&car));
+        assert!(gait.postures(&car, people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == "car/a"));
+    }
+}
