@@ -57,7 +57,8 @@ pub(crate) fn cast<'a>(
 ) -> Cast<'a> {
     let mut fits = Vec::new();
     let mut roles = Vec::with_capacity(drive.tracks.len() + 1);
-    for (track, first) in drive.tracks.iter().zip(rows(&drive.tracks)) {
+    let rows = rows(&drive.tracks);
+    for (track, &first) in drive.tracks.iter().zip(&rows) {
         let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
         let unsound = track.boxes.len() - boxes.len();
         for _ in 0..unsound {
@@ -66,11 +67,9 @@ pub(crate) fn cast<'a>(
         let size_m = median_size_m(&boxes);
         let role = size_m.and_then(|size_m| {
             let (root_seed, seed) = (seed, seed.child(&track.token));
-            // A row is of the make that was drawn for its first.
-            let first = &drive.tracks[first];
-            let row_size_m =
-                median_size_m(&first.boxes).filter(|s| s.is_finite() && s.min_element() > 0.0).unwrap_or(size_m);
-            let row_seed = root_seed.child(&first.token);
+            // A row is of one make, which fits its middle size.
+            let row_size_m = row_size_m(drive, &rows, first).unwrap_or(size_m);
+            let row_seed = root_seed.child(&drive.tracks[first].token);
             let sits = track.kind == Kind::Adult;
             let gait = Gait::new(drive, &boxes, size_m.z, sits);
             let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
@@ -141,7 +140,15 @@ fn is_sound(cuboid: &Cuboid) -> bool {
     cuboid.world_from_body.is_finite() && cuboid.size_m.is_finite() && cuboid.size_m.min_element() > 0.0
 }
 
-/// The middle length, width and height of a track's boxes; `None` without boxes.
+/// The middle size of the sound boxes of the row whose first track this is.
+fn row_size_m(drive: &Drive, rows: &[usize], first: usize) -> Option<DVec3> {
+    let of_row = drive.tracks.iter().zip(rows).filter(|(_, row)| **row == first);
+    let boxes: Vec<(usize, Cuboid)> =
+        of_row.flat_map(|(t, _)| &t.boxes).filter(|(_, c)| is_sound(c)).copied().collect();
+    median_size_m(&boxes)
+}
+
+/// The middle length, width and height of boxes; `None` without boxes.
 fn median_size_m(boxes: &[(usize, Cuboid)]) -> Option<DVec3> {
     let median = |axis: usize| {
         let mut sides: Vec<f64> = boxes.iter().map(|(_, c)| c.size_m[axis]).collect();

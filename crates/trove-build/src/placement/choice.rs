@@ -7,6 +7,8 @@ use super::fit::Fit;
 
 /// Runners-up that are told of.
 const RUNNERS_UP: usize = 3;
+/// What fits worse than this share of the best is not drawn.
+const ABOUT_AS_GOOD: f64 = 0.85;
 /// True 3D IoU below which an asset is no good fit.
 const GOOD_IOU: f64 = 0.6;
 
@@ -59,16 +61,17 @@ pub(super) fn ranked<'a>(assets: impl Iterator<Item = &'a Asset>, size_m: DVec3,
     ranked
 }
 
-/// One of the `top_k` best, drawn by how common they are.
+/// One of the `top_k` best that fit about as well as the best, drawn by how common they are.
 pub(super) fn draw<'a>(ranked: &[Candidate<'a>], top_k: usize, seed: Seed) -> Option<Candidate<'a>> {
-    let best = &ranked[..ranked.len().min(top_k.max(1))];
+    let least_m = ranked.first()?.fit.quality_m * ABOUT_AS_GOOD;
+    let best: Vec<&Candidate> = ranked.iter().take(top_k.max(1)).take_while(|c| c.fit.quality_m >= least_m).collect();
     let lots = |c: &Candidate| f64::from(c.asset.commonness.max(0.0));
-    let mut left = seed.child("asset").random().unit() * best.iter().map(lots).sum::<f64>();
-    let drawn = best.iter().find(|c| {
+    let mut left = seed.child("asset").random().unit() * best.iter().copied().map(lots).sum::<f64>();
+    let drawn = best.iter().copied().find(|c| {
         left -= lots(c);
         left < 0.0
     });
-    drawn.or(best.first()).copied()
+    drawn.or(best.first().copied()).copied()
 }
 
 /// The choice for a track, with those who came next.
