@@ -1,16 +1,18 @@
 //! `trove assets sheet`: every model and material on one page.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use trove_model::{AssetLibrary, Environment, Raster};
+use trove_model::{Asset, AssetLibrary, Environment, Raster};
 use trove_read::environment;
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{write_picture, write_sheet};
 
 use super::studio::Studio;
+use crate::progress::Progress;
 
 /// What to draw, and how.
 #[derive(Args)]
@@ -51,11 +53,22 @@ impl Sheet {
             Studio { size_px: self.size, spp: self.spp, seed: self.seed, turn_deg: self.turn_deg, environment };
         let renderer =
             Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
+        let subjects = self.chosen(library);
+        ensure!(
+            !subjects.is_empty(),
+            "--only: no model or material has an id that begins with {}",
+            self.only.join(" or ")
+        );
+        let progress = Progress::new(subjects.len());
         let mut pictures = Vec::new();
-        for (id, scene, shot) in self.chosen(library).into_iter().map(|subject| studio.set(library, subject)) {
+        for subject in subjects {
+            let (id, scene, shot) = studio.set(library, subject);
             let prepared = renderer.prepare(&scene).with_context(|| id.clone())?;
             let picture: Raster<[u8; 3]> = renderer
-                .render(&prepared, &shot, true, &|_| false)
+                .render(&prepared, &shot, true, &|share| {
+                    progress.within(share);
+                    false
+                })
                 .and_then(|capture| capture.color)
                 .with_context(|| id.clone())?
                 .srgb;
@@ -63,12 +76,9 @@ impl Sheet {
                 write_picture(&folder.join(format!("{}.png", id.replace('/', "-"))), &picture)?;
             }
             pictures.push((id, picture));
+            progress.frame_done();
         }
-        ensure!(
-            !pictures.is_empty(),
-            "--only: no model or material has an id that begins with {}",
-            self.only.join(" or ")
-        );
+        progress.finish();
         if let Some(path) = &self.out {
             write_sheet(path, &pictures)?;
             println!("{}: {} pictures", path.display(), pictures.len());
@@ -76,11 +86,16 @@ impl Sheet {
         Ok(())
     }
 
-    /// Models, then materials.
+    /// Models, then materials; of a person one posture, unless some are asked for.
     fn chosen<'a>(&self, library: &'a AssetLibrary) -> Vec<super::studio::Subject<'a>> {
         use super::studio::Subject::{Model, Sample};
         let wanted = |id: &str| self.only.is_empty() || self.only.iter().any(|only| id.starts_with(only.as_str()));
-        let models = library.assets.iter().filter(|a| wanted(&a.id)).map(Model);
+        let mut people = BTreeSet::new();
+        let mut is_new = |a: &&Asset| {
+            let person = a.figure.as_ref().map(|figure| &figure.person);
+            !self.only.is_empty() || person.is_none_or(|person| people.insert(person.clone()))
+        };
+        let models = library.assets.iter().filter(|a| wanted(&a.id) && is_new(a)).map(Model);
         models.chain(library.surfaces.iter().filter(|s| wanted(&s.id)).map(Sample)).collect()
     }
 }
