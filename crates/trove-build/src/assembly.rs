@@ -148,15 +148,15 @@ impl Assembly {
         self.fixed.push(instance);
     }
 
-    /// Takes a plant or a piece of furniture.
-    pub(crate) fn scenery(&mut self, scenery: &Scenery, next_id: &mut u32) {
+    /// Takes a plant or a piece of furniture that stands at some distance from the driven path.
+    pub(crate) fn scenery(&mut self, scenery: &Scenery, distance_m: f64, next_id: &mut u32) {
         self.credit(scenery.asset);
         let world_from_mesh = scenery.world_from_mesh();
         let object = scene_object(scenery.asset.kind, &scenery.asset.id, cuboid(&scenery.asset.mesh, &world_from_mesh));
         let instance = Instance {
             id: take(next_id),
             class: scenery.asset.class,
-            mesh: self.stock.individual(scenery.asset, false, scenery.seed),
+            mesh: self.stock.seen(scenery.asset, distance_m, scenery.seed),
             materials: self.stock.painted(scenery.asset, scenery.seed),
             world_from_mesh,
             world_from_mesh_previous: Some(world_from_mesh),

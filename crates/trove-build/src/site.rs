@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use trove_model::{
     AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Outcome, Polygon, Provenance,
     Report, Scene, SceneObject, Seed, StreetMap,
@@ -20,7 +20,7 @@ use crate::placement::{Cast, ObjectFit, Stand, cast};
 use crate::scenery::Scenery;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
-use crate::vegetation::{undergrowth, vegetation};
+use crate::vegetation::{Conditions, driven_path, undergrowth, vegetation};
 use crate::weather::Weather;
 use crate::{buildings, ground, roads};
 
@@ -90,9 +90,13 @@ pub fn build(
     let map = map.and_then(|map| agreed(drive, map, bounds, settings.on_disagreement, report));
     let map = map.as_ref();
 
+    // Plants are those of the season.
+    let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season);
+    let library = &library.in_season(conditions.season());
+
     // What lies and stands for good.
     let ground = ground::height_field(drive, bounds, report);
-    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, seed.child("roads"), report);
+    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, conditions, seed.child("roads"), report);
     let buildings =
         buildings::buildings(drive, map, &surfaces, &ground, bounds, library, seed.child("buildings"), report);
 
@@ -105,7 +109,8 @@ pub fn build(
     let kerbs = Kerbs::new(drive, map, &surfaces, bounds);
     let around = Surroundings { drive, map, bounds, kerbs: &kerbs, stand };
     let furniture = furniture(&around, library, &mut clearance, seed.child("furniture"), report);
-    let mut plants = vegetation(&around, library, &mut clearance, seed.child("vegetation"), report);
+    let mut plants =
+        vegetation(&around, library, &mut clearance, conditions.climate(), seed.child("vegetation"), report);
 
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
     let mut assembly = Assembly::default();
@@ -116,12 +121,13 @@ pub fn build(
     }
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
     drop_farthest(&mut plants, drive, left.saturating_sub(furniture.scenery.len()), report);
-    let undergrowth = undergrowth(&around, library, &clearance, &plants, seed.child("undergrowth"), report);
+    let undergrowth = undergrowth(&around, library, &clearance, &plants, conditions, seed.child("undergrowth"), report);
     for piece in &undergrowth {
         assembly.piece(piece, &mut next_id);
     }
+    let path = driven_path(drive);
     for scenery in plants.iter().chain(&furniture.scenery) {
-        assembly.scenery(scenery, &mut next_id);
+        assembly.scenery(scenery, distance_m(&path, scenery), &mut next_id);
     }
     settings.weather.treat(&mut assembly);
     let light = light(drive, bounds, &settings.light, seed.child("light"));
@@ -136,6 +142,13 @@ pub fn build(
         footprints: buildings.footprints,
         fits,
     })
+}
+
+/// How far something stands from the driven path as far as its details show: what is larger is seen from farther away.
+fn distance_m(path: &[DVec2], scenery: &Scenery) -> f64 {
+    let foot = scenery.foot_world.truncate();
+    let nearest = path.iter().map(|p| p.distance_squared(foot)).fold(f64::INFINITY, f64::min).sqrt();
+    nearest / scenery.scale.max_element()
 }
 
 /// Keeps the `most` plants that are nearest to the driven path, in their order.

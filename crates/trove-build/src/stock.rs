@@ -50,6 +50,12 @@ impl Stock {
         mesh
     }
 
+    /// The index of the mesh of what stands at a distance: the individual, or a coarser shape that carries nothing.
+    pub(crate) fn seen(&mut self, asset: &Asset, distance_m: f64, seed: Seed) -> usize {
+        let mesh = asset.mesh_at(distance_m);
+        if Arc::ptr_eq(mesh, &asset.mesh) { self.individual(asset, false, seed) } else { self.mesh(mesh) }
+    }
+
     /// The index of a material.
     pub(crate) fn material(&mut self, material: &Material) -> usize {
         let materials = &mut self.materials;

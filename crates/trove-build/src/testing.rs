@@ -10,6 +10,7 @@ use trove_model::{
 };
 
 use crate::roads::{self, RoadSurfaces};
+use crate::vegetation::Conditions;
 
 /// A block that is its own bounding box, with three paints.
 pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {
@@ -72,7 +73,12 @@ fn street() -> LaneMap {
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
-    roads::surfaces(drive, None, ground, bounds, &library(), Seed(0), &Report::default())
+    roads::surfaces(drive, None, ground, bounds, &library(), conditions(), Seed(0), &Report::default())
+}
+
+/// The climate and season of the made-up drive.
+pub(crate) fn conditions() -> Conditions {
+    Conditions::new(&drive(), 0, None)
 }
 
 /// Ten keyframes half a second apart, 5 m along x each; a parked car, a moving car ahead, a truck coming, a person.

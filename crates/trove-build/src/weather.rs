@@ -1,6 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
-use trove_model::Class;
+use trove_model::{Class, Season};
 
 use crate::assembly::Assembly;
 
@@ -12,12 +12,14 @@ pub struct Weather {
     /// 0 (dry) to 1 (after heavy rain): ground and buildings; nothing is known of roofs over them, so all of the ground
     /// is as wet. Plants and what people bring stay dry.
     pub wetness: f64,
+    /// What time of the year plants show; `None`: that of the light, which is the recording's unless it was chosen.
+    pub season: Option<Season>,
 }
 
 impl Default for Weather {
-    /// Dry, and as dirty as streets are.
+    /// Dry, as dirty as streets are, in the season of the recording.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0 }
+        Self { dirt: 1.0, wetness: 0.0, season: None }
     }
 }
 

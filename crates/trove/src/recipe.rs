@@ -10,6 +10,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_assets::Ingredients;
 use trove_build::Weather;
+use trove_model::Season;
 use trove_write::Pictures;
 
 pub use camera::CameraSection;
@@ -199,6 +200,34 @@ pub struct WeatherSection {
     pub wetness: f64,
     /// 0 (washed) to 1 (as streets are).
     pub dirt: f64,
+    /// What time of the year plants show.
+    pub season: SeasonChoice,
+}
+
+/// A season, or the recording's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)] // the names are the definition
+pub enum SeasonChoice {
+    /// Of the recording, or of `light.time` where that is given.
+    #[default]
+    Recorded,
+    Spring,
+    Summer,
+    Autumn,
+    Winter,
+}
+
+impl From<SeasonChoice> for Option<Season> {
+    fn from(chosen: SeasonChoice) -> Self {
+        match chosen {
+            SeasonChoice::Recorded => None,
+            SeasonChoice::Spring => Some(Season::Spring),
+            SeasonChoice::Summer => Some(Season::Summer),
+            SeasonChoice::Autumn => Some(Season::Autumn),
+            SeasonChoice::Winter => Some(Season::Winter),
+        }
+    }
 }
 
 /// `[render]`
@@ -244,8 +273,8 @@ impl Default for ViewsSection {
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness } = Weather::default();
-        Self { wetness, dirt }
+        let Weather { dirt, wetness, season: _ } = Weather::default();
+        Self { wetness, dirt, season: SeasonChoice::default() }
     }
 }
 
@@ -372,7 +401,7 @@ impl Recipe {
 
     /// What weather has done to the place.
     pub fn weather(&self) -> Weather {
-        Weather { dirt: self.weather.dirt, wetness: self.weather.wetness }
+        Weather { dirt: self.weather.dirt, wetness: self.weather.wetness, season: self.weather.season.into() }
     }
 
     /// The cameras that are asked for; `None` for all.

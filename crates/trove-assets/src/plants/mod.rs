@@ -8,18 +8,40 @@ mod stems;
 mod trees;
 
 use rayon::prelude::*;
-use trove_model::Asset;
+use trove_model::{Asset, Climate, LeafType, Plant, PlantForm};
 
 pub(crate) use cover::covers;
-
-/// Plants of the tropics.
-const FROST_TENDER: [&str; 4] = ["bush/tropical", "tree/palm", "tree/palm-low", "tree/rain-tree"];
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
     let groups: [fn() -> Vec<Asset>; 3] = [trees::assets, stems::assets, bushes::assets];
-    let placed = |asset: Asset| Asset { frost_tender: FROST_TENDER.contains(&asset.id.as_str()), ..asset };
+    let placed = |asset: Asset| Asset { plant: Some(plant(&asset.id)), ..asset };
     groups.par_iter().flat_map_iter(|group| group()).map(placed).collect()
+}
+
+/// Where a plant is common, and what maps call it.
+fn plant(id: &str) -> Plant {
+    use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
+    const TENDER: [(Climate, f32); 2] = [(Temperate, 0.0), (Cold, 0.0)];
+    let (leaves, genera, habitat): (LeafType, &[&str], Vec<(Climate, f32)>) = match id {
+        "tree/palm" | "tree/palm-low" => {
+            let warm = [(Tropical, 0.4), (Subtropical, 0.4), (Mediterranean, 0.9), (Arid, 0.9)];
+            (LeafType::Frond, &["palm", "phoenix", "washingtonia", "roystonea", "cocos"], [&TENDER[..], &warm].concat())
+        }
+        "tree/rain-tree" => (LeafType::Broad, &["samanea", "albizia"], [&TENDER[..], &[(Tropical, 2.0)]].concat()),
+        "bush/tropical" => (LeafType::Broad, &[], TENDER.to_vec()),
+        "tree/spruce" => (LeafType::Needle, &["picea", "abies"], vec![(Temperate, 0.3), (Mediterranean, 0.1)]),
+        "tree/pine" => (LeafType::Needle, &["pinus", "cedrus", "larix"], vec![(Tropical, 0.1), (Temperate, 0.4)]),
+        "tree/cypress" => (LeafType::Needle, &["cupressus", "italica"], vec![(Temperate, 0.0), (Cold, 0.0)]),
+        "tree/birch" => (LeafType::Broad, &["betula"], vec![(Tropical, 0.0), (Temperate, 0.4)]),
+        "tree/linden" => (LeafType::Broad, &["tilia"], vec![(Tropical, 0.0), (Temperate, 1.6)]),
+        "tree/plane" => (LeafType::Broad, &["platanus"], vec![(Temperate, 1.4), (Mediterranean, 1.4)]),
+        "tree/oak" => (LeafType::Broad, &["quercus", "fagus"], Vec::new()),
+        _ => (LeafType::Broad, &[], Vec::new()),
+    };
+    let form = if id == "bush/hedge" { PlantForm::Hedge } else { PlantForm::Free };
+    let genera = genera.iter().map(|g| (*g).into()).collect();
+    Plant { form, leaves, genera, habitat, ..Plant::default() }
 }
 
 #[cfg(test)]
@@ -43,13 +65,6 @@ mod tests {
                 assert!(height.contains(&asset.size_m.z), "{} is {} high", asset.id, asset.size_m.z);
             }
         }
-    }
-
-    #[test]
-    fn some_plants_freeze_and_most_do_not() {
-        let assets = assets();
-        assert_eq!(assets.iter().filter(|a| a.frost_tender).count(), super::FROST_TENDER.len());
-        assert!(assets.iter().filter(|a| !a.frost_tender).count() >= 9);
     }
 
     #[test]

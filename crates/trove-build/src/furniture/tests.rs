@@ -39,7 +39,8 @@ fn furnished([origin_lat_deg, origin_lon_deg]: [f64; 2], map: &StreetMap) -> Fur
     let (library, report) = (library(), Report::default());
     let bounds = Bounds::square(DVec2::ZERO, 400.0);
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
-    let surfaces = roads::surfaces(&drive, Some(map), &ground, bounds, &library, Seed(0), &report);
+    let surfaces =
+        roads::surfaces(&drive, Some(map), &ground, bounds, &library, testing::conditions(), Seed(0), &report);
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
     let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);

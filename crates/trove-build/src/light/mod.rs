@@ -57,6 +57,16 @@ pub enum Moment {
     Drawn,
 }
 
+impl LightChoice {
+    /// The time of a drive's pictures, nanoseconds since 1970 UTC.
+    pub(crate) fn time_ns(&self, drive: &Drive) -> i64 {
+        match self {
+            Self::Sky(SkyChoice { moment: Moment::At(time_ns), .. }) => *time_ns,
+            _ => drive.keyframes.first().map_or(0, |k| k.time_ns),
+        }
+    }
+}
+
 impl Default for LightChoice {
     /// Sun and sky of the recording's place and time.
     fn default() -> Self {

@@ -32,7 +32,7 @@ use crate::ground::{Drape, Ramps};
 use crate::palette::Palette;
 use crate::piece::Piece;
 use crate::plane;
-use crate::vegetation::Lawn;
+use crate::vegetation::{Conditions, Lawn};
 
 /// The lowest of kerbs: what stands on the ground beside the road begins here, metres.
 pub(crate) const KERB_M: f64 = 0.12;
@@ -92,12 +92,14 @@ impl RoadSurfaces {
 }
 
 /// Builds the surfaces of a place: the dataset's map where it has one, OpenStreetMap beyond it.
+#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
 pub(crate) fn surfaces(
     drive: &Drive,
     map: Option<&StreetMap>,
     ground: &HeightField,
     bounds: Bounds,
     library: &AssetLibrary,
+    conditions: Conditions,
     seed: Seed,
     report: &Report,
 ) -> RoadSurfaces {
@@ -166,7 +168,7 @@ pub(crate) fn surfaces(
     surfacing.align(&mut pavement);
     add(pavement, Class::Sidewalk, SurfaceKind::Paving);
     add(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, SurfaceKind::Asphalt);
-    let lawn = Lawn::new(drive, seed.child("lawn"));
+    let lawn = Lawn::new(conditions, seed.child("lawn"));
     for cover in &covers {
         let is_water = cover.kind == SurfaceKind::Water;
         let lift_m = if is_water { WATER_M } else { kerb_m };

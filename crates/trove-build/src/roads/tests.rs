@@ -10,7 +10,7 @@ use super::{Footing, RoadSurfaces, land, surfaces};
 use crate::ground::Drape;
 use crate::piece::Piece;
 use crate::plane;
-use crate::testing::drive;
+use crate::testing::{conditions, drive};
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.
 fn map() -> StreetMap {
@@ -34,7 +34,16 @@ fn hilly() -> HeightField {
 }
 
 fn built() -> RoadSurfaces {
-    surfaces(&drive(), Some(&map()), &hilly(), bounds(), &AssetLibrary::default(), Seed(7), &Report::default())
+    surfaces(
+        &drive(),
+        Some(&map()),
+        &hilly(),
+        bounds(),
+        &AssetLibrary::default(),
+        conditions(),
+        Seed(7),
+        &Report::default(),
+    )
 }
 
 fn area_m2(area: &[Polygon]) -> f64 {
@@ -120,7 +129,8 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
 fn a_drive_without_any_map_has_a_road_under_it() {
     let drive = trove_model::Drive { lane_map: None, ..drive() };
     let flat = HeightField::flat(bounds(), 0.0);
-    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), Seed(7), &Report::default());
+    let built =
+        surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), Seed(7), &Report::default());
     for keyframe in &drive.keyframes {
         assert_eq!(built.footing(keyframe.world_from_ego.translation.truncate()), Footing::Carriageway);
     }
@@ -137,7 +147,7 @@ fn a_patchy_recording_is_closed_where_vehicles_drove() {
     drive.lane_map = Some(LaneMap { drivable, ..LaneMap::default() });
     let flat = HeightField::flat(bounds(), 0.0);
     let report = Report::default();
-    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), Seed(7), &report);
+    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), Seed(7), &report);
     assert_eq!(built.footing(DVec2::new(15.0, 0.0)), Footing::Carriageway);
     assert!(report.entries().iter().any(|e| e.what.contains("gaps")));
 }

@@ -1,7 +1,7 @@
 //! Hedges: clipped pieces side by side along a line.
 
 use glam::DVec2;
-use trove_model::{Kind, Seed};
+use trove_model::{Kind, PlantForm, Seed};
 
 use super::{Form, Wish};
 
@@ -24,10 +24,11 @@ pub(super) fn hedge(line: &[DVec2], height_m: f64, seed: Seed) -> impl Iterator<
                 position: from + along * ((k as f64 + 0.5) / count),
                 height_m: height_m * vary,
                 group: seed.0,
-                genus: None,
+                called: String::new(),
                 // Its neighbours touch it.
                 radius_m: Some(0.0),
-                form: Form::Hedge {
+                form: Form::Row {
+                    planted: PlantForm::Hedge,
                     yaw_rad: along.y.atan2(along.x),
                     length_m: along.length() / count + OVERLAP_M,
                     width_m,
@@ -51,7 +52,7 @@ mod tests {
             .iter()
             .filter(|w| w.position.y == 0.0)
             .map(|w| {
-                let Form::Hedge { length_m, .. } = w.form else { unreachable!() };
+                let Form::Row { length_m, .. } = w.form else { unreachable!() };
                 [w.position.x - length_m / 2.0, w.position.x + length_m / 2.0]
             })
             .collect();

@@ -2,9 +2,9 @@
 
 use glam::{DVec2, Vec3, vec3};
 use rayon::prelude::*;
-use trove_model::{Drive, Mesh, Polygon, Seed};
+use trove_model::{Mesh, Polygon, Seed};
 
-use super::climate::Climate;
+use super::climate::Conditions;
 use super::noise::noise;
 use crate::ground::Drape;
 
@@ -20,9 +20,9 @@ pub(crate) struct Lawn {
 }
 
 impl Lawn {
-    /// As the climate of a drive's place has it.
-    pub(crate) fn new(drive: &Drive, seed: Seed) -> Self {
-        Self { seed, dryness: Climate::of(drive).dryness() }
+    /// As climate and season have it.
+    pub(crate) fn new(conditions: Conditions, seed: Seed) -> Self {
+        Self { seed, dryness: conditions.dryness() }
     }
 
     /// 0 lush to 1 straw.
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_lawn_is_greener_here_and_drier_there_and_its_mesh_carries_that_on_flat_ground_too() {
-        let lawn = Lawn::new(&crate::testing::drive(), Seed(3));
+        let lawn = Lawn::new(crate::testing::conditions(), Seed(3));
         let bounds = Bounds::square(DVec2::ZERO, 90.0);
         let field = HeightField { origin: bounds.min, cell_m: 3.0, nodes: Raster::filled(31, 31, 1.0) };
         let mesh = lawn.surface(&Drape::new(&field), &[plane::rectangle(bounds)], 0.12);

@@ -4,7 +4,6 @@ use trove_model::{Bounds, FurnitureKind, Kind, LandKind, LineKind, Seed};
 
 use super::blue_noise::BlueNoise;
 use super::hedges::hedge;
-use super::species::Genus;
 use super::{Form, Wish, species_group};
 use crate::surroundings::Surroundings;
 
@@ -49,7 +48,7 @@ pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) 
             position: tree.position,
             height_m: tree.height_m.unwrap_or(drawn_m).clamp(2.0, 30.0),
             group: species_group(seed.child("kind"), tree.position),
-            genus: Genus::parse(&tree.detail),
+            called: tree.detail.trim().to_lowercase(),
             radius_m: Some(1.0),
             form: Form::Free,
             paved: true,

@@ -17,18 +17,18 @@ mod tests;
 mod undergrowth;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Kind, Outcome, Report, Seed};
+use trove_model::{AssetLibrary, Climate, Kind, Outcome, PlantForm, Report, Seed};
 
 use crate::clearance::{Clearance, Room};
 use crate::plane_raster::PlaneRaster;
 use crate::scenery::Scenery;
 use crate::surroundings::Surroundings;
 use blue_noise::BlueNoise;
-use climate::Climate;
-use species::{Genus, Space, Species};
+use species::{Space, Species};
 
+pub(crate) use climate::Conditions;
 pub(crate) use lawn::Lawn;
-pub(crate) use undergrowth::undergrowth;
+pub(crate) use undergrowth::{driven_path, undergrowth};
 
 /// Side of the squares in which plants are of one species, metres.
 const SPECIES_SQUARE_M: f64 = 60.0;
@@ -39,7 +39,7 @@ const LAWN_CELL_M: f64 = 0.5;
 const MOST_SUNK_M: f64 = 0.025;
 
 /// A plant that is wanted somewhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Wish {
     /// Tree or bush.
     kind: Kind,
@@ -49,36 +49,36 @@ struct Wish {
     height_m: f64,
     /// Plants with the same number are of one species.
     group: u64,
-    /// What it is, where the map says so.
-    genus: Option<Genus>,
+    /// Species or genus and leaf type, in lower case, where the map says so; else empty.
+    called: String,
     /// Half the distance to its like, metres; `None`: as its size asks.
     radius_m: Option<f64>,
-    /// How it is clipped.
+    /// How it stands.
     form: Form,
     /// It may stand in paving too.
     paved: bool,
 }
 
-/// How a plant is clipped.
+/// How a plant stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     /// As it grows.
     Free,
-    /// A piece of a hedge that runs along a direction.
-    Hedge { yaw_rad: f64, length_m: f64, width_m: f64 },
+    /// A piece of a row that runs along a direction, of plants of some form.
+    Row { planted: PlantForm, yaw_rad: f64, length_m: f64, width_m: f64 },
 }
 
 impl Wish {
     /// A free plant of whatever grows there, on open land, with as much room as its size asks.
     fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
-        Self { kind, position, height_m, group, genus: None, radius_m: None, form: Form::Free, paved: false }
+        Self { kind, position, height_m, group, called: String::new(), radius_m: None, form: Form::Free, paved: false }
     }
 
-    /// Where it needs room for its width: a hedge's piece at both ends and in its middle.
+    /// Where it needs room for its width: a row's piece at both ends and in its middle.
     fn spots(&self) -> [DVec2; 3] {
         let reach = match self.form {
             Form::Free => DVec2::ZERO,
-            Form::Hedge { yaw_rad, length_m, width_m } => {
+            Form::Row { yaw_rad, length_m, width_m, .. } => {
                 DVec2::from_angle(yaw_rad) * ((length_m - width_m) / 2.0).max(0.0)
             }
         };
@@ -91,10 +91,11 @@ pub(crate) fn vegetation<'a>(
     around: &Surroundings,
     library: &'a AssetLibrary,
     clearance: &mut Clearance,
+    climate: Climate,
     seed: Seed,
     report: &Report,
 ) -> Vec<Scenery<'a>> {
-    let species = Species::new(library, Climate::of(around.drive));
+    let species = Species::new(library, climate);
     for kind in [Kind::Tree, Kind::Bush].into_iter().filter(|&kind| species.lacks(kind)) {
         let what = format!("plants without an asset of kind {kind:?}");
         report.note(Outcome::Dropped, &what, kind.class().row().name);
@@ -154,7 +155,7 @@ pub(crate) fn vegetation<'a>(
 fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
     let reach_m = match (wish.kind, wish.form) {
         (Kind::Tree, _) => 0.25,
-        (_, Form::Hedge { length_m, .. }) => length_m * 0.5,
+        (_, Form::Row { length_m, .. }) => length_m * 0.5,
         _ => 0.4,
     };
     let middle_m = around.stand.surface_m(wish.position);

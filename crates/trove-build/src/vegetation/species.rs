@@ -1,9 +1,8 @@
 //! Which model a plant becomes, and how large.
 
 use glam::DVec3;
-use trove_model::{Asset, AssetLibrary, Kind, Seed};
+use trove_model::{Asset, AssetLibrary, Climate, Kind, LeafType, PlantForm, Seed};
 
-use super::climate::Climate;
 use super::crowns::Crown;
 use super::{Form, Wish};
 use crate::scenery::Scenery;
@@ -12,6 +11,8 @@ use crate::scenery::Scenery;
 const MAX_SCALE: f64 = 1.6;
 /// Individuals differ from their species by so much in each direction.
 const VARIATION: f64 = 0.1;
+/// Of a species all models stand for a plant whose scale is within this of the best one's, as a difference of logarithms.
+const INDIVIDUALS: f64 = 0.2;
 /// Crowns are cut back to this share of their width at most; a tree that has less room is another tree or none.
 const LEAST_WIDTH: f64 = 0.5;
 /// What is driven on is clear up to this height: the clearance that road authorities keep over carriageways, metres.
@@ -24,15 +25,39 @@ const BODY_M: f64 = 2.0;
 struct Model<'a> {
     asset: &'a Asset,
     crown: Crown,
-    /// Lots in the draw of species.
-    lots: usize,
+    /// How common its species is.
+    commonness: f64,
+}
+
+impl Model<'_> {
+    /// What it shares with the other individuals of its species.
+    fn species(&self) -> &str {
+        let named = self.asset.plant.as_ref().map(|p| p.species.as_str());
+        named.filter(|name| !name.is_empty()).unwrap_or(&self.asset.id)
+    }
+
+    /// Whether a map's description names its genus.
+    fn is_called(&self, description: &str) -> bool {
+        self.asset.plant.as_ref().is_some_and(|p| p.is_called(description))
+    }
+
+    /// Whether it has the leaves that a map's description tells; all but conifers and palms have broad ones.
+    fn has_leaves(&self, description: &str) -> bool {
+        let says = |words: &[&str]| words.iter().any(|word| description.contains(word));
+        let told = match () {
+            _ if says(&["palm", "arecaceae"]) => LeafType::Frond,
+            _ if says(&["needleleaved", "conifer"]) => LeafType::Needle,
+            _ => LeafType::Broad,
+        };
+        self.asset.plant.as_ref().is_none_or(|p| p.leaves == told)
+    }
 }
 
 /// The plants of a library that live in a place.
 pub(super) struct Species<'a> {
     trees: Vec<Model<'a>>,
     bushes: Vec<Model<'a>>,
-    hedges: Vec<Model<'a>>,
+    rows: Vec<(PlantForm, Model<'a>)>,
 }
 
 /// Distances from a plant's foot to what it must not touch, metres.
@@ -61,13 +86,18 @@ pub(super) struct Grown<'a> {
 impl<'a> Species<'a> {
     /// The plants that live in a climate.
     pub(super) fn new(library: &'a AssetLibrary, climate: Climate) -> Self {
-        let lives = |asset: &&Asset| !asset.frost_tender || climate.is_frost_free();
-        let models = |kind| -> Vec<Model<'a>> {
-            let model = |asset| Model { asset, crown: Crown::new(asset), lots: commonness(asset, climate) };
-            library.of_kind(kind).filter(lives).map(model).collect()
+        let models = |kind| -> Vec<(PlantForm, Model<'a>)> {
+            let model = |asset: &'a Asset| {
+                let (form, share) =
+                    asset.plant.as_ref().map_or((PlantForm::Free, 1.0), |p| (p.form, p.commonness(climate)));
+                let commonness = f64::from(share * asset.commonness);
+                (commonness > 0.0).then(|| (form, Model { asset, crown: Crown::new(asset), commonness }))
+            };
+            library.of_kind(kind).filter_map(model).collect()
         };
-        let (hedges, bushes) = models(Kind::Bush).into_iter().partition(|m| m.asset.id.contains("hedge"));
-        Self { trees: models(Kind::Tree), bushes, hedges }
+        let free = |models: Vec<(PlantForm, Model<'a>)>| models.into_iter().map(|m| m.1).collect();
+        let (bushes, rows) = models(Kind::Bush).into_iter().partition(|(form, _)| *form == PlantForm::Free);
+        Self { trees: free(models(Kind::Tree)), bushes: free(bushes), rows }
     }
 
     /// Whether there is none of a kind.
@@ -77,8 +107,8 @@ impl<'a> Species<'a> {
 
     /// The plant for a wish and the space that it has; `None` where no model of the kind fits.
     pub(super) fn grow(&self, wish: &Wish, space: Space, seed: Seed) -> Option<Grown<'a>> {
-        if let Form::Hedge { yaw_rad, length_m, width_m } = wish.form {
-            return self.hedge(wish, [length_m, width_m], yaw_rad, seed);
+        if let Form::Row { planted, yaw_rad, length_m, width_m } = wish.form {
+            return self.row(planted, wish, [length_m, width_m], yaw_rad, seed);
         }
         let models = if wish.kind == Kind::Tree { &self.trees } else { &self.bushes };
         let scale_of = |m: &Model| wish.height_m / m.asset.size_m.z.max(0.1);
@@ -89,21 +119,34 @@ impl<'a> Species<'a> {
             let share = (space.lane_m / low_m.max(1e-3)).min(space.wall_m / (m.crown.reach_m() * scale).max(1e-3));
             if wish.kind == Kind::Tree { share } else { 1.0 }
         };
-        let named = |m: &&Model| wish.genus.is_none_or(|genus| genus.suits(&m.asset.id));
         let fits = |m: &&Model| width(m) >= LEAST_WIDTH;
         let suits = |m: &&Model| (1.0 / MAX_SCALE..=MAX_SCALE).contains(&scale_of(m));
 
-        // One species a group, of those that grow to the height and have room; else the one that comes nearest.
-        let of_genus: Vec<&Model> = models.iter().filter(fits).filter(named).collect();
-        let candidates = if of_genus.is_empty() { models.iter().filter(fits).collect() } else { of_genus };
+        // Of the genus that the map names; else with such leaves; else anything that has room.
+        let fitting: Vec<&Model> = models.iter().filter(fits).collect();
+        let only = |is: &dyn Fn(&Model) -> bool| -> Vec<&Model> { fitting.iter().copied().filter(|m| is(m)).collect() };
+        let mut candidates = only(&|m| m.is_called(&wish.called));
+        if candidates.is_empty() && !wish.called.is_empty() {
+            candidates = only(&|m| m.has_leaves(&wish.called));
+        }
+        if candidates.is_empty() {
+            candidates = fitting;
+        }
+        // One species a group, of those that grow to the height and have room: a weighted order of species (Efraimidis
+        // and Spirakis, 2006) that all of the group share, so that where one plant has no room for the first its
+        // neighbours keep it. Else the model that comes nearest.
         let strangeness = |m: &Model| scale_of(m).ln().abs();
-        let nearest = || candidates.iter().min_by(|a, b| strangeness(a).total_cmp(&strangeness(b)));
-        // A weighted order of species (Efraimidis and Spirakis, 2006) that all of the group share: where one plant has no
-        // room for the first its neighbours keep it.
         let group = Seed(wish.group).child("species");
-        let rank = |m: &Model| -(1.0 - group.child(&m.asset.id).random().unit()).ln() / m.lots as f64;
-        let suitable = candidates.iter().filter(|m| m.lots > 0 && suits(m));
-        let model = *suitable.min_by(|a, b| rank(a).total_cmp(&rank(b))).or_else(nearest)?;
+        let rank = |m: &Model| -(1.0 - group.child(m.species()).random().unit()).ln() / m.commonness;
+        let suitable = candidates.iter().filter(|m| suits(m));
+        let chosen = suitable
+            .min_by(|a, b| rank(a).total_cmp(&rank(b)))
+            .or_else(|| candidates.iter().min_by(|a, b| strangeness(a).total_cmp(&strangeness(b))))?;
+        // Any individual of it that is about as large.
+        let alike: Vec<&Model> = candidates.iter().copied().filter(|m| m.species() == chosen.species()).collect();
+        let most = alike.iter().map(|m| strangeness(m)).fold(f64::INFINITY, f64::min) + INDIVIDUALS;
+        let alike: Vec<&Model> = alike.into_iter().filter(|m| strangeness(m) <= most).collect();
+        let model = *seed.child("individual").random().pick(&alike)?;
 
         let mut random = seed.random();
         let mut vary = || 1.0 + random.range(-VARIATION, VARIATION);
@@ -121,15 +164,23 @@ impl<'a> Species<'a> {
         })
     }
 
-    /// A piece of a hedge that joins its neighbours.
-    fn hedge(&self, wish: &Wish, size_m: [f64; 2], yaw_rad: f64, seed: Seed) -> Option<Grown<'a>> {
-        let models = if self.hedges.is_empty() { &self.bushes } else { &self.hedges };
-        let asset = Seed(wish.group).child("hedge").random().pick(models)?.asset;
+    /// A piece of a row that joins its neighbours.
+    fn row(&self, planted: PlantForm, wish: &Wish, size_m: [f64; 2], yaw_rad: f64, seed: Seed) -> Option<Grown<'a>> {
+        let group = Seed(wish.group).child("row");
+        let mut of_form: Vec<&Model> = self.rows.iter().filter(|r| r.0 == planted).map(|r| &r.1).collect();
+        if of_form.is_empty() && planted == PlantForm::Hedge {
+            of_form.extend(&self.bushes);
+        }
+        // All of a row is of one species; its pieces are individuals.
+        let rank = |m: &Model| -(1.0 - group.child(m.species()).random().unit()).ln() / m.commonness;
+        let chosen = of_form.iter().min_by(|a, b| rank(a).total_cmp(&rank(b)))?;
+        let alike: Vec<&Model> = of_form.iter().copied().filter(|m| m.species() == chosen.species()).collect();
+        let asset = seed.child("individual").random().pick(&alike)?.asset;
         let scale = DVec3::new(size_m[0], size_m[1], wish.height_m) / asset.size_m.max(DVec3::splat(0.05));
         // Turned round every other time, lest its pieces look the same.
         let turn = if seed.random().chance(0.5) { std::f64::consts::PI } else { 0.0 };
         let radius_m = size_m[1] / 2.0;
-        // All of a hedge is of one green.
+        // All of a row is of one green.
         let seed = Seed(wish.group);
         Some(Grown {
             asset,
@@ -143,85 +194,6 @@ impl<'a> Species<'a> {
     }
 }
 
-/// Lots of a species in the draw: what towns plant in a climate, as far as the built-in models go.
-fn commonness(asset: &Asset, climate: Climate) -> usize {
-    use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
-    match (asset.id.as_str(), climate) {
-        ("tree/palm" | "tree/palm-low", Mediterranean | Arid) => 9,
-        ("tree/palm" | "tree/palm-low", _) => 4,
-        ("tree/rain-tree", Tropical) => 20,
-        ("tree/rain-tree", _) => 5,
-        ("tree/spruce", Cold) => 8,
-        ("tree/spruce", Temperate) => 3,
-        ("tree/pine", Mediterranean) => 7,
-        ("tree/pine", Temperate | Cold) => 4,
-        ("tree/spruce" | "tree/pine", _) => 1,
-        ("tree/cypress", Mediterranean) => 6,
-        ("tree/cypress", Subtropical | Arid) => 2,
-        ("tree/cypress", _) => 0,
-        ("tree/birch", Cold) => 12,
-        ("tree/birch", Temperate) => 4,
-        ("tree/birch", _) => 0,
-        ("tree/linden", Temperate | Cold) => 16,
-        ("tree/linden", _) => 3,
-        ("tree/plane", Mediterranean | Temperate) => 14,
-        ("tree/oak", Tropical | Arid) => 4,
-        ("bush/tropical", Tropical | Subtropical) => 16,
-        _ => 10,
-    }
-}
-
-/// What a map says of a tree's kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Genus {
-    Palm,
-    Conifer,
-    Slender,
-    Birch,
-    Plane,
-    Oak,
-    Linden,
-    Broadleaved,
-}
-
-impl Genus {
-    /// From OpenStreetMap's genus, species or leaf type.
-    pub(super) fn parse(detail: &str) -> Option<Self> {
-        let detail = detail.to_lowercase();
-        let has = |words: &[&str]| words.iter().any(|w| detail.contains(w));
-        Some(match () {
-            _ if has(&["palm", "phoenix", "washingtonia", "arecaceae", "trachycarpus", "cocos", "roystonea"]) => {
-                Self::Palm
-            }
-            _ if has(&["cupressus", "cypress", "italica", "juniperus", "thuja"]) => Self::Slender,
-            _ if has(&["needleleaved", "pinus", "picea", "abies", "larix", "cedrus", "taxus", "araucaria"]) => {
-                Self::Conifer
-            }
-            _ if has(&["betula", "birch"]) => Self::Birch,
-            _ if has(&["platanus"]) => Self::Plane,
-            _ if has(&["quercus", "fagus", "castanea", "aesculus"]) => Self::Oak,
-            _ if has(&["tilia", "acer", "carpinus", "ulmus", "fraxinus"]) => Self::Linden,
-            _ if detail.trim().is_empty() => return None,
-            _ => Self::Broadleaved,
-        })
-    }
-
-    /// Whether a model can stand for it.
-    fn suits(self, asset: &str) -> bool {
-        let has = |words: &[&str]| words.iter().any(|w| asset.contains(w));
-        match self {
-            Self::Palm => has(&["palm"]),
-            Self::Conifer => has(&["spruce", "pine"]),
-            Self::Slender => has(&["cypress"]),
-            Self::Birch => has(&["birch"]),
-            Self::Plane => has(&["plane"]),
-            Self::Oak => has(&["oak"]),
-            Self::Linden => has(&["linden", "street"]),
-            Self::Broadleaved => !has(&["palm", "spruce", "pine", "cypress"]),
-        }
-    }
-}
-
 impl<'a> Grown<'a> {
     /// The plant at a place.
     pub(super) fn scenery(self, foot_world: DVec3) -> Scenery<'a> {
@@ -231,20 +203,61 @@ impl<'a> Grown<'a> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+    use trove_model::{LeafType, Plant};
+
     use super::*;
 
+    fn plant(id: &str, plant: Plant, height_m: f64) -> Asset {
+        let size = [0.4 * height_m, 0.4 * height_m, height_m];
+        Asset { plant: Some(plant), ..crate::testing::asset(id, Kind::Tree, size) }
+    }
+
+    fn library() -> AssetLibrary {
+        let lime = |id: &str, height_m| {
+            let genera = vec!["tilia".into(), "lime".into()];
+            plant(id, Plant { species: "lime".into(), genera, ..Plant::default() }, height_m)
+        };
+        let habitat = vec![(Climate::Temperate, 0.0)];
+        let assets = vec![
+            lime("tree/lime-1", 9.0),
+            lime("tree/lime-2", 9.5),
+            lime("tree/lime-young", 4.0),
+            plant("tree/oak", Plant { genera: vec!["quercus".into()], ..Plant::default() }, 9.0),
+            plant("tree/palm", Plant { habitat, leaves: LeafType::Frond, ..Plant::default() }, 9.0),
+            plant("tree/pine", Plant { leaves: LeafType::Needle, ..Plant::default() }, 9.0),
+        ];
+        AssetLibrary { assets, ..AssetLibrary::default() }
+    }
+
+    fn grown(climate: Climate, called: &str, height_m: f64) -> Vec<String> {
+        let library = library();
+        let species = Species::new(&library, climate);
+        let wish = Wish { called: called.into(), ..Wish::new(Kind::Tree, DVec2::ZERO, height_m, 7) };
+        let space = Space { lane_m: 50.0, wall_m: 50.0 };
+        let mut ids: Vec<String> =
+            (0..40).filter_map(|i| Some(species.grow(&wish, space, Seed(i))?.asset.id.clone())).collect();
+        ids.sort();
+        ids.dedup();
+        ids
+    }
+
     #[test]
-    fn what_a_map_calls_a_tree_is_understood() {
-        for (detail, genus) in [
-            ("", None),
-            ("Tilia cordata", Some(Genus::Linden)),
-            ("Platanus × hispanica", Some(Genus::Plane)),
-            ("Populus nigra 'Italica'", Some(Genus::Slender)),
-            ("needleleaved", Some(Genus::Conifer)),
-            ("broadleaved", Some(Genus::Broadleaved)),
-            ("Washingtonia robusta", Some(Genus::Palm)),
-        ] {
-            assert_eq!(Genus::parse(detail), genus, "{detail}");
+    fn what_a_map_calls_a_tree_grows_there_in_several_individuals() {
+        assert_eq!(grown(Climate::Temperate, "tilia cordata broadleaved", 9.0), ["tree/lime-1", "tree/lime-2"]);
+        assert_eq!(grown(Climate::Temperate, "tilia cordata", 3.5), ["tree/lime-young"]);
+        assert_eq!(grown(Climate::Temperate, "quercus robur", 9.0), ["tree/oak"]);
+        assert_eq!(grown(Climate::Temperate, "needleleaved", 9.0), ["tree/pine"]);
+        assert_eq!(grown(Climate::Tropical, "roystonea regia palm", 9.0), ["tree/palm"]);
+    }
+
+    #[test]
+    fn a_plant_grows_where_it_lives_and_a_row_is_of_one_species() {
+        for climate in [Climate::Temperate, Climate::Tropical] {
+            let ids = grown(climate, "", 9.0);
+            let species: Vec<&str> = ids.iter().filter_map(|id| id.split('-').next()).collect();
+            assert!(species.windows(2).all(|pair| pair[0] == pair[1]), "{ids:?}");
+            assert!(climate == Climate::Tropical || species[0] != "tree/palm");
         }
     }
 }

@@ -74,8 +74,9 @@ fn on_a_slope(check: impl FnOnce(&Surroundings, &[crate::scenery::Scenery], &[Pi
     let kerbs = Kerbs::new(&drive, None, &surfaces, bounds);
     let stand = Stand { ground: &ground, surfaces: &surfaces };
     let around = Surroundings { drive: &drive, map: Some(&map), bounds, kerbs: &kerbs, stand };
-    let plants = vegetation(&around, &library, &mut clearance, Seed(3), &report);
-    let pieces = undergrowth(&around, &library, &clearance, &plants, Seed(4), &report);
+    let conditions = testing::conditions();
+    let plants = vegetation(&around, &library, &mut clearance, conditions.climate(), Seed(3), &report);
+    let pieces = undergrowth(&around, &library, &clearance, &plants, conditions, Seed(4), &report);
     check(&around, &plants, &pieces, &house);
 }
 

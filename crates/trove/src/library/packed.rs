@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, Class, Coarser, ColorSpace, Course, CoverKind, Extra, FacadeDesign, Figure, Filling, Fixtures,
-    GroundCover, Interior, Kind, Mapping, Material, Mesh, Opening, Posture, Slot, Surface, SurfaceKind, Texture,
-    Tiling,
+    Asset, AssetLibrary, Class, Climate, Coarser, ColorSpace, Course, CoverKind, Extra, FacadeDesign, Figure, Filling,
+    Fixtures, Foliage, GroundCover, Interior, Kind, LeafType, Mapping, Material, Mesh, Opening, Plant, PlantForm,
+    Posture, Season, Slot, Surface, SurfaceKind, Texture, Tiling,
 };
 
 /// Bytes in the making; meshes and textures, which are shared, lie apart and are referred to by number.
@@ -98,7 +98,9 @@ macro_rules! choices {
 
 fields! {
     AssetLibrary { assets, surfaces, covers }
-    Asset { id, kind, class, size_m, mesh, slots, extras, coarser, commonness, figure, frost_tender, licence }
+    Asset { id, kind, class, size_m, mesh, slots, extras, coarser, commonness, figure, plant, licence }
+    Plant { species, form, leaves, genera, habitat, seasons }
+    Foliage { season, slot, paints, alpha_cutoff }
     Slot { material, paints }
     Extra { group, share, when_driven, mesh }
     Coarser { from_m, mesh }
@@ -124,6 +126,10 @@ fields! {
 }
 
 choices! {
+    Climate { Tropical, Subtropical, Mediterranean, Arid, Temperate, Cold }
+    Season { Spring, Summer, Autumn, Winter }
+    PlantForm { Free, Hedge, Bed }
+    LeafType { Broad, Needle, Frond }
     ColorSpace { Srgb, Linear }
     Mapping { Uv, Triplanar }
     Tiling { Repeat, Stochastic }
@@ -133,6 +139,19 @@ choices! {
     SurfaceKind {
         Asphalt, MarkingWhite, MarkingYellow, RoadCover, Paving, Kerb, Concrete, Grass, Soil, Gravel, Water, FlatRoof,
         RoofTiles, Facade, FacadeGroundFloor, Wall, ShopSign, RoomBack,
+    }
+}
+
+impl<A: Packed, B: Packed> Packed for (A, B) {
+    const LEAST: usize = A::LEAST + B::LEAST;
+
+    fn pack(&self, out: &mut Packer) {
+        self.0.pack(out);
+        self.1.pack(out);
+    }
+
+    fn unpack(from: &mut Unpacker) -> Option<Self> {
+        Some((A::unpack(from)?, B::unpack(from)?))
     }
 }
 

@@ -121,7 +121,7 @@ pub(super) fn flowers(sower: &Sower) -> Vec<Piece> {
     const SWARM_M: f64 = 6.0;
     const FLOWERS_M: f64 = 20.0;
     let sorts = sower.covers(CoverKind::Flowers);
-    let common = 0.75 - 0.7 * sower.climate.dryness();
+    let common = sower.conditions.bloom();
     let seed = sower.seed.child("flowers");
     let mut random = seed.random();
     let mut pieces = Vec::new();

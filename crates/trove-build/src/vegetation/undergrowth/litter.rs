@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, CoverKind, GroundCover, Kind, Random};
+use trove_model::{Bounds, CoverKind, GroundCover, Kind, LeafType, Random};
 
 use super::{Lay, Sower, class_of};
 use crate::piece::Piece;
@@ -29,13 +29,11 @@ const SIDEWALK: f64 = 0.45;
 
 /// Scatters leaves around every broadleaved tree near the driven path.
 pub(super) fn leaves(sower: &Sower, plants: &[Scenery]) -> Vec<Piece> {
-    let drive = sower.around.drive;
-    let time_ns = drive.keyframes.first().map_or(0, |k| k.time_ns);
-    let [cover, age] = sower.climate.litter(drive.projection.origin_lat_deg >= 0.0, month(time_ns));
-    let is_broadleaved = |id: &str| !["spruce", "pine", "palm", "cypress"].iter().any(|name| id.contains(name));
+    let [cover, age] = sower.conditions.litter();
+    let is_broadleaved = |s: &Scenery| s.asset.plant.as_ref().is_none_or(|p| p.leaves == LeafType::Broad);
     let trees: Vec<(DVec2, f64)> = plants
         .iter()
-        .filter(|s| s.asset.kind == Kind::Tree && is_broadleaved(&s.asset.id))
+        .filter(|s| s.asset.kind == Kind::Tree && is_broadleaved(s))
         .map(|s| (s.foot_world.truncate(), (s.asset.size_m * s.scale).truncate().max_element() / 2.0))
         .filter(|(foot, radius_m)| sower.path_distance_m(*foot) < LEAVES_M + radius_m)
         .collect();
@@ -99,20 +97,4 @@ fn scatter(
         lift_m: if sower.is_lawn(middle) { ON_GRASS_M } else { 0.0 },
     };
     Some(sower.piece(cover, &lay, random))
-}
-
-/// The month of a Unix time, 1 to 12, to about a day.
-fn month(time_ns: i64) -> u32 {
-    const YEAR_DAYS: f64 = 365.2425;
-    let day = (time_ns as f64 / 86_400e9).rem_euclid(YEAR_DAYS);
-    (day / YEAR_DAYS * 12.0) as u32 + 1
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn months_are_told_from_the_time() {
-        // 2018-07-24 and 2020-11-15.
-        assert_eq!([1_532_402_927_000_000_000, 1_605_398_400_000_000_000].map(super::month), [7, 11]);
-    }
 }

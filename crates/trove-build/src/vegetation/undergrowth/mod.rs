@@ -10,10 +10,12 @@ mod pits;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
-use trove_model::{AssetLibrary, Bounds, Class, CoverKind, GroundCover, Material, Polygon, Random, Report, Seed};
+use trove_model::{
+    AssetLibrary, Bounds, Class, CoverKind, Drive, GroundCover, Material, Polygon, Random, Report, Seed,
+};
 
 use super::blue_noise::BlueNoise;
-use super::climate::Climate;
+use super::climate::Conditions;
 use super::lawn::Lawn;
 use crate::clearance::Clearance;
 use crate::distance_field::DistanceField;
@@ -37,10 +39,11 @@ pub(crate) fn undergrowth(
     library: &AssetLibrary,
     clearance: &Clearance,
     plants: &[Scenery],
+    conditions: Conditions,
     seed: Seed,
     report: &Report,
 ) -> Vec<Piece> {
-    let path = path(around);
+    let path = driven_path(around.drive);
     let Some(bounds) = Bounds::around(path.iter().copied()).map(|b| b.grown(REACH_M)) else { return Vec::new() };
     let points = path.iter().map(|p| square(*p, 1.0));
     let cell_m = LAWN_CELL_M.max(bounds.size_m().max_element() / MOST_CELLS);
@@ -55,7 +58,7 @@ pub(crate) fn undergrowth(
         path_m: DistanceField::to(points, bounds, 1.0),
         bounds,
         blue_noise: BlueNoise::new(seed.child("blue noise")),
-        climate: Climate::of(around.drive),
+        conditions,
         seed,
     };
     let mut pieces = grass::lay(&sower);
@@ -69,8 +72,8 @@ pub(crate) fn undergrowth(
 }
 
 /// Positions a metre apart along the driven path.
-fn path(around: &Surroundings) -> Vec<DVec2> {
-    let at: Vec<DVec2> = around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+pub(crate) fn driven_path(drive: &Drive) -> Vec<DVec2> {
+    let at: Vec<DVec2> = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let mut path = at.clone();
     for pair in at.windows(2) {
         let length_m = pair[0].distance(pair[1]);
@@ -100,7 +103,7 @@ struct Sower<'a> {
     /// Within reach of the path.
     bounds: Bounds,
     blue_noise: BlueNoise,
-    climate: Climate,
+    conditions: Conditions,
     seed: Seed,
 }
 
