@@ -67,7 +67,8 @@ impl Asset {
     }
 }
 
-/// Something more that some variations of an asset have; it stays within the asset's bounding box.
+/// Something more that some variations of an asset have; it stays within the asset's bounding box, but for the mirrors
+/// of cars: boxes of data sets are as wide as bodies.
 #[derive(Clone, Debug)]
 pub struct Extra {
     /// Of the extras of one group (`driver`, `load`) there is at most one.

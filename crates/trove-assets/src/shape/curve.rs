@@ -29,22 +29,6 @@ impl Curve {
         Self { knots: knots.to_vec(), slopes }
     }
 
-    /// Straight between the knots, with the corners rounded over `reach` on either side.
-    pub(crate) fn rounded(knots: &[(f32, f32)], reach: f32) -> Self {
-        let mut all = vec![knots[0]];
-        for w in knots.windows(3) {
-            let towards = |other: (f32, f32)| {
-                let t = (reach / (other.0 - w[1].0).abs()).min(0.45);
-                (w[1].0 + (other.0 - w[1].0) * t, w[1].1 + (other.1 - w[1].1) * t)
-            };
-            let (before, after) = (towards(w[0]), towards(w[2]));
-            let chord = before.1 + (after.1 - before.1) * (w[1].0 - before.0) / (after.0 - before.0);
-            all.extend([before, (w[1].0, (w[1].1 + chord) / 2.0), after]);
-        }
-        all.extend(knots.last().filter(|_| knots.len() > 1));
-        Self::new(&all)
-    }
-
     /// Its value at x.
     pub(crate) fn at(&self, x: f32) -> f32 {
         let next = self.knots.partition_point(|k| k.0 <= x);

@@ -148,16 +148,16 @@ impl Shape {
         (inside, self)
     }
 
-    /// The largest y of the surface at (x, z).
-    pub(crate) fn outside_at(&self, x: f32, z: f32) -> Option<f32> {
+    /// How far along a direction the surface reaches on the line through a point.
+    pub(crate) fn outermost(&self, direction: Vec3, through: Vec3) -> Option<f32> {
+        let (u, v) = direction.any_orthonormal_pair();
         let hits = self.triangles.iter().filter_map(|t| {
-            let [a, b, c] = t.map(|i| self.positions[i as usize]);
-            let flat = |p: Vec3| vec2(p.x - x, p.z - z);
-            let (p, q, r) = (flat(a), flat(b), flat(c));
+            let corners = t.map(|i| self.positions[i as usize]);
+            let [p, q, r] = corners.map(|c| vec2((c - through).dot(u), (c - through).dot(v)));
             let weights = vec3(q.perp_dot(r), r.perp_dot(p), p.perp_dot(q));
             let sum = weights.x + weights.y + weights.z;
             let inside = weights.cmpge(Vec3::ZERO).all() || weights.cmple(Vec3::ZERO).all();
-            (inside && sum != 0.0).then(|| weights.dot(vec3(a.y, b.y, c.y)) / sum)
+            (inside && sum != 0.0).then(|| weights.dot(Vec3::from(corners.map(|c| c.dot(direction)))) / sum)
         });
         hits.reduce(f32::max)
     }

@@ -32,6 +32,11 @@ impl Model {
         self.shape = std::mem::take(&mut self.shape).and(shape);
     }
 
+    /// What it is so far, without extras.
+    pub(crate) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
     /// Adds what some variations have; its shape knows its slots, and [`Extra::mesh`] is taken from it.
     pub(crate) fn add_extra(&mut self, group: &str, share: f32, when_driven: bool, shape: Shape) {
         let extra = Extra { group: group.into(), share, when_driven, mesh: Arc::default() };

@@ -1,24 +1,32 @@
-//! The smooth skin of a car: cross sections whose corners follow lines drawn along the car.
+//! The painted shell of a car: rings around its lower body, a bonnet and a boot lid spanned between them, and the
+//! greenhouse on top. Only the left half is made.
 //!
 //! Distances along the car, `s`, are measured from the front end backwards; x = −s.
 
+use std::f32::consts::FRAC_PI_2;
+
 use glam::{Vec2, Vec3, vec2, vec3};
 
+use super::grid::{Grid, rounded, straighten};
 use crate::shape::{Curve, Shape};
 
-/// Exponent of the superellipse that the ends are rounded by, seen from the side; 2 would be an ellipse.
-const ROUNDNESS: f32 = 3.0;
+/// Columns of the shell around the front, along the side and around the back.
+const SHELL_COLUMNS: [usize; 3] = [13, 17, 11];
+/// Columns of the greenhouse around windscreen, side and rear window.
+const HOUSE_COLUMNS: [usize; 3] = [10, 10, 10];
+/// Columns of windscreen and rear window that are glass, of those around a corner; the rest is the pillar.
+const SCREEN_COLUMNS: usize = 6;
 
-/// The side view of a car, in metres: points are (distance from the front, height).
+/// The side view of a car and how it is rounded; points are (distance from the front, height).
 #[derive(Clone, Debug)]
 pub(crate) struct Profile {
     pub(crate) length_m: f32,
-    /// Widest point of the body.
+    /// Widest point of the body, without mirrors.
     pub(crate) width_m: f32,
     /// Under the sills.
     pub(crate) clearance_m: f32,
     /// Leading edge of the bonnet.
-    pub(crate) nose: (f32, f32),
+    pub(crate) nose_m: f32,
     /// Bonnet meets windscreen.
     pub(crate) cowl: (f32, f32),
     /// Windscreen meets roof.
@@ -30,199 +38,399 @@ pub(crate) struct Profile {
     /// Rear window meets boot.
     pub(crate) deck: (f32, f32),
     /// Upper rear edge of the boot.
-    pub(crate) tail: (f32, f32),
+    pub(crate) tail_m: f32,
     /// Lower edge of the side windows at the front and at the back.
     pub(crate) belt_m: [f32; 2],
     /// Half width of the roof, a share of half the width.
     pub(crate) roof_share: f32,
-    /// How far the front and the back are bowed in plan.
-    pub(crate) bow_m: [f32; 2],
-    /// Over how much length the front and the back are rounded in side view.
+    /// Length over which the front and the back are rounded in plan.
     pub(crate) round_m: [f32; 2],
+    /// How square the front and the back are in plan: 2 is an ellipse.
+    pub(crate) square: [f32; 2],
+    /// How far the upper edge of the nose and of the tail lies behind the bumper.
+    pub(crate) rake_m: [f32; 2],
+    /// How far the windows stand in from the doors.
+    pub(crate) shoulder_m: f32,
+    /// How far the wheel arches stand out from the doors.
+    pub(crate) flare_m: f32,
+    /// How far the doors are hollowed between sill and shoulder.
+    pub(crate) hollow_m: f32,
+    /// How far the ends of windscreen and rear window lie behind, or before, their middles.
+    pub(crate) screen_bow_m: [f32; 2],
+    /// An open load bed in place of a boot lid.
+    pub(crate) has_bed: bool,
 }
 
-/// The lines along a car that its cross sections hang on.
+/// Materials of the shell's parts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Skin {
+    pub(crate) paint: u16,
+    pub(crate) glass: u16,
+    pub(crate) rear_glass: u16,
+    pub(crate) trim: u16,
+    pub(crate) under: u16,
+    pub(crate) lining: u16,
+    pub(crate) has_rear_window: bool,
+}
+
+/// The shell's shape before it is meshed.
 #[derive(Clone, Debug)]
-pub(crate) struct Lines {
+pub(crate) struct Body {
     profile: Profile,
-    top: Curve,
-    /// Where along `top` the line between windscreen and side window is, for a place along the car.
-    rail_from: Curve,
-    rail_drop: Curve,
-    rail_share: Curve,
-    belt: Curve,
-    belt_share: Curve,
-    width_share: Curve,
+    /// Axles as (distance from the front, height, radius of the arch).
+    arches: Vec<Vec3>,
+    roof: Curve,
+    edge: Curve,
+    /// The shell's upper edge from the middle of the front to the middle of the back, (s, y, z).
+    rim: Vec<Vec3>,
 }
 
-impl Lines {
-    pub(crate) fn new(profile: &Profile) -> Self {
+impl Body {
+    pub(crate) fn new(profile: &Profile, arches: &[Vec3]) -> Self {
         let p = profile;
-        let length = p.length_m;
-        let top = Curve::rounded(
-            &[
-                (0.0, p.nose.1 - 0.04),
-                p.nose,
-                (p.nose.0.mul_add(0.45, p.cowl.0 * 0.55), p.nose.1.mul_add(0.3, p.cowl.1 * 0.7)),
-                p.cowl,
-                p.header,
-                p.peak,
-                p.rear_header,
-                p.deck,
-                p.tail,
-                (length, p.tail.1 - 0.06),
-            ],
-            0.13,
-        );
-        let (screen, rear) = (0.16, 0.1_f32.min((length - p.deck.0) * 0.3));
-        let rail_from = Curve::new(&[
-            (0.0, 0.0),
-            (p.cowl.0 * 0.5, p.cowl.0 * 0.5),
-            (p.cowl.0 + screen, p.cowl.0),
-            (p.header.0 + screen * 0.6, p.header.0),
-            (p.peak.0, p.peak.0),
-            (p.rear_header.0 - rear * 0.6, p.rear_header.0),
-            (p.deck.0 - rear, p.deck.0),
-            (length, length),
+        let roof = Curve::new(&[p.header, p.peak, p.rear_header]);
+        let mid = p.cowl.0 * 0.5;
+        let back = p.deck.0.min(p.length_m - 0.3);
+        let edge = Curve::new(&[
+            (0.0, p.nose_m),
+            (mid, p.nose_m.mul_add(0.35, (p.belt_m[0] - 0.02) * 0.65)),
+            (p.cowl.0 + 0.2, p.belt_m[0] - 0.008),
+            (back, p.belt_m[1]),
+            (p.length_m, p.tail_m),
         ]);
-        let rail_drop = Curve::new(&[
-            (0.0, 0.02),
-            (p.cowl.0, 0.012),
-            (p.header.0, 0.035),
-            (p.peak.0, 0.07),
-            (p.rear_header.0, 0.05),
-            (p.deck.0, 0.015),
-            (length, 0.02),
-        ]);
-        let roof = p.roof_share;
-        let rail_share = Curve::new(&[
-            (0.0, 0.60),
-            (p.cowl.0, 0.80),
-            (p.header.0, roof + 0.02),
-            (p.peak.0, roof),
-            (p.rear_header.0, roof - 0.01),
-            (p.deck.0, roof.mul_add(0.5, 0.38)),
-            (length, roof.mul_add(0.5, 0.36)),
-        ]);
-        let mid_bonnet = p.cowl.0 * 0.55;
-        let belt = Curve::new(&[
-            (0.0, p.nose.1 - 0.11),
-            (mid_bonnet, top.at(mid_bonnet) - 0.075),
-            (p.cowl.0 + 0.1, p.belt_m[0]),
-            (p.deck.0.min(length - 0.35), p.belt_m[1]),
-            (length, p.tail.1.min(p.belt_m[1]) - 0.06),
-        ]);
-        let belt_share =
-            Curve::new(&[(0.0, 0.9), (p.cowl.0, 0.945), (p.peak.0, 0.95), (p.deck.0, 0.935), (length, 0.92)]);
-        let width_share = Curve::new(&[
-            (0.0, 0.88),
-            (p.cowl.0 * 0.3, 0.95),
-            (p.cowl.0 * 0.75, 0.99),
-            (p.peak.0, 1.0),
-            (p.rear_header.0.min(length - 0.9), 0.995),
-            (length - 0.35, 0.955),
-            (length, 0.89),
-        ]);
-        Self { profile: profile.clone(), top, rail_from, rail_drop, rail_share, belt, belt_share, width_share }
+        let mut body = Self { profile: p.clone(), arches: arches.to_vec(), roof, edge, rim: Vec::new() };
+        body.rim = body.outline().iter().map(|&(q, n)| *body.section(q, n).last().unwrap_or(&Vec3::ZERO)).collect();
+        body
     }
 
-    /// (y, z) of the line between the side and the roof, on the left.
-    pub(crate) fn rail_m(&self, s: f32) -> Vec2 {
-        let z = self.top.at(self.rail_from.at(s)).min(self.top.at(s)) - self.rail_drop.at(s);
-        vec2(self.half_width_m(s) * self.rail_share.at(s), z)
+    /// Height of the shell's upper edge on the side: of the windows' lower edge.
+    pub(crate) fn belt_m(&self, s: f32) -> f32 {
+        self.edge.at(s)
     }
 
-    /// (y, z) of the shoulder, on the left.
-    pub(crate) fn belt_m(&self, s: f32) -> Vec2 {
-        vec2(self.half_width_m(s) * self.belt_share.at(s), self.belt.at(s).min(self.rail_m(s).y - 0.01))
+    /// Height of the roof in the middle.
+    pub(crate) fn roof_m(&self, s: f32) -> f32 {
+        self.roof.at(s)
     }
 
-    fn half_width_m(&self, s: f32) -> f32 {
-        self.profile.width_m / 2.0 * self.width_share.at(s)
+    /// Height of the roof's edge above the side windows.
+    pub(crate) fn rail_m(&self, s: f32) -> f32 {
+        self.roof.at(s) - 0.035 - 0.02 * self.profile.roof_share
     }
 
-    /// The left half of a cross section from the middle of the floor to the middle of the roof, (y, z).
-    fn half_section(&self, s: f32) -> Vec<Vec2> {
-        let half = self.half_width_m(s);
-        let floor = self.profile.clearance_m;
-        let (belt, rail, top) = (self.belt_m(s), self.rail_m(s), self.top.at(s));
-        let waist = floor + (belt.y - floor) * 0.62;
-        let lower = floor + (belt.y - floor) * 0.28;
-        let glass = (belt + rail) / 2.0 + vec2(0.018, 0.01) * ((rail.y - belt.y) / 0.4).clamp(0.0, 1.0);
-        let crown = vec2(rail.x * 0.55, rail.y + (top - rail.y) * 0.8);
-        let corners = [
-            (vec2(0.0, floor), 0.0),
-            (vec2(half * 0.82, floor), 0.04),
-            (vec2(half * 0.955, floor + 0.06), 0.05),
-            (vec2(half * 0.985, lower), 0.12),
-            (vec2(half, waist), 0.1),
-            (belt, 0.045),
-            (glass, 0.16),
-            (rail, 0.085),
-            (crown, 0.25),
-            (vec2(0.0, top), 0.0),
+    /// Distance from the front of the windscreen's side edge, at the foot (0) to the roof (1).
+    pub(crate) fn screen_side_m(&self, share: f32) -> f32 {
+        let p = &self.profile;
+        p.cowl.0 + (p.header.0 - p.cowl.0) * share + p.screen_bow_m[0] * (1.0 - 0.3 * share)
+    }
+
+    /// How far behind the front the bonnet's leading edge is, at a distance from the middle.
+    pub(crate) fn nose_s(&self, y: f32) -> f32 {
+        self.rim.iter().find(|q| q.y >= y).map_or(0.3, |q| q.x)
+    }
+
+    /// Left half of the plan at its widest, (s, y), with outward normals.
+    fn outline(&self) -> Vec<(Vec2, Vec2)> {
+        let p = &self.profile;
+        let half = p.width_m / 2.0 - p.flare_m;
+        let corner = |end: usize| {
+            let fine: Vec<Vec2> = (0..=160)
+                .map(|i| {
+                    let (sin, cos) = (FRAC_PI_2 * i as f32 / 160.0).sin_cos();
+                    let s = p.round_m[end] * (1.0 - cos.max(0.0).powf(2.0 / 2.2));
+                    vec2(s, half * sin.powf(2.0 / p.square[end]))
+                })
+                .collect();
+            resampled(&fine, SHELL_COLUMNS[if end == 0 { 0 } else { 2 }])
+        };
+        let (front, back) = (corner(0), corner(1));
+        let (from, to) = (p.round_m[0], p.length_m - p.round_m[1]);
+        let steps = SHELL_COLUMNS[1];
+        let side = (1..steps).map(|i| vec2(from + (to - from) * i as f32 / steps as f32, half));
+        let back = back.iter().rev().map(|q| vec2(p.length_m - q.x, q.y));
+        let points: Vec<Vec2> = front.iter().copied().chain(side).chain(back).collect();
+        let last = points.len() - 1;
+        let normal = |i: usize| match i {
+            0 => vec2(-1.0, 0.0),
+            i if i == last => vec2(1.0, 0.0),
+            i => (points[i + 1] - points[i - 1]).perp().normalize_or(Vec2::Y),
+        };
+        points.iter().enumerate().map(|(i, &q)| (q, normal(i))).collect()
+    }
+
+    /// The lower body's section at a point of the outline, from under the floor to the upper edge, (s, y, z).
+    fn section(&self, q: Vec2, normal: Vec2) -> Vec<Vec3> {
+        let p = &self.profile;
+        let (c, nose, tail, top) = (p.clearance_m, p.nose_m, p.tail_m, self.edge.at(q.x));
+        let up = |share: f32| c + (top - c) * share;
+        let (rake, lean) = (p.rake_m[0], p.rake_m[1]);
+        let hollow = p.hollow_m;
+        // Rows as (inset, height) of front, side and back, and over how much a corner is rounded.
+        let rows = [
+            ([(0.45, c + 0.02), (0.45, c), (0.45, c + 0.06)], 0.0),
+            ([(0.09, c + 0.01), (0.06, c), (0.10, c + 0.07)], 0.0),
+            ([(0.02, c + 0.06), (0.012, c + 0.045), (0.02, c + 0.13)], 0.03),
+            ([(0.0, c + 0.19), (0.0, c + 0.12), (0.0, c + 0.24)], 0.0),
+            ([(0.0, c + (nose - c) * 0.5), (hollow, up(0.36)), (0.0, c + 0.36)], 0.0),
+            ([(0.02 + rake * 0.05, nose - 0.19), (hollow * 0.6, up(0.58)), (0.035, c + 0.42)], 0.0),
+            ([(0.03 + rake * 0.2, nose - 0.1), (0.0, up(0.79)), (0.03, tail - 0.16)], 0.022),
+            ([(0.03 + rake * 0.45, nose - 0.035), (p.shoulder_m * 0.35, up(0.93)), (0.02, tail - 0.03)], 0.04),
+            ([(0.03 + rake, nose), (p.shoulder_m, top), (0.03 + lean, tail)], 0.0),
         ];
+        let (front, back) = (normal.x.min(0.0).powi(2), normal.x.max(0.0).powi(2));
+        let side = normal.y * normal.y;
+        let corners: Vec<(Vec3, f32)> = rows
+            .iter()
+            .map(|&([f, s, b], reach)| {
+                let inset = f.0 * front + s.0 * side + b.0 * back;
+                let z = f.1 * front + s.1 * side + b.1 * back;
+                let flare = p.flare_m * side * self.arch_share(q.x, z);
+                ((q - normal * (inset - flare)).extend(z), reach)
+            })
+            .collect();
         rounded(&corners)
     }
 
-    /// A whole cross section, counter-clockwise seen from the front, at its place along the car.
-    fn section(&self, s: f32) -> Vec<Vec3> {
-        let p = &self.profile;
-        let half = self.half_section(s);
-        // Towards the ends the section closes onto a line, like a superellipse.
-        let close = |distance: f32, reach: f32| {
-            let t = (1.0 - distance / reach).clamp(0.0, 1.0);
-            (1.0 - t.powf(ROUNDNESS)).max(0.0).powf(1.0 / ROUNDNESS)
+    /// How much of the flare there is at a place of the side.
+    fn arch_share(&self, s: f32, z: f32) -> f32 {
+        let near = |arch: &Vec3| {
+            let off = (vec2(s, z).distance(arch.truncate()) - arch.z).max(0.0) / 0.13;
+            (-off * off).exp()
         };
-        let (front, back) = (close(s, p.round_m[0]), close(p.length_m - s, p.round_m[1]));
-        let core = if s < p.length_m / 2.0 { p.nose.1 * 0.72 } else { p.tail.1.min(p.belt_m[1]) * 0.66 };
-        let place = |q: Vec2, side: f32| {
-            let shrink = front * back;
-            let y = q.x * side * (0.93 + 0.07 * shrink);
-            let z = core + (q.y - core) * shrink;
-            let bow = (q.x / (p.width_m / 2.0)).powf(2.8);
-            let fade = |distance: f32| (1.0 - distance / 0.9).clamp(0.0, 1.0).powi(2);
-            let x = -s - p.bow_m[0] * bow * fade(s) + p.bow_m[1] * bow * fade(p.length_m - s);
-            vec3(x, y, z)
-        };
-        let left = half.iter().map(|&q| place(q, 1.0));
-        let right = half[1..half.len() - 1].iter().rev().map(|&q| place(q, -1.0));
-        left.chain(right).collect()
+        self.arches.iter().map(near).fold(0.0, f32::max)
     }
 
-    /// The closed skin.
-    pub(crate) fn skin(&self) -> Shape {
+    /// The rim's (y, z) at a distance from the front, towards the front or the back half of the car.
+    fn rim_at(rim: &[Vec3], s: f32) -> Vec2 {
+        let next = rim.partition_point(|q| q.x < s).clamp(1, rim.len() - 1);
+        let (a, b) = (rim[next - 1], rim[next]);
+        let t = ((s - a.x) / (b.x - a.x).max(1e-5)).clamp(0.0, 1.0);
+        vec2(a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t)
+    }
+
+    /// A lid between the middle line and a rim's left half, its four sides blended (after Coons): the rim's corner
+    /// parts its side from its bow, which is in front or behind; `middle` is the middle line from the other end to the
+    /// bow.
+    fn lid(side: &[Vec3], bow: &[Vec3], middle: &[Vec3], slot: impl Fn(usize) -> u16) -> Shape {
+        // Side and middle line lead to the bow, which leads to the middle.
+        let rear = (side[0], middle[0]);
+        let columns = side.iter().zip(middle).enumerate().map(|(i, (&edge, &spine))| {
+            let a = i as f32 / (side.len() - 1) as f32;
+            let row = bow.iter().enumerate().map(|(k, &front)| {
+                let b = 1.0 - k as f32 / (bow.len() - 1) as f32;
+                let crown = b.powf(2.2);
+                let back = vec3(0.0, rear.0.y * b, 0.0) + (rear.1 + (rear.0 - rear.1) * crown) * vec3(1.0, 0.0, 1.0);
+                let between = |back: Vec3, front: Vec3| back + (front - back) * a;
+                let to_spine = spine - between(rear.1, bow[bow.len() - 1]);
+                let to_edge = edge - between(rear.0, bow[0]);
+                between(back, front) + to_spine * (1.0 - crown) + to_edge * crown
+            });
+            row.collect()
+        });
+        let columns: Vec<Vec<Vec3>> = columns.collect();
+        if bow[0].x < side[0].x {
+            Grid(columns.into_iter().rev().collect()).shape(|column, _| slot(side.len() - 2 - column))
+        } else {
+            Grid(columns).shape(|column, _| slot(column))
+        }
+    }
+
+    /// The lower body with bonnet and boot lid, its top left open under the windows.
+    pub(crate) fn shell(&self, skin: &Skin) -> Shape {
         let p = &self.profile;
-        let end = |reach: f32| {
-            [0.0f32, 0.25, 0.45, 0.62, 0.75, 0.86, 0.94, 1.0]
-                .map(|f| reach * (1.0 - (1.0 - f.powf(ROUNDNESS)).max(0.0).powf(1.0 / ROUNDNESS)))
+        let columns: Vec<Vec<Vec3>> = self.outline().iter().map(|&(q, n)| self.section(q, n)).collect();
+        let walls = Grid(columns).shape(|_, row| if row < 2 { skin.under } else { skin.paint });
+        let (front, back) = (self.bonnet_end(), self.boot_start());
+        let bonnet = Curve::new(&[
+            (0.0, p.nose_m),
+            (p.cowl.0 * 0.3, p.nose_m.mul_add(0.55, p.cowl.1 * 0.45)),
+            (p.cowl.0 * 0.7, p.nose_m.mul_add(0.18, p.cowl.1 * 0.82)),
+            (p.cowl.0, p.cowl.1),
+        ]);
+        let corner = self.rim.partition_point(|q| q.y < p.width_m * 0.36 && q.x < p.cowl.0 * 0.6).max(4);
+        let side: Vec<Vec3> = self.rim[corner..=front].iter().rev().copied().collect();
+        let bow: Vec<Vec3> = self.rim[..=corner].iter().rev().copied().collect();
+        let spine = |from: f32, to: Vec3, steps: usize, height: &Curve| -> Vec<Vec3> {
+            let at = |i: usize| from + (to.x - from) * i as f32 / (steps - 1) as f32;
+            (0..steps).map(|i| if i + 1 == steps { to } else { vec3(at(i), 0.0, height.at(at(i))) }).collect()
         };
-        let mut stations: Vec<f32> = end(p.round_m[0]).to_vec();
-        stations.extend(end(p.round_m[1]).map(|d| p.length_m - d));
-        let knots = [p.cowl, p.header, p.rear_header, p.deck];
-        stations.extend(knots.iter().flat_map(|k| [k.0 - 0.06, k.0, k.0 + 0.06]));
-        let steps = ((p.length_m - p.round_m[0] - p.round_m[1]) / 0.13) as usize;
-        let span = p.length_m - p.round_m[0] - p.round_m[1];
-        stations.extend((1..steps).map(|i| p.round_m[0] + span * i as f32 / steps as f32));
-        stations.sort_by(f32::total_cmp);
-        stations.dedup_by(|a, b| (*a - *b).abs() < 0.004);
-        let rings: Vec<Vec<Vec3>> = stations.iter().rev().map(|&s| self.section(s)).collect();
-        Shape::loft(&rings).smooth(0.6)
+        let middle = spine(p.cowl.0 + 0.04, self.rim[0], side.len(), &bonnet);
+        let bonnet = Self::lid(&side, &bow, &middle, |k| if k == 0 { skin.trim } else { skin.paint });
+        // The ledge that the windows stand on.
+        let ledge = Grid(
+            self.rim[front..=back]
+                .iter()
+                .map(|&q| vec![q, q - vec3(0.0, 0.06, 0.015), q - vec3(0.0, 0.09, 0.14)])
+                .collect(),
+        );
+        let mut parts = vec![walls, bonnet, ledge.shape(|_, row| if row == 0 { skin.paint } else { skin.lining })];
+        if p.has_bed {
+            parts.push(self.bed(&self.rim[back..], skin));
+        } else {
+            let height = Curve::new(&[(p.deck.0, p.deck.1), (p.length_m, p.tail_m)]);
+            let last = self.rim.len() - 1;
+            let is_side = |q: &Vec3| q.y > p.width_m * 0.38;
+            let corner = (back + 1..last - 2).rev().find(|&i| is_side(&self.rim[i])).unwrap_or(back + 1);
+            let side = &self.rim[back..=corner];
+            let middle = spine(p.deck.0 - 0.04, self.rim[last], side.len(), &height);
+            parts.push(Self::lid(side, &self.rim[corner..], &middle, |_| skin.paint));
+        }
+        let mut shell = Shape::join(parts).smooth(0.62);
+        straighten(&mut shell);
+        shell
+    }
+
+    /// Column of the rim where the bonnet ends.
+    fn bonnet_end(&self) -> usize {
+        let end = self.screen_side_m(0.0) + 0.02;
+        self.rim.partition_point(|q| q.x < end).clamp(2, self.rim.len() - 4)
+    }
+
+    /// Column of the rim where the boot lid or the bed starts.
+    fn boot_start(&self) -> usize {
+        let p = &self.profile;
+        let start = if p.has_bed { p.deck.0 + 0.06 } else { p.deck.0 - p.screen_bow_m[1] - 0.02 };
+        self.rim.partition_point(|q| q.x < start).clamp(self.bonnet_end() + 1, self.rim.len() - 3)
+    }
+
+    /// Walls and floor of a load bed within a stretch of rim.
+    fn bed(&self, rim: &[Vec3], skin: &Skin) -> Shape {
+        let floor = self.profile.clearance_m + 0.45;
+        let inner = |q: Vec3, inset: f32, z: f32| {
+            let s = q.x.min(self.profile.length_m - 0.1 - inset);
+            vec3(s, (q.y - inset).max(0.0).min(self.profile.width_m / 2.0 - 0.08 - inset), z)
+        };
+        let columns = rim.iter().map(|&q| {
+            vec![
+                q,
+                inner(q, 0.05, q.z + 0.006),
+                inner(q, 0.07, q.z - 0.02),
+                inner(q, 0.09, floor),
+                vec3(inner(q, 0.09, 0.0).x, 0.0, floor),
+            ]
+        });
+        Grid(columns.collect()).shape(|_, row| if row == 0 { skin.paint } else { skin.trim })
+    }
+
+    /// Windows, pillars and roof; the side windows are still to be cut.
+    pub(crate) fn greenhouse(&self, skin: &Skin) -> Shape {
+        let columns = self.house_columns();
+        // Spine of the roof: from header to rear header, as far along as each column stands.
+        let tops: Vec<Vec3> = columns.iter().map(|c| c[3]).collect();
+        let arcs: Vec<f32> = std::iter::once(0.0)
+            .chain(tops.windows(2).scan(0.0, |sum, w| {
+                *sum += w[0].truncate().distance(w[1].truncate());
+                Some(*sum)
+            }))
+            .collect();
+        let total = arcs.last().copied().unwrap_or(1.0);
+        let (first, last) = (tops[0].x, tops[tops.len() - 1].x);
+        let crown = |s: f32, y: f32| {
+            let edge = Self::rim_at(&tops, s);
+            edge.y + (self.roof.at(s) - edge.y) * (1.0 - (y / edge.x.max(1e-3)).min(1.0).powf(2.4))
+        };
+        let sections: Vec<Vec<Vec3>> = columns
+            .iter()
+            .zip(&arcs)
+            .map(|(c, arc)| {
+                let top = c[3];
+                let spine = first + (last - first) * arc / total;
+                let roof = |k: f32| {
+                    let (s, y) = (top.x + (spine - top.x) * k, top.y * (1.0 - k));
+                    vec3(s, y, crown(s, y).max(top.z))
+                };
+                let walls = rounded(&[(c[0], 0.0), (c[1], 0.0), (c[2], 0.0), (top, 0.05), (roof(0.22), 0.0)]);
+                // Windscreen and rear window end a little off the body and the roof.
+                let mut points = vec![walls[0], walls[0].lerp(walls[1], 0.25)];
+                points.extend(&walls[1..3]);
+                points.push(walls[2].lerp(walls[3], 0.75));
+                points.extend(&walls[3..]);
+                points.extend([0.4, 0.7, 1.0].map(roof));
+                points
+            })
+            .collect();
+        let columns = HOUSE_COLUMNS.iter().sum::<usize>();
+        let shape = Grid(sections.clone()).shape(|column, row| {
+            let from_back = columns - 1 - column;
+            let pane = |column: usize, glass: u16| if column == SCREEN_COLUMNS - 1 { skin.trim } else { glass };
+            match row {
+                0 if column < HOUSE_COLUMNS[0] => skin.trim,
+                1..4 if column < SCREEN_COLUMNS => pane(column, skin.glass),
+                1..4 if skin.has_rear_window && from_back < SCREEN_COLUMNS => pane(from_back, skin.rear_glass),
+                _ => skin.paint,
+            }
+        });
+        let inside = sections.iter().map(|c| c[7..].iter().map(|&q| q - Vec3::Z * 0.03).collect()).collect();
+        let lining = Grid(inside).shape(|_, _| skin.lining).inside_out();
+        shape.and(lining)
+    }
+
+    /// Four points a column of the greenhouse, from its foot to the roof's edge, (s, y, z).
+    fn house_columns(&self) -> Vec<[Vec3; 4]> {
+        let p = &self.profile;
+        let half = p.width_m / 2.0;
+        let point = |column: usize, share: f32| {
+            // Windows bulge outwards between their edges.
+            let bulge = share * (1.0 - share) * 4.0;
+            let lean = |a: (f32, f32), b: (f32, f32)| (a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share);
+            let front = lean(p.cowl, p.header);
+            let back = lean(p.deck, p.rear_header);
+            let (front_s, back_s) = (front.0 - 0.02 * bulge, back.0 + 0.015 * bulge);
+            let a = front_s + p.screen_bow_m[0] * (1.0 - 0.3 * share);
+            let c = back_s - p.screen_bow_m[1] * (1.0 - 0.2 * share);
+            let width = |s: f32| {
+                let foot = Self::rim_at(&self.rim, s.clamp(p.round_m[0] * 0.8, p.length_m - 0.12)).x - 0.004;
+                let along = ((s - p.header.0) / (p.rear_header.0 - p.header.0)).clamp(-0.5, 1.3);
+                let roof = half * p.roof_share * (1.0 - 0.035 * (2.0 * along - 0.9).powi(2));
+                foot + (roof - foot) * share + 0.014 * bulge
+            };
+            let height = |s: f32| {
+                let (low, high) = (self.edge.at(s) - 0.012, self.rail_m(s.clamp(p.header.0, p.rear_header.0)));
+                low + (high - low) * share
+            };
+            let corner = |k: usize, count: usize| (FRAC_PI_2 * (k as f32 / count as f32).powf(0.9)).sin_cos();
+            let [n_front, n_side, n_back] = HOUSE_COLUMNS;
+            if column <= n_front {
+                let (sin, cos) = corner(column, n_front);
+                let s = front_s + (a - front_s) * (1.0 - cos.max(0.0).powf(2.0 / 2.1));
+                let z = front.1 + (height(a) - front.1) * sin.powi(4) - if share == 0.0 { 0.025 } else { 0.0 };
+                vec3(s, width(a) * sin.powf(2.0 / 3.0), z)
+            } else if column < n_front + n_side {
+                let s = a + (c - a) * (column - n_front) as f32 / n_side as f32;
+                vec3(s, width(s), height(s))
+            } else {
+                let (sin, cos) = corner(n_front + n_side + n_back - column, n_back);
+                let s = back_s - (back_s - c) * (1.0 - cos.max(0.0).powf(2.0 / 2.1));
+                let sunk = if share > 0.0 {
+                    0.0
+                } else if p.has_bed {
+                    0.5
+                } else {
+                    0.025
+                };
+                let z = back.1 + (height(c) - back.1) * sin.powi(4) - sunk;
+                vec3(s, width(c) * sin.powf(2.0 / 3.4), z)
+            }
+        };
+        (0..=HOUSE_COLUMNS.iter().sum()).map(|i| [0.0, 0.36, 0.7, 1.0].map(|share| point(i, share))).collect()
     }
 }
 
-/// A polyline with its corners rounded over a length each; three points a corner.
-fn rounded(corners: &[(Vec2, f32)]) -> Vec<Vec2> {
-    let mut points = vec![corners[0].0];
-    for w in corners.windows(3) {
-        let (corner, reach) = w[1];
-        let towards = |other: Vec2| {
-            let length = corner.distance(other).max(1e-4);
-            corner.lerp(other, (reach / length).min(0.45))
-        };
-        let (before, after) = (towards(w[0].0), towards(w[2].0));
-        points.extend([before, (before + after) / 4.0 + corner / 2.0, after]);
-    }
-    points.extend(corners.last().map(|c| c.0));
-    points
+/// As many points and one more at even distances along a polyline.
+fn resampled(line: &[Vec2], steps: usize) -> Vec<Vec2> {
+    let arcs: Vec<f32> = std::iter::once(0.0)
+        .chain(line.windows(2).scan(0.0, |sum, w| {
+            *sum += w[0].distance(w[1]);
+            Some(*sum)
+        }))
+        .collect();
+    let total = arcs[arcs.len() - 1];
+    (0..=steps)
+        .map(|i| {
+            let arc = total * i as f32 / steps as f32;
+            let next = arcs.partition_point(|a| *a < arc).clamp(1, line.len() - 1);
+            let (from, to) = (arcs[next - 1], arcs[next]);
+            line[next - 1].lerp(line[next], (arc - from) / (to - from).max(1e-6))
+        })
+        .collect()
 }

@@ -2,11 +2,19 @@
 
 mod body;
 mod bus;
+mod cabin;
 mod car;
 mod cars;
 mod extras;
+mod face;
+mod faces;
+mod fittings;
+mod grid;
 mod machine;
+mod models;
 mod palette;
+mod plate;
+mod tall_models;
 mod truck;
 mod trucks;
 mod wheel;

@@ -24,6 +24,25 @@ pub(crate) struct Palette {
     pub(crate) second: u16,
     /// Cartons.
     pub(crate) cargo: u16,
+    /// Dark glass of rear windows.
+    pub(crate) privacy: u16,
+    /// Clear cover of a head lamp.
+    pub(crate) lens: u16,
+    /// What a head lamp is lined with.
+    pub(crate) bowl: u16,
+    /// Light guides of the daytime lamps.
+    pub(crate) strip: u16,
+    /// Clear red cover of a tail lamp.
+    pub(crate) red_glass: u16,
+    /// Light guides of the tail lamps.
+    pub(crate) bright: u16,
+    /// Roof lining.
+    pub(crate) lining: u16,
+    pub(crate) seat: u16,
+    pub(crate) disc: u16,
+    pub(crate) skin: u16,
+    pub(crate) cloth: u16,
+    pub(crate) hair: u16,
 }
 
 /// What one draws from for passenger cars: about a third white, a fifth black, a third grey or silver, some blue and
@@ -86,8 +105,8 @@ impl Palette {
             coat: 1.0,
             // Passenger cars are mostly metallic; what carries goods is not.
             flakes: if paints == FLEET { 0.5 } else { 0.0 },
-            dirt: 0.5,
-            ..Material::plain(name, paints.first().copied().unwrap_or(Vec3::splat(0.7)), 0.45)
+            dirt: 0.22,
+            ..Material::plain(name, paints.first().copied().unwrap_or(Vec3::splat(0.7)), 0.4)
         };
         let metal = |name: &str, grey: f32, roughness: f32| Material {
             metalness: 1.0,
@@ -95,18 +114,51 @@ impl Palette {
             ..Material::plain(name, Vec3::splat(grey), roughness)
         };
         let lens = |name: &str, color: Vec3| Material { coat: 1.0, ..Material::plain(name, color, 0.25) };
+        let glass = |name: &str, tint: Vec3, transmission: f32| Material {
+            transmission,
+            dirt: 0.1,
+            ..Material::plain(name, tint, 0.02)
+        };
+        let rims = [0.55, 0.5, 0.45, 0.3, 0.09, 0.03].map(Vec3::splat);
+        let seats = [0.016, 0.02, 0.03, 0.05, 0.09].map(Vec3::splat);
+        let seats = [&seats[..], &[vec3(0.2, 0.15, 0.1), vec3(0.12, 0.1, 0.085), vec3(0.1, 0.04, 0.02)]].concat();
+        let skins = [vec3(0.45, 0.28, 0.2), vec3(0.36, 0.21, 0.14), vec3(0.22, 0.12, 0.075), vec3(0.08, 0.042, 0.027)];
+        let clothes = [
+            vec3(0.03, 0.032, 0.04),
+            Vec3::splat(0.5),
+            vec3(0.04, 0.07, 0.16),
+            Vec3::splat(0.12),
+            vec3(0.2, 0.03, 0.03),
+            vec3(0.1, 0.12, 0.08),
+        ];
+        let hairs = [vec3(0.01, 0.008, 0.007), vec3(0.04, 0.022, 0.012), vec3(0.2, 0.13, 0.06), Vec3::splat(0.25)];
+        let cloth = |name: &str, sheen: f32, color: Vec3| Material { sheen, ..Material::plain(name, color, 0.85) };
+        let rim = model.slot(metal("alloy", 0.55, 0.3), &rims);
+        let seat = model.slot(cloth("seat", 0.3, seats[0]), &seats);
+        let cloth_slot = model.slot(cloth("clothes", 0.5, clothes[0]), &clothes);
+        let skin = model.slot(Material { subsurface: 0.5, ..Material::plain("skin", skins[0], 0.55) }, &skins);
+        let hair = model.slot(Material::plain("hair", hairs[0], 0.6), &hairs);
         let mut slot = |material| model.slot(material, &[]);
         Self {
-            trim: slot(Material { dirt: 0.6, ..Material::plain("black plastic", Vec3::splat(0.022), 0.55) }),
-            glass: slot(Material {
-                transmission: 0.92,
-                ..Material::plain("tinted glass", vec3(0.42, 0.47, 0.46), 0.02)
-            }),
-            rubber: slot(Material { dirt: 0.7, ..Material::plain("tyre", Vec3::splat(0.024), 0.85) }),
-            rim: slot(metal("alloy", 0.55, 0.32)),
-            chrome: slot(metal("chrome", 0.7, 0.12)),
+            rim,
+            seat,
+            skin,
+            hair,
+            cloth: cloth_slot,
+            trim: slot(Material { dirt: 0.5, ..Material::plain("black plastic", Vec3::splat(0.018), 0.5) }),
+            glass: slot(glass("window glass", vec3(0.74, 0.79, 0.77), 0.94)),
+            privacy: slot(glass("dark glass", vec3(0.3, 0.32, 0.32), 0.94)),
+            lens: slot(glass("lamp glass", vec3(0.95, 0.96, 0.96), 0.96)),
+            bowl: slot(Material { metalness: 0.6, ..Material::plain("lamp lining", vec3(0.1, 0.1, 0.105), 0.25) }),
+            strip: slot(Material { coat: 1.0, ..Material::plain("light guide", vec3(0.85, 0.87, 0.9), 0.3) }),
+            red_glass: slot(glass("red lamp glass", vec3(0.62, 0.03, 0.03), 0.94)),
+            bright: slot(lens("bright red lens", vec3(0.62, 0.02, 0.02))),
+            lining: slot(Material::plain("roof lining", vec3(0.3, 0.29, 0.27), 0.9)),
+            disc: slot(metal("brake disc", 0.34, 0.35)),
+            rubber: slot(Material { dirt: 0.25, ..Material::plain("tyre", Vec3::splat(0.018), 0.75) }),
+            chrome: slot(metal("chrome", 0.7, 0.1)),
             lamp: slot(Material { metalness: 0.75, coat: 1.0, ..Material::plain("lamp", vec3(0.75, 0.78, 0.8), 0.15) }),
-            red: slot(lens("red lens", vec3(0.36, 0.008, 0.01))),
+            red: slot(lens("red lens", vec3(0.26, 0.006, 0.008))),
             amber: slot(lens("amber lens", vec3(0.6, 0.2, 0.01))),
             interior: slot(Material::plain("interior", vec3(0.035, 0.035, 0.037), 0.8)),
             plate: slot(Material::plain("number plate", vec3(0.72, 0.72, 0.7), 0.45)),
