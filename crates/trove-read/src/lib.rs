@@ -3,6 +3,7 @@
 //! What goes in: paths. What comes out: the model's nouns. A dataset's peculiarities (axis order, quaternion order,
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
 
+pub mod asset_files;
 pub mod environment;
 mod error;
 pub mod nuscenes;

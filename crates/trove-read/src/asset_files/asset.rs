@@ -1,0 +1,81 @@
+//! An entry of a library and its model → `Asset`.
+
+use std::sync::Arc;
+
+use glam::{Mat3, Vec3};
+use trove_model::{Asset, Coarser, Figure, Kind, Mesh, Posture, Slot};
+
+use super::axes::Axis;
+use super::fault::Fault;
+use super::guess::scale;
+use super::library_file::{AssetEntry, class_named, kind_named};
+use super::model::Model;
+use super::repair::thinned;
+
+/// Turns, scales and places a model by a completed entry; `None` for one that is not to be placed.
+pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option<Asset>, Fault> {
+    let place = format!("asset {:?}", entry.file);
+    let Some(Some(kind)) = kind_named(entry.kind.as_deref(), &place)? else { return Ok(None) };
+    let class = class_named(entry.class.as_deref(), &place)?.flatten().unwrap_or(kind.class());
+    let (up, front) = (entry.up.unwrap_or(Axis::PlusY), entry.front.unwrap_or(Axis::PlusZ));
+    if up.is_along(front) {
+        let found = format!("up {} and front {}", up.name(), front.name());
+        return Err(Fault::new(place, "up and front at right angles", found, "correct one of them in library.toml"));
+    }
+    let mut mesh = model.mesh;
+    stand(&mut mesh, Axis::turn(front, up), entry, kind);
+    let slots = model.materials.into_iter().map(|material| Slot { material, paints: Vec::new() }).collect();
+    let mut asset = Asset::new(id, kind, class, mesh, slots, &licence(entry));
+    asset.commonness = entry.commonness.filter(|c| c.is_finite() && *c >= 0.0).unwrap_or(1.0);
+    asset.figure = posture(entry).map(|posture| Figure { person: id.into(), posture });
+    asset.coarser = coarser(&asset);
+    Ok(Some(asset))
+}
+
+/// Metres, x forward, z up, standing on z = 0 over the origin.
+fn stand(mesh: &mut Mesh, turn: Mat3, entry: &AssetEntry, kind: Kind) {
+    for v in mesh.positions.iter_mut().chain(&mut mesh.normals) {
+        *v = turn * *v;
+    }
+    let (low, high) = mesh.bounds().unwrap_or_default();
+    let size = high - low;
+    let scale = scale(entry, size);
+    let mut origin = Vec3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
+    if kind.is_on_pole() {
+        // The foot is what lies lowest.
+        let edge = low.z + 0.02 * size.z;
+        let foot = || mesh.positions.iter().filter(|p| p.z <= edge);
+        let (mut lowest, mut highest) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        foot().for_each(|p| (lowest, highest) = (lowest.min(*p), highest.max(*p)));
+        origin = ((lowest + highest) / 2.0).with_z(low.z);
+    }
+    mesh.positions.iter_mut().for_each(|p| *p = (*p - origin) * scale);
+}
+
+/// `CC0-1.0, Quaternius, https://…`.
+fn licence(entry: &AssetEntry) -> String {
+    let parts = [&entry.licence, &entry.author, &entry.source];
+    let parts: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
+    if entry.licence.is_none() { format!("licence unknown {}", parts.join(", ")).trim().into() } else { parts.join(", ") }
+}
+
+fn posture(entry: &AssetEntry) -> Option<Posture> {
+    // A file shows one phase: the step's widest, as models of walkers do.
+    match entry.posture.as_deref()? {
+        "sitting" => Some(Posture::Sitting),
+        "walking" => Some(Posture::Walking { phase: 0.0, stride_m: 1.4 }),
+        "running" => Some(Posture::Running { phase: 0.0, stride_m: 2.4 }),
+        _ => Some(Posture::Standing),
+    }
+}
+
+/// A fifth of the triangles from where the largest ones left out are a pixel wide, for models of over 20,000.
+fn coarser(asset: &Asset) -> Vec<Coarser> {
+    if asset.mesh.triangles.len() < 20_000 {
+        return Vec::new();
+    }
+    let mut mesh = (*asset.mesh).clone();
+    thinned(&mut mesh, asset.mesh.triangles.len() / 5);
+    let from_m = (12.0 * asset.size_m.max_element()).max(25.0);
+    vec![Coarser { from_m, mesh: Arc::new(mesh) }]
+}

@@ -1,0 +1,296 @@
+//! `library.toml`: what a folder of models, textures and skies holds, and how to take it.
+
+use std::path::Path;
+
+use glam::DVec3;
+use serde::Deserialize;
+use trove_model::{Class, Kind, SurfaceKind};
+
+use super::axes::Axis;
+use super::fault::Fault;
+use crate::ReadError;
+
+/// The file's name in its folder.
+pub const FILE_NAME: &str = "library.toml";
+
+/// What stands in a `library.toml`, completed by guesses.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LibraryFile {
+    /// Licence of everything that does not say otherwise (an SPDX name where it has one).
+    pub licence: Option<String>,
+    /// Who made what does not say otherwise.
+    pub author: Option<String>,
+    /// Where what does not say otherwise is from.
+    pub source: Option<String>,
+    /// Models, in the order of the file.
+    #[serde(rename = "asset")]
+    pub assets: Vec<AssetEntry>,
+    /// Texture sets, in the order of the file.
+    #[serde(rename = "surface")]
+    pub surfaces: Vec<SurfaceEntry>,
+    /// Skies, in the order of the file.
+    #[serde(rename = "environment")]
+    pub environments: Vec<EnvironmentEntry>,
+}
+
+/// A value that the file did not give.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guess {
+    /// The key in `library.toml`.
+    pub key: &'static str,
+    /// The value as it is written there.
+    pub value: String,
+    /// How sure it is, 0 to 1.
+    pub confidence: f32,
+    /// What speaks for it.
+    pub reason: String,
+}
+
+/// A model.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AssetEntry {
+    /// Path from the library's folder, with `/`.
+    pub file: String,
+    /// The node to take, with all that hangs on it; everything without.
+    pub part: Option<String>,
+    /// [`Kind`] in snake case, or `none` for what is not to be placed.
+    pub kind: Option<String>,
+    /// Name of the [`Class`] where it is not the kind's own.
+    pub class: Option<String>,
+    /// The file's axis that points up.
+    pub up: Option<Axis>,
+    /// The file's axis that points forward.
+    pub front: Option<Axis>,
+    /// Metres a unit of the file; or else one of the two below.
+    pub unit_m: Option<f64>,
+    /// Metres from its lowest to its highest point.
+    pub height_m: Option<f64>,
+    /// Metres from its foremost to its rearmost point.
+    pub length_m: Option<f64>,
+    /// `standing`, `walking`, `running` or `sitting`, for people on foot.
+    pub posture: Option<String>,
+    /// How often it is drawn among those that fit as well; 1 is ordinary.
+    pub commonness: Option<f32>,
+    /// As the library's.
+    pub licence: Option<String>,
+    /// As the library's.
+    pub author: Option<String>,
+    /// As the library's.
+    pub source: Option<String>,
+    /// What of the above is guessed.
+    #[serde(skip)]
+    pub guesses: Vec<Guess>,
+    /// Length, width and height that it has by the above, metres; `None` until [`super::import`] has measured it.
+    #[serde(skip)]
+    pub size_m: Option<DVec3>,
+}
+
+/// A texture set.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SurfaceEntry {
+    /// Unique in its library.
+    pub name: String,
+    /// [`SurfaceKind`] in snake case, or `none` for what is not to be used.
+    pub kind: Option<String>,
+    /// Metres that the picture covers along u and v.
+    pub size_m: Option<[f32; 2]>,
+    /// For facades: bays and storeys in the picture; for covers, signs and rooms how many across and up.
+    pub cells: Option<[u32; 2]>,
+    /// Height of white in the displacement above black, metres.
+    pub height_m: Option<f32>,
+    /// Picture of the base colour.
+    pub color: String,
+    /// Picture of tangent-space normals.
+    pub normal: Option<String>,
+    /// `gl` (green up) or `dx` (green down).
+    pub normal_style: Option<String>,
+    /// Picture of perceptual roughness.
+    pub roughness: Option<String>,
+    /// Picture of metalness.
+    pub metalness: Option<String>,
+    /// Picture of ambient occlusion.
+    pub occlusion: Option<String>,
+    /// Occlusion, roughness and metalness in red, green and blue.
+    pub orm: Option<String>,
+    /// Picture of heights.
+    pub displacement: Option<String>,
+    /// Picture of coverage.
+    pub opacity: Option<String>,
+    /// Picture of what shines; surfaces shine by its mean.
+    pub emission: Option<String>,
+    /// As the library's.
+    pub licence: Option<String>,
+    /// What of the above is guessed.
+    #[serde(skip)]
+    pub guesses: Vec<Guess>,
+}
+
+/// A photographed sky, to be named in a recipe's `light.environment`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct EnvironmentEntry {
+    /// Path from the library's folder, with `/`.
+    pub file: String,
+    /// As the library's.
+    pub licence: Option<String>,
+}
+
+impl<'de> Deserialize<'de> for Axis {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unknown = || serde::de::Error::custom(format!("expected +x, -x, +y, -y, +z or -z, found {name:?}"));
+        Self::from_name(&name).ok_or_else(unknown)
+    }
+}
+
+impl LibraryFile {
+    /// Reads a folder's `library.toml`. Errors: it is not there, or something in it is not what it should be.
+    pub fn read(folder: &Path) -> Result<Self, ReadError> {
+        let path = folder.join(FILE_NAME);
+        let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {
+            std::io::ErrorKind::NotFound => ReadError::Missing {
+                path: folder.to_owned(),
+                expected: FILE_NAME.into(),
+                found: "a folder without it".into(),
+                remedy: "write one: `trove assets import FOLDER`".into(),
+            },
+            _ => ReadError::io(&path, source),
+        })?;
+        Self::parse(&text).map_err(|fault| fault.at(&path))
+    }
+
+    pub(super) fn parse(text: &str) -> Result<Self, Fault> {
+        let file: Self = toml::from_str(text).map_err(|e| {
+            let line = e.span().map_or(1, |span| 1 + text.get(..span.start).map_or(0, |t| t.matches('\n').count()));
+            let remedy = "correct it as docs/assets.md describes";
+            Fault::new(format!("line {line}"), "a library", e.message(), remedy)
+        })?;
+        for entry in &file.assets {
+            let place = format!("asset {:?}", entry.file);
+            kind_named(entry.kind.as_deref(), &place)?;
+            class_named(entry.class.as_deref(), &place)?;
+            let sizes = [entry.unit_m, entry.height_m, entry.length_m];
+            if sizes.iter().flatten().count() > 1 {
+                let expected = "one of unit_m, height_m and length_m";
+                return Err(Fault::new(place, expected, "several", "leave one of them"));
+            }
+            if let Some(wrong) = sizes.into_iter().flatten().find(|s| !(s.is_finite() && *s > 0.0)) {
+                return Err(Fault::new(place, "a size above 0", wrong.to_string(), "correct it"));
+            }
+            if let (Some(up), Some(front)) = (entry.up, entry.front)
+                && up.is_along(front)
+            {
+                let found = format!("up {} and front {}", up.name(), front.name());
+                return Err(Fault::new(place, "up and front at right angles", found, "correct one of them"));
+            }
+        }
+        for entry in &file.surfaces {
+            surface_kind_named(entry.kind.as_deref(), &format!("surface {:?}", entry.name))?;
+        }
+        Ok(file)
+    }
+}
+
+/// `TrafficCone` → `traffic_cone`.
+fn snake(name: &str) -> String {
+    let mut out = String::new();
+    for c in name.chars() {
+        if c.is_uppercase() && !out.is_empty() {
+            out.push('_');
+        }
+        out.extend(c.to_lowercase());
+    }
+    out
+}
+
+/// A kind as `library.toml` writes it.
+pub(super) fn kind_name(kind: Option<Kind>) -> String {
+    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
+}
+
+/// A surface's kind as `library.toml` writes it.
+pub(super) fn surface_kind_name(kind: Option<SurfaceKind>) -> String {
+    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
+}
+
+/// The kind of a name: `None` without a name, `Some(None)` for `none`.
+pub(super) fn kind_named(name: Option<&str>, place: &str) -> Result<Option<Option<Kind>>, Fault> {
+    let all: Vec<(String, Kind)> = Kind::ALL.iter().map(|k| (kind_name(Some(*k)), *k)).collect();
+    looked_up(name, &all, place, "kind")
+}
+
+pub(super) fn surface_kind_named(name: Option<&str>, place: &str) -> Result<Option<Option<SurfaceKind>>, Fault> {
+    let all: Vec<(String, SurfaceKind)> = SURFACE_KINDS.iter().map(|k| (surface_kind_name(Some(*k)), *k)).collect();
+    looked_up(name, &all, place, "kind")
+}
+
+pub(super) fn class_named(name: Option<&str>, place: &str) -> Result<Option<Option<Class>>, Fault> {
+    let all: Vec<(String, Class)> = trove_model::CLASSES.iter().map(|row| (row.name.to_owned(), row.class)).collect();
+    looked_up(name, &all, place, "class")
+}
+
+const SURFACE_KINDS: [SurfaceKind; 18] = [
+    SurfaceKind::Asphalt,
+    SurfaceKind::MarkingWhite,
+    SurfaceKind::MarkingYellow,
+    SurfaceKind::RoadCover,
+    SurfaceKind::Paving,
+    SurfaceKind::Kerb,
+    SurfaceKind::Concrete,
+    SurfaceKind::Grass,
+    SurfaceKind::Soil,
+    SurfaceKind::Gravel,
+    SurfaceKind::Water,
+    SurfaceKind::FlatRoof,
+    SurfaceKind::RoofTiles,
+    SurfaceKind::Facade,
+    SurfaceKind::FacadeGroundFloor,
+    SurfaceKind::Wall,
+    SurfaceKind::ShopSign,
+    SurfaceKind::RoomBack,
+];
+
+fn looked_up<T: Copy>(name: Option<&str>, all: &[(String, T)], place: &str, key: &str) -> Result<Option<Option<T>>, Fault> {
+    let Some(name) = name else { return Ok(None) };
+    if name == "none" {
+        return Ok(Some(None));
+    }
+    if let Some((_, value)) = all.iter().find(|(n, _)| n == name) {
+        return Ok(Some(Some(*value)));
+    }
+    let close = all.iter().max_by(|a, b| strsim::jaro(&a.0, name).total_cmp(&strsim::jaro(&b.0, name)));
+    let remedy = close.map_or(String::new(), |(n, _)| format!("did you mean {n:?}?"));
+    Err(Fault::new(format!("{place}: {key}"), format!("a {key} of TRoVE or \"none\""), format!("{name:?}"), remedy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_are_named_with_their_place() {
+        for (text, place, what) in [
+            ("[[asset]]\nfile = \"a.glb\"\nkindd = \"car\"", "line 3", "kindd"),
+            ("[[asset]]\nfile = \"a.glb\"\nkind = \"cra\"", "a.glb", "did you mean"),
+            ("[[asset]]\nfile = \"a.glb\"\nup = \"top\"", "line 3", "+x, -x"),
+            ("[[asset]]\nfile = \"a.glb\"\nup = \"+y\"\nfront = \"-y\"", "a.glb", "right angles"),
+            ("[[asset]]\nfile = \"a.glb\"\nunit_m = 0.0", "a.glb", "above 0"),
+            ("[[asset]]\nfile = \"a.glb\"\nunit_m = 1.0\nheight_m = 2.0", "a.glb", "several"),
+            ("[[asset]\n", "line 1", "a library"),
+        ] {
+            let message = LibraryFile::parse(text).unwrap_err().at(Path::new("library.toml")).to_string();
+            assert!(message.contains(place) && message.contains(what), "{message}");
+        }
+    }
+
+    #[test]
+    fn every_kind_has_a_name_of_its_own() {
+        for kind in Kind::ALL {
+            assert_eq!(kind_named(Some(&kind_name(Some(kind))), "").unwrap(), Some(Some(kind)));
+        }
+        assert_eq!(kind_name(Some(Kind::TrafficCone)), "traffic_cone");
+    }
+}

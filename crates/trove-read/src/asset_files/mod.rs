@@ -1,0 +1,187 @@
+//! Everyone's own models, textures and skies: a folder with a `library.toml` → `AssetLibrary`.
+//!
+//! [`import`] writes that file for a folder of downloads: it guesses what each model shows, which way is up and
+//! forward and how long its unit is, and says how sure it is and why. [`read_library`] reads the models as the file
+//! says. [`check`] looks for what is wrong with them. Models: glTF 2.0 and GLB (with Draco and meshopt), FBX, OBJ;
+//! pictures: PNG, JPEG, WebP, BMP, TGA, Radiance HDR, OpenEXR. Skins and morphs are posed by the first frame of the
+//! animation that stands idle, or else of the first animation; without animations by the rest pose.
+
+mod asset;
+mod axes;
+mod fault;
+mod front;
+mod gltf;
+mod guess;
+mod library_file;
+mod library_text;
+mod licence;
+mod looks;
+mod model;
+mod picture;
+mod profile;
+mod repair;
+mod samples;
+mod scan;
+mod subjects;
+mod upright;
+mod words;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rayon::prelude::*;
+use trove_model::{Asset, AssetLibrary, Outcome, Report};
+
+pub use self::axes::Axis;
+pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
+
+use self::model::Model;
+use self::picture::Pictures;
+use crate::ReadError;
+
+/// The largest side of a model's texture, pixels.
+const TEXTURE_LIMIT: u32 = 2048;
+/// The largest side of a texture that is only looked at to find out which way a model stands, pixels.
+const GLANCE_LIMIT: u32 = 256;
+/// Files above this are refused, bytes.
+const MOST_BYTES: u64 = 2 << 30;
+
+/// Looks through a folder, writes its `library.toml` or completes the one that is there, and returns what then stands
+/// in it with the guesses. What cannot be read is reported and left out.
+pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> {
+    let found = scan::scan(folder, report)?;
+    let path = folder.join(FILE_NAME);
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => String::new(),
+        Err(source) => return Err(ReadError::io(&path, source)),
+    };
+    let old = LibraryFile::parse(&text).map_err(|fault| fault.at(&path))?;
+    let mut file = old.clone();
+    for model in &found.models {
+        if !old.assets.iter().any(|e| e.file == *model) {
+            file.assets.push(AssetEntry { file: model.clone(), ..AssetEntry::default() });
+        }
+    }
+    let terms = licence::terms(folder, &found.licences);
+    let pictures = Pictures::new("glance", GLANCE_LIMIT);
+    let kept = old.assets.len();
+    let complete = |(i, mut entry): (usize, AssetEntry)| {
+        let result = load(folder, &entry, &pictures).and_then(|model| {
+            let terms = licence::nearest(&terms, &entry.file).filter(|_| file.licence.is_none());
+            guess::complete(&mut entry, &model, terms).map_err(|fault| fault.at(&path))
+        });
+        match result {
+            Ok(()) => Some(entry),
+            Err(e) => {
+                report.note(Outcome::Dropped, "a model that cannot be read", e);
+                (i < kept).then_some(entry)
+            }
+        }
+    };
+    file.assets = std::mem::take(&mut file.assets).into_par_iter().enumerate().filter_map(complete).collect();
+    for entry in &file.assets {
+        for guess in entry.guesses.iter().filter(|g| g.confidence < 0.7) {
+            let example = format!("{}: {} = {} ({:.2}: {})", entry.file, guess.key, guess.value, guess.confidence, guess.reason);
+            report.note(Outcome::Guessed, "a key of library.toml, with little to go by", example);
+        }
+    }
+    let new = library_text::completed(&text, &old, &file);
+    if new != text {
+        library_text::write(folder, &new)?;
+    }
+    Ok(file)
+}
+
+/// Reads a folder with a `library.toml`. Ids are `<folder>/<file's stem>`, with `-<part>` for a part of a file, and
+/// with the names of folders in between where stems are not unique. What the file leaves open is guessed and reported;
+/// a model that cannot be read is reported and left out. Errors: the file is missing or wrong, or no entry is usable.
+pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, ReadError> {
+    let file = LibraryFile::read(folder)?;
+    let name = name_of(folder);
+    let ids = ids(&name, &file.assets);
+    let pictures = Pictures::new(&name, TEXTURE_LIMIT);
+    let read = |(entry, id): (&AssetEntry, &String)| match read_asset(folder, &file, entry, id, &pictures, report) {
+        Ok(asset) => asset,
+        Err(e) => {
+            report.note(Outcome::Dropped, "a model that cannot be read", e);
+            None
+        }
+    };
+    let mut assets: Vec<Asset> = file.assets.par_iter().zip(&ids).filter_map(read).collect();
+    assets.sort_by(|a, b| a.id.cmp(&b.id));
+    Ok(AssetLibrary { assets, ..AssetLibrary::default() })
+}
+
+fn read_asset(
+    folder: &Path,
+    file: &LibraryFile,
+    entry: &AssetEntry,
+    id: &str,
+    pictures: &Pictures,
+    report: &Report,
+) -> Result<Option<Asset>, ReadError> {
+    if entry.kind.as_deref() == Some("none") {
+        return Ok(None);
+    }
+    let mut entry = entry.clone();
+    let at = |fault: fault::Fault| fault.at(&folder.join(FILE_NAME));
+    let model = load(folder, &entry, pictures)?;
+    for (outcome, what, example) in &model.notices {
+        report.note(*outcome, what, format!("{id}: {example}"));
+    }
+    entry.licence = entry.licence.or_else(|| file.licence.clone());
+    entry.author = entry.author.or_else(|| file.author.clone());
+    entry.source = entry.source.or_else(|| file.source.clone());
+    guess::complete(&mut entry, &model, None).map_err(at)?;
+    for guess in &entry.guesses {
+        report.note(Outcome::Guessed, "a key that library.toml leaves open", format!("{id}: {} = {}", guess.key, guess.value));
+    }
+    asset::asset(id, &entry, model).map_err(at)
+}
+
+/// The last name of a folder's path.
+fn name_of(folder: &Path) -> String {
+    let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or("library".into(), |n| n.to_string_lossy().into_owned())
+}
+
+fn ids(library: &str, entries: &[AssetEntry]) -> Vec<String> {
+    let part = |e: &AssetEntry| e.part.as_deref().map_or(String::new(), |p| format!("-{p}"));
+    let short = |e: &AssetEntry| format!("{}{}", scan::stem_of(&e.file), part(e));
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    entries.iter().for_each(|e| *counts.entry(short(e)).or_default() += 1);
+    let mut taken = std::collections::BTreeSet::new();
+    let id = |e: &AssetEntry| {
+        let short = short(e);
+        let own = if counts[&short] == 1 { short } else { format!("{}{}", e.file.replace('/', "-"), part(e)) };
+        let mut id = format!("{library}/{own}");
+        while !taken.insert(id.clone()) {
+            id.push('+');
+        }
+        id
+    };
+    entries.iter().map(id).collect()
+}
+
+/// Reads and repairs an entry's model.
+fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
+    let path = folder.join(&entry.file);
+    let io = |source| ReadError::io(&path, source);
+    let length = std::fs::metadata(&path).map_err(io)?.len();
+    if length > MOST_BYTES {
+        let found = format!("{length} bytes");
+        return Err(fault::Fault::new("file", "a file of at most 2 GiB", found, "simplify or split the model").at(&path));
+    }
+    let bytes = std::fs::read(&path).map_err(io)?;
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let mut model = match ending.as_str() {
+        "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures)?,
+        _ => {
+            let remedy = "export it as .glb";
+            return Err(fault::Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path));
+        }
+    };
+    repair::repair(&mut model).map_err(|fault| fault.at(&path))?;
+    Ok(model)
+}
