@@ -50,7 +50,7 @@ const TILE: [f64; 2] = [5.0, 30.0];
 const LAMP: [f64; 2] = [3.0, 10.0];
 
 #[rustfmt::skip]
-const MODELS: [Judged; 114] = [
+const MODELS: [Judged; 116] = [
     m("gazebo/ambulance.glb", "ambulance", "+y", "+z", 'l', [5.0, 8.0]),
     m("gazebo/bus.glb", "bus", "+y", "+z", 'l', [9.0, 14.0]),
     m("gazebo/bus_stop__base_link.glb", "shelter", "+y", "*", 'h', [2.2, 3.6]),
@@ -165,6 +165,8 @@ const MODELS: [Judged; 114] = [
     m("quaternius/transport_TrafficLight.glb", "traffic_signal", "+y", "-x", 'h', [2.5, 5.0]),
     m("quaternius/transport_TrafficSign1.glb", "traffic_sign", "+y", "-x", 'h', SIGN),
     m("quaternius/transport_TrafficSign2.glb", "traffic_sign", "+y", "+z", 'h', SIGN),
+    m("quaternius/transport_TrafficSign3.glb", "traffic_sign", "+y", "+z", 'h', SIGN),
+    m("quaternius/transport_Train.glb", "none", "+y", "+z|-z", 'l', [12.0, 30.0]),
 ];
 
 /// A folder of links to the real models, which stay untouched; `None` where there are none.

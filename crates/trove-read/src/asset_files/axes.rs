@@ -33,10 +33,6 @@ impl Axis {
         [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z][self as usize]
     }
 
-    pub(super) fn opposite(self) -> Self {
-        Self::ALL[self as usize ^ 1]
-    }
-
     pub(super) fn is_along(self, other: Self) -> bool {
         self as usize / 2 == other as usize / 2
     }

@@ -10,7 +10,7 @@ use super::library_file::{AssetEntry, Guess, class_named, kind_name, kind_named}
 use super::licence::{Terms, spdx};
 use super::model::Model;
 use super::samples::samples;
-use super::subjects::{self, Named};
+use super::subjects::{self, Expected, Named};
 use super::upright::{Scale, upright};
 
 /// Fills in what the entry lacks; what it has is kept and helps with the rest.
@@ -40,11 +40,12 @@ pub(super) fn complete(entry: &mut AssetEntry, model: &Model, terms: Option<&Ter
     let points = samples(model);
     let (low, high) = model.mesh.bounds().unwrap_or((Vec3::ZERO, Vec3::ONE));
     let size = (high - low).max(Vec3::splat(1e-9));
-    let mut stance = upright(size, &points, subject, model.declared);
+    let expected = subject.map(|s| Expected::of(s, &entry.file));
+    let mut stance = upright(size, &points, expected, model.declared);
     match entry.up {
         Some(up) if up != stance.up => {
             // The user turns it: only stances with that axis up are left.
-            stance = super::upright::with_up(size, &points, subject, up);
+            stance = super::upright::with_up(size, &points, expected, up);
         }
         Some(_) => {}
         None => {

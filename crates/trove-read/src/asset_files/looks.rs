@@ -109,6 +109,16 @@ pub(super) fn packed(sources: [Option<(Pixels, usize)>; 3], missing: [u8; 3]) ->
     Some(Pixels { width, height, rgba, notice: None })
 }
 
+/// A picture whose alpha is another one's red.
+pub(super) fn with_alpha(mut base: Pixels, opacity: &Pixels) -> Pixels {
+    for i in 0..base.rgba.len() {
+        let (x, y) = (i as u32 % base.width, i as u32 / base.width);
+        let at = y * opacity.height / base.height * opacity.width + x * opacity.width / base.width;
+        base.rgba[i][3] = opacity.rgba[at as usize][0];
+    }
+    base
+}
+
 /// Mean of a texture: linear colour and alpha.
 pub(super) fn mean(texture: &Texture) -> Vec4 {
     let step = (texture.rgba.len() / 4096).max(1);

@@ -9,6 +9,7 @@
 mod asset;
 mod axes;
 mod fault;
+mod fbx;
 mod front;
 mod gltf;
 mod guess;
@@ -22,7 +23,10 @@ mod profile;
 mod repair;
 mod samples;
 mod scan;
+mod sky;
 mod subjects;
+mod surface;
+mod texture_set;
 mod upright;
 mod words;
 
@@ -30,7 +34,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
-use trove_model::{Asset, AssetLibrary, Outcome, Report};
+use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 
 pub use self::axes::Axis;
 pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
@@ -41,6 +45,8 @@ use crate::ReadError;
 
 /// The largest side of a model's texture, pixels.
 const TEXTURE_LIMIT: u32 = 2048;
+/// The largest side of a surface's texture, pixels.
+const SURFACE_LIMIT: u32 = 4096;
 /// The largest side of a texture that is only looked at to find out which way a model stands, pixels.
 const GLANCE_LIMIT: u32 = 256;
 /// Files above this are refused, bytes.
@@ -64,6 +70,13 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
         }
     }
     let terms = licence::terms(folder, &found.licences);
+    let sets = texture_set::sets(&found.pictures, &found.models, &terms);
+    file.surfaces.extend(sets.into_iter().filter(|found| !texture_set::is_known(&old.surfaces, found)));
+    let skies = found.pictures.iter().filter(|p| sky::is_sky(&folder.join(p)));
+    for sky in skies.filter(|s| !old.environments.iter().any(|e| e.file == **s)) {
+        let licence = licence::nearest(&terms, sky).map(|t| t.licence.clone()).filter(|_| file.licence.is_none());
+        file.environments.push(EnvironmentEntry { file: sky.clone(), licence });
+    }
     let pictures = Pictures::new("glance", GLANCE_LIMIT);
     let kept = old.assets.len();
     let complete = |(i, mut entry): (usize, AssetEntry)| {
@@ -110,7 +123,23 @@ pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, Read
     };
     let mut assets: Vec<Asset> = file.assets.par_iter().zip(&ids).filter_map(read).collect();
     assets.sort_by(|a, b| a.id.cmp(&b.id));
-    Ok(AssetLibrary { assets, ..AssetLibrary::default() })
+    let pictures = Pictures::new(&name, SURFACE_LIMIT);
+    let read = |entry: &SurfaceEntry| {
+        let id = format!("{name}/{}", entry.name);
+        let surface = surface::surface(folder, entry, &id, &pictures, report);
+        surface.map_err(|e| report.note(Outcome::Dropped, "a texture set that cannot be read", e)).ok().flatten()
+    };
+    let mut surfaces: Vec<Surface> = file.surfaces.par_iter().filter_map(read).collect();
+    surfaces.sort_by(|a, b| a.id.cmp(&b.id));
+    if assets.is_empty() && surfaces.is_empty() && !(file.assets.is_empty() && file.surfaces.is_empty()) {
+        return Err(ReadError::Missing {
+            path: folder.to_owned(),
+            expected: "a model or a texture set that can be used".into(),
+            found: format!("{} models and {} texture sets that cannot", file.assets.len(), file.surfaces.len()),
+            remedy: "see what `trove assets check FOLDER` says of them".into(),
+        });
+    }
+    Ok(AssetLibrary { assets, surfaces, ..AssetLibrary::default() })
 }
 
 fn read_asset(
@@ -177,6 +206,7 @@ fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model,
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let mut model = match ending.as_str() {
         "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures)?,
+        "fbx" | "obj" => fbx::read(&path, &bytes, entry.part.as_deref(), pictures)?,
         _ => {
             let remedy = "export it as .glb";
             return Err(fault::Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path));

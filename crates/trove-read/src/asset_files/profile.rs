@@ -86,12 +86,33 @@ fn bars(points: &[Sample], length: Vec2, half: f32) -> Option<f32> {
     Some((at * 4.0).clamp(-2.0, 2.0))
 }
 
-/// Feet stand out ahead of the ankles.
+/// Feet stand out ahead of the shanks, each for itself since one of them may be lifted; the head is held forward.
 pub(super) fn person(points: &[Sample]) -> Vec<Evidence> {
+    let low = || points.iter().filter(|s| s.at.z < 0.2);
+    let mut centres = {
+        let far = |sign: f32| low().max_by(|a, b| ((a.at.x + a.at.y) * sign).total_cmp(&((b.at.x + b.at.y) * sign)));
+        let (Some(a), Some(b)) = (far(1.0), far(-1.0)) else { return Vec::new() };
+        [a.at.truncate(), b.at.truncate()]
+    };
+    let nearer = |centres: &[Vec2; 2], s: &Sample| {
+        usize::from(s.at.truncate().distance_squared(centres[1]) < s.at.truncate().distance_squared(centres[0]))
+    };
+    for _ in 0..8 {
+        let of = |k: usize| mean(low().filter(|s| nearer(&centres, s) == k).map(|s| s.at)).map(Vec3::truncate);
+        centres = [of(0).unwrap_or(centres[0]), of(1).unwrap_or(centres[1])];
+    }
+    let step = |k: usize| {
+        let slice = |from: f32, to: f32| {
+            mean(low().filter(|s| nearer(&centres, s) == k && (from..to).contains(&s.at.z)).map(|s| s.at))
+        };
+        Some((slice(0.0, 0.05)? - slice(0.07, 0.14)?).truncate())
+    };
+    let steps: Vec<Vec2> = [step(0), step(1)].into_iter().flatten().collect();
+    let feet = steps.iter().sum::<Vec2>() / steps.len().max(1) as f32;
     let slice = |from: f32, to: f32| mean(points.iter().filter(|s| (from..to).contains(&s.at.z)).map(|s| s.at));
-    let (Some(feet), Some(ankles)) = (slice(0.0, 0.035), slice(0.07, 0.14)) else { return Vec::new() };
-    let towards = (feet - ankles).truncate() * 40.0;
-    vec![Evidence { towards: towards.clamp_length_max(3.0), either: false, reason: "its feet" }]
+    let head = slice(0.88, 1.01).zip(slice(0.45, 0.6)).map_or(Vec2::ZERO, |(head, hips)| (head - hips).truncate());
+    let spoken = |towards: Vec2, most: f32, reason| Evidence { towards: towards.clamp_length_max(most), either: false, reason };
+    vec![spoken(feet * 40.0, 3.0, "its feet"), spoken(head * 4.0, 0.4, "its head")]
 }
 
 /// A sign's plate is mounted before its pole.

@@ -14,7 +14,7 @@ pub(super) struct Subject {
     /// Phrases in names, parted by `|`.
     phrases: &'static str,
     /// Typical length, width and height, metres.
-    pub(super) shapes: &'static [[f32; 3]],
+    shapes: &'static [[f32; 3]],
     /// How far each of them may well be off, as a natural logarithm.
     pub(super) spread: [f32; 3],
     /// How far all of it may be off before the file's unit is doubted, as a natural logarithm.
@@ -37,8 +37,15 @@ const LONG: [f32; 3] = [0.25, 0.15, 0.2];
 const WIDE: [f32; 3] = [0.5, 0.5, 0.4];
 const PERSON: [f32; 3] = [0.5, 0.4, 0.08];
 const POLE: [f32; 3] = [0.8, 0.8, 0.25];
-const PEOPLE: &[[f32; 3]] =
-    &[[0.35, 0.5, 1.75], [0.75, 0.5, 1.75], [0.7, 0.5, 1.35], [1.0, 0.5, 1.08], [0.4, 0.6, 2.1], [0.35, 1.7, 1.75]];
+/// Standing, walking, with the arms spread.
+const PEOPLE: &[[f32; 3]] = &[[0.35, 0.5, 1.75], [0.75, 0.5, 1.75], [0.35, 1.7, 1.75]];
+/// Words of what people do, and their shapes then.
+const POSES: [(&str, &[[f32; 3]]); 4] = [
+    ("sitting cheering|sitting waving|sit cheering|sit waving", &[[0.7, 0.55, 1.6]]),
+    ("sit|sits|sitting|seated", &[[0.7, 0.5, 1.35]]),
+    ("picking|bending|crouching|kneeling|crouch|kneel|bend", &[[1.0, 0.5, 1.08]]),
+    ("waving|cheering|raising|wave", &[[0.4, 0.6, 2.1]]),
+];
 
 #[rustfmt::skip]
 static SUBJECTS: [Subject; 57] = [
@@ -81,7 +88,7 @@ static SUBJECTS: [Subject; 57] = [
     row(Some(Kind::Building), None, "gas station|petrol station|filling station|tankstelle|gasolinera|加油站", &[[28.0, 20.0, 8.0]], [0.5, 0.5, 0.4], 0.8),
     row(Some(Kind::Tree), None, "tree|oak|pine|birch|maple|palm|fir|spruce|willow|lime tree|linden|poplar|baum|arbre|árbol|albero|树", &[[5.5, 5.5, 8.0]], [0.5, 0.5, 0.4], 1.15),
     row(Some(Kind::Bush), None, "bush|shrub|hedge|busch|strauch|hecke|buisson|arbusto|灌木", &[[1.3, 1.3, 1.2]], [0.5, 0.5, 0.4], 1.0),
-    row(Some(Kind::TrafficSign), None, "sign|traffic sign|road sign|stop sign|street sign|speed limit|speed limit sign|signpost|schild|verkehrsschild|panneau|señal|cartello|路牌|标志", &[[0.08, 0.65, 2.4]], [0.8, 0.3, 0.2], 0.42),
+    row(Some(Kind::TrafficSign), None, "sign|traffic sign|road sign|stop sign|street sign|speed limit|speed limit sign|signpost|schild|verkehrsschild|panneau|señal|cartello|路牌|标志", &[[0.08, 0.65, 2.4]], [0.8, 0.3, 0.2], 0.33),
     row(Some(Kind::TrafficSignal), None, "traffic light|traffic signal|stop light|stoplight|signal light|semaphore|ampel|verkehrsampel|feu tricolore|semáforo|semaforo|红绿灯|信号灯", &[[0.35, 0.35, 3.5], [0.35, 4.0, 5.8], [0.3, 0.3, 0.9]], [0.5, 0.4, 0.25], 0.45),
     row(Some(Kind::StreetLamp), None, "street lamp|street light|streetlight|lamp post|light post|lantern|lamp|laterne|straßenlaterne|lampadaire|réverbère|farola|lampione|路灯", &[[1.2, 0.3, 6.0], [0.5, 0.5, 4.5]], POLE, 0.8),
     row(Some(Kind::UtilityPole), None, "telephone pole|utility pole|power pole|electric pole|pylon tower|strommast|telefonmast|poteau|poste|电线杆", &[[0.3, 2.2, 9.5]], POLE, 0.45),
@@ -96,10 +103,27 @@ static SUBJECTS: [Subject; 57] = [
     row(Some(Kind::GuardRail), None, "guard rail|guardrail|crash barrier|leitplanke|glissière|quitamiedos", &[[4.0, 0.35, 0.8]], WIDE, 0.5),
     row(None, None, "rock|stone|boulder|cliff|fels|stein|rocher|石头", &[[1.6, 1.6, 1.1]], WIDE, 1.6),
     row(None, None, "grass|flower|plant|fern|mushroom|gras|blume|herbe|hierba|草", &[[0.3, 0.3, 0.35]], WIDE, 1.2),
-    row(None, None, "train|tram|tramway|locomotive|metro|subway|zug|straßenbahn|火车", &[[20.0, 2.9, 3.7]], [0.4, 0.15, 0.15], 0.6),
+    row(None, None, "train|tram|tramway|locomotive|metro|subway|zug|straßenbahn|火车", &[[20.0, 2.9, 3.7]], [0.4, 0.15, 0.15], 0.35),
     row(None, None, "plane|airplane|aircraft|helicopter|boat|ship|flugzeug|schiff|avion|bateau", &[[15.0, 12.0, 4.0]], [0.8, 0.8, 0.6], 1.2),
     row(None, Some(Class::Road), "road|street way|street curve|street deadend|street empty|street straight|crossroad|intersection|road piece|sidewalk|pavement|bridge|tunnel|straße|路", &[[12.0, 12.0, 0.6]], [0.5, 0.5, 1.2], 0.6),
 ];
+
+/// A subject and the shapes that it may have here.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Expected {
+    pub(super) subject: &'static Subject,
+    pub(super) shapes: &'static [[f32; 3]],
+}
+
+impl Expected {
+    /// People's shapes depend on what their file's name says they do.
+    pub(super) fn of(subject: &'static Subject, file: &str) -> Self {
+        let words = words(file);
+        let said = |doing: &str| doing.split('|').any(|d| match_of(&words, d) > 0);
+        let pose = POSES.iter().find(|(doing, _)| subject.shapes == PEOPLE && said(doing));
+        Self { subject, shapes: pose.map_or(subject.shapes, |p| p.1) }
+    }
+}
 
 /// A subject that a name speaks of.
 #[derive(Clone, Copy, Debug)]

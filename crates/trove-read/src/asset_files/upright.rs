@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::axes::Axis;
 use super::samples::Sample;
-use super::subjects::Subject;
+use super::subjects::{Expected, Subject};
 
 /// Units that files are written in: metre, centimetre, millimetre, inch, foot, decimetre, ten metres.
 const UNITS: [(f32, &str); 7] = [
@@ -55,17 +55,17 @@ struct Stance {
 
 /// Tries every way to stand. A file that says which way is up (`declared`) is believed unless proportions are clearly
 /// against it.
-pub(super) fn upright(size: Vec3, samples: &[Sample], subject: Option<&Subject>, declared: bool) -> Upright {
-    among(&Axis::ALL, size, samples, subject, declared)
+pub(super) fn upright(size: Vec3, samples: &[Sample], expected: Option<Expected>, declared: bool) -> Upright {
+    among(&Axis::ALL, size, samples, expected, declared)
 }
 
 /// The same where the user says which way is up.
-pub(super) fn with_up(size: Vec3, samples: &[Sample], subject: Option<&Subject>, up: Axis) -> Upright {
-    among(&[up], size, samples, subject, true)
+pub(super) fn with_up(size: Vec3, samples: &[Sample], expected: Option<Expected>, up: Axis) -> Upright {
+    among(&[up], size, samples, expected, true)
 }
 
-fn among(ups: &[Axis], size: Vec3, samples: &[Sample], subject: Option<&Subject>, declared: bool) -> Upright {
-    let Some(subject) = subject else { return as_declared(ups, size, declared) };
+fn among(ups: &[Axis], size: Vec3, samples: &[Sample], expected: Option<Expected>, declared: bool) -> Upright {
+    let Some(Expected { subject, shapes }) = expected else { return as_declared(ups, size, declared) };
     let mut stances: Vec<Stance> = Vec::new();
     for &up in ups {
         let shape_misfit = top_and_bottom(samples, up, subject);
@@ -77,7 +77,7 @@ fn among(ups: &[Axis], size: Vec3, samples: &[Sample], subject: Option<&Subject>
             (_, false) => 4.0,
         };
         for along in up.across().filter(|a| *a as usize % 2 == 0) {
-            for &shape in subject.shapes {
+            for &shape in shapes {
                 let (log_scale, misfit) = fit(size, up, along, shape, subject);
                 stances.push(Stance { up, along, shape, log_scale, misfit: misfit + prior + shape_misfit });
             }
@@ -138,7 +138,11 @@ fn fit(size: Vec3, up: Axis, along: Axis, shape: [f32; 3], subject: &Subject) ->
     let dims = [along, across, up].map(|axis| extent(size, axis));
     let weights = subject.spread.map(|s| 1.0 / (s * s));
     let logs: [f32; 3] = std::array::from_fn(|i| (shape[i] / dims[i]).ln());
-    let mean = (0..3).map(|i| logs[i] * weights[i]).sum::<f32>() / weights.iter().sum::<f32>();
+    let weighted = |w: [f32; 3]| (0..3).map(|i| logs[i] * w[i]).sum::<f32>() / w.iter().sum::<f32>();
+    // One measure that is quite out of the ordinary has little say in how large the rest is.
+    let first = weighted(weights);
+    let doubted: [f32; 3] = std::array::from_fn(|i| weights[i] / (1.0 + weights[i] * (logs[i] - first) * (logs[i] - first)));
+    let mean = weighted(doubted);
     let left: f32 = (0..3).map(|i| weights[i] * (logs[i] - mean) * (logs[i] - mean)).sum();
     // A file in metres that fits as it is speaks for this stance.
     let off = (mean / subject.tolerance).abs().min(2.0);
