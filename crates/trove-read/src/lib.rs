@@ -1,4 +1,4 @@
-//! Files → `Drive`, `StreetMap`, `EnvironmentMap`.
+//! Files → `Drive`, `StreetMap`, `EnvironmentMap`, `AssetLibrary`.
 //!
 //! What goes in: paths. What comes out: the model's nouns. A dataset's peculiarities (axis order, quaternion order,
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.

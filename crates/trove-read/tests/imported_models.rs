@@ -213,7 +213,10 @@ fn real_models_stand_look_and_measure_as_people_see_them() {
         if wrong.iter().any(|w| w.0) {
             let what: Vec<&str> = wrong.iter().filter(|w| w.0).map(|w| w.1).collect();
             println!("{}: {what:?} wrong: {kind}, up {up}, front {front}, {size:.2}", judged.file);
-            entry.guesses.iter().for_each(|g| println!("    {} = {} ({:.2}: {})", g.key, g.value, g.confidence, g.reason));
+            entry
+                .guesses
+                .iter()
+                .for_each(|g| println!("    {} = {} ({:.2}: {})", g.key, g.value, g.confidence, g.reason));
         } else {
             right += 1;
         }

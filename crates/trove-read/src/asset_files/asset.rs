@@ -56,7 +56,11 @@ fn stand(mesh: &mut Mesh, turn: Mat3, entry: &AssetEntry, kind: Kind) {
 fn licence(entry: &AssetEntry) -> String {
     let parts = [&entry.licence, &entry.author, &entry.source];
     let parts: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
-    if entry.licence.is_none() { format!("licence unknown {}", parts.join(", ")).trim().into() } else { parts.join(", ") }
+    if entry.licence.is_none() {
+        format!("licence unknown {}", parts.join(", ")).trim().into()
+    } else {
+        parts.join(", ")
+    }
 }
 
 fn posture(entry: &AssetEntry) -> Option<Posture> {

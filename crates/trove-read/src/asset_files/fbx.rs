@@ -1,7 +1,7 @@
 //! FBX and Wavefront OBJ, by `ufbx`, which is hardened against damaged files.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{Mat4, Vec3, vec2, vec3};
@@ -91,8 +91,14 @@ fn assemble(
         }
     }
     if let (Some(part), false) = (part, any) {
-        let names: Vec<&str> = scene.nodes.iter().map(|n| &*n.element.name).filter(|n| !n.is_empty()).take(20).collect();
-        return Err(Fault::new("nodes", format!("one named {part:?}"), names.join(", "), "correct `part` in library.toml"));
+        let names: Vec<&str> =
+            scene.nodes.iter().map(|n| &*n.element.name).filter(|n| !n.is_empty()).take(20).collect();
+        return Err(Fault::new(
+            "nodes",
+            format!("one named {part:?}"),
+            names.join(", "),
+            "correct `part` in library.toml",
+        ));
     }
     model.mark_materials();
     Ok(model)
@@ -114,7 +120,7 @@ fn matrix(m: &ufbx::Matrix) -> Mat4 {
 
 /// A mesh's triangles by the number of their material.
 fn pieces(mesh: &ufbx::Mesh, model: &mut Model) -> BTreeMap<u32, Piece> {
-    let mut pieces: BTreeMap<u32, (Piece, BTreeMap<u32, u32>)> = BTreeMap::new();
+    let mut pieces: BTreeMap<u32, (Piece, BTreeMap<[u32; 4], u32>)> = BTreeMap::new();
     let mut corners = Vec::new();
     let mut odd = 0;
     for (f, &face) in mesh.faces.iter().enumerate() {
@@ -126,17 +132,29 @@ fn pieces(mesh: &ufbx::Mesh, model: &mut Model) -> BTreeMap<u32, Piece> {
         let material = mesh.face_material.get(f).copied().unwrap_or(0);
         let (piece, seen) = pieces.entry(material).or_default();
         for triangle in corners[..(3 * count).min(corners.len())].chunks_exact(3) {
-            let new = |index: u32| *seen.entry(index).or_insert_with(|| vertex(mesh, index as usize, piece));
-            let mut it = triangle.iter().copied().map(new);
-            if let (Some(a), Some(b), Some(c)) = (it.next(), it.next(), it.next()) {
-                piece.triangles.push([a, b, c]);
-            }
+            let mut new = |i: usize| {
+                let index = triangle[i] as usize;
+                *seen.entry(parts(mesh, index)).or_insert_with(|| vertex(mesh, index, piece))
+            };
+            let corners = [new(0), new(1), new(2)];
+            piece.triangles.push(corners);
         }
     }
     if odd > 0 {
         model.notice(Outcome::Dropped, "points and lines are not drawn", format!("{odd} in {:?}", &*mesh.element.name));
     }
     pieces.into_iter().map(|(material, (piece, _))| (material, piece)).collect()
+}
+
+/// Which position, normal, texture coordinate and colour a corner has: corners that share all of them are one vertex.
+fn parts(mesh: &ufbx::Mesh, index: usize) -> [u32; 4] {
+    let [p, n, uv, c] = [
+        &mesh.vertex_position.indices,
+        &mesh.vertex_normal.indices,
+        &mesh.vertex_uv.indices,
+        &mesh.vertex_color.indices,
+    ];
+    [p, n, uv, c].map(|indices| indices.get(index).copied().unwrap_or(u32::MAX))
 }
 
 /// Adds a corner of a mesh to a piece.
@@ -164,7 +182,8 @@ fn vertex(mesh: &ufbx::Mesh, index: usize, piece: &mut Piece) -> u32 {
 
 /// ufbx maps the materials of all programs to those of a physically based one.
 fn look(m: &ufbx::Material, path: &Path, pictures: &Pictures, model: &mut Model) -> Material {
-    let number = |map: &ufbx::MaterialMap, otherwise: f32| if map.has_value { map.value_vec4.x as f32 } else { otherwise };
+    let number =
+        |map: &ufbx::MaterialMap, otherwise: f32| if map.has_value { map.value_vec4.x as f32 } else { otherwise };
     let rgb = |map: &ufbx::MaterialMap, otherwise: Vec3| {
         let v = map.value_vec4;
         if map.has_value { vec3(v.x as f32, v.y as f32, v.z as f32) } else { otherwise }
@@ -179,7 +198,11 @@ fn look(m: &ufbx::Material, path: &Path, pictures: &Pictures, model: &mut Model)
     let factor = number(&pbr.base_factor, 1.0);
     let mut material = Material {
         name: m.element.name.to_string(),
-        base_color: if base_color_map.is_some() { Vec3::splat(factor) } else { rgb(&pbr.base_color, Vec3::splat(0.8)) * factor },
+        base_color: if base_color_map.is_some() {
+            Vec3::splat(factor)
+        } else {
+            rgb(&pbr.base_color, Vec3::splat(0.8)) * factor
+        },
         roughness: if maps[1].is_some() { 1.0 } else { number(&pbr.roughness, 0.6) },
         metalness: if maps[2].is_some() { 1.0 } else { number(&pbr.metalness, 0.0) },
         ior: number(&pbr.specular_ior, 1.5),
@@ -207,11 +230,11 @@ fn picture(
 ) -> Option<Arc<Texture>> {
     let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
     let texture = texture.file_textures.iter().next().unwrap_or(texture);
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let (bytes, name) = if texture.content.is_empty() {
-        kept(beside(texture, path), &texture.relative_filename, model)?
+        let (bytes, file) = kept(beside(texture, path), &texture.relative_filename, model)?;
+        (bytes, pictures.name_of(&file))
     } else {
-        (texture.content.to_vec(), format!("{file}#{}", texture.element.typed_id))
+        (texture.content.to_vec(), format!("{}#{}", pictures.name_of(path), texture.element.typed_id))
     };
     let suffix = if color_space == ColorSpace::Srgb { "" } else { ".linear" };
     let made = pictures.texture(&format!("{name}{suffix}"), color_space, || {
@@ -226,7 +249,7 @@ fn picture(
 
 /// A texture's file where the model says, or by its name beside the model or in the folders where packs keep them:
 /// models name the paths of their makers' machines.
-fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, String), String> {
+fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, PathBuf), String> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let relative = texture.relative_filename.replace('\\', "/");
     let named = [relative.as_str(), &texture.filename, &texture.absolute_filename].map(|n| n.replace('\\', "/"));
@@ -238,8 +261,8 @@ fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, String), Str
     for around in [Some(folder), folder.parent()].into_iter().flatten() {
         places.extend(["textures", "Textures", "texture", "maps", "images", "tex"].map(|f| around.join(f).join(&last)));
     }
-    let bytes = places.iter().filter(|p| p.is_file()).find_map(|p| std::fs::read(p).ok());
-    bytes.map(|b| (b, format!("/{last}"))).ok_or_else(|| "no such file; put it beside the model".into())
+    let found = places.into_iter().filter(|p| p.is_file()).find_map(|p| Some((std::fs::read(&p).ok()?, p)));
+    found.ok_or_else(|| "no such file; put it beside the model".into())
 }
 
 fn pixels(texture: &Texture) -> Pixels {

@@ -49,7 +49,12 @@ pub(super) fn front(samples: &[Sample], marks: &[Mark], kind: Option<Kind>, upri
     evidence.extend(match kind {
         Some(kind) if kind.is_vehicle() => profile::vehicle(&points, length, kind),
         Some(
-            Kind::Adult | Kind::Child | Kind::ConstructionWorker | Kind::PoliceOfficer | Kind::PersonalMobility | Kind::Wheelchair,
+            Kind::Adult
+            | Kind::Child
+            | Kind::ConstructionWorker
+            | Kind::PoliceOfficer
+            | Kind::PersonalMobility
+            | Kind::Wheelchair,
         ) => profile::person(&points),
         Some(Kind::TrafficSign) => profile::plate(&points),
         Some(Kind::TrafficSignal) => profile::lamps(&points),
@@ -75,7 +80,8 @@ pub(super) fn front(samples: &[Sample], marks: &[Mark], kind: Option<Kind>, upri
     let front = candidates[0];
     let margin = candidates.get(1).map_or(2.0, |second| score(front) - score(*second));
     let direction = (turn * front.direction()).truncate();
-    let mut reasons: Vec<(f32, &str)> = evidence.iter().map(|e| (e.score(direction), e.reason)).filter(|r| r.0 > 0.1).collect();
+    let mut reasons: Vec<(f32, &str)> =
+        evidence.iter().map(|e| (e.score(direction), e.reason)).filter(|r| r.0 > 0.1).collect();
     reasons.sort_by(|a, b| b.0.total_cmp(&a.0));
     let reason: Vec<&str> = reasons.iter().take(2).map(|r| r.1).collect();
     let reason = if reason.is_empty() { "where most files look".to_owned() } else { reason.join(", ") };

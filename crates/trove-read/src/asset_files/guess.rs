@@ -20,7 +20,9 @@ pub(super) fn complete(entry: &mut AssetEntry, model: &Model, terms: Option<&Ter
     let said = kind_named(entry.kind.as_deref(), &place)?;
     let class = class_named(entry.class.as_deref(), &place)?.flatten();
     let subject = match said {
-        Some(Some(kind)) => named.map(|n| n.subject).filter(|s| s.kind == Some(kind)).or_else(|| subjects::of_kind(kind, class)),
+        Some(Some(kind)) => {
+            named.map(|n| n.subject).filter(|s| s.kind == Some(kind)).or_else(|| subjects::of_kind(kind, class))
+        }
         _ => named.map(|n| n.subject),
     };
     let mut add = |key, value: String, confidence: f32, reason: String| {
@@ -103,7 +105,9 @@ pub(super) fn is_on_foot(kind: Kind) -> bool {
 
 fn posture(file: &str) -> (&'static str, &'static str) {
     let words = super::words::words(super::scan::stem_of(file));
-    for (stem, posture) in [("sit", "sitting"), ("seat", "sitting"), ("walk", "walking"), ("run", "running"), ("jog", "running")] {
+    for (stem, posture) in
+        [("sit", "sitting"), ("seat", "sitting"), ("walk", "walking"), ("run", "running"), ("jog", "running")]
+    {
         if words.iter().any(|w| w.starts_with(stem)) {
             return (posture, "its name");
         }
@@ -119,9 +123,11 @@ fn provenance(entry: &mut AssetEntry, model: &Model, terms: Option<&Terms>) {
     let author = model.author.clone().map(|a| (a, 0.95, "the model's file".to_owned()));
     let author = author.or_else(|| terms.and_then(|t| Some((t.author.clone()?, 0.7, t.file.clone()))));
     let source = model.source.clone().map(|s| (s, 0.95, "the model's file".to_owned()));
-    for (key, slot, found) in
-        [("licence", &mut entry.licence, licence), ("author", &mut entry.author, author), ("source", &mut entry.source, source)]
-    {
+    for (key, slot, found) in [
+        ("licence", &mut entry.licence, licence),
+        ("author", &mut entry.author, author),
+        ("source", &mut entry.source, source),
+    ] {
         let (None, Some((value, confidence, reason))) = (slot.as_ref(), found) else { continue };
         entry.guesses.push(Guess { key, value: toml::Value::String(value.clone()).to_string(), confidence, reason });
         *slot = Some(value);

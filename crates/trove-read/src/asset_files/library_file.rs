@@ -253,7 +253,12 @@ const SURFACE_KINDS: [SurfaceKind; 18] = [
     SurfaceKind::RoomBack,
 ];
 
-fn looked_up<T: Copy>(name: Option<&str>, all: &[(String, T)], place: &str, key: &str) -> Result<Option<Option<T>>, Fault> {
+fn looked_up<T: Copy>(
+    name: Option<&str>,
+    all: &[(String, T)],
+    place: &str,
+    key: &str,
+) -> Result<Option<Option<T>>, Fault> {
     let Some(name) = name else { return Ok(None) };
     if name == "none" {
         return Ok(Some(None));

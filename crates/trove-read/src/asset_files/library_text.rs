@@ -148,10 +148,14 @@ mod tests {
         let mut file = old.clone();
         let guess = |key, value: &str| Guess { key, value: value.into(), confidence: 0.9, reason: "so".into() };
         file.assets[0].guesses.push(guess("up", "\"+y\""));
-        let new = AssetEntry { file: "b \"1\".glb".into(), guesses: vec![guess("kind", "\"car\"")], ..AssetEntry::default() };
+        let new =
+            AssetEntry { file: "b \"1\".glb".into(), guesses: vec![guess("kind", "\"car\"")], ..AssetEntry::default() };
         file.assets.push(new);
         let out = completed(text, &old, &file);
-        assert!(out.starts_with("# mine\n[[asset]]\nfile = \"a.glb\" # old\nup = \"+y\" # 0.90: so\nkind = \"truck\"\n"), "{out}");
+        assert!(
+            out.starts_with("# mine\n[[asset]]\nfile = \"a.glb\" # old\nup = \"+y\" # 0.90: so\nkind = \"truck\"\n"),
+            "{out}"
+        );
         let read = LibraryFile::parse(&out).expect("a library");
         assert_eq!((read.assets.len(), read.assets[1].file.as_str()), (2, "b \"1\".glb"));
         assert_eq!(read.assets[1].kind.as_deref(), Some("car"));

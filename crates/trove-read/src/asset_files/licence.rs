@@ -52,7 +52,8 @@ pub(super) fn terms(folder: &Path, files: &[String]) -> Vec<(String, Terms)> {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(20_000)]).into_owned();
         let known = spdx(&text).map(str::to_owned);
         let readme = file.to_lowercase().contains("readme");
-        let licence = if readme { known? } else { known.unwrap_or_else(|| format!("LicenseRef-{}", file.replace('/', "-"))) };
+        let licence =
+            if readme { known? } else { known.unwrap_or_else(|| format!("LicenseRef-{}", file.replace('/', "-"))) };
         Some((folder_of(file).to_owned(), Terms { licence, author: author(&text), file: file.clone() }))
     };
     files.iter().filter_map(read).collect()
@@ -61,7 +62,8 @@ pub(super) fn terms(folder: &Path, files: &[String]) -> Vec<(String, Terms)> {
 /// The terms that hold for a file: those in its folder or the nearest one around it.
 pub(super) fn nearest<'a>(all: &'a [(String, Terms)], file: &str) -> Option<&'a Terms> {
     let folder = folder_of(file);
-    let around = |f: &str| f.is_empty() || folder == f || folder.strip_prefix(f).is_some_and(|rest| rest.starts_with('/'));
+    let around =
+        |f: &str| f.is_empty() || folder == f || folder.strip_prefix(f).is_some_and(|rest| rest.starts_with('/'));
     all.iter().filter(|(f, _)| around(f)).max_by_key(|(f, _)| f.len()).map(|(_, terms)| terms)
 }
 
@@ -95,7 +97,10 @@ mod tests {
             assert_eq!(spdx(text), Some(spdx_name), "{text}");
         }
         assert_eq!(spdx("All rights reserved."), None);
-        assert_eq!(author("Copyright (c) 2012-2021 Scott Chacon and others\n").as_deref(), Some("Scott Chacon and others"));
+        assert_eq!(
+            author("Copyright (c) 2012-2021 Scott Chacon and others\n").as_deref(),
+            Some("Scott Chacon and others")
+        );
         assert_eq!(author("LowPoly Models by @Quaternius\n").as_deref(), Some("Quaternius"));
     }
 
@@ -104,6 +109,9 @@ mod tests {
         let terms = |name: &str| Terms { licence: name.into(), author: None, file: name.into() };
         let all = [(String::new(), terms("a")), ("cars".into(), terms("b"))];
         let of = |file: &str| nearest(&all, file).map(|t| t.licence.as_str());
-        assert_eq!([of("x.glb"), of("cars/x.glb"), of("cars/old/x.glb"), of("carsx/x.glb")], [Some("a"), Some("b"), Some("b"), Some("a")]);
+        assert_eq!(
+            [of("x.glb"), of("cars/x.glb"), of("cars/old/x.glb"), of("carsx/x.glb")],
+            [Some("a"), Some("b"), Some("b"), Some("a")]
+        );
     }
 }

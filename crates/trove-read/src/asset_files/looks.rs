@@ -131,7 +131,15 @@ pub(super) fn mean(texture: &Texture) -> Vec4 {
 pub(super) fn mean_in_triangle(texture: &Texture, uvs: [Vec2; 3]) -> Vec3 {
     let [a, b, c] = uvs;
     let centre = (a + b + c) / 3.0;
-    let points = [centre, (a + centre) / 2.0, (b + centre) / 2.0, (c + centre) / 2.0, a.lerp(b, 0.5), b.lerp(c, 0.5), c.lerp(a, 0.5)];
+    let points = [
+        centre,
+        (a + centre) / 2.0,
+        (b + centre) / 2.0,
+        (c + centre) / 2.0,
+        a.lerp(b, 0.5),
+        b.lerp(c, 0.5),
+        c.lerp(a, 0.5),
+    ];
     points.map(|uv| look_up(texture, uv).truncate()).iter().sum::<Vec3>() / 7.0
 }
 

@@ -8,6 +8,7 @@
 
 mod asset;
 mod axes;
+mod check;
 mod fault;
 mod fbx;
 mod front;
@@ -17,6 +18,7 @@ mod library_file;
 mod library_text;
 mod licence;
 mod looks;
+mod material_names;
 mod model;
 mod picture;
 mod profile;
@@ -37,6 +39,7 @@ use rayon::prelude::*;
 use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 
 pub use self::axes::Axis;
+pub use self::check::{Finding, check};
 pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
 
 use self::model::Model;
@@ -77,7 +80,7 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
         let licence = licence::nearest(&terms, sky).map(|t| t.licence.clone()).filter(|_| file.licence.is_none());
         file.environments.push(EnvironmentEntry { file: sky.clone(), licence });
     }
-    let pictures = Pictures::new("glance", GLANCE_LIMIT);
+    let pictures = Pictures::new("glance", folder, GLANCE_LIMIT);
     let kept = old.assets.len();
     let complete = |(i, mut entry): (usize, AssetEntry)| {
         let result = load(folder, &entry, &pictures).and_then(|model| {
@@ -95,7 +98,8 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
     file.assets = std::mem::take(&mut file.assets).into_par_iter().enumerate().filter_map(complete).collect();
     for entry in &file.assets {
         for guess in entry.guesses.iter().filter(|g| g.confidence < 0.7) {
-            let example = format!("{}: {} = {} ({:.2}: {})", entry.file, guess.key, guess.value, guess.confidence, guess.reason);
+            let example =
+                format!("{}: {} = {} ({:.2}: {})", entry.file, guess.key, guess.value, guess.confidence, guess.reason);
             report.note(Outcome::Guessed, "a key of library.toml, with little to go by", example);
         }
     }
@@ -113,7 +117,7 @@ pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, Read
     let file = LibraryFile::read(folder)?;
     let name = name_of(folder);
     let ids = ids(&name, &file.assets);
-    let pictures = Pictures::new(&name, TEXTURE_LIMIT);
+    let pictures = Pictures::new(&name, folder, TEXTURE_LIMIT);
     let read = |(entry, id): (&AssetEntry, &String)| match read_asset(folder, &file, entry, id, &pictures, report) {
         Ok(asset) => asset,
         Err(e) => {
@@ -123,7 +127,7 @@ pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, Read
     };
     let mut assets: Vec<Asset> = file.assets.par_iter().zip(&ids).filter_map(read).collect();
     assets.sort_by(|a, b| a.id.cmp(&b.id));
-    let pictures = Pictures::new(&name, SURFACE_LIMIT);
+    let pictures = Pictures::new(&name, folder, SURFACE_LIMIT);
     let read = |entry: &SurfaceEntry| {
         let id = format!("{name}/{}", entry.name);
         let surface = surface::surface(folder, entry, &id, &pictures, report);
@@ -164,7 +168,11 @@ fn read_asset(
     entry.source = entry.source.or_else(|| file.source.clone());
     guess::complete(&mut entry, &model, None).map_err(at)?;
     for guess in &entry.guesses {
-        report.note(Outcome::Guessed, "a key that library.toml leaves open", format!("{id}: {} = {}", guess.key, guess.value));
+        report.note(
+            Outcome::Guessed,
+            "a key that library.toml leaves open",
+            format!("{id}: {} = {}", guess.key, guess.value),
+        );
     }
     asset::asset(id, &entry, model).map_err(at)
 }
@@ -195,23 +203,31 @@ fn ids(library: &str, entries: &[AssetEntry]) -> Vec<String> {
 
 /// Reads and repairs an entry's model.
 fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
+    let mut model = load_raw(folder, entry, pictures)?;
+    repair::repair(&mut model).map_err(|fault| fault.at(&folder.join(&entry.file)))?;
+    material_names::restore(&mut model);
+    Ok(model)
+}
+
+/// Reads an entry's model as it stands in its file.
+fn load_raw(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
     let path = folder.join(&entry.file);
     let io = |source| ReadError::io(&path, source);
     let length = std::fs::metadata(&path).map_err(io)?.len();
     if length > MOST_BYTES {
         let found = format!("{length} bytes");
-        return Err(fault::Fault::new("file", "a file of at most 2 GiB", found, "simplify or split the model").at(&path));
+        return Err(
+            fault::Fault::new("file", "a file of at most 2 GiB", found, "simplify or split the model").at(&path)
+        );
     }
     let bytes = std::fs::read(&path).map_err(io)?;
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let mut model = match ending.as_str() {
-        "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures)?,
-        "fbx" | "obj" => fbx::read(&path, &bytes, entry.part.as_deref(), pictures)?,
+    match ending.as_str() {
+        "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures),
+        "fbx" | "obj" => fbx::read(&path, &bytes, entry.part.as_deref(), pictures),
         _ => {
             let remedy = "export it as .glb";
-            return Err(fault::Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path));
+            Err(fault::Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path))
         }
-    };
-    repair::repair(&mut model).map_err(|fault| fault.at(&path))?;
-    Ok(model)
+    }
 }

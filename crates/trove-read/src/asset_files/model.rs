@@ -75,8 +75,11 @@ impl Model {
         }
         // Normals follow the cofactors, whatever the scale; where it mirrors, corners change their order.
         let linear = Mat3::from_mat4(file_from_piece);
-        let cofactors =
-            Mat3::from_cols(linear.y_axis.cross(linear.z_axis), linear.z_axis.cross(linear.x_axis), linear.x_axis.cross(linear.y_axis));
+        let cofactors = Mat3::from_cols(
+            linear.y_axis.cross(linear.z_axis),
+            linear.z_axis.cross(linear.x_axis),
+            linear.x_axis.cross(linear.y_axis),
+        );
         let mirrored = linear.determinant() < 0.0;
         let sign = if mirrored { -1.0 } else { 1.0 };
         for n in &mut piece.normals {

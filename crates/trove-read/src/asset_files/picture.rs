@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use image::{ImageFormat, ImageReader, Limits};
@@ -30,6 +31,8 @@ pub(super) struct Pixels {
 pub(super) struct Pictures {
     /// Starts every texture's name.
     prefix: String,
+    /// The library's folder.
+    folder: PathBuf,
     /// The largest side that a texture may have, pixels.
     pub(super) limit: u32,
     made: Mutex<BTreeMap<String, Arc<Texture>>>,
@@ -39,8 +42,13 @@ pub(super) struct Pictures {
 static LARGE_ONES: Mutex<()> = Mutex::new(());
 
 impl Pictures {
-    pub(super) fn new(prefix: &str, limit: u32) -> Self {
-        Self { prefix: prefix.to_owned(), limit, made: Mutex::default() }
+    pub(super) fn new(prefix: &str, folder: &Path, limit: u32) -> Self {
+        Self { prefix: prefix.to_owned(), folder: folder.to_owned(), limit, made: Mutex::default() }
+    }
+
+    /// What a file is called in the names of textures: its path from the library's folder.
+    pub(super) fn name_of(&self, path: &Path) -> String {
+        path.strip_prefix(&self.folder).unwrap_or(path).to_string_lossy().replace('\\', "/")
     }
 
     /// The texture of a name, made now if it is not there.

@@ -30,7 +30,8 @@ pub(super) fn vehicle(points: &[Sample], length: Vec2, kind: Kind) -> Vec<Eviden
     // Beacons and aerials stand above the roof.
     let roof = sorted[BINS * 4 / 5];
     let towards = |score: f32, reason| Evidence { towards: length * score, either: false, reason };
-    let two_wheels = matches!(kind, Kind::Bicycle | Kind::BicycleWithRider | Kind::Motorcycle | Kind::MotorcycleWithRider);
+    let two_wheels =
+        matches!(kind, Kind::Bicycle | Kind::BicycleWithRider | Kind::Motorcycle | Kind::MotorcycleWithRider);
     if two_wheels {
         return bars(points, length, half).map(|score| towards(score, "the handlebar")).into_iter().collect();
     }
@@ -111,7 +112,8 @@ pub(super) fn person(points: &[Sample]) -> Vec<Evidence> {
     let feet = steps.iter().sum::<Vec2>() / steps.len().max(1) as f32;
     let slice = |from: f32, to: f32| mean(points.iter().filter(|s| (from..to).contains(&s.at.z)).map(|s| s.at));
     let head = slice(0.88, 1.01).zip(slice(0.45, 0.6)).map_or(Vec2::ZERO, |(head, hips)| (head - hips).truncate());
-    let spoken = |towards: Vec2, most: f32, reason| Evidence { towards: towards.clamp_length_max(most), either: false, reason };
+    let spoken =
+        |towards: Vec2, most: f32, reason| Evidence { towards: towards.clamp_length_max(most), either: false, reason };
     vec![spoken(feet * 40.0, 3.0, "its feet"), spoken(head * 4.0, 0.4, "its head")]
 }
 
@@ -133,7 +135,11 @@ pub(super) fn plate(points: &[Sample]) -> Vec<Evidence> {
     };
     let painted = ((variety(1.0) - variety(-1.0)) * 8.0).clamp(-1.5, 1.5);
     vec![
-        Evidence { towards: axis * (offset * 200.0).clamp(-1.5, 1.5), either: false, reason: "its plate before the pole" },
+        Evidence {
+            towards: axis * (offset * 200.0).clamp(-1.5, 1.5),
+            either: false,
+            reason: "its plate before the pole",
+        },
         Evidence { towards: axis * painted, either: false, reason: "what is painted on it" },
         Evidence { towards: axis * 0.5, either: true, reason: "its plate" },
     ]
@@ -150,7 +156,11 @@ pub(super) fn lamps(points: &[Sample]) -> Vec<Evidence> {
     let colored = upper().filter(lens).map(|s| s.normal.truncate());
     let count = colored.clone().count();
     if count > 30 && count < points.len() / 3 {
-        evidence.push(Evidence { towards: colored.sum::<Vec2>() / count as f32 * 3.0, either: false, reason: "its coloured lenses" });
+        evidence.push(Evidence {
+            towards: colored.sum::<Vec2>() / count as f32 * 3.0,
+            either: false,
+            reason: "its coloured lenses",
+        });
     }
     evidence
 }
@@ -166,7 +176,8 @@ fn flat_back(points: &[Sample], from_height: f32, weight: f32) -> Vec<Evidence> 
                 let far = upper().map(|s| s.at.truncate().dot(axis) * sign).fold(f32::MIN, f32::max);
                 let near = upper().map(|s| s.at.truncate().dot(axis) * sign).fold(f32::MAX, f32::min);
                 let edge = far - (far - near) * 0.06;
-                let face = |s: &&Sample| s.at.truncate().dot(axis) * sign > edge && s.normal.truncate().dot(axis).abs() > 0.9;
+                let face =
+                    |s: &&Sample| s.at.truncate().dot(axis) * sign > edge && s.normal.truncate().dot(axis).abs() > 0.9;
                 upper().filter(face).count() as f32 / count
             };
             let score = ((flat(-1.0) - flat(1.0)) * 8.0 * weight).clamp(-weight, weight);

@@ -83,7 +83,8 @@ fn role(path: &str) -> Option<(String, Role)> {
     loop {
         let cut = stem.rfind(['_', '-', ' ']).filter(|at| {
             let word = &stem[at + 1..];
-            let resolution = word.strip_suffix('k').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
+            let resolution =
+                word.strip_suffix('k').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
             resolution || ["jpg", "png", "exr"].contains(&word)
         });
         match cut {
@@ -129,7 +130,8 @@ pub(super) fn sets(pictures: &[String], models: &[String], terms: &[(String, Ter
 fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEntry {
     let map = |role: Role| maps.get(&role).map(|p| (*p).clone());
     let color = map(Role::Color).unwrap_or_default();
-    let name = role(&color).map_or_else(|| stem_of(&color).to_owned(), |(set, _)| set.rsplit('/').next().unwrap_or_default().to_owned());
+    let name = role(&color)
+        .map_or_else(|| stem_of(&color).to_owned(), |(set, _)| set.rsplit('/').next().unwrap_or_default().to_owned());
     let mut e = SurfaceEntry {
         name,
         normal: map(Role::NormalGl).or_else(|| map(Role::Normal)).or_else(|| map(Role::NormalDx)),
@@ -143,7 +145,11 @@ fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEn
         color,
         ..SurfaceEntry::default()
     };
-    let style = match (maps.contains_key(&Role::NormalGl), maps.contains_key(&Role::Normal), maps.contains_key(&Role::NormalDx)) {
+    let style = match (
+        maps.contains_key(&Role::NormalGl),
+        maps.contains_key(&Role::Normal),
+        maps.contains_key(&Role::NormalDx),
+    ) {
         (true, ..) => Some("gl"),
         (false, false, true) => Some("dx"),
         _ => None,
@@ -153,14 +159,21 @@ fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEn
     };
     let found = kind_of(&e.name).or_else(|| kind_of(folder_of(&e.color)));
     let kind = found.as_ref().map(|f| f.0);
-    let (confidence, reason) = found.map_or((0.4, "no word of its name is a surface that is placed".into()), |f| (0.85, format!("{:?} in its name", f.1)));
+    let (confidence, reason) = found.map_or((0.4, "no word of its name is a surface that is placed".into()), |f| {
+        (0.85, format!("{:?} in its name", f.1))
+    });
     guess("kind", format!("{:?}", surface_kind_name(kind)), confidence, &reason);
     e.kind = Some(surface_kind_name(kind));
     let side = match kind {
         Some(SurfaceKind::Asphalt | SurfaceKind::Grass | SurfaceKind::Soil) => 3.0,
         _ => 2.0,
     };
-    guess("size_m", format!("[{side:?}, {side:?}]"), 0.4, "usual for its kind; measure a stone or a tile in the picture");
+    guess(
+        "size_m",
+        format!("[{side:?}, {side:?}]"),
+        0.4,
+        "usual for its kind; measure a stone or a tile in the picture",
+    );
     e.size_m = Some([side, side]);
     if let Some(style) = style {
         guess("normal_style", format!("{style:?}"), 0.95, "its name");
@@ -182,7 +195,10 @@ const KINDS: [(SurfaceKind, &str); 11] = [
     (SurfaceKind::Soil, "soil|ground|dirt|mud|earth|forest floor|sand|erde"),
     (SurfaceKind::Gravel, "gravel|pebbles|ballast|kies"),
     (SurfaceKind::RoofTiles, "roofing tiles|roof tiles|roof|roofing|shingles|dachziegel"),
-    (SurfaceKind::Wall, "brick|bricks|plaster|stucco|wall|painted plaster|rock wall|stone wall|clapboard|siding|ziegel"),
+    (
+        SurfaceKind::Wall,
+        "brick|bricks|plaster|stucco|wall|painted plaster|rock wall|stone wall|clapboard|siding|ziegel",
+    ),
     (SurfaceKind::Wall, "corrugated steel|corrugated iron|corrugated"),
     (SurfaceKind::FlatRoof, "roofing felt|bitumen roof|flat roof"),
     (SurfaceKind::Water, "water"),

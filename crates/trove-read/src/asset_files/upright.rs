@@ -141,7 +141,8 @@ fn fit(size: Vec3, up: Axis, along: Axis, shape: [f32; 3], subject: &Subject) ->
     let weighted = |w: [f32; 3]| (0..3).map(|i| logs[i] * w[i]).sum::<f32>() / w.iter().sum::<f32>();
     // One measure that is quite out of the ordinary has little say in how large the rest is.
     let first = weighted(weights);
-    let doubted: [f32; 3] = std::array::from_fn(|i| weights[i] / (1.0 + weights[i] * (logs[i] - first) * (logs[i] - first)));
+    let doubted: [f32; 3] =
+        std::array::from_fn(|i| weights[i] / (1.0 + weights[i] * (logs[i] - first) * (logs[i] - first)));
     let mean = weighted(doubted);
     let left: f32 = (0..3).map(|i| weights[i] * (logs[i] - mean) * (logs[i] - mean)).sum();
     // A file in metres that fits as it is speaks for this stance.
@@ -164,7 +165,8 @@ fn top_and_bottom(samples: &[Sample], up: Axis, subject: &Subject) -> f32 {
     let (low, high) = (heights().fold(f32::MAX, f32::min), heights().fold(f32::MIN, f32::max));
     // Mean distance from the middle, across the way up.
     let width = |from: f32, to: f32| {
-        let part = || samples.iter().filter(|s| (from..=to).contains(&((s.at.dot(along) - low) / (high - low).max(1e-9))));
+        let part =
+            || samples.iter().filter(|s| (from..=to).contains(&((s.at.dot(along) - low) / (high - low).max(1e-9))));
         let count = part().count().max(1) as f32;
         let flat = |s: &Sample| s.at - along * s.at.dot(along);
         let middle = part().map(flat).sum::<Vec3>() / count;
@@ -181,7 +183,8 @@ fn scale_of(best: &Stance, size: Vec3, subject: &Subject) -> (Scale, f32, String
         return (Scale::Unit(1.0), confidence, "as large as its kind in metres".into());
     }
     let off = |unit: f32| (best.log_scale - unit.ln()).abs();
-    let unit = UNITS.iter().min_by(|a, b| off(a.0).total_cmp(&off(b.0))).filter(|u| off(u.0) <= subject.tolerance / 2.0);
+    let unit =
+        UNITS.iter().min_by(|a, b| off(a.0).total_cmp(&off(b.0))).filter(|u| off(u.0) <= subject.tolerance / 2.0);
     if let Some((unit, name)) = unit {
         return (Scale::Unit(*unit), 0.8, format!("as large as its kind in {name}"));
     }

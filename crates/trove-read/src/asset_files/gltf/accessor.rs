@@ -28,8 +28,7 @@ impl Container {
             let width = component_size(sparse.indices.component_type, &place)?;
             let indices = elements(bytes, sparse.indices.byte_offset, stride, width, sparse.count, &place)?;
             let (bytes, stride) = self.view(sparse.values.buffer_view, &place)?;
-            let news =
-                elements(bytes, sparse.values.byte_offset, stride, size * components, sparse.count, &place)?;
+            let news = elements(bytes, sparse.values.byte_offset, stride, size * components, sparse.count, &place)?;
             for (index, new) in indices.zip(news) {
                 let at = integer(index, sparse.indices.component_type) as usize;
                 let slot = at.checked_mul(components).and_then(|i| values.get_mut(i..i + components));

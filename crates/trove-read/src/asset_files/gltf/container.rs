@@ -11,8 +11,7 @@ use crate::asset_files::fault::Fault;
 #[derive(Debug)]
 pub(super) struct Container {
     pub(super) root: Root,
-    /// The file's name, for its embedded pictures.
-    pub(super) name: String,
+    path: PathBuf,
     folder: PathBuf,
     buffers: Vec<Vec<u8>>,
     /// Views that were packed with meshopt, unpacked.
@@ -73,8 +72,7 @@ impl Container {
             }
             buffers.push(bytes);
         }
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut container = Self { root, name, folder, buffers, unpacked: Vec::new() };
+        let mut container = Self { root, path: path.to_owned(), folder, buffers, unpacked: Vec::new() };
         container.unpacked = packed::views(&container).map_err(|fault| fault.at(path))?;
         Ok(container)
     }
@@ -99,17 +97,17 @@ impl Container {
         Ok((self.bytes(v.buffer, v.byte_offset, v.byte_length, &place)?, v.byte_stride))
     }
 
-    /// A picture's bytes and the name by which to know it again.
-    pub(super) fn image(&self, image: usize) -> Result<(Vec<u8>, String), String> {
+    /// A picture's bytes and the file that it is in, with `#` and its number where it is embedded.
+    pub(super) fn image(&self, image: usize) -> Result<(Vec<u8>, PathBuf), String> {
+        let embedded = || PathBuf::from(format!("{}#{image}", self.path.display()));
         let i = self.root.images.get(image).ok_or_else(|| format!("images[{image}] of {}", self.root.images.len()))?;
         if let Some(view) = i.buffer_view {
             let (bytes, _) = self.view(view, &format!("images[{image}]")).map_err(|f| format!("{f:?}"))?;
-            return Ok((bytes.to_vec(), format!("#{image}")));
+            return Ok((bytes.to_vec(), embedded()));
         }
         let uri = i.uri.as_deref().ok_or_else(|| format!("images[{image}] has neither bytes nor a file"))?;
         let bytes = resource(&self.folder, uri).map_err(|e| e.found)?;
-        let name = if uri.starts_with("data:") { format!("#{image}") } else { format!("/{uri}") };
-        Ok((bytes, name))
+        Ok((bytes, if uri.starts_with("data:") { embedded() } else { self.folder.join(percent_decoded(uri)) }))
     }
 }
 

@@ -102,8 +102,10 @@ impl<'a> Looks<'a> {
             alpha = four("diffuseFactor").w;
             // A map of specular colours is taken for its mean.
             let map = reference("/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture");
-            let mean = map.and_then(|r| self.texture(&r, ColorSpace::Srgb, model)).map_or(Vec4::ONE, |t| looks::mean(&t));
-            let (base, metalness) = looks::metal_of_specular(four("diffuseFactor").truncate(), specular * mean.truncate());
+            let mean =
+                map.and_then(|r| self.texture(&r, ColorSpace::Srgb, model)).map_or(Vec4::ONE, |t| looks::mean(&t));
+            let (base, metalness) =
+                looks::metal_of_specular(four("diffuseFactor").truncate(), specular * mean.truncate());
             (material.base_color, material.metalness) = (base, metalness);
             material.roughness = 1.0 - shine * mean.w;
         } else {
@@ -127,10 +129,15 @@ impl<'a> Looks<'a> {
         looks::clamp(&mut material);
         let shines = emission.max_element() > 0.0;
         let leading = base_ref.as_ref().or(pbr.metallic_roughness_texture.as_ref()).or(m.normal_texture.as_ref());
-        let (uv_set, turn, offset) = leading.or(m.emissive_texture.as_ref()).map_or((0, Mat2::IDENTITY, Vec2::ZERO), moved);
+        let (uv_set, turn, offset) =
+            leading.or(m.emissive_texture.as_ref()).map_or((0, Mat2::IDENTITY, Vec2::ZERO), moved);
         let others = [&pbr.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture];
         if others.into_iter().flatten().any(|r| moved(r) != (uv_set, turn, offset)) {
-            model.notice(Outcome::Substituted, "maps of one material with texture coordinates of their own use the base colour's", material.name.clone());
+            model.notice(
+                Outcome::Substituted,
+                "maps of one material with texture coordinates of their own use the base colour's",
+                material.name.clone(),
+            );
         }
         model.materials.push(material);
         Look { slot: model.materials.len() - 1, uv_set, turn, offset, two_sided_light: m.double_sided && shines, glow }
@@ -183,8 +190,7 @@ impl<'a> Looks<'a> {
         let name = format!("{}+{}.orm", name(&occlusion), name(&rough));
         let channel = |part: Option<(Pixels, String)>, c: usize| part.map(|(pixels, _)| (pixels, c));
         let green_blue = rough.map(|(pixels, _)| pixels);
-        let sources =
-            [channel(occlusion, 0), green_blue.clone().map(|p| (p, 1)), green_blue.map(|p| (p, 2))];
+        let sources = [channel(occlusion, 0), green_blue.clone().map(|p| (p, 1)), green_blue.map(|p| (p, 2))];
         let pixels = looks::packed(sources, [255; 3])?;
         kept(self.pictures.texture(&name, ColorSpace::Linear, || Ok(pixels)), &name, model)
     }
@@ -195,7 +201,11 @@ impl<'a> Looks<'a> {
         let image = texture.and_then(|t| t.source).or_else(|| ext("EXT_texture_webp"));
         let image = image.or_else(|| ext("KHR_texture_basisu")).or_else(|| ext("EXT_texture_avif"));
         if image.is_none() {
-            model.notice(Outcome::Dropped, "a texture without a picture was left out", format!("textures[{}]", r.index));
+            model.notice(
+                Outcome::Dropped,
+                "a texture without a picture was left out",
+                format!("textures[{}]", r.index),
+            );
         }
         image
     }
@@ -203,9 +213,8 @@ impl<'a> Looks<'a> {
     fn bytes(&self, image: usize, model: &mut Model) -> Option<(Vec<u8>, String)> {
         let i = self.container.root.images.get(image);
         let label = i.and_then(|i| i.uri.clone().filter(|u| !u.starts_with("data:")).or(i.name.clone()));
-        let (bytes, name) = kept(self.container.image(image), &label.unwrap_or(format!("images[{image}]")), model)?;
-        // An embedded picture belongs to its file, one beside it to every file that names it.
-        Some((bytes, if name.starts_with('#') { format!("{}{name}", self.container.name) } else { name }))
+        let (bytes, file) = kept(self.container.image(image), &label.unwrap_or(format!("images[{image}]")), model)?;
+        Some((bytes, self.pictures.name_of(&file)))
     }
 
     /// Parts a piece into what shines and what does not, by its emission map; each with its slot.

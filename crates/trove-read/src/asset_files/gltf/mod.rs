@@ -47,7 +47,8 @@ fn assemble(container: &Container, part: Option<&str>, pictures: &Pictures) -> R
         let Some(mesh) = node.mesh.filter(|_| wanted.as_ref().is_none_or(|w| w.contains(&i))) else { continue };
         let meshes = &container.root.meshes;
         let mesh_of = meshes.get(mesh).ok_or_else(|| none(&format!("nodes[{i}]"), "mesh", mesh, meshes.len()))?;
-        let weights = pose.morphs.get(&i).unwrap_or(if node.weights.is_empty() { &mesh_of.weights } else { &node.weights });
+        let weights =
+            pose.morphs.get(&i).unwrap_or(if node.weights.is_empty() { &mesh_of.weights } else { &node.weights });
         for (p, primitive) in mesh_of.primitives.iter().enumerate() {
             let place = format!("meshes[{mesh}].primitives[{p}]");
             let look = looks.of(primitive.material, &mut model)?;
@@ -77,7 +78,12 @@ fn descendants(container: &Container, part: &str) -> Result<std::collections::BT
     let nodes = &container.root.nodes;
     let Some(first) = nodes.iter().position(|n| n.name.as_deref() == Some(part)) else {
         let names: Vec<&str> = nodes.iter().filter_map(|n| n.name.as_deref()).take(20).collect();
-        return Err(Fault::new("nodes", format!("one named {part:?}"), names.join(", "), "correct `part` in library.toml"));
+        return Err(Fault::new(
+            "nodes",
+            format!("one named {part:?}"),
+            names.join(", "),
+            "correct `part` in library.toml",
+        ));
     };
     let mut found = std::collections::BTreeSet::new();
     let mut stack = vec![first];

@@ -27,7 +27,8 @@ fn meshopt_view(container: &Container, ext: &Value, place: &str) -> Result<Vec<u
     let (stride, count) = (number("byteStride"), number("count"));
     let packed = container.bytes(number("buffer"), number("byteOffset"), number("byteLength"), place)?;
     let length = stride.checked_mul(count).filter(|&n| n <= MOST_BYTES);
-    let length = length.ok_or_else(|| Fault::damaged(place, "a possible count", format!("{count} × {stride} bytes")))?;
+    let length =
+        length.ok_or_else(|| Fault::damaged(place, "a possible count", format!("{count} × {stride} bytes")))?;
     let mode = ext.get("mode").and_then(Value::as_str).unwrap_or_default();
     // What the library asserts rather than reports.
     let fits = match mode {
@@ -111,9 +112,8 @@ impl Draco {
     /// An attribute's numbers, `components` a point; `None` where it is not among the packed ones.
     pub(super) fn floats(&self, name: &str, components: usize) -> Option<Vec<f32>> {
         let id = self.attributes.get(name)?.as_u64()?;
-        let attribute = (0..self.mesh.num_attributes())
-            .map(|i| self.mesh.attribute(i))
-            .find(|a| u64::from(a.unique_id()) == id)?;
+        let attribute =
+            (0..self.mesh.num_attributes()).map(|i| self.mesh.attribute(i)).find(|a| u64::from(a.unique_id()) == id)?;
         let points = self.mesh.num_points();
         catch_unwind(AssertUnwindSafe(|| attribute.read_f32s(points, components))).ok()
     }

@@ -47,7 +47,8 @@ impl Pose {
         };
         let mut pose = Self { placed: Vec::new(), morphs, repair: None };
         let mut seen = vec![false; root.nodes.len()];
-        let mut stack: Vec<(usize, Mat4, usize)> = roots(container).into_iter().rev().map(|i| (i, Mat4::IDENTITY, 0)).collect();
+        let mut stack: Vec<(usize, Mat4, usize)> =
+            roots(container).into_iter().rev().map(|i| (i, Mat4::IDENTITY, 0)).collect();
         while let Some((i, parent, depth)) = stack.pop() {
             let Some(node) = root.nodes.get(i) else {
                 pose.repair = Some(format!("nodes[{i}] of {}", root.nodes.len()));
@@ -96,7 +97,9 @@ fn first_frame(container: &Container, animation: &Animation) -> Result<(Moves, B
     let (mut moves, mut morphs) = (Moves::new(), BTreeMap::new());
     for (c, channel) in animation.channels.iter().enumerate() {
         let place = format!("animation {:?}: channels[{c}]", animation.name.as_deref().unwrap_or_default());
-        let (Some(node), Some(sampler)) = (channel.target.node, animation.samplers.get(channel.sampler)) else { continue };
+        let (Some(node), Some(sampler)) = (channel.target.node, animation.samplers.get(channel.sampler)) else {
+            continue;
+        };
         // A cubic spline's key is tangent, value, tangent.
         let skip = usize::from(sampler.interpolation == "CUBICSPLINE");
         let (path, width) = match channel.target.path.as_str() {

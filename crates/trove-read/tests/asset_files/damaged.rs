@@ -1,0 +1,155 @@
+//! Whatever is in a file: an error that names it, or a repair that is reported.
+
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+use crate::files::{Folder, Glb, fbx, obj};
+
+/// What a library says of one file: its report, and whether there was an asset.
+fn verdict(name: &str, bytes: &[u8]) -> (bool, String) {
+    let (library, report) = Folder::new(&[(name, bytes)]).read();
+    (library.is_some_and(|l| !l.assets.is_empty()), report)
+}
+
+fn car() -> Glb {
+    let mut glb = Glb::cuboid([1.8, 1.5, 4.5]);
+    let texture = glb.texture(4, 4, |x, y| [x as u8, y as u8, 9, 255]);
+    glb.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}))
+}
+
+#[test]
+fn files_that_end_early_are_named() {
+    for (name, bytes) in
+        [("car.glb", car().bytes()), ("car.fbx", fbx().into_bytes()), ("car.obj", obj().0.into_bytes())]
+    {
+        for length in (0..bytes.len()).step_by(100) {
+            let (whole, report) = verdict(name, &bytes[..length]);
+            assert!(whole || report.contains(name), "{name} at {length}: {report}");
+            assert!(name != "car.glb" || !whole, "{length}: {report}");
+        }
+    }
+}
+
+#[test]
+fn damaged_documents_are_refused_or_repaired_by_name() {
+    let broken = |change: &dyn Fn(&mut Value)| {
+        let mut glb = car();
+        change(&mut glb.json);
+        verdict("car.glb", &glb.bytes())
+    };
+    let cases: [(&str, bool, &dyn Fn(&mut Value)); 13] = [
+        ("loop", true, &|j| j["nodes"] = json!([{"mesh": 0, "children": [1]}, {"children": [0, 1]}])),
+        ("accessors[0]", false, &|j| j["accessors"][0]["count"] = json!(4_000_000_000_u64)),
+        ("accessors[0]", false, &|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX)),
+        ("bufferViews[0]", false, &|j| j["bufferViews"][0]["byteLength"] = json!(1 << 40)),
+        ("accessor", false, &|j| j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(99)),
+        ("componentType", false, &|j| j["accessors"][0]["componentType"] = json!(7)),
+        ("nowhere.bin", false, &|j| j["buffers"] = json!([{"uri": "nowhere.bin", "byteLength": 8}])),
+        ("network", false, &|j| j["buffers"] = json!([{"uri": "https://example.org/a.bin", "byteLength": 8}])),
+        ("ktxdecompress", false, &|j| j["extensionsRequired"] = json!(["KHR_texture_basisu"])),
+        ("version", false, &|j| j["asset"]["version"] = json!("1.0")),
+        ("texture", true, &|j| j["textures"][0]["source"] = json!(77)),
+        ("material", false, &|j| j["meshes"][0]["primitives"][0]["material"] = json!(5)),
+        ("points and lines", false, &|j| j["meshes"][0]["primitives"][0]["mode"] = json!(1)),
+    ];
+    for (what, whole, change) in cases {
+        let (is_whole, report) = broken(change);
+        assert!(report.contains(what) || what == "points and lines", "{what}: {report}");
+        assert!(report.contains("car"), "{what}: {report}");
+        assert_eq!(is_whole, whole, "{what}: {report}");
+    }
+}
+
+#[test]
+fn broken_triangles_go_and_the_rest_stays() {
+    let mut glb = car();
+    let bad = glb.floats(&[f32::NAN, 0.0, 0.0, f32::INFINITY, 0.0, 0.0, 1.0, 1.0, 1.0], "VEC3");
+    let indices = glb.indices(&[0, 1, 2, 0, 0, 0, 2, 2, 1, 0, 1, 900]);
+    let primitives = glb.json["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.push(json!({"attributes": {"POSITION": bad}, "indices": indices}));
+    let (whole, report) = verdict("car.glb", &glb.bytes());
+    assert!(whole && report.contains("no points"), "{report}");
+}
+
+#[test]
+fn what_is_no_picture_is_left_out_and_named() {
+    let mut glb = Glb::cuboid([1.8, 1.5, 4.5]);
+    let view = glb.view(b"this is no picture");
+    let texture = glb.picture(json!({"bufferView": view}));
+    let glb = glb.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}));
+    let (whole, report) = verdict("car.glb", &glb.bytes());
+    assert!(whole && report.contains("no picture"), "{report}");
+}
+
+#[test]
+fn large_pictures_are_scaled_and_larger_ones_refused() {
+    let of = |width: u32| {
+        let mut glb = Glb::cuboid([1.8, 1.5, 4.5]);
+        let texture = glb.texture(width, 16, |_, _| [9, 9, 9, 255]);
+        let glb = glb.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}));
+        verdict("car.glb", &glb.bytes())
+    };
+    let (whole, report) = of(16_384);
+    assert!(whole && report.contains("16384 × 16 pixels became 2048 × 2"), "{report}");
+    let (whole, report) = of(16_400);
+    assert!(whole && report.contains("at most 16384"), "{report}");
+}
+
+#[test]
+fn models_of_millions_of_triangles_are_thinned_out() {
+    // A wavy sheet, closed enough to be a rock.
+    let side = 600;
+    let at = |i: usize| {
+        let (x, z) = ((i % side) as f32 / side as f32, (i / side) as f32 / side as f32);
+        [x * 2.0, (x * 9.0).sin() * (z * 7.0).cos() * 0.4, z * 2.0]
+    };
+    let mut glb = Glb::new();
+    let positions: Vec<f32> = (0..side * side).flat_map(at).collect();
+    let quad = |i: usize| {
+        let a = (i / (side - 1) * side + i % (side - 1)) as u32;
+        let below = a + side as u32;
+        [a, below, a + 1, a + 1, below, below + 1]
+    };
+    let indices: Vec<u32> = (0..(side - 1) * (side - 1)).flat_map(quad).collect();
+    let (positions, indices) = (glb.floats(&positions, "VEC3"), glb.indices(&indices));
+    glb.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}]);
+    let folder = Folder::new(&[("bush.glb", &glb.bytes())]);
+    let (library, report) = folder.read();
+    let asset = &library.expect(&report).assets[0];
+    assert!(report.contains("717602 triangles became"), "{report}");
+    assert!((20_000..=110_000).contains(&asset.mesh.triangles.len()), "{}", asset.mesh.triangles.len());
+    assert!(!asset.coarser.is_empty() && asset.coarser[0].mesh.triangles.len() < 30_000);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400), ending in 0..4usize) {
+        let name = ["car.glb", "car.gltf", "car.fbx", "car.obj"][ending];
+        verdict(name, &bytes);
+        let start: &[u8] = [b"glTF\x02\0\0\0".as_slice(), b"{\"asset\":{\"version\":\"2.0\"}", b"Kaydara FBX Binary  \0\x1a\0", b"v 1 2 3\nf "][ending];
+        verdict(name, &[start, &bytes].concat());
+    }
+
+    #[test]
+    fn changed_bytes_never_panic(changes in proptest::collection::vec((any::<proptest::sample::Index>(), any::<u8>()), 1..12), which in 0..3usize) {
+        let (name, mut bytes) = match which {
+            0 => ("car.glb", car().bytes()),
+            1 => ("car.fbx", fbx().into_bytes()),
+            _ => ("car.obj", obj().0.into_bytes()),
+        };
+        for (index, value) in changes {
+            let at = index.index(bytes.len());
+            bytes[at] = value;
+        }
+        verdict(name, &bytes);
+    }
+
+    #[test]
+    fn any_library_file_never_panics(text in "[a-z_\\[\\]=\"\n. 0-9+-]{0,200}") {
+        let folder = Folder::new(&[("library.toml", text.as_bytes())]);
+        folder.read();
+        trove_read::asset_files::check(&folder.path);
+    }
+}

@@ -1,0 +1,109 @@
+//! `library.toml` written, completed, read and checked.
+
+use serde_json::json;
+use trove_model::{Kind, Report, SurfaceKind};
+use trove_read::asset_files;
+
+use crate::files::{Folder, Glb, png};
+
+#[test]
+fn a_second_import_changes_nothing_and_edits_win() {
+    let folder = Folder::new(&[("car.glb", &Glb::cuboid([1.8, 1.5, 4.5]).bytes()), ("LICENSE", b"CC0 1.0 Universal")]);
+    let (_, report) = folder.read();
+    let first = folder.toml();
+    assert!(first.contains("kind = \"car\" # 0.9") && first.contains("licence = \"CC0-1.0\""), "{first} {report}");
+    folder.read();
+    assert_eq!(folder.toml(), first);
+    let edited = first.replace("kind = \"car\"", "kind = \"truck\"").replace("front = ", "# front = ");
+    folder.write("library.toml", edited.as_bytes());
+    folder.write("new/bench.glb", &Glb::cuboid([1.7, 0.8, 0.6]).bytes());
+    let (library, report) = folder.read();
+    let library = library.expect(&report);
+    let kinds: Vec<Kind> = library.assets.iter().map(|a| a.kind).collect();
+    assert_eq!(kinds, [Kind::Bench, Kind::Truck], "{report}");
+    let second = folder.toml();
+    assert!(second.contains("kind = \"truck\"") && second.contains("new/bench.glb"), "{second}");
+    assert_eq!(second.matches("\nfront = ").count(), 2, "{second}");
+    assert!(library.assets[1].licence.starts_with("CC0-1.0"));
+}
+
+#[test]
+fn sets_of_textures_become_surfaces_and_skies_are_listed() {
+    let grey = |v: u8| png(16, 16, move |_, _| [v, v, v, 255]);
+    let sky = image::Rgb32FImage::from_pixel(64, 32, image::Rgb([0.5, 0.6, 0.9]));
+    let mut hdr = std::io::Cursor::new(Vec::new());
+    sky.write_to(&mut hdr, image::ImageFormat::Hdr).unwrap();
+    let folder = Folder::new(&[
+        ("bricks/Bricks008_1K-JPG_Color.png", &png(16, 16, |_, _| [180, 60, 40, 255])),
+        ("bricks/Bricks008_1K-JPG_NormalDX.png", &png(16, 16, |_, _| [128, 200, 255, 255])),
+        ("bricks/Bricks008_1K-JPG_Roughness.png", &grey(200)),
+        ("bricks/Bricks008_1K-JPG_AmbientOcclusion.png", &grey(250)),
+        ("bricks/Bricks008_1K-JPG_Displacement.png", &grey(128)),
+        ("glass_diff_2k.png", &grey(9)),
+        ("glass_rough_2k.png", &grey(9)),
+        ("sky.hdr", &hdr.into_inner()),
+    ]);
+    let (library, report) = folder.read();
+    let library = library.expect(&report);
+    assert_eq!(library.surfaces.len(), 1, "{}", folder.toml());
+    let surface = &library.surfaces[0];
+    assert_eq!((surface.id.as_str(), surface.kind), ("mine/bricks008", SurfaceKind::Wall));
+    assert_eq!((surface.size_m, surface.cells), ([2.0, 2.0], [1, 1]));
+    let material = &surface.material;
+    assert_eq!(material.normal_map.as_ref().unwrap().rgba[0], [128, 55, 255, 255]);
+    assert_eq!(material.orm_map.as_ref().unwrap().rgba[0], [250, 200, 255, 255]);
+    assert_eq!((material.roughness, material.metalness), (1.0, 0.0));
+    assert!(material.height_map.is_some() && material.height_m > 0.0);
+    assert!(folder.toml().contains("[[environment]]\nfile = \"sky.hdr\""), "{}", folder.toml());
+}
+
+#[test]
+fn checks_find_what_is_wrong() {
+    let mut inside_out = Glb::cuboid([1.8, 1.5, 4.5]);
+    inside_out.json["meshes"][0]["primitives"][0]["mode"] = json!(4);
+    let flipped: Vec<u32> = {
+        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        quads.iter().flat_map(|q| [q[0], q[2], q[1], q[0], q[3], q[2]]).collect()
+    };
+    let flipped = inside_out.indices(&flipped);
+    inside_out.json["meshes"][0]["primitives"][0]["indices"] = json!(flipped);
+    let mut lost = Glb::cuboid([1.8, 1.5, 4.5]);
+    let texture = lost.picture(json!({"uri": "paint.png"}));
+    let lost = lost.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}));
+    let library = "[[asset]]\nfile = \"a_car.glb\"\nkind = \"car\"\nunit_m = 100.0\n\
+        [[asset]]\nfile = \"b_car.glb\"\nlicence = \"MIT\"\n[[asset]]\nfile = \"c_car.glb\"\nlicence = \"MIT\"\n\
+        [[asset]]\nfile = \"gone.glb\"\nlicence = \"MIT\"\n";
+    let folder = Folder::new(&[
+        ("a_car.glb", &Glb::cuboid([1.8, 1.5, 4.5]).bytes()),
+        ("b_car.glb", &inside_out.bytes()),
+        ("c_car.glb", &lost.bytes()),
+        ("library.toml", library.as_bytes()),
+    ]);
+    let findings = asset_files::check(&folder.path);
+    for (file, what) in [
+        ("a_car.glb", "no licence"),
+        ("a_car.glb", "450.00 × 180.00 × 150.00 m"),
+        ("b_car.glb", "face inwards"),
+        ("c_car.glb", "paint.png"),
+        ("gone.glb", "readable file"),
+    ] {
+        assert!(findings.iter().any(|f| f.file == file && f.what.contains(what)), "{file} {what}: {findings:#?}");
+    }
+    assert_eq!(findings.len(), 5, "{findings:#?}");
+    assert!(asset_files::check(folder.path.parent().unwrap())[0].severe);
+}
+
+#[test]
+fn the_same_stem_in_two_folders_makes_two_ids() {
+    let car = Glb::cuboid([1.8, 1.5, 4.5]).bytes();
+    let (library, report) = Folder::new(&[("a/car.glb", &car), ("b/car.glb", &car)]).read();
+    let ids: Vec<String> = library.expect(&report).assets.into_iter().map(|a| a.id).collect();
+    assert_eq!(ids, ["mine/a-car.glb", "mine/b-car.glb"]);
+}
+
+#[test]
+fn a_library_without_its_file_says_how_to_make_one() {
+    let folder = Folder::new(&[]);
+    let error = asset_files::read_library(&folder.path, &Report::default()).unwrap_err().to_string();
+    assert!(error.contains("trove assets import"), "{error}");
+}
