@@ -231,3 +231,27 @@ fn load_raw(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Mo
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn real_models_that_end_early_are_refused() {
+        let Some(data) = std::env::var_os("TROVE_TEST_DATA") else {
+            eprintln!("skipped: TROVE_TEST_DATA is not set");
+            return;
+        };
+        let folder = Path::new(&data).join("models");
+        let found = scan::scan(&folder, &Report::default()).expect("a folder");
+        let pictures = Pictures::new("test", &folder, 16);
+        found.models.par_iter().for_each(|name| {
+            let path = folder.join(name);
+            let bytes = std::fs::read(&path).expect("a file");
+            for length in (0..bytes.len()).step_by(100) {
+                let error = gltf::read(&path, &bytes[..length], None, &pictures).expect_err("a file that ends early");
+                assert!(error.to_string().contains(name), "{error}");
+            }
+        });
+    }
+}

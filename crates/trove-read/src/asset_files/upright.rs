@@ -76,7 +76,7 @@ fn among(ups: &[Axis], size: Vec3, samples: &[Sample], expected: Option<Expected
             (_, true) => 9.0,
             (_, false) => 4.0,
         };
-        for along in up.across().filter(|a| *a as usize % 2 == 0) {
+        for along in up.across().filter(|a| (*a as usize).is_multiple_of(2)) {
             for &shape in shapes {
                 let (log_scale, misfit) = fit(size, up, along, shape, subject);
                 stances.push(Stance { up, along, shape, log_scale, misfit: misfit + prior + shape_misfit });
@@ -110,7 +110,7 @@ fn as_declared(ups: &[Axis], size: Vec3, declared: bool) -> Upright {
     let confidence = if declared { 0.6 } else { 0.3 };
     let up = if ups.contains(&Axis::PlusY) { Axis::PlusY } else { ups[0] };
     let longer = |a: Axis, b: Axis| if extent(size, a) > extent(size, b) { a } else { b };
-    let along = up.across().filter(|a| *a as usize % 2 == 0).reduce(longer).unwrap_or(Axis::PlusX);
+    let along = up.across().filter(|a| (*a as usize).is_multiple_of(2)).reduce(longer).unwrap_or(Axis::PlusX);
     Upright {
         up,
         along,

@@ -30,6 +30,9 @@ fn files_that_end_early_are_named() {
     }
 }
 
+/// What the report names, whether the asset is still there, and the damage.
+type Case<'a> = (&'a str, bool, &'a dyn Fn(&mut Value));
+
 #[test]
 fn damaged_documents_are_refused_or_repaired_by_name() {
     let broken = |change: &dyn Fn(&mut Value)| {
@@ -37,11 +40,11 @@ fn damaged_documents_are_refused_or_repaired_by_name() {
         change(&mut glb.json);
         verdict("car.glb", &glb.bytes())
     };
-    let cases: [(&str, bool, &dyn Fn(&mut Value)); 13] = [
+    let cases: [Case; 13] = [
         ("loop", true, &|j| j["nodes"] = json!([{"mesh": 0, "children": [1]}, {"children": [0, 1]}])),
         ("accessors[0]", false, &|j| j["accessors"][0]["count"] = json!(4_000_000_000_u64)),
         ("accessors[0]", false, &|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX)),
-        ("bufferViews[0]", false, &|j| j["bufferViews"][0]["byteLength"] = json!(1 << 40)),
+        ("bufferViews[0]", false, &|j| j["bufferViews"][0]["byteLength"] = json!(1_u64 << 40)),
         ("accessor", false, &|j| j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(99)),
         ("componentType", false, &|j| j["accessors"][0]["componentType"] = json!(7)),
         ("nowhere.bin", false, &|j| j["buffers"] = json!([{"uri": "nowhere.bin", "byteLength": 8}])),
