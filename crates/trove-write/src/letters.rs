@@ -7,10 +7,13 @@ const DOT_PX: u32 = 2;
 /// From one letter to the next, dots.
 const ADVANCE: u32 = 4;
 
+/// From one letter to the next, pixels.
+pub(crate) const LETTER_PX: u32 = ADVANCE * DOT_PX;
+
 /// Writes capitals, digits and the punctuation of names; anything else is a dot.
 pub(crate) fn draw_text(sheet: &mut Sheet, x: u32, y: u32, text: &str) {
     for (i, letter) in text.chars().enumerate() {
-        let left = x + i as u32 * ADVANCE * DOT_PX;
+        let left = x + i as u32 * LETTER_PX;
         for (row, dots) in rows(letter).iter().enumerate() {
             for column in 0..3 {
                 if dots >> (2 - column) & 1 == 1 {

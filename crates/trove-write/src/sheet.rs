@@ -4,7 +4,7 @@ use std::path::Path;
 
 use trove_model::Raster;
 
-use crate::letters::draw_text;
+use crate::letters::{LETTER_PX, draw_text};
 use crate::{WriteError, write_picture};
 
 /// Gap around everything, pixels.
@@ -50,7 +50,8 @@ pub fn write_sheet(path: &Path, pictures: &[(String, Raster<[u8; 3]>)]) -> Resul
     let mut sheet = Sheet::new(GAP_PX + columns * width, GAP_PX + rows * height);
     for (i, (name, picture)) in (0..).zip(pictures) {
         let (x, y) = (GAP_PX + i % columns * width, GAP_PX + i / columns * height);
-        draw_text(&mut sheet, x, y, name);
+        let fits: String = name.chars().take((width / LETTER_PX) as usize).collect();
+        draw_text(&mut sheet, x, y, &fits);
         sheet.paste(x, y + CAPTION_PX, picture.width, &picture.data);
     }
     sheet.write(path)

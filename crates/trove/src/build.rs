@@ -10,7 +10,7 @@ use trove_model::{Environment, Report, Seed};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
 
-use crate::library::{self, Makings};
+use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
 use crate::run::{fits_json, report_json, view_settings};
@@ -50,8 +50,7 @@ pub(crate) fn run(
         on_disagreement: recipe.map.on_disagreement.into(),
     };
     let started = Instant::now();
-    let library =
-        library::procedural(&Makings { texture_scale: recipe.assets.texture_scale, search: &search }, &report);
+    let library = library::gather(recipe, &search, &report)?;
     report.measure("library.seconds", started.elapsed().as_secs_f64());
     let started = Instant::now();
     let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;

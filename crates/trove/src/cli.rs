@@ -161,7 +161,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             let recipe = Recipe::read(&recipe)?;
             build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
         }
-        Command::Assets { command } => assets::run(command, libraries::search(site_packages)).map(|()| 0),
+        Command::Assets { command } => assets::run(command, libraries::search(site_packages)),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
             produce(recipe, &out, &machine, site_packages, json)

@@ -149,11 +149,20 @@ impl From<OnDisagreement> for trove_build::OnDisagreement {
     }
 }
 
+/// Where models and surfaces come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LibrarySource {
+    /// The built-in generator.
+    Procedural,
+    /// A folder with a `library.toml`.
+    Folder(PathBuf),
+}
+
 /// `[assets]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AssetsSection {
-    /// Libraries that are searched together.
+    /// Libraries that are searched together: `procedural`, and folders with a `library.toml`.
     pub libraries: Vec<String>,
     /// Draw among the k best fits; 1 is the best.
     pub top_k: usize,
@@ -364,14 +373,26 @@ impl Recipe {
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
         ensure!(!assets.libraries.is_empty(), "assets.libraries: expected at least one, found none");
-        for library in &assets.libraries {
-            ensure!(
-                library == crate::PROCEDURAL,
-                "assets.libraries: \"{library}\" is not known; expected \"{}\"",
-                crate::PROCEDURAL
-            );
+        for source in self.libraries() {
+            if let LibrarySource::Folder(folder) = source {
+                ensure!(
+                    folder.is_dir(),
+                    "assets.libraries: expected \"{}\" or a folder of models, found no folder {}",
+                    crate::PROCEDURAL,
+                    folder.display()
+                );
+            }
         }
         Ok(())
+    }
+
+    /// Where models and surfaces come from.
+    pub fn libraries(&self) -> Vec<LibrarySource> {
+        let source = |name: &String| match name.as_str() {
+            crate::PROCEDURAL => LibrarySource::Procedural,
+            folder => LibrarySource::Folder(self.at(Path::new(folder))),
+        };
+        self.assets.libraries.iter().map(source).collect()
     }
 
     /// The picture of a sky that is asked for; `None` for a computed one.
@@ -485,7 +506,7 @@ mod tests {
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[variations]\ncount = 0\n", "variations.count"),
             ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
-            ("[assets]\nlibraries = [\"mine\"]\n", "\"mine\" is not known"),
+            ("[assets]\nlibraries = [\"mine\"]\n", "found no folder"),
         ] {
             let message = error(&format!("{DRIVE}{text}"));
             assert!(message.contains(expect), "{message}");

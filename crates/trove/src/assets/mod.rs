@@ -1,14 +1,17 @@
 //! `trove assets`: what there is to build with.
 
+mod check;
+mod import;
 mod list;
 mod sheet;
 mod studio;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Subcommand;
-use trove_model::Report;
+use trove_model::{AssetLibrary, Outcome, Report};
+use trove_read::asset_files;
 
 use crate::library::{self, Makings};
 
@@ -18,6 +21,27 @@ pub(crate) enum AssetsCommand {
     /// Lists models and materials.
     #[command(after_help = "Example:\n  trove assets list --json")]
     List {
+        /// A folder with a library.toml; without it the built-in library.
+        #[arg(long, value_name = "DIR")]
+        library: Option<PathBuf>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Takes a folder of models, textures and skies in: writes its library.toml, with guesses where nothing says more.
+    #[command(after_help = "Example:\n  trove assets import my-assets")]
+    Import {
+        /// The folder.
+        dir: PathBuf,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Says what is wrong with a library; exit status 1 where something cannot be used.
+    #[command(after_help = "Example:\n  trove assets check my-assets")]
+    Check {
+        /// A folder with a library.toml.
+        dir: PathBuf,
         /// Prints JSON.
         #[arg(long)]
         json: bool,
@@ -29,11 +53,25 @@ pub(crate) enum AssetsCommand {
     Sheet(sheet::Sheet),
 }
 
-/// Runs it; `search` is where Embree and the denoiser are looked for.
-pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<()> {
-    let library = library::procedural(&Makings { texture_scale: 1, search: &search }, &Report::default());
+/// Runs it and returns the exit status; `search` is where Embree, the denoiser and people's bodies are looked for.
+pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<i32> {
     match command {
-        AssetsCommand::List { json } => list::run(&library, json),
-        AssetsCommand::Sheet(sheet) => sheet.run(&library, search),
+        AssetsCommand::List { library, json } => list::run(&open(library.as_deref(), &search)?, json).map(|()| 0),
+        AssetsCommand::Sheet(sheet) => sheet.run(&open(sheet.library(), &search)?, search).map(|()| 0),
+        AssetsCommand::Import { dir, json } => import::run(&dir, json).map(|()| 0),
+        AssetsCommand::Check { dir, json } => check::run(&dir, json),
     }
+}
+
+/// A folder's library, or the built-in one; what was wrong with it is told.
+fn open(folder: Option<&Path>, search: &[PathBuf]) -> Result<AssetLibrary> {
+    let report = Report::default();
+    let library = match folder {
+        Some(folder) => asset_files::read_library(folder, &report)?,
+        None => library::procedural(&Makings { texture_scale: 1, search }, &report),
+    };
+    for entry in report.entries().iter().filter(|entry| entry.outcome != Outcome::Guessed) {
+        eprintln!("{} × {}, such as {}", entry.count, entry.what, entry.examples.join("; "));
+    }
+    Ok(library)
 }

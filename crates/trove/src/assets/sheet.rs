@@ -1,7 +1,7 @@
 //! `trove assets sheet`: every model and material on one page.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
@@ -23,6 +23,9 @@ pub(crate) struct Sheet {
     /// A folder for a picture each, beside the page or without one.
     #[arg(long, value_name = "DIR")]
     each: Option<PathBuf>,
+    /// A folder with a library.toml; without it the built-in library.
+    #[arg(long, value_name = "DIR")]
+    library: Option<PathBuf>,
     /// Draws those whose id begins so; may be given several times.
     #[arg(long, value_name = "ID")]
     only: Vec<String>,
@@ -44,6 +47,11 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
+    /// The folder to draw.
+    pub(crate) fn library(&self) -> Option<&Path> {
+        self.library.as_deref()
+    }
+
     pub(crate) fn run(&self, library: &AssetLibrary, search: Vec<PathBuf>) -> Result<()> {
         let environment = match &self.environment {
             Some(path) => Some(Environment::Map(Arc::new(environment::read(path)?))),

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, Camera, Class, Distortion, Environment, Instance, InstanceId, Lens, Light, Material, Mesh,
-    PhysicalSky, Pose, Scene, Seed, Shot, Surface, SurfaceKind, World,
+    Asset, AssetLibrary, Camera, Class, Distortion, Environment, ExposureRule, Film, Instance, InstanceId, Lens, Light,
+    Material, Mesh, PhysicalSky, Pose, Scene, Seed, Shot, Surface, SurfaceKind, World,
 };
 
 /// Vertical angle of view, radians: that of a short telephoto lens.
@@ -14,9 +14,10 @@ const VIEW_RAD: f64 = 0.42;
 const ELEVATION_RAD: f64 = 0.16;
 /// Share of the picture that the box around the thing fills.
 const FILL: f64 = 0.98;
-/// The ground is this many times as wide as the thing, and at least so many metres.
-const GROUND: f64 = 14.0;
-const LEAST_GROUND_M: f64 = 30.0;
+/// Side of the ground, metres: its edge is the horizon.
+const GROUND_M: f32 = 4000.0;
+/// The pictures are as bright as a photographer would have them who meters on the thing, stops.
+const BRIGHTER_EV: f64 = 0.4;
 
 /// How pictures are taken.
 pub(super) struct Studio {
@@ -50,14 +51,13 @@ impl Studio {
         };
         let (low, high) = mesh.bounds().unwrap_or_default();
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
-        let ground_m = (GROUND * (high - low).max_element()).max(LEAST_GROUND_M);
         let asphalt = library.surfaces_of(SurfaceKind::Asphalt).last().map(|s| s.material.clone());
         let mut all = vec![asphalt.unwrap_or_else(|| Material::plain("ground", Vec3::splat(0.15), 0.9))];
         all.extend(materials);
         let slots = (1..all.len()).collect();
         let instances = vec![instance(0, Class::Road, 0, vec![0]), instance(1, class, 1, slots)];
         let scene = Scene {
-            meshes: vec![Arc::new(ground(ground_m as f32)), mesh],
+            meshes: vec![Arc::new(ground(GROUND_M)), mesh],
             materials: all,
             instances,
             keyframes_apart_s: [f64::INFINITY; 2],
@@ -93,7 +93,8 @@ impl Studio {
         let distance_m = (0..8).map(corner).map(needed_m).fold(0.1, f64::max);
         let rotation = DQuat::from_mat3(&DMat3::from_cols(right, down, -backward));
         let world_from_camera = Pose::<World, Camera>::new(rotation, middle + backward * distance_m);
-        Shot { spp: self.spp, seed: Seed(self.seed), ..Shot::new("sheet", lens, world_from_camera) }
+        let film = Film { exposure: ExposureRule::Auto { compensation_ev: BRIGHTER_EV }, ..Film::default() };
+        Shot { spp: self.spp, film, seed: Seed(self.seed), ..Shot::new("sheet", lens, world_from_camera) }
     }
 }
 

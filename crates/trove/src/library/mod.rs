@@ -1,4 +1,4 @@
-//! The models and surfaces that there are to build with.
+//! The models and surfaces that there are to build with: the built-in library and users' own.
 //!
 //! The built-in library is generated once and kept in the cache folder, in one file named after everything that decides
 //! it: the generator's sources and its ingredients. MakeHuman's body, which people are made from, is read where one of
@@ -10,12 +10,14 @@ mod packed;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use anyhow::{Context, Result, ensure};
 use trove_assets::Ingredients;
 use trove_model::{AssetLibrary, Outcome, Report};
-use trove_read::human_body;
+use trove_read::{asset_files, human_body};
 use trove_write::write_atomically;
 
 use crate::cache;
+use crate::recipe::{LibrarySource, Recipe};
 
 /// So many generations of the library stay in the cache, for programs that are installed side by side.
 const KEPT: usize = 2;
@@ -27,6 +29,59 @@ pub(crate) struct Makings<'a> {
     pub(crate) texture_scale: u32,
     /// Where MakeHuman's body is looked for, in this order.
     pub(crate) search: &'a [PathBuf],
+}
+
+/// What a recipe makes the built-in library from.
+fn makings<'a>(recipe: &Recipe, search: &'a [PathBuf]) -> Makings<'a> {
+    Makings { texture_scale: recipe.assets.texture_scale, search }
+}
+
+/// Everything in a recipe's libraries, sorted by id.
+pub(crate) fn gather(recipe: &Recipe, search: &[PathBuf], report: &Report) -> Result<AssetLibrary> {
+    let mut all = AssetLibrary::default();
+    for source in recipe.libraries() {
+        let library = match source {
+            LibrarySource::Procedural => procedural(&makings(recipe, search), report),
+            LibrarySource::Folder(folder) => asset_files::read_library(&folder, report)?,
+        };
+        all.assets.extend(library.assets);
+        all.surfaces.extend(library.surfaces);
+        all.covers.extend(library.covers);
+    }
+    all.assets.sort_by(|a, b| a.id.cmp(&b.id));
+    all.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
+    all.covers.sort_by(|a, b| a.id.cmp(&b.id));
+    let twice = all.assets.windows(2).find(|pair| pair[0].id == pair[1].id);
+    ensure!(
+        twice.is_none(),
+        "assets.libraries: expected folders of different names, found {} twice; rename one",
+        twice.map_or("", |pair| pair[0].id.as_str())
+    );
+    Ok(all)
+}
+
+/// Tells libraries apart that hold other things, by source: of folders by `library.toml` and the sizes of the files.
+pub(crate) fn fingerprints(recipe: &Recipe, search: &[PathBuf]) -> Result<Vec<String>> {
+    let of = |source: LibrarySource| match source {
+        LibrarySource::Procedural => Ok(fingerprint(&makings(recipe, search))),
+        LibrarySource::Folder(folder) => folder_fingerprint(&folder),
+    };
+    recipe.libraries().into_iter().map(of).collect()
+}
+
+fn folder_fingerprint(folder: &Path) -> Result<String> {
+    let table = folder.join(asset_files::FILE_NAME);
+    let remedy = || {
+        format!("{}: expected a library's table; trove assets import {} writes it", table.display(), folder.display())
+    };
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(&fs::read(&table).with_context(remedy)?);
+    let file = asset_files::LibraryFile::read(folder)?;
+    for name in file.assets.iter().map(|asset| &asset.file) {
+        let length = fs::metadata(folder.join(name)).map_or(0, |file| file.len());
+        hasher.update(&length.to_le_bytes());
+    }
+    Ok(format!("{:08x}", hasher.finalize()))
 }
 
 /// The built-in library, from the cache where it is there.
@@ -77,7 +132,7 @@ pub(crate) fn fingerprint(makings: &Makings<'_>) -> String {
 }
 
 /// Writes the library, and removes those that have been used by no program for longest.
-fn keep(file: &Path, library: &AssetLibrary) -> anyhow::Result<()> {
+fn keep(file: &Path, library: &AssetLibrary) -> Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     fs::create_dir_all(folder)?;
     write_atomically(file, &pack::pack(library))?;

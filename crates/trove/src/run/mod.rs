@@ -13,11 +13,10 @@ use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
 
-use crate::library::{self, Makings};
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
-use crate::{interrupt, message};
+use crate::{interrupt, library, message};
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 pub(crate) use manifest::{fits_json, report_json};
 use output::OutputFolder;
@@ -64,8 +63,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         threads: recipe.render.threads,
         search: options.search.clone(),
     })?;
-    let makings = Makings { texture_scale: recipe.assets.texture_scale, search: &options.search };
-    let identity = identity(recipe, &makings, &renderer)?;
+    let identity = identity(recipe, options, &renderer)?;
     let report = Report::default();
     if let (true, Err(why)) = (recipe.render.denoise && recipe.render.light, renderer.capabilities().denoiser) {
         tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
@@ -80,7 +78,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         recipe,
         renderer,
         sources,
-        library: library::procedural(&makings, &report),
+        library: library::gather(recipe, &options.search, &report)?,
         output,
         progress: Progress::new(planned),
         report,
@@ -104,13 +102,13 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
 }
 
 /// Everything that decides the output's bytes: a folder holds the frames of one identity.
-fn identity(recipe: &Recipe, makings: &Makings<'_>, renderer: &Renderer) -> Result<Value> {
+fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Result<Value> {
     let found = renderer.capabilities();
     Ok(json!({
         "recipe": serde_json::to_value(recipe)?,
         "versions": {
             "trove": env!("CARGO_PKG_VERSION"),
-            "assets": library::fingerprint(makings),
+            "assets": library::fingerprints(recipe, &options.search)?,
             "kernel": found.kernel,
             "denoiser": found.denoiser.ok(),
         },

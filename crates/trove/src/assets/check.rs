@@ -1,0 +1,27 @@
+//! `trove assets check`.
+
+use std::path::Path;
+
+use anyhow::Result;
+use serde_json::{Value, json};
+use trove_read::asset_files;
+
+/// Prints what is wrong with a library and returns the exit status.
+pub(crate) fn run(dir: &Path, as_json: bool) -> Result<i32> {
+    let findings = asset_files::check(dir);
+    let severe = findings.iter().filter(|finding| finding.severe).count();
+    if as_json {
+        let rows: Vec<Value> = findings
+            .iter()
+            .map(|f| json!({ "file": f.file, "severe": f.severe, "what": f.what, "remedy": f.remedy }))
+            .collect();
+        println!("{}", serde_json::to_string_pretty(&json!({ "findings": rows, "severe": severe }))?);
+    } else {
+        for finding in &findings {
+            let mark = if finding.severe { "error" } else { "look at" };
+            println!("{mark}: {}: {}; {}", finding.file, finding.what, finding.remedy);
+        }
+        println!("{} findings, {severe} of them of what cannot be used", findings.len());
+    }
+    Ok(i32::from(severe > 0))
+}
