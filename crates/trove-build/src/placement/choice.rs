@@ -1,5 +1,7 @@
 //! Which asset fits a box best, and which others would have.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 use trove_model::{Asset, Kind, Outcome, Report, Seed, Track};
 
@@ -9,6 +11,8 @@ use super::fit::Fit;
 const RUNNERS_UP: usize = 3;
 /// What fits worse than this share of the best is not drawn.
 const ABOUT_AS_GOOD: f64 = 0.85;
+/// So many times as many people are drawn from as other things.
+const PEOPLE: usize = 4;
 /// True 3D IoU below which an asset is no good fit.
 const GOOD_IOU: f64 = 0.6;
 
@@ -53,18 +57,23 @@ impl From<&Candidate<'_>> for AssetFit {
     }
 }
 
-/// The assets by how well they fit, the best first.
+/// The assets by how well they fit, the best first; of a person the posture that fits best.
 pub(super) fn ranked<'a>(assets: impl Iterator<Item = &'a Asset>, size_m: DVec3, kind: Kind) -> Vec<Candidate<'a>> {
     let fit = |asset: &'a Asset| Candidate { asset, fit: Fit::new(asset.size_m, size_m, kind) };
     let mut ranked: Vec<Candidate> = assets.map(fit).collect();
     ranked.sort_by(|a, b| b.fit.quality_m.total_cmp(&a.fit.quality_m).then_with(|| a.asset.id.cmp(&b.asset.id)));
+    let mut people = BTreeSet::new();
+    ranked.retain(|c| c.asset.figure.as_ref().is_none_or(|figure| people.insert(figure.person.clone())));
     ranked
 }
 
-/// One of the `top_k` best that fit about as well as the best, drawn by how common they are.
+/// One of the `top_k` best that fit about as well as the best, drawn by how common they are. Boxes of people say more
+/// about their stride and what they carry than about who they are: more of them are drawn from.
 pub(super) fn draw<'a>(ranked: &[Candidate<'a>], top_k: usize, seed: Seed) -> Option<Candidate<'a>> {
     let least_m = ranked.first()?.fit.quality_m * ABOUT_AS_GOOD;
-    let best: Vec<&Candidate> = ranked.iter().take(top_k.max(1)).take_while(|c| c.fit.quality_m >= least_m).collect();
+    let is_person = ranked.first()?.asset.figure.is_some();
+    let most = if is_person && top_k > 1 { top_k * PEOPLE } else { top_k.max(1) };
+    let best: Vec<&Candidate> = ranked.iter().take(most).take_while(|c| c.fit.quality_m >= least_m).collect();
     let lots = |c: &Candidate| f64::from(c.asset.commonness.max(0.0));
     let mut left = seed.child("asset").random().unit() * best.iter().copied().map(lots).sum::<f64>();
     let drawn = best.iter().copied().find(|c| {
