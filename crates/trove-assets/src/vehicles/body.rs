@@ -15,7 +15,7 @@ const SHELL_COLUMNS: [usize; 3] = [13, 17, 11];
 /// Columns of the greenhouse around windscreen, side and rear window.
 const HOUSE_COLUMNS: [usize; 3] = [10, 10, 10];
 /// Columns of windscreen and rear window that are glass, of those around a corner; the rest is the pillar.
-const SCREEN_COLUMNS: usize = 6;
+const SCREEN_COLUMNS: usize = 7;
 
 /// The side view of a car and how it is rounded; points are (distance from the front, height).
 #[derive(Clone, Debug)]
@@ -241,12 +241,10 @@ impl Body {
         let columns: Vec<Vec<Vec3>> = self.outline().iter().map(|&(q, n)| self.section(q, n)).collect();
         let walls = Grid(columns).shape(|_, row| if row < 2 { skin.under } else { skin.paint });
         let (front, back) = (self.bonnet_end(), self.boot_start());
-        let bonnet = Curve::new(&[
-            (0.0, p.nose_m),
-            (p.cowl.0 * 0.3, p.nose_m.mul_add(0.55, p.cowl.1 * 0.45)),
-            (p.cowl.0 * 0.7, p.nose_m.mul_add(0.18, p.cowl.1 * 0.82)),
-            (p.cowl.0, p.cowl.1),
-        ]);
+        // It rises from the nose like a bow that flattens towards the windscreen.
+        let from = self.rim[0].x;
+        let rise = |along: f32, up: f32| (from + (p.cowl.0 - from) * along, p.nose_m + (p.cowl.1 - p.nose_m) * up);
+        let bonnet = Curve::new(&[rise(0.0, 0.0), rise(0.25, 0.38), rise(0.65, 0.8), rise(1.0, 1.0)]);
         let corner = self.rim.partition_point(|q| q.y < p.width_m * 0.36 && q.x < p.cowl.0 * 0.6).max(4);
         let side: Vec<Vec3> = self.rim[corner..=front].iter().rev().copied().collect();
         let bow: Vec<Vec3> = self.rim[..=corner].iter().rev().copied().collect();
@@ -267,8 +265,8 @@ impl Body {
         if p.has_bed {
             parts.push(self.bed(&self.rim[back..], skin));
         } else {
-            let height = Curve::new(&[(p.deck.0, p.deck.1), (p.length_m, p.tail_m)]);
             let last = self.rim.len() - 1;
+            let height = Curve::new(&[(p.deck.0, p.deck.1), (self.rim[last].x, p.tail_m)]);
             let is_side = |q: &Vec3| q.y > p.width_m * 0.38;
             let corner = (back + 1..last - 2).rev().find(|&i| is_side(&self.rim[i])).unwrap_or(back + 1);
             let side = &self.rim[back..=corner];

@@ -110,7 +110,7 @@ impl CarPlan {
     fn windows(&self, house: Shape, body: &Body, palette: &Palette) -> Shape {
         // The opening: over the doors, under the roof's edge, from the windscreen's side edge to its end.
         let [low_end, high_end] = self.glass_end_m.map(|s| s.min(self.blind_from_m));
-        let (low_start, high_start) = (body.screen_side_m(0.05) + 0.02, body.screen_side_m(0.93) + 0.015);
+        let (low_start, high_start) = (body.screen_side_m(0.05) - 0.04, body.screen_side_m(0.93) - 0.03);
         let steps = 6;
         let points = (0..=steps).flat_map(|i| {
             let t = i as f32 / steps as f32;

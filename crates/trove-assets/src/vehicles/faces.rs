@@ -68,7 +68,7 @@ pub(super) const SPORT: Face = Face {
     intake: &[(-0.05, 0.04), (0.5, 0.05), (0.5, 0.1), (-0.05, 0.1)],
     vent: &[(0.56, 0.08), (0.88, 0.1), (0.9, 0.22), (0.62, 0.17)],
     badge_m: -0.09,
-    plate_m: 0.14,
+    plate_m: 0.2,
 };
 
 /// A small car with tall lamps.

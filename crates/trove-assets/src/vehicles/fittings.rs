@@ -98,7 +98,7 @@ pub(super) fn in_the_middle(plan: &CarPlan, body: &Body, palette: &Palette) -> S
     let pipe = Shape::tube(&[vec3(0.25, 0.0, 0.0), vec3(0.0, 0.0, -0.01)], 0.03, 10).slot(palette.chrome);
     parts.push(pipe.moved(vec3(-p.length_m + 0.09, -half * 0.62, p.clearance_m + 0.115)));
     if plan.blind_from_m > p.length_m {
-        let fin = Shape::ellipsoid(vec3(0.09, 0.022, 0.055), 12).slot(palette.paint);
+        let fin = Shape::ellipsoid(vec3(0.08, 0.016, 0.04), 12).slot(palette.paint);
         parts.push(fin.moved(vec3(-p.rear_header.0 + 0.22, 0.0, body.roof_m(p.rear_header.0 - 0.22))));
     }
     if plan.back.has_spare {

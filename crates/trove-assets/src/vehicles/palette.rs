@@ -105,7 +105,9 @@ impl Palette {
             coat: 1.0,
             // Passenger cars are mostly metallic; what carries goods is not.
             flakes: if paints == FLEET { 0.5 } else { 0.0 },
-            dirt: 0.22,
+            dirt: 0.15,
+            // The lacquer's surface is the paint's only one.
+            ior: 1.0,
             ..Material::plain(name, paints.first().copied().unwrap_or(Vec3::splat(0.7)), 0.4)
         };
         let metal = |name: &str, grey: f32, roughness: f32| Material {
