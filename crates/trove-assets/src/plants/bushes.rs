@@ -1,106 +1,382 @@
-//! Bushes, hedges and ground cover: stems and a dark core inside, sprigs over a rounded or clipped surface.
+//! Shrubs, hedges and planted strips: dark insides, stems, sprigs over a clumpy or clipped surface.
 
-use glam::{Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Material, Seed};
+use glam::{Vec2, Vec3, vec2, vec3};
+use rayon::prelude::*;
+use trove_model::{
+    Asset, Climate, Foliage as SeasonalFoliage, Kind, LeafType, Material, Plant, PlantForm, Random, Season, Seed,
+};
 
-use super::growth::{Foliage, limb};
-use super::leaves::{Sprig, bark, material};
-use super::trees::{SHADES, direction};
-use crate::shape::{Model, Shape};
+use super::bark::{Bark, bark};
+use super::growth::limb;
+use super::individual::{Card, Foliage, Individual, Level, direction, varied};
+use super::leaves::{BARE, Outline, Sprig, material, paint};
+use super::species::{TWIGS, Tones, Year};
+use super::trees::plant;
+use crate::shape::Shape;
+use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
 
-/// A kind of bush.
-struct Habit {
-    id: &'static str,
+/// A kind of shrub.
+struct Shrub {
+    name: &'static str,
+    habitat: &'static [(Climate, f32)],
     /// Half axes; the foot is in the middle of the underside.
     half_m: Vec3,
-    /// 2 is round, more is boxy.
-    power: f32,
-    /// Clumps on it, 0 for a clipped surface.
-    lumps: f32,
+    /// Round clumps that it consists of, and their radius as a share of the whole's.
+    clumps: usize,
+    clump: f32,
     sprig: Sprig,
-    green: Vec3,
+    tones: Tones,
     card_m: f32,
     cards: usize,
-    /// Sprigs start from the ground instead of near the surface.
+    /// Leaves come out of the ground on long stalks instead of sitting on a surface.
     from_ground: bool,
 }
 
-/// Share of the sprigs that hang below the widest place, down to the ground.
-const SKIRT: f64 = 0.42;
+const TENDER: &[(Climate, f32)] = &[(Temperate, 0.0), (Cold, 0.0), (Mediterranean, 0.4), (Arid, 0.5)];
+const HARDY: &[(Climate, f32)] = &[(Tropical, 0.1), (Subtropical, 0.6)];
+const OVAL: Outline = Outline::Oval(0.95);
+
+const fn evergreen(green: Vec3) -> Tones {
+    Tones { green, year: Year::Evergreen }
+}
+
+const SHRUBS: [Shrub; 9] = [
+    Shrub {
+        name: "box",
+        habitat: HARDY,
+        half_m: vec3(0.6, 0.6, 0.55),
+        clumps: 1,
+        clump: 1.0,
+        sprig: Sprig::Leaves { outline: OVAL, length: 0.12, width: 0.55, count: 10 },
+        tones: evergreen(vec3(0.064, 0.099, 0.037)),
+        card_m: 0.2,
+        cards: 1700,
+        from_ground: false,
+    },
+    Shrub {
+        name: "laurel",
+        habitat: &[(Tropical, 0.4)],
+        half_m: vec3(1.05, 0.95, 0.8),
+        clumps: 11,
+        clump: 0.5,
+        sprig: Sprig::Leaves { outline: Outline::Oval(1.0), length: 0.24, width: 0.4, count: 6 },
+        tones: evergreen(vec3(0.069, 0.101, 0.037)),
+        card_m: 0.42,
+        cards: 1700,
+        from_ground: false,
+    },
+    Shrub {
+        name: "lilac",
+        habitat: &[(Tropical, 0.0), (Subtropical, 0.4), (Arid, 0.3), (Mediterranean, 0.6)],
+        half_m: vec3(1.25, 1.15, 1.35),
+        clumps: 14,
+        clump: 0.42,
+        sprig: Sprig::Leaves { outline: Outline::Oval(0.65), length: 0.17, width: 0.7, count: 7 },
+        tones: Tones {
+            green: vec3(0.088, 0.125, 0.046),
+            year: Year::Blossoms(&[vec3(0.3, 0.2, 0.36), vec3(0.45, 0.4, 0.42)], &[vec3(0.25, 0.2, 0.05)]),
+        },
+        card_m: 0.5,
+        cards: 1800,
+        from_ground: false,
+    },
+    Shrub {
+        name: "forsythia",
+        habitat: &[(Tropical, 0.0), (Subtropical, 0.3), (Arid, 0.0), (Mediterranean, 0.4)],
+        half_m: vec3(1.0, 1.0, 0.95),
+        clumps: 16,
+        clump: 0.36,
+        sprig: Sprig::Leaves { outline: Outline::Oval(0.9), length: 0.16, width: 0.38, count: 8 },
+        tones: Tones {
+            green: vec3(0.104, 0.147, 0.050),
+            year: Year::Blossoms(&[vec3(0.5, 0.36, 0.02)], &[vec3(0.3, 0.2, 0.05), vec3(0.15, 0.14, 0.05)]),
+        },
+        card_m: 0.46,
+        cards: 1500,
+        from_ground: false,
+    },
+    Shrub {
+        name: "tropical",
+        habitat: TENDER,
+        half_m: vec3(1.15, 1.0, 0.75),
+        clumps: 15,
+        clump: 0.42,
+        sprig: Sprig::Leaves { outline: Outline::Oval(1.05), length: 0.3, width: 0.36, count: 5 },
+        tones: evergreen(vec3(0.060, 0.092, 0.034)),
+        card_m: 0.5,
+        cards: 1500,
+        from_ground: false,
+    },
+    Shrub {
+        name: "croton",
+        habitat: TENDER,
+        half_m: vec3(0.7, 0.65, 0.5),
+        clumps: 9,
+        clump: 0.5,
+        sprig: Sprig::Leaves { outline: Outline::Oval(1.1), length: 0.26, width: 0.42, count: 6 },
+        tones: evergreen(vec3(0.127, 0.121, 0.039)),
+        card_m: 0.36,
+        cards: 1100,
+        from_ground: false,
+    },
+    Shrub {
+        name: "heliconia",
+        habitat: TENDER,
+        half_m: vec3(0.85, 0.75, 0.85),
+        clumps: 9,
+        clump: 0.4,
+        sprig: Sprig::Paddle,
+        tones: evergreen(vec3(0.081, 0.124, 0.041)),
+        card_m: 0.85,
+        cards: 230,
+        from_ground: true,
+    },
+    Shrub {
+        name: "grass",
+        habitat: &[(Tropical, 0.6)],
+        half_m: vec3(0.5, 0.5, 0.5),
+        clumps: 6,
+        clump: 0.3,
+        sprig: Sprig::Blades,
+        tones: Tones { green: vec3(0.104, 0.136, 0.054), year: Year::Keeps(vec3(0.26, 0.19, 0.1)) },
+        card_m: 0.8,
+        cards: 110,
+        from_ground: true,
+    },
+    Shrub {
+        name: "ground-cover",
+        habitat: &[],
+        half_m: vec3(0.95, 0.9, 0.16),
+        clumps: 14,
+        clump: 0.3,
+        sprig: Sprig::Leaves { outline: Outline::Palmate(0.45), length: 0.24, width: 0.95, count: 5 },
+        tones: evergreen(vec3(0.067, 0.103, 0.037)),
+        card_m: 0.22,
+        cards: 1500,
+        from_ground: false,
+    },
+];
+
+/// What grows in rows: clipped hedges, and strips of flowers.
+struct Row {
+    name: &'static str,
+    habitat: &'static [(Climate, f32)],
+    sprig: Sprig,
+    tones: Tones,
+    /// Heads above the leaves, one colour a paint.
+    flowers: &'static [Vec3],
+}
+
+const HEDGES: [Row; 3] = [
+    Row {
+        name: "yew",
+        habitat: HARDY,
+        sprig: Sprig::Leaves { outline: OVAL, length: 0.12, width: 0.42, count: 11 },
+        tones: evergreen(vec3(0.057, 0.090, 0.034)),
+        flowers: &[],
+    },
+    Row {
+        name: "hornbeam",
+        habitat: &[(Tropical, 0.0), (Subtropical, 0.2), (Arid, 0.0), (Mediterranean, 0.3)],
+        sprig: Sprig::Leaves { outline: Outline::Oval(0.8), length: 0.16, width: 0.58, count: 8 },
+        tones: Tones { green: vec3(0.088, 0.130, 0.046), year: Year::Keeps(vec3(0.2, 0.115, 0.05)) },
+        flowers: &[],
+    },
+    Row {
+        name: "ixora",
+        habitat: TENDER,
+        sprig: Sprig::Leaves { outline: Outline::Oval(1.0), length: 0.18, width: 0.45, count: 8 },
+        tones: evergreen(vec3(0.067, 0.103, 0.037)),
+        flowers: &[],
+    },
+];
+
+const BEDS: [Row; 3] = [
+    Row {
+        name: "perennials",
+        habitat: &[(Tropical, 0.5)],
+        sprig: Sprig::Leaves { outline: Outline::Oval(0.8), length: 0.2, width: 0.5, count: 6 },
+        tones: Tones { green: vec3(0.083, 0.124, 0.046), year: Year::Turns(&[vec3(0.2, 0.15, 0.06)]) },
+        flowers: &[vec3(0.5, 0.42, 0.44), vec3(0.4, 0.12, 0.26), vec3(0.5, 0.34, 0.03), vec3(0.25, 0.14, 0.4)],
+    },
+    Row {
+        name: "annuals",
+        habitat: &[],
+        sprig: Sprig::Leaves { outline: Outline::Oval(0.7), length: 0.17, width: 0.75, count: 7 },
+        tones: Tones { green: vec3(0.073, 0.118, 0.041), year: Year::Turns(&[vec3(0.16, 0.14, 0.06)]) },
+        flowers: &[vec3(0.42, 0.03, 0.03), vec3(0.5, 0.28, 0.02), vec3(0.5, 0.46, 0.44)],
+    },
+    Row {
+        name: "liriope",
+        habitat: &[(Tropical, 1.5), (Subtropical, 1.5), (Cold, 0.2)],
+        sprig: Sprig::Blades,
+        tones: evergreen(vec3(0.076, 0.115, 0.041)),
+        flowers: &[],
+    },
+];
 
 pub(super) fn assets() -> Vec<Asset> {
-    [
-        Habit {
-            id: "bush/round",
-            half_m: vec3(0.95, 0.9, 0.75),
-            power: 2.2,
-            lumps: 0.22,
-            sprig: Sprig::Broad,
-            green: vec3(0.09, 0.147, 0.045),
-            card_m: 0.34,
-            cards: 1500,
-            from_ground: false,
-        },
-        Habit {
-            id: "bush/tall",
-            half_m: vec3(1.2, 1.1, 1.35),
-            power: 2.4,
-            lumps: 0.28,
-            sprig: Sprig::Broad,
-            green: vec3(0.105, 0.157, 0.05),
-            card_m: 0.46,
-            cards: 1700,
-            from_ground: false,
-        },
-        Habit {
-            id: "bush/tropical",
-            half_m: vec3(0.85, 0.85, 0.55),
-            power: 2.0,
-            lumps: 0.15,
-            sprig: Sprig::Blades,
-            green: vec3(0.093, 0.165, 0.045),
-            card_m: 0.8,
-            cards: 260,
-            from_ground: true,
-        },
-        Habit {
-            id: "bush/ground-cover",
-            half_m: vec3(0.9, 0.9, 0.14),
-            power: 3.0,
-            lumps: 0.3,
-            sprig: Sprig::Broad,
-            green: vec3(0.105, 0.175, 0.053),
-            card_m: 0.22,
-            cards: 1500,
-            from_ground: false,
-        },
-    ]
-    .iter()
-    .map(bush)
-    .chain([hedge()])
-    .collect()
+    let shrubs = SHRUBS.par_iter().flat_map_iter(|shrub| {
+        let leaves = material(&format!("bush/{}-leaves", shrub.name), shrub.sprig, 256, 14);
+        ["1", "2"].map(|name| bush(shrub, &format!("bush/{}-{name}", shrub.name), leaves.clone()))
+    });
+    let hedges = HEDGES.par_iter().flat_map_iter(|row| pieces(row, "hedge", PlantForm::Hedge, hedge));
+    let beds = BEDS.par_iter().flat_map_iter(|row| pieces(row, "bed", PlantForm::Bed, bed));
+    shrubs.chain(hedges).chain(beds).collect()
 }
 
-/// What is seen between leaves: twigs in the dark, which also let no light through the foot.
-fn core(id: &str) -> Material {
-    Material::plain(&format!("{id}-core"), vec3(0.032, 0.042, 0.018), 0.9)
+/// What is seen between leaves: twigs in the dark.
+fn inside() -> Material {
+    Material::plain("bush/inside", vec3(0.026, 0.028, 0.015), 0.95)
 }
 
-/// A clipped piece whose ends are flush, so that several make a hedge.
-fn hedge() -> Asset {
-    let id = "bush/hedge";
-    let half = vec3(1.0, 0.35, 0.5);
-    let seed = Seed(14).child(id);
-    let mut random = seed.random();
-    let mut model = Model::default();
-    let dark = model.slot(core(id), &[]);
-    model.add(dark, Shape::block(vec3(2.0, 0.52, 0.88)).moved(Vec3::Z * 0.44));
-    let green = vec3(0.083, 0.14, 0.042);
-    let leaves = model.slot(material(&format!("{id}-leaves"), Sprig::Feathered, green, seed.0), &SHADES);
-    let mut foliage = Foliage::default();
-    let faces = [(Vec3::Z, 1.4), (Vec3::Y, 2.0), (-Vec3::Y, 2.0), (Vec3::X, 0.7), (-Vec3::X, 0.7)];
+fn bush(shrub: &Shrub, id: &str, leaves: Material) -> Asset {
+    let mut random = Seed(14).child(id).random();
+    let half = shrub.half_m * vec3(1.0, 1.0, random.range(0.9, 1.1) as f32);
+    let clumps = clumps(shrub, half, &mut random);
+    let mut model = Individual::default();
+    let foliage = if shrub.from_ground {
+        stalks(shrub, &clumps, half, &mut random)
+    } else {
+        let dark = model.slot(inside(), &[]);
+        model.add_shape(dark, |level| core(&clumps, level));
+        let wood = model.slot(bark("bush/bark", Bark::Furrowed(0.03), vec3(0.11, 0.09, 0.065), 13), &[]);
+        let stems: Vec<[(Vec3, f32); 3]> = clumps.iter().map(|(middle, _)| stem(*middle)).collect();
+        model.add_shape(wood, |level| match level {
+            Level::Near => Shape::join(stems.iter().map(|path| limb(path, [5, 5, 4]))),
+            _ => Shape::default(),
+        });
+        skin(shrub, &clumps, half, &mut random)
+    };
+    let leaf = model.slot(leaves, &shrub.tones.summer());
+    model.add(leaf, |level| foliage.mesh(level));
+    model.asset(id, Kind::Bush, plant(shrub.name, LeafType::Broad, &[], shrub.habitat, &shrub.tones, leaf))
+}
+
+/// Middles and half axes of the clumps, which fill the lower and outer parts of the whole.
+fn clumps(shrub: &Shrub, half: Vec3, random: &mut Random) -> Vec<(Vec3, Vec3)> {
+    if shrub.clumps == 1 {
+        return vec![(Vec3::Z * half.z, half)];
+    }
+    (0..shrub.clumps)
+        .map(|i| {
+            let t = (i as f32 + 0.5) / shrub.clumps as f32;
+            let size = shrub.clump * random.range(0.8, 1.2) as f32;
+            let axes = half * vec3(size, size, (size * 1.25).min(1.0));
+            let turn = Vec2::from_angle(i as f32 * 2.399_963 + random.range(-0.4, 0.4) as f32);
+            // Higher towards the middle.
+            let out = t.sqrt() * (1.0 - size);
+            let top = 2.0 * half.z * (1.0 - 0.55 * t * t) * random.range(0.82, 1.0) as f32;
+            let z = (top - axes.z).max(axes.z * 0.75);
+            ((turn * out).extend(0.0) * half + Vec3::Z * z, axes)
+        })
+        .collect()
+}
+
+/// From the foot into a clump.
+fn stem(middle: Vec3) -> [(Vec3, f32); 3] {
+    let r = 0.01 + 0.012 * middle.z;
+    let bend = middle * vec3(0.45, 0.45, 0.5);
+    [(middle * vec3(0.15, 0.15, 0.0), r), (bend, r * 0.8), (middle, r * 0.4)]
+}
+
+/// Dark ellipsoids inside the clumps, down to the ground.
+fn core(clumps: &[(Vec3, Vec3)], level: Level) -> Shape {
+    let around = if level == Level::Near { 10 } else { 6 };
+    let every = if level == Level::Far { 2 } else { 1 };
+    Shape::join(clumps.iter().step_by(every).map(|(middle, axes)| {
+        let half_m = (middle.z + 0.55 * axes.z) / 2.0;
+        // Under a high clump there are but stems.
+        let slim = 0.7 * (1.3 * axes.z / half_m).min(1.0);
+        Shape::ellipsoid(vec3(axes.x * slim, axes.y * slim, half_m), around).moved(vec3(middle.x, middle.y, half_m))
+    }))
+}
+
+/// Sprigs over the clumps' common surface.
+fn skin(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
+    let mut cards = Vec::new();
+    let weight: f32 = clumps.iter().map(|(_, a)| a.x * a.y + a.x * a.z + a.y * a.z).sum();
+    for &(middle, axes) in clumps {
+        let share = (axes.x * axes.y + axes.x * axes.z + axes.y * axes.z) / weight;
+        for _ in 0..(shrub.cards as f32 * 1.5 * share) as usize {
+            let out = direction(random);
+            let deep = 1.0 - 0.3 * (random.unit() as f32).powi(2);
+            let at = middle + out * axes * deep;
+            let inner = clumps.iter().any(|(m, a)| (*m, *a) != (middle, axes) && ((at - *m) / *a).length() < 0.8);
+            if inner || at.z < 0.02 || cards.len() >= shrub.cards {
+                continue;
+            }
+            let own = (out / axes).normalize_or(Vec3::Z);
+            let whole = ((at - Vec3::Z * 0.5 * half.z) / half).normalize_or(Vec3::Z);
+            let outward = (own * 0.6 + whole * 0.6 + Vec3::Z * 0.25).normalize_or(Vec3::Z);
+            let along = own * 0.75 + direction(random) * 0.9 + Vec3::Z * 0.35;
+            let size_m = shrub.card_m * random.range(0.7, 1.2) as f32;
+            let foot = (at - along.normalize_or(Vec3::Z) * size_m * 0.55).max(vec3(f32::MIN, f32::MIN, 0.0));
+            let face = own + direction(random) * 0.75;
+            // Low and inner leaves are older and dustier.
+            let tint = varied(random, 0.16) * (0.75 + 0.3 * (at.z / (2.0 * half.z)).clamp(0.0, 1.0));
+            cards.push(Card { foot, along, face, size_m, outward, tint });
+        }
+    }
+    Foliage { cards, bent: false, floor_m: 0.0, most: 4.0 }
+}
+
+/// Leaves on stalks out of the ground, arching apart.
+fn stalks(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
+    let cards = (0..shrub.cards).map(|i| {
+        let (middle, axes) = clumps[i % clumps.len()];
+        let out = Vec2::from_angle(random.range(0.0, std::f64::consts::TAU) as f32);
+        let reach = random.unit().sqrt() as f32;
+        let foot = (middle.truncate() * 0.8 + out * axes.truncate() * reach * 0.6).extend(0.0);
+        let rise = half.z * random.range(0.0, 1.1) as f32 * (1.0 - 0.6 * reach);
+        let outer = (foot.truncate() / half.truncate() + out * 0.45).extend(0.0);
+        let along =
+            outer * random.range(0.3, 1.2) as f32 + Vec3::Z * random.range(0.3, 1.3) as f32 + direction(random) * 0.35;
+        let size_m = shrub.card_m * random.range(0.65, 1.1) as f32;
+        let face = Vec3::Z + out.extend(0.0) * 0.4 + direction(random) * 0.4;
+        let outward = (outer + Vec3::Z * 0.8).normalize_or(Vec3::Z);
+        let tint = varied(random, 0.15) * (0.8 + 0.3 * rise / half.z);
+        Card { foot: foot + Vec3::Z * rise, along, face, size_m, outward, tint }
+    });
+    Foliage { cards: cards.collect(), bent: true, floor_m: 0.0, most: 4.0 }
+}
+
+/// Two pieces of a row.
+fn pieces(
+    row: &Row,
+    kind: &str,
+    form: PlantForm,
+    grow: fn(&Row, &str, Material, &mut Random) -> (Individual, u16),
+) -> [Asset; 2] {
+    let id = format!("bush/{kind}-{}", row.name);
+    let leaves = material(&format!("{id}-leaves"), row.sprig, 256, 15);
+    ["1", "2"].map(|name| {
+        let id = format!("{id}-{name}");
+        let (model, leaf) = grow(row, &id, leaves.clone(), &mut Seed(15).child(&id).random());
+        let mut known = plant(row.name, LeafType::Broad, &[], row.habitat, &row.tones, leaf);
+        // In winter heads are gone and their stalks stand.
+        known.seasons.extend((1..=row.flowers.len() as u16).map(|k| SeasonalFoliage {
+            season: Season::Winter,
+            slot: leaf + k,
+            paints: vec![paint(TWIGS)],
+            alpha_cutoff: BARE,
+        }));
+        model.asset(&id, Kind::Bush, Plant { form, ..known })
+    })
+}
+
+/// A clipped piece, two metres long, whose ends are flush.
+fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
+    let half = vec3(1.0, 0.36, 0.5);
+    let mut model = Individual::default();
+    let dark = model.slot(inside(), &[]);
+    // Shorter than the piece, lest the cores of two pieces share a face.
+    let core = Shape::block(vec3(1.84, 0.56, 0.88)).moved(Vec3::Z * 0.44);
+    model.add_shape(dark, |_| core.clone());
+    let faces = [(Vec3::Z, 1.5), (Vec3::Y, 2.0), (-Vec3::Y, 2.0), (Vec3::X, 1.0), (-Vec3::X, 1.0)];
     let area: f64 = faces.iter().map(|f| f.1).sum();
-    for _ in 0..1300 {
+    let mut cards = Vec::new();
+    for _ in 0..1700 {
         let mut at = random.range(0.0, area);
         let outward = faces.iter().find(|f| {
             at -= f.1;
@@ -108,71 +384,60 @@ fn hedge() -> Asset {
         });
         let outward = outward.map_or(Vec3::Z, |f| f.0);
         let spread = Vec3::from_array(std::array::from_fn(|_| random.range(-1.0, 1.0) as f32));
-        // On the face, a little uneven.
-        let p = (spread * (1.0 - outward.abs()) + outward * random.range(0.8, 0.97) as f32) * half + Vec3::Z * half.z;
-        let along = outward * 0.55 + direction(&mut random) + Vec3::Z * 0.25;
-        let size = 0.2 * random.range(0.75, 1.2) as f32;
-        let foot = (p - along.normalize_or(Vec3::Z) * size * 0.6).max(vec3(-1.05, -0.4, 0.0));
-        foliage.card(foot, along, outward + direction(&mut random) * 0.7, size, (outward + Vec3::Z * 0.3).normalize());
+        // Shears leave waves.
+        let wave = 0.02 * (spread.x * 5.0).sin() + 0.015 * (spread.z * 4.0 + spread.x * 3.0).sin();
+        let deep = 0.97 - 0.1 * (random.unit() as f32).powi(2) + wave;
+        let p = (spread * (1.0 - outward.abs()) + outward * deep) * half + Vec3::Z * half.z;
+        // The upper edges are rounded off.
+        let edge = ((p.z - 0.86).max(0.0) * 2.0).min(0.25);
+        let p = vec3(p.x, p.y * (1.0 - edge * 0.6), p.z);
+        let along = outward * 0.6 + direction(random) + Vec3::Z * 0.3;
+        let size_m = 0.19 * random.range(0.7, 1.2) as f32;
+        let foot = (p - along.normalize_or(Vec3::Z) * size_m * 0.6).max(vec3(-1.06, -0.42, 0.0));
+        let tint = varied(random, 0.15) * (0.78 + 0.25 * p.z);
+        let face = outward + direction(random) * 0.7;
+        let shade = (outward + Vec3::Z * 0.35).normalize();
+        cards.push(Card { foot, along, face, size_m, outward: shade, tint });
     }
-    model.add(leaves, foliage.into_shape());
-    model.asset(id, Kind::Bush, Class::Bush)
+    let foliage = Foliage { cards, bent: false, floor_m: 0.0, most: 4.0 };
+    let leaf = model.slot(leaves, &row.tones.summer());
+    model.add(leaf, |level| foliage.mesh(level));
+    (model, leaf)
 }
 
-fn bush(habit: &Habit) -> Asset {
-    let seed = Seed(14).child(habit.id);
-    let mut random = seed.random();
-    let mut model = Model::default();
-    let wood = model.slot(bark(&format!("{}-bark", habit.id), vec3(0.1, 0.08, 0.055), 13), &[]);
-    let leaves = model.slot(material(&format!("{}-leaves", habit.id), habit.sprig, habit.green, seed.0), &SHADES);
-    if !habit.from_ground {
-        let dark = model.slot(core(habit.id), &[]);
-        let profile =
-            [vec2(0.0, 0.0), vec2(0.72, 0.0), vec2(0.78, 0.6), vec2(0.6, 1.1), vec2(0.3, 1.4), vec2(0.0, 1.45)];
-        model.add(dark, Shape::lathe(&profile, 10).scaled(habit.half_m * vec3(0.8, 0.8, 0.95)));
+/// A strip of two metres by one: leaves, and heads above them.
+fn bed(row: &Row, id: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
+    let mut model = Individual::default();
+    let place = |random: &mut Random| vec2(random.range(-0.96, 0.96) as f32, random.range(-0.42, 0.42) as f32);
+    let mut cards = Vec::new();
+    let tufts = if matches!(row.sprig, Sprig::Blades) { 260 } else { 560 };
+    for _ in 0..tufts {
+        let at = place(random).extend(0.1 * random.unit() as f32);
+        let out = direction(random) * vec3(1.0, 1.0, 0.0);
+        let along = out * 0.7 + Vec3::Z * random.range(0.4, 1.2) as f32;
+        let size_m = 0.26 * random.range(0.7, 1.25) as f32;
+        let (face, outward) = (Vec3::Z + direction(random) * 0.5, (Vec3::Z + out * 0.4).normalize());
+        cards.push(Card { foot: at, along, face, size_m, outward, tint: varied(random, 0.16) });
     }
-    let lumps: Vec<Vec3> = (0..9).map(|_| direction(&mut random)).collect();
-    let mut foliage = Foliage::default();
-    for _ in 0..habit.cards {
-        let out = direction(&mut random);
-        // Below the widest place it hangs to the ground like a skirt.
-        let skirt = random.chance(SKIRT);
-        let out = vec3(out.x, out.y, if skirt { 0.0 } else { out.z.abs().powf(0.8) });
-        // A superellipsoid with clumps; most sprigs near its surface, some inside.
-        let norm = out.abs().to_array().iter().map(|x| x.powf(habit.power)).sum::<f32>().powf(1.0 / habit.power);
-        let clump = lumps.iter().map(|l| l.dot(out.normalize_or(Vec3::Z)).max(0.0).powi(6)).fold(0.0, f32::max);
-        let depth = 1.0 - habit.lumps * (1.0 - clump) - 0.35 * (random.unit() as f32).powi(3);
-        let height = if skirt { random.unit() as f32 } else { 1.0 };
-        let p = out / norm.max(1e-3) * depth * (0.82 + 0.18 * height) * habit.half_m;
-        let z = habit.half_m.z * height + p.z;
-        let at = vec3(p.x, p.y, z.max(0.03));
-        let share = p / habit.half_m;
-        let outward = share.abs().powf(habit.power - 1.0) * share.signum();
-        let outward = (outward / habit.half_m + Vec3::Z * 0.25).normalize_or(Vec3::Z);
-        let size = habit.card_m * random.range(0.75, 1.2) as f32;
-        if habit.from_ground {
-            // The outermost leaves hang to the ground.
-            let foot = vec3(p.x, p.y, 0.0) * 0.55 + Vec3::Z * 0.05 * random.unit() as f32;
-            let rise = if skirt { -0.35 } else { 0.35 };
-            let along = vec3(out.x, out.y, rise + 1.1 * random.unit() as f32) + direction(&mut random) * 0.3;
-            let lift = Vec3::Z * habit.half_m.z * if skirt { 0.25 } else { 0.9 } * random.unit() as f32;
-            foliage.card(foot + lift, along, Vec3::Z + out * 0.5, size, (along + Vec3::Z * 0.6).normalize_or(Vec3::Z));
-        } else {
-            let along = outward * 0.8 + direction(&mut random) + Vec3::Z * 0.3;
-            let foot = at - along.normalize_or(Vec3::Z) * size * 0.55;
-            let face = outward + direction(&mut random) * 0.8;
-            foliage.card(foot.max(vec3(f32::MIN, f32::MIN, 0.0)), along, face, size, outward);
-        }
+    let foliage = Foliage { cards, bent: false, floor_m: 0.0, most: 4.0 };
+    let leaf = model.slot(leaves, &row.tones.summer());
+    model.add(leaf, |level| foliage.mesh(level));
+    for (k, color) in row.flowers.iter().enumerate() {
+        // Each sort has its own part of the strip.
+        let heads = material(&format!("{id}-heads"), Sprig::Flowers, 256, 16 + k as u64);
+        let slot = model.slot(heads, &[*color * 1.8]);
+        let part = 2.0 / row.flowers.len() as f32;
+        let cards = (0..70).map(|_| {
+            let at = place(random);
+            let x = -1.0 + part * (k as f32 + 0.5 + (at.x * 0.62));
+            let along = Vec3::Z + direction(random) * 0.25;
+            let face = direction(random) * vec3(1.0, 1.0, 0.3);
+            let foot = vec3(x.clamp(-0.95, 0.95), at.y, 0.04);
+            let size_m = 0.34 * random.range(0.75, 1.2) as f32;
+            Card { foot, along, face, size_m, outward: Vec3::Z, tint: varied(random, 0.12) }
+        });
+        let heads = Foliage { cards: cards.collect(), bent: false, floor_m: 0.0, most: 4.0 };
+        model.add(slot, |level| heads.mesh(level));
     }
-    let stems = 7;
-    for i in 0..stems {
-        let turn = i as f32 * 2.399_963;
-        let reach = vec3(turn.cos(), turn.sin(), 0.0) * habit.half_m * (0.25 + 0.45 * i as f32 / stems as f32);
-        let (low, high) = (reach * 0.25, reach + Vec3::Z * habit.half_m.z * 1.3);
-        let middle = low.lerp(high, 0.5) + reach * 0.15;
-        let r = 0.012 + 0.01 * habit.half_m.z;
-        model.add(wood, limb(&[(low, r), (middle, r * 0.8), (high, r * 0.3)]));
-    }
-    model.add(leaves, foliage.into_shape());
-    model.asset(habit.id, Kind::Bush, Class::Bush)
+    (model, leaf)
 }

@@ -1,8 +1,9 @@
 //! Branches that grow towards light: space colonisation (Runions, Lane, Prusinkiewicz 2007).
 
-use glam::{Vec2, Vec3, vec2};
+use glam::{Vec2, Vec3};
 use trove_model::Random;
 
+use super::individual::Level;
 use crate::shape::Shape;
 
 /// A joint of the tree.
@@ -92,8 +93,31 @@ impl Growth {
     }
 }
 
-/// The branches as tubes thicker than `least_m`, uvs in metres.
-pub(super) fn branches(nodes: &[Node], least_m: f32) -> Shape {
+/// How finely branches are drawn.
+#[derive(Clone, Copy, Debug)]
+struct Detail {
+    /// Thinner ones are left out, as a share of the trunk's radius.
+    least: f32,
+    /// One joint of so many is kept.
+    every: usize,
+    /// Sides of the trunk, of branches and of twigs.
+    around: [usize; 3],
+}
+
+impl Detail {
+    fn of(level: Level) -> Self {
+        match level {
+            Level::Near => Self { least: 0.0, every: 1, around: [14, 6, 4] },
+            Level::Middle => Self { least: 0.09, every: 2, around: [8, 4, 3] },
+            Level::Far => Self { least: 0.25, every: 4, around: [5, 3, 3] },
+        }
+    }
+}
+
+/// The branches as tubes thicker than `least_m`, uvs in metres; the trunk spreads into `roots` at its foot, 0 to 1.
+pub(super) fn branches(nodes: &[Node], least_m: f32, roots: f32, level: Level) -> Shape {
+    let detail = Detail::of(level);
+    let least_m = least_m.max(detail.least * nodes[0].radius_m);
     // Every joint goes on in its thickest child; the others begin branches of their own.
     let mut main: Vec<Option<usize>> = vec![None; nodes.len()];
     for (i, node) in nodes.iter().enumerate().skip(1) {
@@ -110,31 +134,75 @@ pub(super) fn branches(nodes: &[Node], least_m: f32) -> Shape {
         }
         let mut path: Vec<(Vec3, f32)> = Vec::new();
         if i > 0 {
-            path.push((nodes[node.parent].at, node.radius_m));
+            // It comes out of its parent with a collar.
+            let collar = (node.radius_m * 1.35).min(nodes[node.parent].radius_m);
+            path.push((nodes[node.parent].at, collar));
         }
         let mut next = Some(i);
         while let Some(k) = next.filter(|&k| nodes[k].radius_m >= least_m) {
-            // The trunk spreads into its roots.
-            let flare = 1.0 + 0.55 * (-nodes[k].at.z / (3.0 * nodes[0].radius_m)).exp();
-            path.push((nodes[k].at, nodes[k].radius_m * flare));
+            path.push((nodes[k].at, nodes[k].radius_m));
             next = main[k];
         }
-        if path.len() > 1 {
-            shapes.push(limb(&path));
+        let last = path.len() - 1;
+        let mut kept: Vec<(Vec3, f32)> =
+            path.iter().enumerate().filter(|(k, _)| *k == last || k % detail.every == 0).map(|(_, p)| *p).collect();
+        if let Some(tip) = kept.last_mut().filter(|_| last > 0) {
+            tip.1 *= 0.6;
+        }
+        if kept.len() > 1 {
+            shapes.push(if i == 0 { trunk(&kept, roots, detail) } else { limb(&kept, detail.around) });
         }
     }
     Shape::join(shapes)
 }
 
-/// A tapered tube whose uvs are metres around and along.
-pub(super) fn limb(path: &[(Vec3, f32)]) -> Shape {
+/// A trunk whose foot spreads into roots.
+fn trunk(path: &[(Vec3, f32)], roots: f32, detail: Detail) -> Shape {
+    const ROOTS: f32 = 5.0;
+    let (foot, radius) = path[0];
+    let above = path[1];
+    let low = (1..4).map(|i| (0.6 * radius * i as f32).min(above.0.z * 0.9)).map(|z| {
+        let t = z / above.0.z.max(1e-3);
+        (foot.lerp(above.0, t), radius + (above.1 - radius) * t)
+    });
+    let extra = if detail.every > 2 { 0 } else { 3 };
+    let path: Vec<(Vec3, f32)> =
+        std::iter::once(path[0]).chain(low.take(extra)).chain(path[1..].iter().copied()).collect();
+    let girth = (std::f32::consts::TAU * radius / 0.5).round().max(1.0) * 0.5;
+    let around = detail.around[0];
+    let mut at_m = 0.0;
+    let mut lengths = Vec::new();
+    let rings: Vec<Vec<Vec3>> = path
+        .iter()
+        .enumerate()
+        .map(|(i, &(centre, r))| {
+            at_m += if i > 0 { centre.distance(path[i - 1].0) } else { 0.0 };
+            lengths.push(at_m);
+            let flare = roots * (-centre.z / (1.6 * radius)).exp();
+            let ring = |k: usize| {
+                let turn = std::f32::consts::TAU * k as f32 / around as f32;
+                let root = 0.5 + 0.5 * (ROOTS * turn + 0.7 * (2.0 * turn).sin()).cos();
+                // Trunks are not quite round.
+                let round = 1.0 + 0.05 * (2.0 * turn + 1.3 * centre.z).sin() + 0.03 * (3.0 * turn - centre.z).sin();
+                let out = r * round * (1.0 + flare * (0.35 + 0.9 * root));
+                centre + Vec2::from_angle(turn).extend(0.0) * out
+            };
+            (0..around).map(ring).collect()
+        })
+        .collect();
+    let top = *lengths.last().unwrap_or(&1.0);
+    let mut shape = Shape::loft(&rings);
+    shape.uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x * girth, uv.y * top));
+    shape
+}
+
+/// A tapered tube whose uvs are metres around and along; `around` are the sides of a thick, a middling and a thin one.
+pub(super) fn limb(path: &[(Vec3, f32)], around: [usize; 3]) -> Shape {
     let radius = path[0].1;
-    let around = if radius > 0.12 {
-        12
-    } else if radius > 0.04 {
-        6
-    } else {
-        4
+    let around = match radius {
+        r if r > 0.12 => around[0],
+        r if r > 0.035 => around[1],
+        _ => around[2],
     };
     let length: f32 = path.windows(2).map(|w| w[0].0.distance(w[1].0)).sum();
     // Whole repeats of the half metre of bark, lest it tear where the tube closes.
@@ -142,34 +210,4 @@ pub(super) fn limb(path: &[(Vec3, f32)]) -> Shape {
     let mut shape = Shape::tapered_tube(path, around);
     shape.uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x * girth, uv.y * length));
     shape
-}
-
-/// Cards that leaves are painted on.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Foliage {
-    shape: Shape,
-}
-
-impl Foliage {
-    /// A square card with its foot at a point, growing along a direction, its face turned towards `face`; light
-    /// falls on it as on a crown whose surface there has the normal `outward`.
-    pub(super) fn card(&mut self, foot: Vec3, along: Vec3, face: Vec3, size_m: f32, outward: Vec3) {
-        let along = along.normalize_or(Vec3::Z);
-        let across = along.cross(face).normalize_or(along.any_orthonormal_vector());
-        let normal = across.cross(along);
-        let shade = (outward * 0.75 + normal * 0.45).normalize_or(outward);
-        let base = self.shape.positions.len() as u32;
-        for (u, v) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
-            let p = foot + across * (u - 0.5) * size_m + along * v * size_m;
-            self.shape.positions.push(p);
-            self.shape.normals.push((shade + across * (u - 0.5) * 0.3).normalize_or(shade));
-            self.shape.uvs.push(vec2(u, v));
-        }
-        self.shape.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
-        self.shape.slots.extend([0, 0]);
-    }
-
-    pub(super) fn into_shape(self) -> Shape {
-        self.shape
-    }
 }

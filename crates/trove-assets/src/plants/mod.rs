@@ -1,54 +1,36 @@
 //! Trees, bushes, and what covers the ground.
 
+mod bark;
 mod bushes;
 mod cover;
 mod growth;
+mod individual;
 mod leaves;
+mod species;
 mod stems;
 mod trees;
 
 use rayon::prelude::*;
-use trove_model::{Asset, Climate, LeafType, Plant, PlantForm};
+use trove_model::Asset;
 
 pub(crate) use cover::covers;
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
     let groups: [fn() -> Vec<Asset>; 3] = [trees::assets, stems::assets, bushes::assets];
-    let placed = |asset: Asset| Asset { plant: Some(plant(&asset.id)), ..asset };
-    groups.par_iter().flat_map_iter(|group| group()).map(placed).collect()
-}
-
-/// Where a plant is common, and what maps call it.
-fn plant(id: &str) -> Plant {
-    use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
-    const TENDER: [(Climate, f32); 2] = [(Temperate, 0.0), (Cold, 0.0)];
-    let (leaves, genera, habitat): (LeafType, &[&str], Vec<(Climate, f32)>) = match id {
-        "tree/palm" | "tree/palm-low" => {
-            let warm = [(Tropical, 0.4), (Subtropical, 0.4), (Mediterranean, 0.9), (Arid, 0.9)];
-            (LeafType::Frond, &["palm", "phoenix", "washingtonia", "roystonea", "cocos"], [&TENDER[..], &warm].concat())
-        }
-        "tree/rain-tree" => (LeafType::Broad, &["samanea", "albizia"], [&TENDER[..], &[(Tropical, 2.0)]].concat()),
-        "bush/tropical" => (LeafType::Broad, &[], TENDER.to_vec()),
-        "tree/spruce" => (LeafType::Needle, &["picea", "abies"], vec![(Temperate, 0.3), (Mediterranean, 0.1)]),
-        "tree/pine" => (LeafType::Needle, &["pinus", "cedrus", "larix"], vec![(Tropical, 0.1), (Temperate, 0.4)]),
-        "tree/cypress" => (LeafType::Needle, &["cupressus", "italica"], vec![(Temperate, 0.0), (Cold, 0.0)]),
-        "tree/birch" => (LeafType::Broad, &["betula"], vec![(Tropical, 0.0), (Temperate, 0.4)]),
-        "tree/linden" => (LeafType::Broad, &["tilia"], vec![(Tropical, 0.0), (Temperate, 1.6)]),
-        "tree/plane" => (LeafType::Broad, &["platanus"], vec![(Temperate, 1.4), (Mediterranean, 1.4)]),
-        "tree/oak" => (LeafType::Broad, &["quercus", "fagus"], Vec::new()),
-        _ => (LeafType::Broad, &[], Vec::new()),
-    };
-    let form = if id == "bush/hedge" { PlantForm::Hedge } else { PlantForm::Free };
-    let genera = genera.iter().map(|g| (*g).into()).collect();
-    Plant { form, leaves, genera, habitat, ..Plant::default() }
+    groups.par_iter().flat_map_iter(|group| group()).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use trove_model::{Asset, Kind, Material};
+    use std::collections::BTreeSet;
+    use std::sync::LazyLock;
+
+    use trove_model::{Asset, Climate, Kind, Material, PlantForm, Season};
 
     use super::assets;
+
+    static PLANTS: LazyLock<Vec<Asset>> = LazyLock::new(assets);
 
     fn leaves(asset: &Asset) -> impl Iterator<Item = &Material> {
         asset.slots.iter().map(|s| &s.material).filter(|m| m.translucency > 0.0)
@@ -56,35 +38,80 @@ mod tests {
 
     #[test]
     fn plants_are_many_light_enough_and_of_real_size() {
-        let assets = assets();
-        let of = |kind| assets.iter().filter(move |a| a.kind == kind);
-        assert!(of(Kind::Tree).count() >= 8 && of(Kind::Bush).count() >= 5);
-        for (kind, triangles, height) in [(Kind::Tree, 40_000, 4.5..18.5), (Kind::Bush, 6_000, 0.3..3.2)] {
-            for asset in of(kind) {
-                assert!(asset.mesh.triangles.len() <= triangles, "{}: {}", asset.id, asset.mesh.triangles.len());
+        for (kind, species, triangles, height) in
+            [(Kind::Tree, 12, [60_000, 12_000, 2_500], 1.5..18.5), (Kind::Bush, 12, [9_000, 2_500, 900], 0.2..3.4)]
+        {
+            let of_kind = || PLANTS.iter().filter(|a| a.kind == kind);
+            let names: BTreeSet<&str> = of_kind().map(|a| a.plant.as_ref().unwrap().species.as_str()).collect();
+            assert!(names.len() >= species, "{names:?}");
+            for asset in of_kind() {
+                let levels = std::iter::once(&asset.mesh).chain(asset.coarser.iter().map(|c| &c.mesh));
+                let found: Vec<usize> = levels.map(|mesh| mesh.triangles.len()).collect();
+                assert!(found.iter().zip(&triangles).all(|(found, most)| found <= most), "{}: {found:?}", asset.id);
+                assert!(found.windows(2).all(|pair| pair[1] < pair[0]), "{}: {found:?}", asset.id);
                 assert!(height.contains(&asset.size_m.z), "{} is {} high", asset.id, asset.size_m.z);
             }
         }
     }
 
     #[test]
-    fn leaves_are_green_cut_out_and_let_light_through() {
-        for asset in &assets() {
-            assert_eq!(leaves(asset).count(), 1, "{}", asset.id);
-            for material in leaves(asset) {
+    fn coarser_plants_are_as_large_and_use_the_same_slots() {
+        for asset in &*PLANTS {
+            for coarser in &asset.coarser {
+                assert_eq!(coarser.mesh.defect(), None, "{}", asset.id);
+                assert!(coarser.mesh.slot_count() <= asset.slots.len(), "{}", asset.id);
+                let (low, high) = coarser.mesh.bounds().unwrap();
+                let size = (high - low).as_dvec3() / asset.size_m;
+                assert!(size.min_element() > 0.75 && size.max_element() < 1.5, "{} becomes {size} as large", asset.id);
+            }
+        }
+    }
+
+    #[test]
+    fn every_climate_has_trees_shrubs_hedges_and_beds() {
+        use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
+        for climate in [Tropical, Subtropical, Mediterranean, Arid, Temperate, Cold] {
+            let living = |kind, form| {
+                let plants = PLANTS.iter().filter(|a| a.kind == kind).filter_map(|a| a.plant.as_ref());
+                let species = plants.filter(|p| p.form == form && p.commonness(climate) > 0.1);
+                species.map(|p| p.species.as_str()).collect::<BTreeSet<_>>().len()
+            };
+            assert!(
+                living(Kind::Tree, PlantForm::Free) >= 4 && living(Kind::Bush, PlantForm::Free) >= 3,
+                "{climate:?}"
+            );
+            assert!(living(Kind::Bush, PlantForm::Hedge) > 0 && living(Kind::Bush, PlantForm::Bed) > 0, "{climate:?}");
+        }
+    }
+
+    #[test]
+    fn leaves_are_green_cut_out_let_light_through_and_fall_in_winter_but_for_twigs() {
+        for asset in &*PLANTS {
+            assert!(leaves(asset).count() >= 1, "{}", asset.id);
+            let plant = asset.plant.as_ref().unwrap();
+            let bare = plant.seasons.iter().find(|f| f.season == Season::Winter);
+            for (slot, material) in asset.slots.iter().map(|s| (s, &s.material)).filter(|(_, m)| m.translucency > 0.0) {
                 let picture = material.base_color_map.as_ref().unwrap();
-                let there = picture.rgba.iter().filter(|t| t[3] > 127).count() as f32 / picture.rgba.len() as f32;
-                assert!((0.12..0.8).contains(&there), "{} covers {there} of its card", material.name);
-                assert!(material.alpha_cutoff == 0.5);
-                let [r, g, b] = [0, 1, 2].map(|c| picture.rgba.iter().map(|t| u32::from(t[c])).sum::<u32>());
-                assert!(g > r && r > b, "{} is not green", material.name);
+                let above = |cutoff: f32| {
+                    let there = picture.rgba.iter().filter(|t| f32::from(t[3]) > cutoff * 255.0).count();
+                    there as f32 / picture.rgba.len() as f32
+                };
+                assert!((0.12..0.85).contains(&above(0.5)), "{} covers {}", material.name, above(0.5));
+                if material.name.ends_with("heads") {
+                    continue;
+                }
+                assert!(slot.paints.iter().all(|p| p.y > p.z && p.y > 0.8 * p.x), "{} is not green", material.name);
+                if let Some(bare) = bare.filter(|b| b.alpha_cutoff > 0.9) {
+                    let left = above(bare.alpha_cutoff);
+                    assert!(left > 0.004 && left < 0.3 * above(0.5), "{} keeps {left}", material.name);
+                }
             }
         }
     }
 
     #[test]
     fn crowns_are_lit_from_outside() {
-        for asset in assets().iter().filter(|a| a.kind == Kind::Tree) {
+        for asset in PLANTS.iter().filter(|a| a.kind == Kind::Tree) {
             let mesh = &asset.mesh;
             let middle = glam::Vec3::Z * asset.size_m.z as f32 * 0.45;
             let leaf = |t: usize| asset.slots[usize::from(mesh.slot(t))].material.translucency > 0.0;

@@ -1,264 +1,190 @@
-//! Broadleaved trees: a crown of lobes, branches grown into them, sprigs on the twigs.
+//! Broadleaved trees, pines and cypresses: a crown of lobes, branches grown into them, sprigs on the twigs.
 
 use glam::{Vec3, vec3};
-use trove_model::{Asset, Class, Kind, Random, Seed};
+use rayon::prelude::*;
+use trove_model::{Asset, Climate, Foliage as SeasonalFoliage, Kind, LeafType, Material, Plant, Seed};
 
-use super::growth::{Foliage, Growth, Node, PIPE_EXPONENT, branches};
-use super::leaves::{Sprig, bark, material};
-use crate::shape::Model;
+use super::bark::bark;
+use super::growth::{Growth, Node, PIPE_EXPONENT, branches};
+use super::individual::{Card, Foliage, Individual, direction, varied};
+use super::leaves::material;
+use super::species::{SPECIES, Species, Tones};
+use crate::shape::Curve;
 
-/// No two plants are of quite one green: factors on the leaves' picture.
-pub(super) const SHADES: [Vec3; 4] = [Vec3::ONE, vec3(1.12, 1.05, 0.92), vec3(0.86, 0.93, 1.0), vec3(1.05, 0.95, 0.9)];
-
-/// A kind of tree.
-struct Habit {
-    id: &'static str,
-    /// Height at which branches begin.
-    clear_m: f32,
-    /// Middle and half axes of the crown.
-    middle_m: f32,
-    crown_m: Vec3,
-    /// Clumps that the crown consists of, and their size as a share of the crown's.
-    lobes: usize,
-    lobe: f32,
-    /// The lowest lobes' height in the crown, −1 to 1: near 1 gives an umbrella.
-    lowest: f32,
-    points: usize,
-    growth: Growth,
-    sprig: Sprig,
-    green: Vec3,
-    card_m: f32,
-    /// Sprigs on a twig's joint.
-    cards: usize,
-    bark: Vec3,
+/// How one individual differs from its species.
+struct Individuality {
+    name: &'static str,
+    /// Of the species' height and width.
+    size: f32,
+    /// Narrower than its species.
+    slim: f32,
+    /// Height at which branches begin, as a share of its species'.
+    clear: f32,
+    /// Points that branches grow to, as a share.
+    dense: f32,
 }
+
+const INDIVIDUALS: [Individuality; 3] = [
+    Individuality { name: "1", size: 1.0, slim: 1.0, clear: 1.0, dense: 1.0 },
+    Individuality { name: "2", size: 0.86, slim: 0.95, clear: 1.1, dense: 0.85 },
+    Individuality { name: "young", size: 0.46, slim: 0.8, clear: 1.15, dense: 0.4 },
+];
 
 pub(super) fn assets() -> Vec<Asset> {
-    let growth = Growth { step_m: 0.34, kill_m: 0.55, lift: 0.06, trunk_radius_m: 0.26 };
-    [
-        Habit {
-            id: "tree/plane",
-            clear_m: 2.8,
-            middle_m: 6.9,
-            crown_m: vec3(3.9, 3.9, 4.0),
-            lobes: 17,
-            lobe: 0.42,
-            lowest: -0.75,
-            points: 2400,
-            growth,
-            sprig: Sprig::Broad,
-            green: vec3(0.112, 0.165, 0.045),
-            card_m: 0.72,
-            cards: 3,
-            bark: vec3(0.19, 0.165, 0.125),
-        },
-        Habit {
-            id: "tree/oak",
-            clear_m: 3.4,
-            middle_m: 9.0,
-            crown_m: vec3(4.9, 4.7, 5.2),
-            lobes: 24,
-            lobe: 0.38,
-            lowest: -0.85,
-            points: 2800,
-            growth: Growth { step_m: 0.42, kill_m: 0.68, lift: 0.03, trunk_radius_m: 0.38 },
-            sprig: Sprig::Broad,
-            green: vec3(0.083, 0.137, 0.039),
-            card_m: 0.85,
-            cards: 3,
-            bark: vec3(0.115, 0.09, 0.065),
-        },
-        Habit {
-            id: "tree/rain-tree",
-            clear_m: 3.6,
-            middle_m: 8.4,
-            crown_m: vec3(8.6, 8.3, 3.4),
-            lobes: 34,
-            lobe: 0.3,
-            lowest: 0.0,
-            points: 3600,
-            growth: Growth { step_m: 0.5, kill_m: 0.8, lift: 0.02, trunk_radius_m: 0.5 },
-            sprig: Sprig::Feathered,
-            green: vec3(0.09, 0.151, 0.041),
-            card_m: 1.05,
-            cards: 3,
-            bark: vec3(0.1, 0.085, 0.07),
-        },
-        Habit {
-            id: "tree/young",
-            clear_m: 1.9,
-            middle_m: 3.7,
-            crown_m: vec3(1.35, 1.3, 1.9),
-            lobes: 10,
-            lobe: 0.45,
-            lowest: -0.8,
-            points: 700,
-            growth: Growth { step_m: 0.2, kill_m: 0.32, lift: 0.12, trunk_radius_m: 0.065 },
-            sprig: Sprig::Broad,
-            green: vec3(0.128, 0.182, 0.053),
-            card_m: 0.46,
-            cards: 2,
-            bark: vec3(0.15, 0.125, 0.095),
-        },
-        Habit {
-            id: "tree/street",
-            clear_m: 2.8,
-            middle_m: 5.4,
-            crown_m: vec3(2.5, 2.5, 2.9),
-            lobes: 13,
-            lobe: 0.42,
-            lowest: -0.6,
-            points: 1700,
-            growth: Growth { step_m: 0.28, kill_m: 0.44, lift: 0.08, trunk_radius_m: 0.14 },
-            sprig: Sprig::Feathered,
-            green: vec3(0.105, 0.168, 0.048),
-            card_m: 0.68,
-            cards: 3,
-            bark: vec3(0.14, 0.115, 0.09),
-        },
-        Habit {
-            id: "tree/tall",
-            clear_m: 5.2,
-            middle_m: 11.6,
-            crown_m: vec3(3.6, 3.5, 5.6),
-            lobes: 20,
-            lobe: 0.4,
-            lowest: -0.8,
-            points: 2400,
-            growth: Growth { step_m: 0.42, kill_m: 0.66, lift: 0.1, trunk_radius_m: 0.33 },
-            sprig: Sprig::Broad,
-            green: vec3(0.093, 0.147, 0.045),
-            card_m: 0.82,
-            cards: 3,
-            bark: vec3(0.16, 0.14, 0.115),
-        },
-        Habit {
-            id: "tree/linden",
-            clear_m: 2.9,
-            middle_m: 7.2,
-            crown_m: vec3(3.1, 3.0, 4.7),
-            lobes: 20,
-            lobe: 0.4,
-            lowest: -0.85,
-            points: 2400,
-            growth: Growth { step_m: 0.34, kill_m: 0.55, lift: 0.1, trunk_radius_m: 0.22 },
-            sprig: Sprig::Broad,
-            green: vec3(0.098, 0.158, 0.042),
-            card_m: 0.7,
-            cards: 3,
-            bark: vec3(0.125, 0.11, 0.09),
-        },
-        Habit {
-            id: "tree/birch",
-            clear_m: 3.2,
-            middle_m: 7.6,
-            crown_m: vec3(2.2, 2.2, 4.4),
-            lobes: 15,
-            lobe: 0.36,
-            lowest: -0.8,
-            points: 1500,
-            growth: Growth { step_m: 0.32, kill_m: 0.52, lift: 0.05, trunk_radius_m: 0.13 },
-            sprig: Sprig::Feathered,
-            green: vec3(0.125, 0.172, 0.052),
-            card_m: 0.55,
-            cards: 3,
-            bark: vec3(0.52, 0.5, 0.46),
-        },
-        Habit {
-            id: "tree/cypress",
-            clear_m: 0.5,
-            middle_m: 5.0,
-            crown_m: vec3(0.75, 0.75, 5.0),
-            lobes: 24,
-            lobe: 0.3,
-            lowest: -0.92,
-            points: 1500,
-            growth: Growth { step_m: 0.24, kill_m: 0.38, lift: 0.6, trunk_radius_m: 0.15 },
-            sprig: Sprig::Needles,
-            green: vec3(0.055, 0.088, 0.035),
-            card_m: 0.5,
-            cards: 5,
-            bark: vec3(0.12, 0.1, 0.08),
-        },
-    ]
-    .iter()
-    .map(tree)
-    .collect()
+    SPECIES.par_iter().flat_map_iter(individuals).collect()
 }
 
-/// A random unit vector.
-pub(super) fn direction(random: &mut Random) -> Vec3 {
-    let z = random.range(-1.0, 1.0) as f32;
-    let turn = random.range(0.0, std::f64::consts::TAU) as f32;
-    let r = (1.0 - z * z).sqrt();
-    vec3(r * turn.cos(), r * turn.sin(), z)
+fn individuals(species: &Species) -> Vec<Asset> {
+    let id = format!("tree/{}", species.name);
+    let seed = Seed(11).child(&id);
+    let wood = bark(&format!("{id}-bark"), species.bark, species.bark_color, seed.0 as u32 & 0xffff);
+    let leaves = material(&format!("{id}-leaves"), species.sprig, 512, seed.0);
+    let grow = |i: &Individuality| tree(species, i, &format!("{id}-{}", i.name), wood.clone(), leaves.clone());
+    INDIVIDUALS.iter().map(grow).collect()
 }
 
-fn tree(habit: &Habit) -> Asset {
-    let seed = Seed(11).child(habit.id);
-    let nodes = skeleton(habit, seed);
-    let mut model = Model::default();
-    let bark = model.slot(bark(&format!("{}-bark", habit.id), habit.bark, seed.0 as u32 & 0xffff), &[]);
-    model.add(bark, branches(&nodes, 0.0085));
-    let leaves = material(&format!("{}-leaves", habit.id), habit.sprig, habit.green, seed.0);
-    let leaves = model.slot(leaves, &SHADES);
-    model.add(leaves, foliage(habit, &nodes, seed));
-    model.asset(habit.id, Kind::Tree, Class::Tree)
+fn tree(species: &Species, individual: &Individuality, id: &str, wood: Material, leaves: Material) -> Asset {
+    let seed = Seed(11).child(id);
+    let crown = Crown::new(species, individual);
+    let nodes = crown.skeleton(species, individual, seed);
+    let mut model = Individual::default();
+    let wood = model.slot(wood, &[]);
+    let leaf = model.slot(leaves, &species.tones.summer());
+    model.add_shape(wood, |level| branches(&nodes, 0.008, species.roots, level));
+    let foliage = crown.foliage(species, individual, &nodes, seed);
+    model.add(leaf, |level| foliage.mesh(level));
+    model.asset(
+        id,
+        Kind::Tree,
+        plant(species.name, species.leaves, species.genera, species.habitat, &species.tones, leaf),
+    )
 }
 
-/// Trunk and branches.
-fn skeleton(habit: &Habit, seed: Seed) -> Vec<Node> {
-    let mut random = seed.child("crown").random();
-    let middle = Vec3::Z * habit.middle_m;
-    // Lobes stand on a spiral over the crown's surface, some way in.
-    let lobes: Vec<Vec3> = (0..habit.lobes)
-        .map(|i| {
-            let z = habit.lowest + (0.95 - habit.lowest) * (i as f32 + 0.5) / habit.lobes as f32;
-            let turn = i as f32 * 2.399_963 + random.range(-0.4, 0.4) as f32;
-            let r = (1.0 - z * z).max(0.0).sqrt();
-            // An umbrella has lobes under its middle too.
-            let inwards = if habit.lowest >= 0.0 { random.range(0.2, 0.85).sqrt() } else { random.range(0.5, 0.75) };
-            middle + vec3(r * turn.cos(), r * turn.sin(), z) * habit.crown_m * inwards as f32
-        })
-        .collect();
-    let points: Vec<Vec3> = (0..habit.points)
-        .map(|i| {
-            let lobe = lobes[i % lobes.len()];
-            let out = direction(&mut random) * (random.unit() as f32).powf(0.45);
-            let squash = if habit.lowest >= 0.0 { 1.6 } else { 1.0 };
-            lobe + out * habit.crown_m * habit.lobe * vec3(1.0, 1.0, squash * 0.8)
-        })
-        .filter(|p| p.z > habit.clear_m * 0.9)
-        .collect();
-    let lean = direction(&mut random) * vec3(0.05, 0.05, 0.0);
-    let joints = (habit.clear_m / habit.growth.step_m).ceil() as usize;
-    let trunk: Vec<Vec3> = (0..=joints)
-        .map(|i| {
-            let z = habit.clear_m * i as f32 / joints as f32;
-            vec3(0.05 * (z * 1.3).sin(), 0.05 * (z * 0.9 + 1.0).sin(), 0.0) * z.min(1.0) + lean * z + Vec3::Z * z
-        })
-        .collect();
-    habit.growth.grow(&trunk, points, &mut random)
+/// What is known of a plant; `leaf` is the slot that the seasons change.
+pub(super) fn plant(
+    name: &str,
+    leaves: LeafType,
+    genera: &[&str],
+    habitat: &[(Climate, f32)],
+    tones: &Tones,
+    leaf: u16,
+) -> Plant {
+    let seasons: Vec<SeasonalFoliage> = tones.seasons(leaf);
+    Plant {
+        species: name.into(),
+        leaves,
+        genera: genera.iter().map(|g| (*g).into()).collect(),
+        habitat: habitat.to_vec(),
+        seasons,
+        ..Plant::default()
+    }
 }
 
-/// Sprigs on thin wood, facing up and out.
-fn foliage(habit: &Habit, nodes: &[Node], seed: Seed) -> crate::shape::Shape {
-    let mut random = seed.child("leaves").random();
-    let mut foliage = Foliage::default();
-    let middle = Vec3::Z * (habit.middle_m - 0.35 * habit.crown_m.z);
-    // Wood that carries up to six tips has leaves.
-    let tip_m = nodes.iter().map(|n| n.radius_m).fold(f32::INFINITY, f32::min);
-    let thin = tip_m * 6f32.powf(1.0 / PIPE_EXPONENT);
-    for node in nodes.iter().skip(1).filter(|n| n.radius_m < thin && n.at.z > habit.clear_m) {
-        let outward = ((node.at - middle) / habit.crown_m).normalize_or(Vec3::Z);
-        let cards = if node.tip { habit.cards + 1 } else { habit.cards - 1 };
-        for _ in 0..cards {
-            let along = node.along * 0.5 + direction(&mut random) * 0.9 + outward * 0.55 - Vec3::Z * 0.12;
-            let face = Vec3::Z * 0.8 + outward * 0.4 + direction(&mut random) * 0.75;
-            let size = habit.card_m * random.range(0.75, 1.2) as f32;
-            let back = along.normalize_or(Vec3::Z) * size * 0.12;
-            foliage.card(node.at - back, along, face, size, outward);
+/// Where the leaves of an individual are.
+struct Crown {
+    clear_m: f32,
+    height_m: f32,
+    radius_m: f32,
+    /// Radius as a share of the largest over the height in the crown, 0 to 1.
+    profile: Curve,
+}
+
+impl Crown {
+    fn new(species: &Species, individual: &Individuality) -> Self {
+        let height_m = species.height_m * individual.size;
+        Self {
+            clear_m: height_m * (species.clear * individual.clear).min(0.6),
+            height_m,
+            radius_m: species.radius_m * individual.size * individual.slim,
+            profile: Curve::new(species.profile),
         }
     }
-    foliage.into_shape()
+
+    fn depth_m(&self) -> f32 {
+        self.height_m - self.clear_m
+    }
+
+    /// Normal of the crown's surface as light falls on it.
+    fn outward(&self, p: Vec3) -> Vec3 {
+        let middle = Vec3::Z * (self.clear_m + 0.38 * self.depth_m());
+        ((p - middle) / vec3(self.radius_m, self.radius_m, 0.6 * self.depth_m())).normalize_or(Vec3::Z)
+    }
+
+    /// Trunk and branches.
+    fn skeleton(&self, species: &Species, individual: &Individuality, seed: Seed) -> Vec<Node> {
+        let mut random = seed.child("crown").random();
+        let count = ((species.lobes as f32) * (0.5 + 0.5 * individual.dense)) as usize;
+        // Lobes stand on a spiral, near the crown's surface.
+        let lobes: Vec<(Vec3, f32)> = (0..count)
+            .map(|i| {
+                let up = (i as f32 + 0.5 + random.range(-0.3, 0.3) as f32) / count as f32;
+                let radius = self.radius_m * self.profile.at(up);
+                let size = (species.lobe * self.radius_m).min(0.75 * radius + 0.15).max(0.2 * self.radius_m);
+                let turn = i as f32 * 2.399_963 + random.range(-0.5, 0.5) as f32;
+                let out = (radius - size).max(0.0) * random.range(0.45, 1.0).sqrt() as f32;
+                let z = self.clear_m + up * self.depth_m();
+                let top = self.height_m - 0.8 * size;
+                (vec3(out * turn.cos(), out * turn.sin(), z.min(top)), size * random.range(0.8, 1.15) as f32)
+            })
+            .collect();
+        let points = (species.points as f32 * individual.dense) as usize;
+        let points: Vec<Vec3> = (0..points)
+            .map(|i| {
+                let (middle, size) = lobes[i % lobes.len()];
+                middle
+                    + direction(&mut random) * (random.unit() as f32).powf(0.42) * size * vec3(1.0, 1.0, species.flat)
+            })
+            .filter(|p| p.z > self.clear_m * 0.92)
+            .collect();
+        // Slender crowns need finer wood.
+        let step_m = ((self.radius_m * 0.5 + self.depth_m() * 0.25).sqrt() * 0.19).min(0.2 * self.radius_m);
+        let growth = Growth {
+            step_m,
+            kill_m: step_m * 1.65,
+            lift: species.lift,
+            trunk_radius_m: species.trunk_m * individual.size.powf(1.15),
+        };
+        let leader_m = self.clear_m + species.leader * self.depth_m();
+        let joints = (leader_m / step_m).ceil() as usize;
+        let (lean, sway) = (direction(&mut random) * vec3(0.035, 0.035, 0.0), random.range(0.0, 6.0) as f32);
+        let trunk: Vec<Vec3> = (0..=joints)
+            .map(|i| {
+                let z = leader_m * i as f32 / joints as f32;
+                let bend =
+                    vec3((z * 0.9 + sway).sin() - sway.sin(), (z * 0.7 + 2.0 * sway).sin() - (2.0 * sway).sin(), 0.0);
+                bend * 0.014 * self.radius_m + lean * z + Vec3::Z * z
+            })
+            .collect();
+        growth.grow(&trunk, points, &mut random)
+    }
+
+    /// Sprigs on thin wood, facing up and out.
+    fn foliage(&self, species: &Species, individual: &Individuality, nodes: &[Node], seed: Seed) -> Foliage {
+        let mut random = seed.child("leaves").random();
+        // Wood that carries up to six tips has leaves.
+        let tip_m = nodes.iter().map(|n| n.radius_m).fold(f32::INFINITY, f32::min);
+        let thin = tip_m * 6f32.powf(1.0 / PIPE_EXPONENT);
+        let leafy: Vec<&Node> = nodes.iter().skip(1).filter(|n| n.radius_m < thin && n.at.z > self.clear_m).collect();
+        // The share of the crown's cards that a joint bears, whole ones by chance.
+        let wanted = species.cards as f32 * (0.25 + 0.75 * individual.dense);
+        let each = wanted / leafy.iter().map(|n| if n.tip { 1.6 } else { 1.0 }).sum::<f32>().max(1.0);
+        let card_m = species.card_m * individual.size.powf(0.4);
+        let mut cards = Vec::new();
+        for node in leafy {
+            let outward = self.outward(node.at);
+            let count = each * if node.tip { 1.6 } else { 1.0 } + random.unit() as f32;
+            // Leaves inside get less sun and are older.
+            let flat = node.at.truncate().length() / self.radius_m;
+            let deep = flat.max((node.at.z - self.clear_m) / self.depth_m()).clamp(0.0, 1.0);
+            for _ in 0..count as usize {
+                let along = node.along * 0.5 + direction(&mut random) * 0.9 + outward * 0.5 + Vec3::Z * species.hang;
+                let face = Vec3::Z * 0.8 + outward * 0.4 + direction(&mut random) * 0.75;
+                let size_m = card_m * random.range(0.75, 1.2) as f32;
+                let foot = node.at - along.normalize_or(Vec3::Z) * size_m * 0.12;
+                let tint = varied(&mut random, 0.17) * (0.88 + 0.18 * deep);
+                cards.push(Card { foot, along, face, size_m, outward, tint });
+            }
+        }
+        Foliage { cards, bent: true, floor_m: 0.25, most: (1.5 * self.radius_m / card_m).max(2.0) }
+    }
 }

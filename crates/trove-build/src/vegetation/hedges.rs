@@ -1,19 +1,33 @@
-//! Hedges: clipped pieces side by side along a line.
+//! Hedges and flower beds: pieces side by side along a line.
 
 use glam::DVec2;
 use trove_model::{Kind, PlantForm, Seed};
 
 use super::{Form, Wish};
 
-/// Length of a piece, about, and its width, metres.
+/// Length of a piece, about, and the widths of hedges and of beds, metres.
 const PIECE_M: f64 = 2.0;
 const WIDTH_M: f64 = 0.7;
+const BED_WIDTH_M: f64 = 0.9;
 /// Pieces reach into each other by this, metres.
 const OVERLAP_M: f64 = 0.12;
 
 /// The pieces of a hedge along a line.
 pub(super) fn hedge(line: &[DVec2], height_m: f64, seed: Seed) -> impl Iterator<Item = Wish> + '_ {
-    let width_m = WIDTH_M * (0.8 + 0.3 * height_m).min(1.6);
+    pieces(PlantForm::Hedge, line, [WIDTH_M * (0.8 + 0.3 * height_m).min(1.6), height_m], seed)
+}
+
+/// The pieces of a flower bed along a line.
+pub(super) fn bed(line: &[DVec2], height_m: f64, seed: Seed) -> impl Iterator<Item = Wish> + '_ {
+    pieces(PlantForm::Bed, line, [BED_WIDTH_M, height_m], seed)
+}
+
+fn pieces(
+    planted: PlantForm,
+    line: &[DVec2],
+    [width_m, height_m]: [f64; 2],
+    seed: Seed,
+) -> impl Iterator<Item = Wish> + '_ {
     line.windows(2).enumerate().flat_map(move |(i, pair)| {
         let (from, along) = (pair[0], pair[1] - pair[0]);
         let count = (along.length() / PIECE_M).round().max(1.0);
@@ -28,7 +42,7 @@ pub(super) fn hedge(line: &[DVec2], height_m: f64, seed: Seed) -> impl Iterator<
                 // Its neighbours touch it.
                 radius_m: Some(0.0),
                 form: Form::Row {
-                    planted: PlantForm::Hedge,
+                    planted,
                     yaw_rad: along.y.atan2(along.x),
                     length_m: along.length() / count + OVERLAP_M,
                     width_m,

@@ -15,6 +15,7 @@ mod streets;
 #[cfg(test)]
 mod tests;
 mod undergrowth;
+mod walls;
 
 use glam::DVec2;
 use trove_model::{AssetLibrary, Climate, Kind, Outcome, PlantForm, Report, Seed};
@@ -35,6 +36,8 @@ const SPECIES_SQUARE_M: f64 = 60.0;
 
 /// Cells of the raster that tells lawns from paved ground, metres.
 const LAWN_CELL_M: f64 = 0.5;
+/// Distances to roads and walls are known to this, metres.
+const UNSURE_M: f64 = 0.25;
 /// Feet are sunk into a slope by at most this, metres.
 const MOST_SUNK_M: f64 = 0.025;
 
@@ -86,7 +89,8 @@ impl Wish {
     }
 }
 
-/// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along streets, on open land.
+/// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along walls, along streets, on
+/// open land.
 pub(crate) fn vegetation<'a>(
     around: &Surroundings,
     library: &'a AssetLibrary,
@@ -107,6 +111,7 @@ pub(crate) fn vegetation<'a>(
     // What the LiDAR could see is left as it saw it.
     let beyond = |w: &Wish| !seen.covers(w.position);
     wishes.extend(map::wishes(around, &blue_noise, seed.child("map")).into_iter().filter(beyond));
+    wishes.extend(walls::wishes(around, &blue_noise, seed.child("walls")).into_iter().filter(beyond));
     wishes.extend(streets::wishes(around, clearance, seed.child("streets")).into_iter().filter(beyond));
     wishes.extend(open_land::wishes(around, clearance, &blue_noise, seed.child("land")).into_iter().filter(beyond));
     report.measure("vegetation.lidar_wishes", counted as f64);
@@ -117,8 +122,8 @@ pub(crate) fn vegetation<'a>(
     let mut plants = Vec::new();
     for (i, wish) in wishes.iter().enumerate().filter(|(_, w)| around.bounds.contains(w.position)) {
         let space = Space {
-            lane_m: clearance.road_distance_m(wish.position),
-            wall_m: clearance.building_distance_m(wish.position),
+            lane_m: clearance.road_distance_m(wish.position) - UNSURE_M,
+            wall_m: clearance.building_distance_m(wish.position) - UNSURE_M,
         };
         let Some(grown) = species.grow(wish, space, seed.child("plant").nth(i as u64)) else { continue };
         let radius_m = wish.radius_m.unwrap_or(grown.radius_m * 0.6);
@@ -138,8 +143,9 @@ pub(crate) fn vegetation<'a>(
                 radius_m: body_m,
             },
         };
-        // Bushes grow out of grass; trees and hedges have soil of their own.
-        let is_loose = wish.kind == Kind::Bush && wish.form == Form::Free;
+        // Bushes and beds grow out of grass; trees and hedges have soil of their own.
+        let is_hedge = matches!(wish.form, Form::Row { planted: PlantForm::Hedge, .. });
+        let is_loose = wish.kind == Kind::Bush && !is_hedge;
         let grows = wish.paved || (clearance.is_land(wish.position) && (!is_loose || lawns.at(wish.position) == 1));
         let is_free = wish.spots().iter().all(|&spot| clearance.is_free(spot, &room));
         if grows && is_free && clearance.is_unplanted(wish.position, radius_m) {

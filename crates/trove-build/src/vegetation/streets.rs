@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Kind, Seed};
 
 use super::Wish;
-use super::hedges::hedge;
+use super::hedges::{bed, hedge};
 use crate::clearance::Clearance;
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::surroundings::Surroundings;
@@ -13,7 +13,9 @@ use crate::surroundings::Surroundings;
 const STRETCH_M: f64 = 120.0;
 /// Share of the stretches with trees, and of those with a hedge.
 const TREE_SHARE: f64 = 0.5;
-const HEDGE_SHARE: f64 = 0.2;
+const HEDGE_SHARE: f64 = 0.24;
+/// Share of the hedges that are flower beds instead.
+const BED_SHARE: f64 = 0.3;
 /// Trees of a row are this far apart, metres.
 const TREE_SPACING_M: [f64; 2] = [8.0, 12.0];
 /// Hedges are this long, metres, with gaps of as much.
@@ -70,7 +72,12 @@ fn hedges(stretch: &[KerbPoint], clearance: &Clearance, seed: Seed, wishes: &mut
             run.iter().step_by(2).filter_map(|k| land_behind(k.position, k.outward, clearance)).collect();
         // Where the sidewalk's edge jumps the hedge ends; no one plants a piece alone.
         for part in line.chunk_by(|a, b| a.distance(*b) < 3.0 * KERB_STEP_M).filter(|part| part.len() > 3) {
-            wishes.extend(hedge(part, height_m, seed));
+            // Here and there it is flowers.
+            if seed.child("bed").random().chance(BED_SHARE) {
+                wishes.extend(bed(part, 0.45, seed));
+            } else {
+                wishes.extend(hedge(part, height_m, seed));
+            }
         }
     }
 }
