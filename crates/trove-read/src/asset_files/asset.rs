@@ -8,8 +8,9 @@ use trove_model::{Asset, Coarser, Figure, Kind, Mesh, Posture, Slot};
 use super::axes::Axis;
 use super::fault::Fault;
 use super::guess::scale;
-use super::library_file::{AssetEntry, class_named, kind_named};
+use super::library_file::AssetEntry;
 use super::model::Model;
+use super::names::{class_named, kind_named};
 use super::repair::thinned;
 
 /// Turns, scales and places a model by a completed entry; `None` for one that is not to be placed.

@@ -8,11 +8,13 @@ use rayon::prelude::*;
 use trove_model::{Kind, Mesh, Outcome};
 
 use super::asset::asset;
-use super::library_file::{AssetEntry, FILE_NAME, LibraryFile, SurfaceEntry, kind_named};
+use super::library_file::{AssetEntry, FILE_NAME, LibraryFile, SurfaceEntry};
+use super::load::load_raw;
+use super::names::kind_named;
 use super::picture::{Pictures, decode};
 use super::repair::{self, BUDGET};
 use super::subjects::{self, Expected};
-use super::{GLANCE_LIMIT, guess, load_raw};
+use super::{GLANCE_LIMIT, guess};
 
 /// Something that is wrong, or may be.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glam::DVec3;
 use serde::Deserialize;
-use trove_model::{Class, Kind, SurfaceKind};
 
 use super::axes::Axis;
 use super::fault::Fault;
+use super::names::{class_named, kind_named, surface_kind_named};
 use crate::ReadError;
 
 /// The file's name in its folder.
@@ -55,9 +55,9 @@ pub struct AssetEntry {
     pub file: String,
     /// The node to take, with all that hangs on it; everything without.
     pub part: Option<String>,
-    /// [`Kind`] in snake case, or `none` for what is not to be placed.
+    /// [`Kind`](trove_model::Kind) in snake case, or `none` for what is not to be placed.
     pub kind: Option<String>,
-    /// Name of the [`Class`] where it is not the kind's own.
+    /// Name of the [`Class`](trove_model::Class) where it is not the kind's own.
     pub class: Option<String>,
     /// The file's axis that points up.
     pub up: Option<Axis>,
@@ -93,7 +93,7 @@ pub struct AssetEntry {
 pub struct SurfaceEntry {
     /// Unique in its library.
     pub name: String,
-    /// [`SurfaceKind`] in snake case, or `none` for what is not to be used.
+    /// [`SurfaceKind`](trove_model::SurfaceKind) in snake case, or `none` for what is not to be used.
     pub kind: Option<String>,
     /// Metres that the picture covers along u and v.
     pub size_m: Option<[f32; 2]>,
@@ -194,83 +194,6 @@ impl LibraryFile {
     }
 }
 
-/// `TrafficCone` → `traffic_cone`.
-fn snake(name: &str) -> String {
-    let mut out = String::new();
-    for c in name.chars() {
-        if c.is_uppercase() && !out.is_empty() {
-            out.push('_');
-        }
-        out.extend(c.to_lowercase());
-    }
-    out
-}
-
-/// A kind as `library.toml` writes it.
-pub(super) fn kind_name(kind: Option<Kind>) -> String {
-    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
-}
-
-/// A surface's kind as `library.toml` writes it.
-pub(super) fn surface_kind_name(kind: Option<SurfaceKind>) -> String {
-    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
-}
-
-/// The kind of a name: `None` without a name, `Some(None)` for `none`.
-pub(super) fn kind_named(name: Option<&str>, place: &str) -> Result<Option<Option<Kind>>, Fault> {
-    let all: Vec<(String, Kind)> = Kind::ALL.iter().map(|k| (kind_name(Some(*k)), *k)).collect();
-    looked_up(name, &all, place, "kind")
-}
-
-pub(super) fn surface_kind_named(name: Option<&str>, place: &str) -> Result<Option<Option<SurfaceKind>>, Fault> {
-    let all: Vec<(String, SurfaceKind)> = SURFACE_KINDS.iter().map(|k| (surface_kind_name(Some(*k)), *k)).collect();
-    looked_up(name, &all, place, "kind")
-}
-
-pub(super) fn class_named(name: Option<&str>, place: &str) -> Result<Option<Option<Class>>, Fault> {
-    let all: Vec<(String, Class)> = trove_model::CLASSES.iter().map(|row| (row.name.to_owned(), row.class)).collect();
-    looked_up(name, &all, place, "class")
-}
-
-const SURFACE_KINDS: [SurfaceKind; 18] = [
-    SurfaceKind::Asphalt,
-    SurfaceKind::MarkingWhite,
-    SurfaceKind::MarkingYellow,
-    SurfaceKind::RoadCover,
-    SurfaceKind::Paving,
-    SurfaceKind::Kerb,
-    SurfaceKind::Concrete,
-    SurfaceKind::Grass,
-    SurfaceKind::Soil,
-    SurfaceKind::Gravel,
-    SurfaceKind::Water,
-    SurfaceKind::FlatRoof,
-    SurfaceKind::RoofTiles,
-    SurfaceKind::Facade,
-    SurfaceKind::FacadeGroundFloor,
-    SurfaceKind::Wall,
-    SurfaceKind::ShopSign,
-    SurfaceKind::RoomBack,
-];
-
-fn looked_up<T: Copy>(
-    name: Option<&str>,
-    all: &[(String, T)],
-    place: &str,
-    key: &str,
-) -> Result<Option<Option<T>>, Fault> {
-    let Some(name) = name else { return Ok(None) };
-    if name == "none" {
-        return Ok(Some(None));
-    }
-    if let Some((_, value)) = all.iter().find(|(n, _)| n == name) {
-        return Ok(Some(Some(*value)));
-    }
-    let close = all.iter().max_by(|a, b| strsim::jaro(&a.0, name).total_cmp(&strsim::jaro(&b.0, name)));
-    let remedy = close.map_or(String::new(), |(n, _)| format!("did you mean {n:?}?"));
-    Err(Fault::new(format!("{place}: {key}"), format!("a {key} of TRoVE or \"none\""), format!("{name:?}"), remedy))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -289,13 +212,5 @@ mod tests {
             let message = LibraryFile::parse(text).unwrap_err().at(Path::new("library.toml")).to_string();
             assert!(message.contains(place) && message.contains(what), "{message}");
         }
-    }
-
-    #[test]
-    fn every_kind_has_a_name_of_its_own() {
-        for kind in Kind::ALL {
-            assert_eq!(kind_named(Some(&kind_name(Some(kind))), "").unwrap(), Some(Some(kind)));
-        }
-        assert_eq!(kind_name(Some(Kind::TrafficCone)), "traffic_cone");
     }
 }

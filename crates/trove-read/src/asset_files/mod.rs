@@ -17,9 +17,11 @@ mod guess;
 mod library_file;
 mod library_text;
 mod licence;
+mod load;
 mod looks;
 mod material_names;
 mod model;
+mod names;
 mod picture;
 mod profile;
 mod repair;
@@ -42,7 +44,7 @@ pub use self::axes::Axis;
 pub use self::check::{Finding, check};
 pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
 
-use self::model::Model;
+use self::load::load;
 use self::picture::Pictures;
 use crate::ReadError;
 
@@ -52,8 +54,6 @@ const TEXTURE_LIMIT: u32 = 2048;
 const SURFACE_LIMIT: u32 = 4096;
 /// The largest side of a texture that is only looked at to find out which way a model stands, pixels.
 const GLANCE_LIMIT: u32 = 256;
-/// Files above this are refused, bytes.
-const MOST_BYTES: u64 = 2 << 30;
 
 /// Looks through a folder, writes its `library.toml` or completes the one that is there, and returns what then stands
 /// in it with the guesses. What cannot be read is reported and left out.
@@ -199,37 +199,6 @@ fn ids(library: &str, entries: &[AssetEntry]) -> Vec<String> {
         id
     };
     entries.iter().map(id).collect()
-}
-
-/// Reads and repairs an entry's model.
-fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
-    let mut model = load_raw(folder, entry, pictures)?;
-    repair::repair(&mut model).map_err(|fault| fault.at(&folder.join(&entry.file)))?;
-    material_names::restore(&mut model);
-    Ok(model)
-}
-
-/// Reads an entry's model as it stands in its file.
-fn load_raw(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
-    let path = folder.join(&entry.file);
-    let io = |source| ReadError::io(&path, source);
-    let length = std::fs::metadata(&path).map_err(io)?.len();
-    if length > MOST_BYTES {
-        let found = format!("{length} bytes");
-        return Err(
-            fault::Fault::new("file", "a file of at most 2 GiB", found, "simplify or split the model").at(&path)
-        );
-    }
-    let bytes = std::fs::read(&path).map_err(io)?;
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match ending.as_str() {
-        "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures),
-        "fbx" | "obj" => fbx::read(&path, &bytes, entry.part.as_deref(), pictures),
-        _ => {
-            let remedy = "export it as .glb";
-            Err(fault::Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ use glam::{Vec3, vec2};
 use trove_model::{ColorSpace, Material, Outcome, Report, Surface, SurfaceKind, Tiling};
 
 use super::fault::Fault;
-use super::library_file::{SurfaceEntry, surface_kind_named};
+use super::library_file::SurfaceEntry;
 use super::looks;
+use super::names::surface_kind_named;
 use super::picture::{Pictures, Pixels, decode};
 use crate::ReadError;
 

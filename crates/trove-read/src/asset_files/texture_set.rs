@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use trove_model::SurfaceKind;
 
-use super::library_file::{Guess, SurfaceEntry, surface_kind_name};
+use super::library_file::{Guess, SurfaceEntry};
 use super::licence::{Terms, nearest};
+use super::names::surface_kind_name;
 use super::scan::{folder_of, stem_of};
 use super::words::{match_of, words};
 

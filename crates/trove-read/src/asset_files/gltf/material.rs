@@ -9,16 +9,16 @@ use trove_model::{ColorSpace, Material, Outcome, Texture};
 
 use super::container::{Container, none};
 use super::json::{self, TextureRef};
+use super::texture::Textures;
 use crate::asset_files::fault::Fault;
 use crate::asset_files::looks::{self, Alpha};
 use crate::asset_files::model::{Model, Piece};
-use crate::asset_files::picture::{Pictures, Pixels, decode};
-use crate::asset_files::repair::kept;
+use crate::asset_files::picture::Pictures;
 
 /// The materials that primitives have asked for.
 pub(super) struct Looks<'a> {
     container: &'a Container,
-    pictures: &'a Pictures,
+    textures: Textures<'a>,
     made: BTreeMap<Option<usize>, Look>,
 }
 
@@ -47,7 +47,7 @@ impl Look {
 
 impl<'a> Looks<'a> {
     pub(super) fn new(container: &'a Container, pictures: &'a Pictures) -> Self {
-        Self { container, pictures, made: BTreeMap::new() }
+        Self { container, textures: Textures { container, pictures }, made: BTreeMap::new() }
     }
 
     /// The look of a material, made and added to the model at first use.
@@ -93,7 +93,7 @@ impl<'a> Looks<'a> {
         if let Some(specular) = number("/KHR_materials_specular/specularFactor") {
             material.ior = looks::ior_of_specular(material.ior, specular);
         }
-        let base = base_ref.as_ref().and_then(|r| self.texture(r, ColorSpace::Srgb, model));
+        let base = base_ref.as_ref().and_then(|r| self.textures.texture(r, ColorSpace::Srgb, model));
         let mut alpha = factor.w;
         if let Some(gloss) = gloss {
             let four = |key: &str| color4(gloss.get(key)).unwrap_or(Vec4::ONE);
@@ -102,16 +102,17 @@ impl<'a> Looks<'a> {
             alpha = four("diffuseFactor").w;
             // A map of specular colours is taken for its mean.
             let map = reference("/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture");
-            let mean =
-                map.and_then(|r| self.texture(&r, ColorSpace::Srgb, model)).map_or(Vec4::ONE, |t| looks::mean(&t));
+            let mean = map
+                .and_then(|r| self.textures.texture(&r, ColorSpace::Srgb, model))
+                .map_or(Vec4::ONE, |t| looks::mean(&t));
             let (base, metalness) =
                 looks::metal_of_specular(four("diffuseFactor").truncate(), specular * mean.truncate());
             (material.base_color, material.metalness) = (base, metalness);
             material.roughness = 1.0 - shine * mean.w;
         } else {
-            material.orm_map = self.orm(m, model);
+            material.orm_map = self.textures.orm(m, model);
         }
-        material.normal_map = m.normal_texture.as_ref().and_then(|r| self.normals(r, model));
+        material.normal_map = m.normal_texture.as_ref().and_then(|r| self.textures.normals(r, model));
         let mode = match m.alpha_mode.as_deref() {
             Some("MASK") => Alpha::Mask(m.alpha_cutoff.unwrap_or(0.5)),
             Some("BLEND") => Alpha::Blend,
@@ -122,7 +123,7 @@ impl<'a> Looks<'a> {
         let strength = number("/KHR_materials_emissive_strength/emissiveStrength").unwrap_or(1.0);
         let emission = looks::radiance(Vec3::from(m.emissive_factor) * strength);
         let glow = m.emissive_texture.as_ref().filter(|_| emission.max_element() > 0.0);
-        let glow = glow.and_then(|r| self.texture(r, ColorSpace::Srgb, model)).map(|t| (t, emission));
+        let glow = glow.and_then(|r| self.textures.texture(r, ColorSpace::Srgb, model)).map(|t| (t, emission));
         if glow.is_none() {
             material.emission = emission;
         }
@@ -141,80 +142,6 @@ impl<'a> Looks<'a> {
         }
         model.materials.push(material);
         Look { slot: model.materials.len() - 1, uv_set, turn, offset, two_sided_light: m.double_sided && shines, glow }
-    }
-
-    /// A texture's picture; what cannot be had is noted and left out.
-    fn texture(&self, r: &TextureRef, color_space: ColorSpace, model: &mut Model) -> Option<Arc<Texture>> {
-        let image = self.image_of(r, model)?;
-        let suffix = if color_space == ColorSpace::Srgb { "" } else { ".linear" };
-        let (bytes, name) = self.bytes(image, model)?;
-        let result = self.pictures.texture(&format!("{name}{suffix}"), color_space, || {
-            let pixels = decode(&bytes, &name, self.pictures.limit)?;
-            Ok(noticed(pixels, &name, model))
-        });
-        kept(result, &name, model)
-    }
-
-    fn normals(&self, r: &TextureRef, model: &mut Model) -> Option<Arc<Texture>> {
-        let scale = r.scale.unwrap_or(1.0);
-        if scale == 1.0 {
-            return self.texture(r, ColorSpace::Linear, model);
-        }
-        let image = self.image_of(r, model)?;
-        let (bytes, name) = self.bytes(image, model)?;
-        let result = self.pictures.texture(&format!("{name}.normal×{scale}"), ColorSpace::Linear, || {
-            let mut pixels = decode(&bytes, &name, self.pictures.limit)?;
-            let scaled = |v: u8| (((f32::from(v) / 127.5 - 1.0) * scale).clamp(-1.0, 1.0) * 127.5 + 127.5) as u8;
-            pixels.rgba.iter_mut().for_each(|p| *p = [scaled(p[0]), scaled(p[1]), p[2], p[3]]);
-            Ok(noticed(pixels, &name, model))
-        });
-        kept(result, &name, model)
-    }
-
-    /// Occlusion from its own picture, roughness and metalness from theirs.
-    fn orm(&self, m: &json::Material, model: &mut Model) -> Option<Arc<Texture>> {
-        let rough = m.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
-        let occlusion = m.occlusion_texture.as_ref().filter(|o| rough.is_none_or(|r| moved(o) == moved(r)));
-        let (rough_image, occlusion_image) =
-            (rough.and_then(|r| self.image_of(r, model)), occlusion.and_then(|r| self.image_of(r, model)));
-        if rough_image.is_some() && rough_image == occlusion_image {
-            return rough.and_then(|r| self.texture(r, ColorSpace::Linear, model));
-        }
-        let mut load = |image: Option<usize>| -> Option<(Pixels, String)> {
-            let (bytes, name) = self.bytes(image?, model)?;
-            let pixels = kept(decode(&bytes, &name, self.pictures.limit), &name, model)?;
-            Some((noticed(pixels, &name, model), name))
-        };
-        let (rough, occlusion) = (load(rough_image), load(occlusion_image));
-        let name = |part: &Option<(Pixels, String)>| part.as_ref().map_or(String::new(), |(_, name)| name.clone());
-        let name = format!("{}+{}.orm", name(&occlusion), name(&rough));
-        let channel = |part: Option<(Pixels, String)>, c: usize| part.map(|(pixels, _)| (pixels, c));
-        let green_blue = rough.map(|(pixels, _)| pixels);
-        let sources = [channel(occlusion, 0), green_blue.clone().map(|p| (p, 1)), green_blue.map(|p| (p, 2))];
-        let pixels = looks::packed(sources, [255; 3])?;
-        kept(self.pictures.texture(&name, ColorSpace::Linear, || Ok(pixels)), &name, model)
-    }
-
-    fn image_of(&self, r: &TextureRef, model: &mut Model) -> Option<usize> {
-        let texture = self.container.root.textures.get(r.index);
-        let ext = |name: &str| texture?.extensions.get(name)?.get("source")?.as_u64().map(|i| i as usize);
-        let image = texture.and_then(|t| t.source).or_else(|| ext("EXT_texture_webp"));
-        let image = image.or_else(|| ext("KHR_texture_basisu")).or_else(|| ext("EXT_texture_avif"));
-        if image.is_none() {
-            model.notice(
-                Outcome::Dropped,
-                "a texture without a picture was left out",
-                format!("textures[{}]", r.index),
-            );
-        }
-        image
-    }
-
-    fn bytes(&self, image: usize, model: &mut Model) -> Option<(Vec<u8>, String)> {
-        let i = self.container.root.images.get(image);
-        let label = i.and_then(|i| i.uri.clone().filter(|u| !u.starts_with("data:")).or(i.name.clone()));
-        let (bytes, file) = kept(self.container.image(image), &label.unwrap_or(format!("images[{image}]")), model)?;
-        Some((bytes, self.pictures.name_of(&file)))
     }
 
     /// Parts a piece into what shines and what does not, by its emission map; each with its slot.
@@ -256,15 +183,8 @@ impl<'a> Looks<'a> {
     }
 }
 
-fn noticed(mut pixels: Pixels, name: &str, model: &mut Model) -> Pixels {
-    if let Some(notice) = pixels.notice.take() {
-        model.notice(Outcome::Substituted, "a texture was scaled down", format!("{name}: {notice}"));
-    }
-    pixels
-}
-
 /// Texture coordinates' set, scale with rotation, and offset (`KHR_texture_transform`).
-fn moved(r: &TextureRef) -> (usize, Mat2, Vec2) {
+pub(super) fn moved(r: &TextureRef) -> (usize, Mat2, Vec2) {
     let Some(ext) = r.extensions.get("KHR_texture_transform") else {
         return (r.tex_coord, Mat2::IDENTITY, Vec2::ZERO);
     };

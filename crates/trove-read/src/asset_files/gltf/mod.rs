@@ -9,6 +9,7 @@ mod material;
 mod packed;
 mod pose;
 mod primitive;
+mod texture;
 
 use std::path::Path;
 
