@@ -42,7 +42,7 @@ pub(super) fn assets(body: &HumanBody) -> Vec<Asset> {
         return Vec::new();
     }
     let ((skin, tights), (skirt, fabrics)) = rayon::join(
-        || rayon::join(|| thinned(body, "body", 2_550), || thinned(body, "helper-tights", 1_850)),
+        || rayon::join(|| thinned(body, "body", 2_450), || thinned(body, "helper-tights", 1_750)),
         || rayon::join(|| thinned(body, "helper-skirt", 700), Fabrics::new),
     );
     let stock = Stock { body, cutter: Cutter::new(body), skin, tights, skirt, fabrics };

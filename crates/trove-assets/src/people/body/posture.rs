@@ -146,7 +146,7 @@ impl Act {
                 ..easy
             },
             Self::Waving => Stance {
-                arms: [other, Arm { curl: 0.05, ..reach(vec3(0.3, 0.5, 0.72), vec3(0.0, 1.0, -0.6)) }],
+                arms: [other, Arm { curl: 0.05, ..reach(vec3(0.32, 0.3, 0.22), vec3(-0.1, 1.0, -1.0)) }],
                 head: vec3(0.0, 0.0, -0.25),
                 ..easy
             },

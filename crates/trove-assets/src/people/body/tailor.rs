@@ -121,7 +121,7 @@ impl<'a> Dressed<'a> {
         let is_tucked = person.layers.iter().all(|l| l.top.hem_m > 0.05);
         let has_belt = is_tucked && matches!(person.bottom, Bottom::Trousers { .. });
         if has_belt || person.tail_m.is_some() {
-            let (ease_m, slot) = if person.tail_m.is_some() { (0.04, outermost) } else { (0.0155, leather) };
+            let (ease_m, slot) = if person.tail_m.is_some() { (0.04, outermost) } else { (0.021, leather) };
             pieces.push(band(stock, &wearer, [WAIST_M - 0.025, WAIST_M + 0.012], ease_m, slot));
         }
         if person.has_tie {
@@ -313,7 +313,7 @@ fn bottom_piece(stock: &Stock<'_>, wearer: &Wearer<'_>, person: &Person, slot: u
             }
         }
         Bottom::Skirt { .. } => {
-            let cut = Cut { ease_m: 0.008, sleeve_m: [0.0; 3], leg_m: [0.0; 3], drape: 0.0, folds_m: 0.003 };
+            let cut = Cut { ease_m: 0.019, sleeve_m: [0.0; 3], leg_m: [0.0; 3], drape: 0.0, folds_m: 0.003 };
             flared(wearer.cloth(&stock.skirt.cut(stock.body, under), &cut, slot), 0.02)
         }
     }
@@ -376,7 +376,7 @@ fn layer_pieces(
         ease_m,
         sleeve_m: sleeve,
         leg_m: [0.0; 3],
-        drape: if top.hem_m < 0.05 { 0.35 + 0.6 * loose } else { 0.3 },
+        drape: if top.hem_m < 0.05 { 0.35 + 0.6 * loose } else { 0.0 },
         folds_m: 0.004 + 0.003 * loose,
     };
     let pattern = stock.tights.cut(body, |p| cutter.under_top(top, p));
@@ -413,7 +413,7 @@ fn vest_pieces(stock: &Stock<'_>, wearer: &Wearer<'_>, slot: u16, silver: u16) -
     let (body, cutter) = (stock.body, &stock.cutter);
     let vest = Top { sleeve: 0.1, neck_m: 0.1, hem_m: 0.015, wide: 1.0 };
     let pattern = stock.tights.cut(body, |p| cutter.under_top(&vest, p));
-    let cut = Cut { ease_m: 0.026, sleeve_m: [0.085, 0.085, 0.08], leg_m: [0.0; 3], drape: 0.95, folds_m: 0.006 };
+    let cut = Cut { ease_m: 0.026, sleeve_m: [0.0; 3], leg_m: [0.0; 3], drape: 0.95, folds_m: 0.0025 };
     // Two bands around, one over each shoulder.
     let around = |p: Vec3| (0.025 - (p.z - 0.095).abs()).max(0.025 - (p.z - 0.205).abs());
     let over = |p: Vec3| (p.z - 0.2).min(0.025 - (p.y.abs() - 0.1).abs());

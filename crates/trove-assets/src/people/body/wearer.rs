@@ -196,7 +196,7 @@ impl<'a> Wearer<'a> {
             let (place, outward) = (place / sum, outward.normalize_or(Vec3::X));
             let along = (row[(i + 1).min(row.len() - 1)] - row[i.saturating_sub(1)]).normalize_or(Vec3::Z);
             let across = outward.cross(along).normalize_or(Vec3::Y);
-            for (side, lift) in [(-0.5, -0.012), (-0.5, 0.006), (0.5, 0.006), (0.5, -0.012)] {
+            for (side, lift) in [(-0.5, -0.012), (-0.5, 0.011), (0.5, 0.011), (0.5, -0.012)] {
                 piece.positions.push(place + across * side * width_m + outward * lift);
                 piece.weights.push(nearest.weights[*v]);
                 piece.uvs.push(Vec2::ZERO);
