@@ -3,79 +3,78 @@
 mod bicycle;
 mod motorcycle;
 mod parts;
+mod rider;
 
-use glam::{Vec3, vec2, vec3};
-use trove_model::{Asset, Kind, Material};
+use trove_model::{Asset, Kind};
 
-use crate::people::{Figure, Hair, Leg, Outfit, Physique, Pose, Wardrobe};
+use crate::people::{Hair, Leg, Outfit, Physique};
 use crate::shape::{Model, Shape};
 use bicycle::BicyclePlan;
-use motorcycle::Motorcycle;
+use motorcycle::{Build, Motorcycle};
 use parts::Parts;
+use rider::{Helmet, Rider};
+
+const SHORTS: Outfit = Outfit { leg: Leg::Shorts, ..Outfit::CASUAL };
+const LONG: Outfit = Outfit { hair: Hair::Long, ..Outfit::CASUAL };
+const SKIRT: Outfit = Outfit { leg: Leg::Skirt, hair: Hair::Bun, ..Outfit::CASUAL };
+const TIGHT: Outfit = Outfit { leg: Leg::Shorts, loose_m: 0.002, hem: 0.0, ..Outfit::CASUAL };
+
+/// A bicycle's name, its plan, who rides it in what, with a helmet, with a bag on the back.
+#[rustfmt::skip]
+const BICYCLES: [(&str, BicyclePlan, Physique, Outfit, Helmet, bool); 10] = [
+    ("city", BicyclePlan::CITY, Physique::WOMAN, LONG, Helmet::None, false),
+    ("roadster", BicyclePlan::ROADSTER, Physique::MAN, Outfit::JACKET, Helmet::None, false),
+    ("trekking", BicyclePlan::TREKKING, Physique::MAN, Outfit::CASUAL, Helmet::Open, false),
+    ("electric", BicyclePlan::ELECTRIC, Physique::WOMAN, SKIRT, Helmet::Open, false),
+    ("racing", BicyclePlan::RACING, Physique::MAN, TIGHT, Helmet::Open, false),
+    ("mountain", BicyclePlan::MOUNTAIN, Physique::MAN, SHORTS, Helmet::Open, false),
+    ("courier", BicyclePlan::TREKKING, Physique::MAN, SHORTS, Helmet::Open, true),
+    ("cargo", BicyclePlan::CARGO, Physique::WOMAN, Outfit::JACKET, Helmet::Open, false),
+    ("child", BicyclePlan::CHILD, Physique::CHILD, SHORTS, Helmet::Open, false),
+    ("city-small", BicyclePlan { saddle_m: 0.84, wheel_m: 0.33, front_wheel_m: 0.33, wheelbase_m: 1.0, ..BicyclePlan::CITY }, Physique::WOMAN, Outfit::JACKET, Helmet::None, false),
+];
+
+/// A motorcycle's name, how it is built, whether it delivers, who rides it in what.
+#[rustfmt::skip]
+const MOTORCYCLES: [(&str, Build, bool, Physique, Outfit); 8] = [
+    ("naked", Build::Naked, false, Physique::MAN, Outfit::JACKET),
+    ("sports", Build::Sports, false, Physique::MAN, Outfit::JACKET),
+    ("cruiser", Build::Cruiser, false, Physique::MAN, Outfit::JACKET),
+    ("delivery", Build::Naked, true, Physique::MAN, Outfit::JACKET),
+    ("underbone", Build::Underbone, false, Physique::MAN, Outfit::CASUAL),
+    ("underbone-delivery", Build::Underbone, true, Physique::MAN, Outfit::JACKET),
+    ("scooter", Build::Scooter, false, Physique::WOMAN, Outfit::JACKET),
+    ("scooter-delivery", Build::Scooter, true, Physique::MAN, Outfit::CASUAL),
+];
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
-    let sports = BicyclePlan { wheel_radius_m: 0.345, tyre_m: 0.016, city: false };
-    let city = BicyclePlan { wheel_radius_m: 0.34, tyre_m: 0.021, city: true };
-    let (man, woman) = (Physique::MAN, Physique::WOMAN);
-    let casual = Outfit::CASUAL;
-    let shorts = Outfit { leg: Leg::Shorts, ..casual };
-    let long = Outfit { hair: Hair::Long, ..casual };
     let mut all = Vec::new();
-    for (name, plan, body, outfit) in [("sports", sports, man, shorts), ("city", city, woman, long)] {
+    for (name, plan, body, outfit, helmet, bag) in BICYCLES {
         let build = |parts: &Parts| plan.build(parts);
-        let pose = plan.pose(body.height_m);
-        all.push(cycle(&format!("bicycle/{name}"), Kind::Bicycle, build, None));
-        let rider = Rider { body, pose, outfit, helmet: name == "sports", visor: false };
+        let rider = Rider { body, pose: plan.pose(body.height_m), outfit, helmet, bag };
+        if !bag {
+            all.push(cycle(&format!("bicycle/{name}"), Kind::Bicycle, build, None));
+        }
         all.push(cycle(&format!("bicycle/{name}-rider"), Kind::BicycleWithRider, build, Some(rider)));
     }
-    let other = Rider { body: man, pose: city.pose(man.height_m), outfit: Outfit::JACKET, helmet: true, visor: false };
-    all.push(cycle("bicycle/city-rider-2", Kind::BicycleWithRider, |p| city.build(p), Some(other)));
-    let kinds = [("roadster", Motorcycle::Roadster), ("sports", Motorcycle::Sports), ("scooter", Motorcycle::Scooter)];
-    for (name, plan) in kinds {
-        let build = |parts: &Parts| plan.build(parts);
-        let body = if plan == Motorcycle::Scooter { woman } else { man };
-        let rider = Rider { body, pose: plan.pose(body.height_m), outfit: Outfit::JACKET, helmet: true, visor: true };
-        all.push(cycle(&format!("motorcycle/{name}"), Kind::Motorcycle, build, None));
-        all.push(cycle(&format!("motorcycle/{name}-rider"), Kind::MotorcycleWithRider, build, Some(rider)));
+    for (name, build, delivers, body, outfit) in MOTORCYCLES {
+        let plan = Motorcycle { build, delivers };
+        let shape = |parts: &Parts| plan.shape(parts);
+        let helmet = if matches!(build, Build::Scooter | Build::Underbone) { Helmet::Jet } else { Helmet::Full };
+        let rider = Rider { body, pose: plan.pose(body.height_m), outfit, helmet, bag: false };
+        all.push(cycle(&format!("motorcycle/{name}"), Kind::Motorcycle, shape, None));
+        all.push(cycle(&format!("motorcycle/{name}-rider"), Kind::MotorcycleWithRider, shape, Some(rider)));
     }
     all
 }
 
-struct Rider {
-    body: Physique,
-    pose: Pose,
-    outfit: Outfit,
-    helmet: bool,
-    /// A full-face helmet.
-    visor: bool,
-}
-
 fn cycle(id: &str, kind: Kind, build: impl Fn(&Parts) -> Shape, rider: Option<Rider>) -> Asset {
     let mut model = Model::default();
-    let parts = Parts::new(&mut model);
+    let parts = Parts::new(&mut model, id);
     model.add_marked(build(&parts));
     if let Some(rider) = rider {
-        let slots = Wardrobe::new(&mut model, &[], &[]);
-        let figure = Figure::new(rider.body, rider.pose);
-        model.add_marked(figure.dressed(&rider.outfit, &slots));
-        if rider.helmet {
-            let paints = [vec3(0.02, 0.02, 0.022), Vec3::splat(0.7), vec3(0.4, 0.02, 0.02), vec3(0.03, 0.1, 0.3)];
-            let shell = model.slot(Material { coat: 1.0, ..Material::plain("helmet", paints[0], 0.35) }, &paints);
-            model.add(shell, helmet(&figure, rider.visor));
-            if rider.visor {
-                let visor = Shape::ellipsoid(vec3(0.082, 0.108, 0.06), 18).moved(figure.head + vec3(0.08, 0.0, 0.01));
-                model.add(parts.black, visor);
-            }
-        }
+        rider.sit(&mut model, &parts);
     }
     model.asset(id, kind, kind.class())
-}
-
-fn helmet(figure: &Figure, full: bool) -> Shape {
-    if full {
-        return Shape::ellipsoid(vec3(0.15, 0.128, 0.155), 24).moved(figure.head + vec3(0.0, 0.0, 0.0));
-    }
-    let shell = [vec2(0.118, 0.0), vec2(0.12, 0.02), vec2(0.108, 0.07), vec2(0.07, 0.105), vec2(0.0, 0.118)];
-    Shape::lathe(&shell, 20).scaled(vec3(1.2, 0.9, 1.0)).moved(figure.head + vec3(-0.01, 0.0, 0.04))
 }

@@ -37,6 +37,19 @@ impl Model {
         &self.shape
     }
 
+    /// Moves all that is there already.
+    pub(crate) fn shift(&mut self, by: Vec3) {
+        self.shape = std::mem::take(&mut self.shape).moved(by);
+        self.extras.iter_mut().for_each(|(_, shape)| *shape = std::mem::take(shape).moved(by));
+    }
+
+    /// Makes all that is there larger or smaller.
+    pub(crate) fn scale(&mut self, by: f32) {
+        let by = Vec3::splat(by);
+        self.shape = std::mem::take(&mut self.shape).scaled(by);
+        self.extras.iter_mut().for_each(|(_, shape)| *shape = std::mem::take(shape).scaled(by));
+    }
+
     /// Adds what some variations have; its shape knows its slots, and [`Extra::mesh`] is taken from it.
     pub(crate) fn add_extra(&mut self, group: &str, share: f32, when_driven: bool, shape: Shape) {
         let extra = Extra { group: group.into(), share, when_driven, mesh: Arc::default() };
