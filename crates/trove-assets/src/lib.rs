@@ -40,9 +40,13 @@ impl Default for Ingredients<'_> {
 
 /// Every built-in model and surface, sorted by id.
 pub fn library(ingredients: &Ingredients<'_>) -> AssetLibrary {
-    let mut surfaces = surfaces::surfaces();
+    let mut surfaces = surfaces::surfaces(ingredients.texture_scale);
     surfaces.sort_by(|a, b| a.id.cmp(&b.id));
-    AssetLibrary { assets: assets(ingredients, &surfaces), surfaces, covers: plants::covers() }
+    let mut assets = assets(ingredients, &surfaces);
+    if ingredients.texture_scale > 1 {
+        surfaces::refine(&mut assets, &surfaces);
+    }
+    AssetLibrary { assets, surfaces, covers: plants::covers() }
 }
 
 /// Every model, sorted by id; buildings wear these surfaces, or plain colours where one is not there.

@@ -46,6 +46,7 @@ fn plain(kind: SurfaceKind) -> Surface {
         SurfaceKind::Wall => ("plain wall", [0.4, 0.38, 0.35]),
         SurfaceKind::ShopSign => ("plain sign", [0.3, 0.05, 0.05]),
         SurfaceKind::RoomBack => ("plain room", [0.3, 0.28, 0.25]),
+        SurfaceKind::Thing => ("plain thing", [0.3, 0.3, 0.3]),
     };
     let roughness = if kind == SurfaceKind::Water { 0.1 } else { 0.85 };
     let size_m = match kind {

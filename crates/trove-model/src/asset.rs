@@ -161,6 +161,8 @@ pub enum SurfaceKind {
     ShopSign,
     /// Back walls of rooms, a cell each, in rows: homes, offices, shops.
     RoomBack,
+    /// What things are made of (steel, cloth, timber, masonry); nothing that is built in place draws among them.
+    Thing,
 }
 
 /// A material for built surfaces, whose textures tile.

@@ -6,6 +6,7 @@ mod blend;
 mod curve;
 mod cut;
 mod form;
+mod lay;
 mod loft;
 mod model;
 mod smooth;

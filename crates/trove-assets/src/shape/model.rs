@@ -7,12 +7,16 @@ use trove_model::{Asset, Class, Extra, Kind, Material, Mesh, Slot};
 
 use super::{Prism, Shape};
 
+/// What a place on a slot's surface is tinted, by the slot and the position above the asset's foot.
+type Tint = Box<dyn Fn(u16, Vec3) -> Vec3>;
+
 /// An asset under construction.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Model {
     shape: Shape,
     slots: Vec<Slot>,
     extras: Vec<(Extra, Shape)>,
+    tint: Option<Tint>,
 }
 
 impl Model {
@@ -68,6 +72,11 @@ impl Model {
         self.mark(&prism.mirrored(), from, to);
     }
 
+    /// Tints the vertices of the finished meshes: rust at the foot, soot below an edge.
+    pub(crate) fn tint(&mut self, tint: impl Fn(u16, Vec3) -> Vec3 + 'static) {
+        self.tint = Some(Box::new(tint));
+    }
+
     /// The asset: slots without triangles go, the origin comes to the ground, and but for what stands on a pole to the
     /// middle of the bounds.
     pub(crate) fn asset(self, id: &str, kind: Kind, class: Class) -> Asset {
@@ -82,6 +91,12 @@ impl Model {
         let number = |s: u16| used[..usize::from(s)].iter().filter(|u| **u).count() as u16;
         for mesh in &mut meshes {
             mesh.positions.iter_mut().for_each(|p| *p -= origin);
+            if let Some(tint) = &self.tint {
+                mesh.tints = vec![Vec3::ONE; mesh.positions.len()];
+                for (t, slot) in mesh.triangles.iter().zip(&mesh.slots) {
+                    t.map(|i| i as usize).into_iter().for_each(|i| mesh.tints[i] = tint(*slot, mesh.positions[i]));
+                }
+            }
             mesh.slots.iter_mut().for_each(|s| *s = number(*s));
         }
         let slots = self.slots.into_iter().zip(&used).filter_map(|(slot, used)| used.then_some(slot)).collect();

@@ -1,20 +1,29 @@
 //! Barriers. As in nuScenes, forward (x) is the thin side and the long side lies along y.
 
+use std::f32::consts::{FRAC_PI_2, TAU};
+
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material};
 
-use super::finish::{bar, concrete, galvanised, plastic, polygon, reflective, rubber, swept};
-use crate::shape::{Model, Shape};
+use super::finish::{
+    bar, board, cloth, dark, galvanised, painted, plastic, polygon, reflective, rubber, swept, upright,
+};
+use crate::shape::{Curve, Model, Shape};
+use crate::surfaces;
 
-const RED: Vec3 = vec3(0.5, 0.085, 0.045);
-const WHITE: Vec3 = vec3(0.56, 0.55, 0.51);
+const RED: Vec3 = vec3(0.62, 0.1, 0.05);
+const WHITE: Vec3 = vec3(0.7, 0.68, 0.62);
 
 pub(super) fn assets() -> Vec<Asset> {
+    // Of all barriers those of plastic are the most common.
+    let common = |asset: Asset| Asset { commonness: 4.0, ..asset };
     vec![
-        water_filled("barrier/water-red", RED, &[RED, WHITE, RED * 0.85, WHITE * 0.85]),
-        water_filled("barrier/water-white", WHITE, &[WHITE, RED, vec3(0.5, 0.48, 0.42), vec3(0.55, 0.13, 0.07)]),
+        common(water_filled("barrier/water-red", &[RED, WHITE, vec3(0.52, 0.1, 0.06), WHITE * 0.85])),
+        common(water_filled("barrier/water-white", &[WHITE, RED, vec3(0.62, 0.59, 0.5), vec3(0.66, 0.15, 0.08)])),
         jersey(),
+        steel(),
         crowd(),
+        works_fence(),
         planks(),
     ]
 }
@@ -23,64 +32,258 @@ fn asset(model: Model, id: &str) -> Asset {
     model.asset(id, Kind::Barrier, Class::Barrier)
 }
 
-/// Half the width of a jersey profile at a height (both as shares of the whole).
-fn jersey_half(height: f32) -> f32 {
-    let knots = [(0.0, 1.0), (0.12, 1.0), (0.35, 0.6), (1.0, 0.3)];
-    let next = knots.iter().position(|k| k.0 >= height).unwrap_or(3).max(1);
-    let ((x0, y0), (x1, y1)) = (knots[next - 1], knots[next]);
-    y0 + (y1 - y0) * (height - x0) / (x1 - x0)
-}
-
-/// A hollow plastic barrier of two metres: grooves in its sides, steps at its ends, a filler cap.
-fn water_filled(id: &str, color: Vec3, paints: &[Vec3]) -> Asset {
+/// A hollow plastic barrier of two metres: a flared foot, scoops in its sides, a thick rim, knuckles at its ends; bags of
+/// sand hang over many.
+fn water_filled(id: &str, paints: &[Vec3]) -> Asset {
     let mut model = Model::default();
-    let shell = model.slot(plastic(color), paints);
-    let dark = model.slot(rubber(), &[]);
-    let (half_m, height_m, length_m) = (0.31, 1.05, 2.0);
-    let heights = [0.0, 0.1, 0.13, 0.24, 0.35, 0.45, 0.62, 0.8, 0.93, 0.97, 1.0];
-    // Grooves run up the upper face, five of them.
+    let shell = model.slot(plastic(paints[0]), paints);
+    let black = model.slot(dark(), &[]);
+    let (half_m, height_m) = (0.31, 1.05);
+    let half = Curve::new(&[
+        (0.0, 0.97),
+        (0.015, 1.0),
+        (0.075, 1.0),
+        (0.1, 0.95),
+        (0.2, 0.7),
+        (0.32, 0.52),
+        (0.45, 0.43),
+        (0.785, 0.37),
+        (0.8, 0.38),
+        (0.82, 0.46),
+        (0.97, 0.45),
+        (0.99, 0.42),
+        (1.0, 0.36),
+    ]);
+    let scoop = Curve::new(&[(0.2, 0.0), (0.3, 0.5), (0.5, 0.9), (0.74, 1.0), (0.785, 0.0)]);
+    let heights = [
+        0.0, 0.015, 0.075, 0.1, 0.15, 0.2, 0.26, 0.32, 0.4, 0.5, 0.62, 0.72, 0.755, 0.785, 0.8, 0.82, 0.9, 0.97, 0.99,
+        1.0,
+    ];
     let groove = |y: f32, h: f32| {
-        let phase = ((y / 0.36 + 0.5).rem_euclid(1.0) - 0.5).abs();
-        let within = if y.abs() < 0.92 && (0.3..0.95).contains(&h) { 1.0 } else { 0.0 };
-        0.035 * within * f32::from(phase < 0.2)
+        let from_middle = (y / 0.42).fract().abs() - 0.5;
+        let within = (1.0 - (from_middle * 0.42 / 0.085).powi(2)).max(0.0).sqrt();
+        0.045 * within * scoop.at(h) * f32::from(y.abs() < 0.84)
     };
-    let ring = |y: f32| -> Vec<Vec3> {
-        let end = if y.abs() > 0.93 * length_m / 2.0 { 0.8 } else { 1.0 };
-        let side = |h: f32| jersey_half(h) * half_m * end - groove(y, h) - if h >= 1.0 { 0.02 } else { 0.0 };
-        let top = |h: f32| h * height_m * if end < 1.0 { 0.93 } else { 1.0 };
+    let ring = |y: f32, shrink: f32| -> Vec<Vec3> {
+        // Moulded walls are not quite flat.
+        let bulge = 1.0 + 0.02 * (y * 3.1).cos();
+        let side = |h: f32| half.at(h) * half_m * shrink * bulge - groove(y, h);
+        let top = |h: f32| h * height_m * (0.5 + 0.5 * shrink).max(0.9);
         let right = heights.iter().map(|&h| vec3(-side(h), y, top(h)));
         let left = heights.iter().rev().map(|&h| vec3(side(h), y, top(h)));
         right.chain(left).collect()
     };
-    let steps = [-1.0, -0.935, -0.925];
-    let fine = (0..=48).map(|i| -0.9 + 1.8 * i as f32 / 48.0);
-    let rings: Vec<Vec<Vec3>> =
-        steps.into_iter().chain(fine).chain(steps.into_iter().rev().map(|y| -y)).map(ring).collect();
+    let ends = [(-1.0, 0.72), (-0.975, 0.78), (-0.96, 0.8), (-0.955, 0.96), (-0.945, 1.0)];
+    let fine = (0..=60).map(|i| (-0.93 + 1.86 * i as f32 / 60.0, 1.0));
+    let rings: Vec<Vec<Vec3>> = ends
+        .into_iter()
+        .chain(fine)
+        .chain(ends.into_iter().rev().map(|(y, s)| (-y, s)))
+        .map(|(y, s)| ring(y, s))
+        .collect();
     model.add(shell, Shape::loft(&rings));
-    // Openings for a forklift, a filler cap, a drain.
+    // Openings for a forklift, a filler cap, a drain, knuckles with their pin.
     for y in [-0.5, 0.5] {
-        model.add(dark, Shape::block(vec3(half_m * 2.0 + 0.004, 0.3, 0.085)).moved(vec3(0.0, y, 0.055)));
+        model.add(black, Shape::rounded_block(vec3(half_m * 2.0 + 0.003, 0.26, 0.075), 0.03).moved(vec3(0.0, y, 0.05)));
     }
-    model.add(dark, Shape::cylinder(0.05, 0.02, 16).moved(vec3(0.0, 0.3, height_m)));
+    model.add(
+        shell,
+        Shape::lathe(&[vec2(0.065, 0.0), vec2(0.065, 0.018), vec2(0.05, 0.028), vec2(0.0, 0.028)], 16).moved(vec3(
+            0.0,
+            0.32,
+            height_m - 0.002,
+        )),
+    );
+    model.add(
+        black,
+        Shape::cylinder(0.02, 0.006, 10).turned(Quat::from_rotation_y(FRAC_PI_2)).moved(vec3(0.272, -0.86, 0.12)),
+    );
+    for (y, z) in [(-1.0, 0.3), (-1.0, 0.72), (1.0, 0.5), (1.0, 0.9)] {
+        model.add(shell, Shape::cylinder(0.055, 0.11, 14).moved(vec3(0.0, y * 0.985, z - 0.055)));
+    }
+    // Bags at one or two places, white or blue, each over its cord.
+    let bag = model
+        .slot(cloth(vec3(0.62, 0.6, 0.55)), &[vec3(0.62, 0.6, 0.55), vec3(0.55, 0.52, 0.45), vec3(0.16, 0.3, 0.5)]);
+    let bags =
+        |places: &[(f32, f32)]| Shape::join(places.iter().map(|&(y, side)| sandbag(y, side, height_m))).slot(bag);
+    model.add_extra("sandbags", 0.2, false, bags(&[(-0.2, 1.0)]));
+    model.add_extra("sandbags", 0.15, false, bags(&[(0.55, -1.0), (-0.45, 1.0)]));
     asset(model, id)
 }
 
-/// A cast concrete jersey barrier.
+/// A filled bag that hangs down a barrier's side from a cord over its rim.
+fn sandbag(y: f32, side: f32, rim_m: f32) -> Shape {
+    let profile = [
+        (0.0, 0.0),
+        (0.07, 0.01),
+        (0.125, 0.06),
+        (0.13, 0.14),
+        (0.1, 0.25),
+        (0.055, 0.36),
+        (0.02, 0.43),
+        (0.03, 0.47),
+        (0.0, 0.48),
+    ];
+    let sack = Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 18).bent(|p| {
+        let angle = p.y.atan2(p.x);
+        let fold = 1.0 + 0.07 * (angle * 4.0 + p.z * 14.0).sin() + 0.05 * (angle * 9.0 - p.z * 23.0).sin();
+        vec3(p.x * 0.62 * fold, p.y * fold, p.z) + vec3(0.0, 0.03 * p.z, 0.0)
+    });
+    let hung = sack.scaled(vec3(side, 1.0, 1.0)).moved(vec3(side * 0.2, y, rim_m - 0.62));
+    let cord = Shape::tube(
+        &[
+            vec3(side * 0.195, y, rim_m - 0.16),
+            vec3(side * 0.143, y, rim_m - 0.005),
+            vec3(-side * 0.1, y, rim_m - 0.003),
+        ],
+        0.005,
+        5,
+    );
+    hung.and(cord)
+}
+
+/// A cast concrete barrier with a kinked side, its edges knocked off.
 fn jersey() -> Asset {
     let mut model = Model::default();
-    let body = model.slot(concrete(), &[]);
-    let dark = model.slot(rubber(), &[]);
-    let (half_m, height_m) = (0.3, 0.86);
-    let heights = [0.0, 0.09, 0.36, 0.97, 1.0];
-    let half = |h: f32| jersey_half(h) * half_m - if h >= 1.0 { 0.02 } else { 0.0 };
-    let right = heights.iter().map(|&h| vec2(half(h), h * height_m));
-    let left = heights.iter().rev().map(|&h| vec2(-half(h), h * height_m));
-    let profile: Vec<Vec2> = right.chain(left).collect();
-    model.add(body, swept(&profile, 2.4));
+    let body = model.slot(
+        Material { dirt: 0.7, ..surfaces::set("concrete/weathered") },
+        &[vec3(0.95, 0.94, 0.92), vec3(0.8, 0.8, 0.78), vec3(1.0, 0.97, 0.9)],
+    );
+    let black = model.slot(dark(), &[]);
+    let rod = model.slot(super::finish::rusty(), &[]);
+    let amber = model.slot(reflective(vec3(0.75, 0.4, 0.03)), &[]);
+    let (height_m, length_m) = (0.86, 2.4);
+    let half = |h: f32| Curve::rounded(&[(0.0, 0.3), (0.09, 0.3), (0.36, 0.18), (1.0, 0.1)], 0.02).at(h);
+    let heights = [0.0, 0.03, 0.08, 0.1, 0.2, 0.33, 0.36, 0.39, 0.6, 0.8, 0.965, 0.99, 1.0];
+    let ring = |y: f32, inset: f32| -> Vec<Vec3> {
+        let chip = |h: f32, s: f32| 0.006 * surfaces::hash((y * 23.0) as i32, (h * 40.0 * s) as i32, 5);
+        let top = |h: f32| (h - if h > 0.98 { inset / height_m } else { 0.0 }) * height_m;
+        let side = |h: f32, s: f32| half(h) - inset - chip(h, s) - if h > 0.995 { 0.02 } else { 0.0 };
+        let right = heights.iter().map(|&h| vec3(-side(h, 1.0), y, top(h)));
+        let left = heights.iter().rev().map(|&h| vec3(side(h, -1.0), y, top(h)));
+        right.chain(left).collect()
+    };
+    let end = length_m / 2.0;
+    let inner = (0..=20).map(|i| (-end + 0.02 + (length_m - 0.04) * i as f32 / 20.0, 0.0));
+    let rings: Vec<Vec<Vec3>> =
+        [(-end, 0.016)].into_iter().chain(inner).chain([(end, 0.016)]).map(|(y, inset)| ring(y, inset)).collect();
+    model.add(body, Shape::loft(&rings));
     for y in [-0.6, 0.6] {
-        model.add(dark, Shape::block(vec3(half_m * 2.0 + 0.004, 0.35, 0.06)).moved(vec3(0.0, y, 0.032)));
+        model.add(black, Shape::rounded_block(vec3(0.603, 0.3, 0.07), 0.02).moved(vec3(0.0, y, 0.03)));
+        model.add(
+            rod,
+            Shape::tube(
+                &arch(vec3(0.0, y - 0.07, height_m - 0.01), vec3(0.0, y + 0.07, height_m - 0.01), 0.05),
+                0.008,
+                6,
+            ),
+        );
+        model.add(amber, bar(vec3(0.132, y * 0.4, 0.62), vec3(0.03, 0.06, 0.09)));
+    }
+    for z in [0.25, 0.6] {
+        for y in [-end, end] {
+            let eye: Vec<Vec3> = (0..=8)
+                .map(|i| Vec2::from_angle(y.signum() * (TAU * i as f32 / 16.0 - FRAC_PI_2)))
+                .map(|a| vec3(0.045 * a.y, y + 0.045 * a.x * y.signum() * y.signum(), z))
+                .collect();
+            model.add(rod, Shape::tube(&eye, 0.009, 6));
+        }
     }
     asset(model, "barrier/jersey")
+}
+
+/// Points of a bow from one point to another, rising in between.
+fn arch(from: Vec3, to: Vec3, rise_m: f32) -> Vec<Vec3> {
+    (0..=8).map(|i| i as f32 / 8.0).map(|t| from.lerp(to, t) + Vec3::Z * rise_m * (t * TAU / 2.0).sin()).collect()
+}
+
+/// A steel safety barrier on a broad foot, as set out along roadworks.
+fn steel() -> Asset {
+    let mut model = Model::default();
+    let zinc = model.slot(galvanised(), &[]);
+    let band = model.slot(reflective(vec3(0.7, 0.7, 0.66)), &[]);
+    let black = model.slot(rubber(), &[]);
+    let profile: [(f32, f32); 10] = [
+        (0.27, 0.0),
+        (0.27, 0.05),
+        (0.12, 0.14),
+        (0.1, 0.3),
+        (0.14, 0.36),
+        (0.14, 0.46),
+        (0.1, 0.52),
+        (0.1, 0.74),
+        (0.13, 0.8),
+        (0.1, 0.88),
+    ];
+    let right = profile.iter().map(|&(x, z)| vec2(x, z));
+    let left = profile.iter().rev().map(|&(x, z)| vec2(-x, z));
+    let outline: Vec<Vec2> = right.chain(left).collect();
+    model.add(zinc, swept(&outline, 2.36));
+    for y in [-1.18, 1.18] {
+        model.add(zinc, bar(vec3(0.0, y, 0.42), vec3(0.22, 0.035, 0.76)));
+        model.add(black, bar(vec3(0.0, y * 0.93, 0.01), vec3(0.58, 0.16, 0.025)));
+    }
+    for (i, y) in [-0.9, -0.3, 0.3, 0.9].into_iter().enumerate() {
+        let x = if i % 2 == 0 { 0.141 } else { -0.141 };
+        model.add(band, bar(vec3(x, y, 0.41), vec3(0.004, 0.12, 0.06)));
+        for side in [-1.0, 1.0] {
+            let bolt = Shape::cylinder(0.016, 0.012, 6).turned(Quat::from_rotation_y(side * FRAC_PI_2));
+            model.add(zinc, bolt.moved(vec3(side * 0.1, y + 0.2, 0.63)));
+        }
+    }
+    asset(model, "barrier/steel")
+}
+
+/// A plastic fence for footpaths beside works: a frame with upright slots, a striped board, feet across.
+fn works_fence() -> Asset {
+    let mut model = Model::default();
+    let orange = vec3(0.72, 0.17, 0.025);
+    let shell = model.slot(plastic(orange), &[orange, vec3(0.62, 0.13, 0.03), vec3(0.72, 0.42, 0.03)]);
+    let stripes =
+        [model.slot(reflective(vec3(0.5, 0.03, 0.025)), &[]), model.slot(reflective(vec3(0.7, 0.7, 0.66)), &[])];
+    let foot = model.slot(rubber(), &[]);
+    let (half, low, high) = (0.98, 0.12, 1.0);
+    for y in [-half, half] {
+        model.add(
+            shell,
+            Shape::rounded_block(vec3(0.05, 0.07, high - low), 0.018).moved(vec3(0.0, y, (high + low) / 2.0)),
+        );
+    }
+    for (z, size) in [(high - 0.04, 0.09), (0.7, 0.06), (low + 0.05, 0.1)] {
+        model.add(shell, Shape::rounded_block(vec3(0.045, half * 2.0, size), 0.018).moved(vec3(0.0, 0.0, z)));
+    }
+    for i in 1..13 {
+        let y = -half + 2.0 * half * i as f32 / 13.0;
+        model.add(shell, Shape::rounded_block(vec3(0.03, 0.045, 0.5), 0.01).moved(vec3(0.0, y, 0.43)));
+    }
+    for side in [-1.0f32, 1.0] {
+        for (i, stripe) in slanting(1.8, 0.15, 9).into_iter().enumerate() {
+            let turned = upright(stripe).turned(Quat::from_rotation_z(if side < 0.0 { TAU / 2.0 } else { 0.0 }));
+            model.add(stripes[i % 2], turned.moved(vec3(side * 0.02, 0.0, 0.81)));
+        }
+    }
+    for y in [-0.75, 0.75] {
+        model.add(foot, Shape::rounded_block(vec3(0.6, 0.16, 0.07), 0.02).moved(vec3(0.0, y, 0.035)));
+        model.add(shell, Shape::rounded_block(vec3(0.06, 0.06, 0.16), 0.01).moved(vec3(0.0, y, 0.1)));
+    }
+    asset(model, "barrier/works-fence")
+}
+
+/// Slanting stripes of a board about the origin in x (width) and y (height), thin in z.
+fn slanting(width: f32, height: f32, count: usize) -> Vec<Shape> {
+    let at = |k: usize| -width / 2.0 + width * k as f32 / count as f32;
+    let slant = height / 2.0;
+    let stripe = |i: usize| {
+        let (a, b) = (at(i), at(i + 1));
+        let before = if i == 0 { 0.0 } else { slant };
+        let after = if i + 1 == count { 0.0 } else { slant };
+        let low = -height / 2.0;
+        Shape::extruded(
+            &[vec2(a - before, low), vec2(b - after, low), vec2(b + after, -low), vec2(a + before, -low)],
+            0.016,
+        )
+    };
+    (0..count).map(stripe).collect()
 }
 
 /// A steel crowd barrier: a bent tube with bars, on flat feet.
@@ -113,9 +316,10 @@ fn crowd() -> Asset {
 /// Planks with slanting stripes on A-shaped legs.
 fn planks() -> Asset {
     let mut model = Model::default();
-    let legs = model.slot(plastic(vec3(0.5, 0.3, 0.03)), &[]);
+    let legs = model.slot(painted(vec3(0.55, 0.33, 0.03)), &[]);
     let (red, white) = (vec3(0.5, 0.03, 0.025), vec3(0.62, 0.62, 0.6));
     let slots = [model.slot(reflective(red), &[red, vec3(0.66, 0.12, 0.02)]), model.slot(reflective(white), &[])];
+    let wood = model.slot(super::finish::grey_timber(), &[]);
     let light = model.slot(Material { emission: vec3(0.6, 0.25, 0.02), ..plastic(vec3(0.7, 0.35, 0.02)) }, &[]);
     for y in [-0.85, 0.85] {
         for x in [-1.0, 1.0] {
@@ -125,17 +329,11 @@ fn planks() -> Asset {
         model.add(legs, bar(vec3(0.0, y, 0.3), vec3(0.32, 0.05, 0.03)));
     }
     for (x, z) in [(0.072, 0.86), (-0.072, 0.86), (0.15, 0.48)] {
-        let (width, height, stripes) = (2.0, 0.2, 10);
-        let plank = |i: usize| {
-            let at = |k: usize| -width / 2.0 + width * k as f32 / stripes as f32;
-            let (a, b) = (at(i), at(i + 1));
-            let slant = if i == 0 { 0.0 } else { 0.1 };
-            let after = if i + 1 == stripes { 0.0 } else { 0.1 };
-            let stripe = [vec2(a - slant, 0.0), vec2(b - after, 0.0), vec2(b + after, height), vec2(a + slant, height)];
-            super::finish::upright(Shape::extruded(&stripe, 0.02))
-        };
-        for i in 0..stripes {
-            model.add(slots[i % 2], plank(i).moved(vec3(x - 0.01, 0.0, z - height / 2.0)));
+        let back = x - 0.01 * f32::signum(x);
+        model.add(wood, board(vec3(back, 0.0, z), vec3(0.018, 2.0, 0.2)));
+        for (i, stripe) in slanting(1.98, 0.19, 10).into_iter().enumerate() {
+            let turned = upright(stripe).turned(Quat::from_rotation_z(if x < 0.0 { TAU / 2.0 } else { 0.0 }));
+            model.add(slots[i % 2], turned.moved(vec3(x - 0.006 * f32::signum(x), 0.0, z)));
         }
     }
     model.add(

@@ -3,8 +3,9 @@
 use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material, Seed};
 
-use super::finish::{bar, galvanised, painted, plastic, rubber, timber};
+use super::finish::{bar, cardboard, galvanised, painted, plastic, rubber};
 use crate::shape::{Model, Shape};
+use crate::surfaces;
 
 pub(super) fn assets() -> Vec<Asset> {
     vec![wheelie_bin(), trolley(), suitcase(), boxes(), bags(), tyre(), branch()]
@@ -56,7 +57,7 @@ fn trolley() -> Asset {
     let blue = model.slot(painted(vec3(0.03, 0.08, 0.22)), &[]);
     let steel = model.slot(galvanised(), &[]);
     let black = model.slot(rubber(), &[]);
-    let card = model.slot(Material::plain("cardboard", vec3(0.3, 0.19, 0.1), 0.85), &[]);
+    let card = model.slot(cardboard(), &[]);
     model.add(blue, bar(vec3(0.0, 0.0, 0.2), vec3(0.92, 0.52, 0.05)));
     let bow = [
         vec3(-0.43, -0.22, 0.22),
@@ -103,7 +104,7 @@ fn suitcase() -> Asset {
 /// Cardboard boxes, one of them open.
 fn boxes() -> Asset {
     let mut model = Model::default();
-    let card = model.slot(Material::plain("cardboard", vec3(0.31, 0.2, 0.11), 0.88), &[]);
+    let card = model.slot(cardboard(), &[]);
     let tape = model.slot(Material::plain("tape", vec3(0.35, 0.25, 0.13), 0.35), &[]);
     let size = vec3(0.5, 0.4, 0.34);
     model.add(card, bar(vec3(0.0, 0.0, 0.17), size));
@@ -153,7 +154,7 @@ fn tyre() -> Asset {
 /// A fallen branch with its twigs.
 fn branch() -> Asset {
     let mut model = Model::default();
-    let bark = model.slot(timber(), &[]);
+    let bark = model.slot(surfaces::set("wood/bark"), &[]);
     let mut random = Seed(5).child("branch").random();
     let spine: Vec<Vec3> = (0..9)
         .map(|i| vec3(i as f32 * 0.16, 0.1 * (i as f32 * 0.9).sin(), 0.06 + 0.03 * (i as f32 * 1.7).cos()))

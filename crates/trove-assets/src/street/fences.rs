@@ -1,14 +1,12 @@
 //! Fences, walls and guard rails: a piece of each, repeated along x by who builds. A post stands at the piece's beginning,
 //! and y is across; the side towards +y is the outer one.
 
-use std::sync::LazyLock;
-
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Mapping, Material};
+use trove_model::{Asset, Class, Kind, Material};
 
-use super::finish::{bar, concrete, galvanised, painted, plastic, rubber, timber};
+use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plastic, rubber};
 use crate::shape::{Model, Shape};
-use crate::surfaces::{Canvas, Noise, Texel, hash};
+use crate::surfaces::{self, Canvas, Texel, hash};
 
 /// `-far` pieces are for where a camera sees no bars.
 pub(super) fn assets() -> Vec<Asset> {
@@ -20,9 +18,9 @@ pub(super) fn assets() -> Vec<Asset> {
         panels(),
         hoarding(),
         site_fence(),
-        wall("wall/concrete", concrete(), 2.0, 0.2),
-        wall("wall/brick", brick(), 2.4, 0.24),
-        wall("wall/stone", stone(), 2.2, 0.35),
+        wall("wall/concrete", surfaces::set("concrete/board-marked"), 2.0, 0.2),
+        wall("wall/brick", surfaces::set("brick/flemish"), 2.4, 0.24),
+        wall("wall/stone", surfaces::set("stone/rubble"), 2.2, 0.35),
         w_beam(),
         railing("guard-rail/railing", galvanised(), &[]),
         railing("guard-rail/railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]),
@@ -109,18 +107,17 @@ fn bars(near: bool) -> Asset {
 /// Boards side by side on two rails.
 fn wood() -> Asset {
     let mut model = Model::default();
-    let grey = vec3(0.21, 0.125, 0.065);
-    let boards =
-        model.slot(Material { dirt: 0.6, ..timber() }, &[grey, vec3(0.2, 0.17, 0.14), vec3(0.13, 0.07, 0.035)]);
+    let tone = Vec3::ONE;
+    let boards = model.slot(grey_timber(), &[tone, vec3(0.85, 0.75, 0.65), vec3(0.6, 0.4, 0.27)]);
     let length_m = 2.0;
-    model.add(boards, standing(0.0, -0.05, 0.0, 1.65, Vec2::splat(0.09)));
+    model.add(boards, board(vec3(0.045, -0.05, 0.825), vec3(0.09, 0.09, 1.65)));
     for z in [0.35, 1.35] {
-        model.add(boards, rail(length_m, -0.03, z, vec2(0.04, 0.09)));
+        model.add(boards, board(vec3(length_m / 2.0, -0.03, z), vec3(length_m, 0.04, 0.09)));
     }
     for i in 0..16 {
         let lift = 0.012 * (hash(i, 3, 5) - 0.5);
-        let x = length_m * i as f32 / 16.0 + 0.004;
-        model.add(boards, standing(x, 0.0, 0.05, 1.72 + lift, vec2(length_m / 16.0 - 0.008, 0.02)));
+        let x = length_m * (i as f32 + 0.5) / 16.0;
+        model.add(boards, board(vec3(x, 0.0, 0.885 + lift / 2.0), vec3(length_m / 16.0 - 0.008, 0.02, 1.67 + lift)));
     }
     fence(model, "fence/wood")
 }
@@ -195,40 +192,6 @@ fn wall(id: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
 /// A (y, z) profile, counter-clockwise seen from +x, swept from x = 0.
 fn along_x(profile: &[Vec2], length_m: f32) -> Shape {
     super::finish::upright(Shape::extruded(profile, length_m))
-}
-
-/// Bricks in a running bond, and stones laid as they came.
-fn masonry(name: &str, unit: Vec2, size: Vec2, color: impl Fn(f32) -> Vec3, joint: Vec3) -> Material {
-    let grime = Noise::new(size, 0.5, 12);
-    let (across, rows) = ((size.x / unit.x).round() as i32, (size.y / unit.y).round() as i32);
-    let canvas = Canvas::new([256, 256], size.to_array(), |p| {
-        let row = (p.y / unit.y).floor() as i32;
-        let x = p.x / unit.x + 0.5 * (row % 2) as f32;
-        let within = vec2(x.fract() * unit.x, (p.y / unit.y).fract() * unit.y);
-        let edge = within.min(unit - within).min_element();
-        let shade = 1.0 + 0.25 * grime.fbm(p, 3);
-        let drawn = hash((x.floor() as i32).rem_euclid(across), row.rem_euclid(rows), 7);
-        let mut texel = Texel::new(if edge < 0.006 { joint } else { color(drawn) } * shade, 0.85);
-        texel.height_m = (edge / 0.01).min(1.0) * 0.008;
-        texel
-    });
-    Material { mapping: Mapping::Triplanar, ..canvas.material(name, 2) }
-}
-
-fn brick() -> Material {
-    static BRICK: LazyLock<Material> = LazyLock::new(|| {
-        let red = |drawn: f32| vec3(0.27, 0.085, 0.05).lerp(vec3(0.16, 0.06, 0.045), drawn);
-        masonry("brick wall", vec2(0.25, 0.0833), vec2(2.0, 2.0), red, vec3(0.33, 0.31, 0.28))
-    });
-    BRICK.clone()
-}
-
-fn stone() -> Material {
-    static STONE: LazyLock<Material> = LazyLock::new(|| {
-        let grey = |drawn: f32| vec3(0.34, 0.31, 0.26).lerp(vec3(0.22, 0.21, 0.2), drawn);
-        masonry("stone wall", vec2(0.5, 0.25), vec2(2.0, 2.0), grey, vec3(0.2, 0.19, 0.17))
-    });
-    STONE.clone()
 }
 
 fn guard_rail(model: Model, id: &str) -> Asset {

@@ -2,10 +2,10 @@
 
 use std::f32::consts::{PI, TAU};
 
-use glam::{Quat, Vec3, vec2, vec3};
+use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material, Seed};
 
-use super::finish::{bar, concrete, galvanised, glass, painted, plastic, post, rubber, stainless, timber};
+use super::finish::{bar, board, concrete, galvanised, glass, painted, plastic, post, rubber, stainless, timber};
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
@@ -220,15 +220,15 @@ fn table(parasol: bool) -> Asset {
     let wood = model.slot(timber(), &[]);
     model.add(metal, post(Vec3::ZERO, 0.03, 0.72, 10));
     model.add(metal, post(Vec3::ZERO, 0.22, 0.03, 20));
-    model.add(wood, post(Vec3::Z * 0.72, 0.35, 0.03, 28));
+    model.add(wood, post(Vec3::Z * 0.72, 0.35, 0.03, 28).laid(Vec3::X, Vec2::ZERO));
     for turn in [0.35, 0.35 + PI] {
-        let mut chair = vec![bar(vec3(0.62, 0.0, 0.45), vec3(0.4, 0.42, 0.03))];
+        let mut chair = vec![board(vec3(0.62, 0.0, 0.45), vec3(0.4, 0.42, 0.03))];
         for (x, y) in [(0.45, -0.18), (0.45, 0.18), (0.79, -0.18), (0.79, 0.18)] {
             let top_m = if x > 0.6 { 0.85 } else { 0.45 };
             chair.push(Shape::tube(&[vec3(x, y, 0.0), vec3(x, y, top_m)], 0.012, 7));
         }
         for z in [0.62, 0.72, 0.82] {
-            chair.push(bar(vec3(0.79, 0.0, z), vec3(0.02, 0.4, 0.06)));
+            chair.push(board(vec3(0.79, 0.0, z), vec3(0.02, 0.4, 0.06)));
         }
         model.add(wood, Shape::join(chair).turned(Quat::from_rotation_z(turn)));
     }
@@ -247,15 +247,15 @@ fn picnic_table() -> Asset {
     let mut model = Model::default();
     let wood = model.slot(timber(), &[]);
     for i in 0..5 {
-        model.add(wood, bar(vec3(-0.3 + 0.15 * i as f32, 0.0, 0.74), vec3(0.135, 1.8, 0.04)));
+        model.add(wood, board(vec3(-0.3 + 0.15 * i as f32, 0.0, 0.74), vec3(0.135, 1.8, 0.04)));
     }
     for x in [-0.68, -0.55, 0.55, 0.68] {
-        model.add(wood, bar(vec3(x, 0.0, 0.44), vec3(0.12, 1.8, 0.04)));
+        model.add(wood, board(vec3(x, 0.0, 0.44), vec3(0.12, 1.8, 0.04)));
     }
     for y in [-0.6, 0.6] {
-        model.add(wood, bar(vec3(0.0, y, 0.38), vec3(1.5, 0.05, 0.1)));
+        model.add(wood, board(vec3(0.0, y, 0.38), vec3(1.5, 0.05, 0.1)));
         for lean in [-0.45f32, 0.45] {
-            let leg = bar(vec3(0.0, 0.0, 0.0), vec3(0.09, 0.05, 0.82));
+            let leg = board(vec3(0.0, 0.0, 0.0), vec3(0.09, 0.05, 0.82));
             model.add(wood, leg.turned(Quat::from_rotation_y(lean)).moved(vec3(lean, y, 0.375)));
         }
     }

@@ -5,7 +5,9 @@ use std::f32::consts::{PI, TAU};
 use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind};
 
-use super::finish::{bar, concrete, galvanised, glass, painted, plastic, post, reflective, rubber, stainless, timber};
+use super::finish::{
+    bar, board, concrete, galvanised, glass, painted, plastic, post, reflective, rubber, stainless, timber,
+};
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
@@ -139,11 +141,11 @@ fn slatted_bench() -> Asset {
     let wood = model.slot(timber(), &[]);
     let iron = model.slot(painted(Vec3::splat(0.03)), &[]);
     for i in 0..5 {
-        model.add(wood, bar(vec3(0.17 - 0.095 * i as f32, 0.0, 0.445), vec3(0.075, 1.8, 0.035)));
+        model.add(wood, board(vec3(0.17 - 0.095 * i as f32, 0.0, 0.445), vec3(0.075, 1.8, 0.035)));
     }
     let lean = Quat::from_rotation_y(-0.22);
     for i in 0..3 {
-        let slat = bar(vec3(0.0, 0.0, 0.12 + 0.115 * i as f32), vec3(0.03, 1.8, 0.085)).turned(lean);
+        let slat = board(vec3(0.0, 0.0, 0.12 + 0.115 * i as f32), vec3(0.03, 1.8, 0.085)).turned(lean);
         model.add(wood, slat.moved(vec3(-0.25, 0.0, 0.44)));
     }
     for y in [-0.75, 0.0, 0.75] {
@@ -167,7 +169,7 @@ fn stone_bench() -> Asset {
         model.add(stone, bar(vec3(0.0, y, 0.2), vec3(0.42, 0.25, 0.4)));
     }
     for i in 0..6 {
-        model.add(wood, bar(vec3(-0.2 + 0.08 * i as f32, 0.0, 0.43), vec3(0.065, 2.0, 0.05)));
+        model.add(wood, board(vec3(-0.2 + 0.08 * i as f32, 0.0, 0.43), vec3(0.065, 2.0, 0.05)));
     }
     model.asset("bench/stone", Kind::Bench, Class::Void)
 }
@@ -255,7 +257,7 @@ fn shelter() -> Asset {
     model.add(roof, bar(vec3(0.05, 0.0, 2.5), vec3(1.75, 4.3, 0.1)));
     model.add(steel, bar(vec3(0.05, 0.0, 2.43), vec3(1.6, 4.1, 0.05)));
     for i in 0..3 {
-        model.add(wood, bar(vec3(-0.42 + 0.11 * i as f32, -0.3, 0.47), vec3(0.09, 2.2, 0.035)));
+        model.add(wood, board(vec3(-0.42 + 0.11 * i as f32, -0.3, 0.47), vec3(0.09, 2.2, 0.035)));
     }
     for y in [-1.2, 0.6] {
         model.add(steel, bar(vec3(-0.32, y, 0.23), vec3(0.3, 0.05, 0.44)));

@@ -1,9 +1,11 @@
 //! Street lamps and utility poles; a lamp's arm reaches along x.
 
-use glam::{Quat, Vec3, vec2, vec3};
+use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material};
 
-use super::finish::{bar, concrete, galvanised, glass, painted, post, rubber, timber};
+use super::finish::{
+    bar, board, concrete, foot_plate, galvanised, glass, grey_timber, mast_of, painted, post, rubber, rust_at_foot,
+};
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
@@ -24,8 +26,8 @@ fn curved() -> Asset {
     let steel = model.slot(galvanised(), &[]);
     let head = model.slot(painted(Vec3::splat(0.25)), &[]);
     let lens = model.slot(lens(), &[]);
-    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.1), (Vec3::Z * 8.0, 0.065), (Vec3::Z * 8.3, 0.0)], 14));
-    model.add(steel, bar(vec3(0.0, 0.0, 0.02), vec3(0.36, 0.36, 0.04)));
+    model.add(steel, mast_of([0.1, 0.065], 8.0));
+    foot_plate(&mut model, steel, 0.36);
     model.add(steel, bar(vec3(0.1, 0.0, 0.8), vec3(0.02, 0.12, 0.5)));
     // The bow leaves the pole, bends away behind it and comes over the top.
     let path: Vec<Vec3> = (0..=18)
@@ -42,6 +44,7 @@ fn curved() -> Asset {
     let tilt = Quat::from_rotation_y(0.12);
     model.add(head, Shape::ellipsoid(vec3(0.42, 0.15, 0.09), 20).moved(vec3(0.36, 0.0, 0.0)).turned(tilt).moved(end));
     model.add(lens, Shape::ellipsoid(vec3(0.26, 0.12, 0.07), 16).moved(vec3(0.42, 0.0, -0.04)).turned(tilt).moved(end));
+    rust_at_foot(&mut model, steel, 0.12);
     lamp(model, "lamp/curved")
 }
 
@@ -51,8 +54,8 @@ fn straight() -> Asset {
     let grey = vec3(0.12, 0.125, 0.13);
     let paint = model.slot(painted(grey), &[grey, Vec3::splat(0.3), Vec3::splat(0.04)]);
     let lens = model.slot(lens(), &[]);
-    model.add(paint, Shape::tapered_tube(&[(Vec3::ZERO, 0.085), (Vec3::Z * 8.0, 0.05)], 14));
-    model.add(paint, bar(vec3(0.0, 0.0, 0.015), vec3(0.32, 0.32, 0.03)));
+    model.add(paint, mast_of([0.085, 0.05], 8.0));
+    foot_plate(&mut model, paint, 0.32);
     model.add(paint, Shape::tapered_tube(&[(vec3(0.0, 0.0, 7.95), 0.035), (vec3(1.4, 0.0, 8.15), 0.03)], 10));
     let turn = Quat::from_rotation_y(-0.12);
     model.add(paint, bar(Vec3::ZERO, vec3(0.66, 0.26, 0.07)).turned(turn).moved(vec3(1.65, 0.0, 8.18)));
@@ -66,8 +69,8 @@ fn cobra() -> Asset {
     let steel = model.slot(galvanised(), &[]);
     let head = model.slot(painted(Vec3::splat(0.3)), &[]);
     let lens = model.slot(lens(), &[]);
-    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.11), (Vec3::Z * 8.8, 0.065)], 14));
-    model.add(steel, bar(vec3(0.0, 0.0, 0.03), vec3(0.4, 0.4, 0.06)));
+    model.add(steel, mast_of([0.11, 0.065], 8.8));
+    foot_plate(&mut model, steel, 0.4);
     model.add(steel, bar(vec3(-0.1, 0.0, 0.6), vec3(0.02, 0.12, 0.3)));
     let upper = |t: f32| vec3(2.4 * t, 0.0, 8.7 + 0.55 * (t * 1.4).sin());
     let lower = |t: f32| vec3(2.4 * t, 0.0, 8.1 + 1.14 * (t * 1.57).sin() - 0.1 * t);
@@ -90,13 +93,14 @@ fn mast() -> Asset {
     let steel = model.slot(galvanised(), &[]);
     let head = model.slot(painted(Vec3::splat(0.35)), &[]);
     let lens = model.slot(lens(), &[]);
-    model.add(steel, Shape::tapered_tube(&[(Vec3::ZERO, 0.12), (Vec3::Z * 10.0, 0.06)], 14));
-    model.add(steel, bar(vec3(0.0, 0.0, 0.015), vec3(0.4, 0.4, 0.03)));
+    model.add(steel, mast_of([0.12, 0.06], 10.0));
+    foot_plate(&mut model, steel, 0.4);
     model.add(steel, bar(vec3(0.105, 0.0, 0.75), vec3(0.02, 0.13, 0.5)));
     let arm = |t: f32| vec3(2.0 * t, 0.0, 9.9 + 0.35 * t);
     model.add(steel, Shape::tapered_tube(&[(arm(0.0), 0.045), (arm(1.0), 0.03)], 10));
     model.add(head, bar(arm(1.0) + vec3(0.25, 0.0, 0.02), vec3(0.62, 0.3, 0.09)));
     model.add(lens, bar(arm(1.0) + vec3(0.28, 0.0, -0.03), vec3(0.45, 0.24, 0.015)));
+    rust_at_foot(&mut model, steel, 0.14);
     lamp(model, "lamp/mast")
 }
 
@@ -179,12 +183,12 @@ fn pole(model: Model, id: &str) -> Asset {
 /// A timber pole with cross arms, insulators and a transformer.
 fn wooden_pole() -> Asset {
     let mut model = Model::default();
-    let wood = model.slot(timber(), &[]);
+    let wood = model.slot(grey_timber(), &[]);
     let steel = model.slot(galvanised(), &[]);
     let clay = model.slot(Material { name: INSULATOR.into(), ..painted(vec3(0.14, 0.06, 0.035)) }, &[]);
-    model.add(wood, Shape::tapered_tube(&[(Vec3::ZERO, 0.16), (Vec3::Z * 10.0, 0.1)], 14));
+    model.add(wood, mast_of([0.16, 0.1], 10.0).laid(Vec3::Z, Vec2::ZERO));
     for z in [9.6, 8.7] {
-        model.add(wood, bar(vec3(0.12, 0.0, z), vec3(0.1, 2.3, 0.12)));
+        model.add(wood, board(vec3(0.12, 0.0, z), vec3(0.1, 2.3, 0.12)));
         for y in [-1.05, -0.6, 0.6, 1.05] {
             let insulator = [(0.0, 0.0), (0.03, 0.0), (0.05, 0.05), (0.03, 0.09), (0.045, 0.12), (0.0, 0.16)];
             let shape = Shape::lathe(&insulator.map(|(r, z)| vec2(r, z)), 10);
@@ -205,7 +209,7 @@ fn concrete_pole() -> Asset {
     let body = model.slot(concrete(), &[]);
     let steel = model.slot(galvanised(), &[]);
     let black = model.slot(Material { name: INSULATOR.into(), ..rubber() }, &[]);
-    model.add(body, Shape::tapered_tube(&[(Vec3::ZERO, 0.17), (Vec3::Z * 9.0, 0.1)], 16));
+    model.add(body, mast_of([0.17, 0.1], 9.0));
     for z in [8.3, 8.7] {
         model.add(steel, post(vec3(0.0, 0.0, z), 0.125, 0.05, 16));
         for y in [-0.2, 0.2] {

@@ -6,7 +6,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material};
 
-use super::finish::{bar, galvanised, painted, plastic, polygon, post, upright};
+use super::finish::{bar, foot_plate, galvanised, mast_of, painted, plastic, polygon, post, rust_at_foot, upright};
 use crate::shape::{Model, Shape};
 
 /// How a signal is built.
@@ -177,10 +177,9 @@ fn signal(id: &str, make: Make, side: f32, lit: Lamp) -> Asset {
     let slots = Slots::new(&mut model, lit);
     let long = make.arm_m > 0.0;
     let (radius_m, height_m) = if long { (0.13, 6.3) } else { (0.06, 3.4) };
-    let foot = [(Vec3::ZERO, radius_m), (Vec3::Z * height_m, radius_m * 0.75)];
-    model.add(steel, Shape::tapered_tube(&foot, 16));
-    let plate_m = 0.2 + 2.0 * radius_m;
-    model.add(steel, bar(vec3(0.0, 0.0, 0.015), vec3(plate_m, plate_m, 0.03)));
+    model.add(steel, mast_of([radius_m, radius_m * 0.75], height_m));
+    foot_plate(&mut model, steel, 0.2 + 2.0 * radius_m);
+    rust_at_foot(&mut model, steel, 0.1);
     for z in [2.5, 3.0] {
         model.add(steel, bar(vec3(0.09 + radius_m / 2.0, 0.0, z), vec3(0.16, 0.05, 0.05)));
     }

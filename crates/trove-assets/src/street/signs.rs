@@ -6,8 +6,7 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
 use trove_model::{Asset, Class, Kind, Lettering, Material};
 
-use super::finish::{galvanised, painted, polygon, post, rounded, upright};
-
+use super::finish::{galvanised, painted, polygon, post, rounded, rust_at_foot, upright};
 use crate::shape::{Model, Shape};
 use crate::surfaces::{Canvas, Noise, Texel, hash, step};
 
@@ -76,6 +75,7 @@ fn sign(id: &str, plates: Vec<Plate>) -> Asset {
     let back = model.slot(painted(Vec3::splat(0.27)), &[]);
     model.add(steel, post(Vec3::ZERO, 0.038, top_m - 0.04, 16));
     mount(&mut model, back, id, plates, vec2(0.0, 0.055));
+    rust_at_foot(&mut model, steel, 0.08);
     model.asset(id, Kind::TrafficSign, Class::TrafficSign)
 }
 
@@ -84,8 +84,11 @@ fn mount(model: &mut Model, back: u16, id: &str, plates: Vec<Plate>, at: Vec2) {
     for (i, plate) in plates.into_iter().enumerate() {
         let name = format!("{id}-{i}");
         let canvas = weathered(plate.size_m, plate.picture);
-        let material =
-            Material { base_color_map: Some(canvas.color(&name)), ..Material::plain(&name, Vec3::ONE, 0.35) };
+        let material = Material {
+            base_color_map: Some(canvas.color(&name)),
+            dirt: 0.25,
+            ..Material::plain(&name, Vec3::ONE, 0.35)
+        };
         let front = model.slot(material, &[]);
         let place = vec3(at.y, at.x, plate.up_m);
         model.add(back, upright(Shape::extruded(&plate.outline, 0.004)).moved(place));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3, uvec2, vec2};
-use trove_model::{ColorSpace, Material, Texture};
+use trove_model::{ColorSpace, Material, Seed, Texture};
 
 /// What a surface is at a point.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub(crate) struct Texel {
     pub(crate) height_m: f32,
     /// Perceptual roughness.
     pub(crate) roughness: f32,
+    /// 0 dielectric, 1 metal.
+    pub(crate) metalness: f32,
     /// Coverage.
     pub(crate) alpha: f32,
 }
@@ -21,13 +23,27 @@ pub(crate) struct Texel {
 impl Texel {
     /// Opaque, at height 0.
     pub(crate) fn new(albedo: Vec3, roughness: f32) -> Self {
-        Self { albedo, height_m: 0.0, roughness, alpha: 1.0 }
+        Self { albedo, height_m: 0.0, roughness, metalness: 0.0, alpha: 1.0 }
     }
 
     /// Goes towards another colour.
     pub(crate) fn tint(&mut self, albedo: Vec3, share: f32) {
         self.albedo = self.albedo.lerp(albedo, share.clamp(0.0, 1.0));
     }
+}
+
+/// Straight lines strewn over a canvas: scratches, creases, scuffs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strokes {
+    /// How many on the canvas.
+    pub(crate) count: u32,
+    /// Shortest and longest.
+    pub(crate) length_m: [f32; 2],
+    /// Narrower than a texel they are fainter.
+    pub(crate) width_m: f32,
+    /// Directions, from u anticlockwise.
+    pub(crate) turn_rad: [f32; 2],
+    pub(crate) seed: u32,
 }
 
 /// Texels that repeat in both directions; points are metres from the bottom left corner.
@@ -63,9 +79,39 @@ impl Canvas {
         }
     }
 
+    /// The texel that a point within the canvas lies in.
+    pub(crate) fn at(&self, p_m: Vec2) -> Texel {
+        let p = (p_m / self.size_m * self.size_px.as_vec2()).as_uvec2().min(self.size_px - 1);
+        self.texels[((self.size_px.y - 1 - p.y) * self.size_px.x + p.x) as usize]
+    }
+
     /// Paints every texel; the brush gets metres.
     pub(crate) fn all(&mut self, brush: impl FnMut(Vec2, &mut Texel)) {
         self.rect(Vec2::ZERO, self.size_m, brush);
+    }
+
+    /// Draws strokes; the brush gets how much of the texel one covers, and a number in 0..1 that was drawn for it.
+    pub(crate) fn strokes(&mut self, strokes: Strokes, mut brush: impl FnMut(&mut Texel, f32, f32)) {
+        let texel_m = (self.size_m / self.size_px.as_vec2()).max_element();
+        let half_m = strokes.width_m.max(texel_m);
+        let strength = (strokes.width_m / texel_m).min(1.0);
+        let mut random = Seed(u64::from(strokes.seed)).child("strokes").random();
+        let mut draw = |[from, to]: [f32; 2]| random.range(f64::from(from), f64::from(to)) as f32;
+        for _ in 0..strokes.count {
+            let at = vec2(draw([0.0, 1.0]), draw([0.0, 1.0])) * self.size_m;
+            let along = Vec2::from_angle(draw(strokes.turn_rad));
+            let length = draw(strokes.length_m);
+            let drawn = draw([0.0, 1.0]);
+            let reach = along.abs() * length / 2.0 + half_m;
+            self.rect(at - reach, at + reach, |p, texel| {
+                let q = p - reach;
+                let t = q.dot(along) / length * 2.0;
+                let share = (1.0 - q.perp_dot(along).abs() / half_m) * (1.0 - t * t);
+                if share > 0.0 && t.abs() < 1.0 {
+                    brush(texel, share * strength, drawn);
+                }
+            });
+        }
     }
 
     /// The colour map alone (things with faces and leaves).
@@ -78,22 +124,37 @@ impl Canvas {
         texture(name, "color", self.size_px, self.texels.iter().map(texel).collect(), ColorSpace::Srgb)
     }
 
-    /// The material for uvs in metres; gloss and relief are kept at a `coarser`-th of the resolution.
+    /// The material for uvs in metres; gloss and normals are kept at a `coarser`-th of the resolution, heights at half
+    /// of theirs.
     pub(crate) fn material(&self, name: &str, coarser: u32) -> Material {
         let orm_px = self.size_px / coarser;
-        let roughness: Vec<f32> = self.texels.iter().map(|t| t.roughness).collect();
+        let gloss: Vec<Vec2> = self.texels.iter().map(|t| vec2(t.roughness, t.metalness)).collect();
+        let metalness = gloss.iter().map(|g| g.y).fold(0.0, f32::max);
         // Occlusion stays 1: rays find it.
-        let orm = boxed(&roughness, self.size_px, coarser, |r| [255, byte(r), 0, 255]);
+        let orm = boxed(&gloss, self.size_px, coarser, |g| [255, byte(g.x), byte(g.y), 255]);
         let normals = boxed(&self.normals(), self.size_px, coarser, |n: Vec3| {
             let n = n.normalize_or(Vec3::Z) * 0.5 + 0.5;
             [byte(n.x), byte(n.y), byte(n.z), 255]
+        });
+        let heights: Vec<f32> = self.texels.iter().map(|t| t.height_m).collect();
+        let (low_m, high_m) = heights.iter().fold((f32::MAX, f32::MIN), |(low, high), &h| (low.min(h), high.max(h)));
+        let height_m = high_m - low_m;
+        let height_map = (height_m > 0.0).then(|| {
+            let coarser = (coarser * 2).min(self.size_px.min_element());
+            let heights = boxed(&heights, self.size_px, coarser, |h| {
+                let h = byte((h - low_m) / height_m);
+                [h, h, h, 255]
+            });
+            texture(name, "height", self.size_px / coarser, heights, ColorSpace::Linear)
         });
         Material {
             name: name.into(),
             base_color: Vec3::ONE,
             base_color_map: Some(self.color(name)),
             roughness: 1.0,
-            metalness: 0.0,
+            metalness: if metalness > 0.0 { 1.0 } else { 0.0 },
+            height_map,
+            height_m,
             orm_map: Some(texture(name, "orm", orm_px, orm, ColorSpace::Linear)),
             normal_map: Some(texture(name, "normal", orm_px, normals, ColorSpace::Linear)),
             uv_scale: 1.0 / self.size_m,

@@ -6,7 +6,7 @@ use super::canvas::{Canvas, Texel};
 use super::noise::{Noise, step};
 
 /// Grass seen from above: tufts, thatch and moss between them, patches of clover, and bare earth by `bare`.
-pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
+pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32, detail: u32) -> Canvas {
     let size = [8.0, 8.0];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
@@ -14,7 +14,7 @@ pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
     let (clover, sward) = (noise(1.0, 5).field(4), noise(4.0, 6).field(3));
     let thatch = fresh.lerp(dry, 0.6) * vec3(0.62, 0.55, 0.62);
     let clover_green = fresh * vec3(0.62, 0.86, 0.95);
-    let mut canvas = Canvas::new([1024, 1024], size, |p| {
+    let mut canvas = Canvas::new([1024 * detail, 1024 * detail], size, |p| {
         let (c, e, broad) = (clump.at(p), earth.at(p), sward.at(p));
         let soil = vec3(0.13, 0.09, 0.058) * (1.0 + 0.3 * e);
         let dead = step(0.05, 0.75, patch.at(p) + 0.25 * c + 0.2 * broad);
@@ -53,11 +53,11 @@ pub(super) fn grass(fresh: Vec3, dry: Vec3, bare: f32, seed: u32) -> Canvas {
 }
 
 /// Bare earth with crumbs and small stones.
-pub(super) fn soil(seed: u32) -> Canvas {
+pub(super) fn soil(seed: u32, detail: u32) -> Canvas {
     let size = [3.0, 3.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (crumb, broad, pebble) = (noise(0.05, 1), noise(0.8, 2).field(4), noise(0.11, 3));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let (c, b) = (crumb.fbm(p, 4), broad.at(p));
         let stone = pebble.near(p);
         let is_stone = step(0.24, 0.17, stone.first) * step(0.72, 0.75, stone.id);
@@ -68,13 +68,46 @@ pub(super) fn soil(seed: u32) -> Canvas {
     })
 }
 
+/// Wet earth that feet and wheels have kneaded, puddles in its hollows.
+pub(super) fn mud(seed: u32, detail: u32) -> Canvas {
+    let size = [3.0, 3.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (lumps, broad, fine) = (noise(0.16, 1), noise(0.7, 2).field(4), noise(0.02, 3));
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let (l, b) = (lumps.fbm(p, 4), broad.at(p));
+        let low = step(-0.12, -0.35, 0.6 * b + 0.5 * l);
+        let mut texel = Texel::new(vec3(0.085, 0.062, 0.043) * (1.0 + 0.4 * l + 0.25 * fine.at(p)), 0.72 - 0.2 * b);
+        texel.tint(vec3(0.05, 0.039, 0.03), low);
+        texel.roughness += (0.08 - texel.roughness) * low;
+        texel.height_m = (0.03 * l + 0.04 * b).max(-0.012);
+        texel
+    })
+}
+
+/// Sand with the wind's ripples and footprints' hollows.
+pub(super) fn sand(seed: u32, detail: u32) -> Canvas {
+    let size = [2.0, 2.0];
+    let size_m = Vec2::from_array(size);
+    let noise = |feature: Vec2, salt| Noise::stretched(size_m, feature, seed * 31 + salt);
+    let (ripple, broad) = (noise(vec2(0.3, 0.09), 1), noise(Vec2::splat(0.5), 2).field(4));
+    let grains = noise(Vec2::splat(0.006), 3);
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let grain = grains.near(p);
+        let r = ripple.fbm(p, 3);
+        let tone = 1.0 + 0.3 * (grain.id - 0.5) + 0.12 * r + 0.12 * broad.at(p);
+        let mut texel = Texel::new(vec3(0.36, 0.285, 0.19) * tone, 0.93);
+        texel.height_m = 0.008 * r + 0.015 * broad.at(p) + 0.0006 * (grain.id - 0.5);
+        texel
+    })
+}
+
 /// Loose stones of about `stone_m`.
-pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32) -> Canvas {
+pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32, detail: u32) -> Canvas {
     let size = [2.0, 2.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (stones, fine, grain, broad) =
         (noise(stone_m, 1), noise(stone_m * 0.6, 2), noise(0.02, 3), noise(0.6, 4).field(3));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let (large, small) = (stones.near(p), fine.near(p));
         let on_top = large.first < 0.52;
         let (stone, depth) = if on_top { (large, 1.0) } else { (small, 0.6) };
@@ -88,11 +121,11 @@ pub(super) fn gravel(color: Vec3, stone_m: f32, seed: u32) -> Canvas {
 }
 
 /// Still water with small ripples.
-pub(super) fn water() -> Canvas {
+pub(super) fn water(detail: u32) -> Canvas {
     let size = [8.0, 8.0];
     let noise = |feature_m, seed| Noise::new(Vec2::from_array(size), feature_m, seed);
     let (swell, ripple) = (noise(1.6, 881), noise(0.4, 882));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let mut texel = Texel::new(vec3(0.012, 0.022, 0.02), 0.06);
         texel.height_m = 0.018 * swell.fbm(p, 3) + 0.005 * ripple.fbm(p, 3);
         texel

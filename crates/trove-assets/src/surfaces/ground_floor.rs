@@ -8,7 +8,7 @@ use super::styles::{CLEAR, DARK, STONE, WHITE_PAINT, course, opening, pane};
 use super::wall::{Finish, Grid};
 
 fn grid(bay_m: f32, storey_m: f32) -> Grid {
-    Grid { cells: [4, 1], cell_m: vec2(bay_m, storey_m) }
+    Grid { cells: [4, 1], cell_m: vec2(bay_m, storey_m), detail: 1 }
 }
 
 /// Shops, a bay each, with signs and awnings here and there.

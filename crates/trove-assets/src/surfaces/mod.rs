@@ -1,18 +1,24 @@
 //! Textures that tile, for everything that is built in place.
 
 mod canvas;
+mod cloth;
 mod facade;
 mod ground;
 mod ground_floor;
 mod inside;
+mod masonry;
+mod metal;
 mod noise;
 mod opening;
 mod paving;
 mod road;
 mod roof;
 mod styles;
+mod synthetic;
 #[cfg(test)]
 mod tests;
+mod things;
+mod timber;
 mod wall;
 
 use std::sync::Arc;
@@ -23,7 +29,7 @@ use trove_model::{Surface, SurfaceKind, Tiling};
 
 pub(crate) use canvas::{Canvas, Texel};
 pub(crate) use noise::{Noise, hash, step};
-pub(crate) use paving::concrete;
+pub(crate) use things::{refine, set};
 
 use facade::Style;
 use road::{Cover, Wear};
@@ -31,7 +37,8 @@ use wall::Finish;
 
 /// How a surface is painted.
 enum Paint {
-    Plain(Box<dyn Fn() -> Canvas + Send + Sync>),
+    /// At a multiple of the ordinary resolution.
+    Plain(Box<dyn Fn(u32) -> Canvas + Send + Sync>),
     /// By rules, with a seed.
     Storeys(Box<Style>, u32),
     /// Whole cells, so many across and up.
@@ -40,7 +47,7 @@ enum Paint {
 
 type Recipe = (&'static str, SurfaceKind, Paint);
 
-fn plain(id: &'static str, kind: SurfaceKind, paint: impl Fn() -> Canvas + Send + Sync + 'static) -> Recipe {
+fn plain(id: &'static str, kind: SurfaceKind, paint: impl Fn(u32) -> Canvas + Send + Sync + 'static) -> Recipe {
     (id, kind, Paint::Plain(Box::new(paint)))
 }
 
@@ -48,18 +55,22 @@ fn storeys(id: &'static str, kind: SurfaceKind, style: Style, seed: u32) -> Reci
     (id, kind, Paint::Storeys(Box::new(style), seed))
 }
 
-/// Every surface, in no particular order.
-pub(crate) fn surfaces() -> Vec<Surface> {
-    ground_recipes().into_iter().chain(building_recipes()).collect::<Vec<_>>().par_iter().map(surface).collect()
+/// Every surface, in no particular order; `detail` multiplies the resolution of all but facades.
+pub(crate) fn surfaces(detail: u32) -> Vec<Surface> {
+    let recipes: Vec<Recipe> = ground_recipes().into_iter().chain(building_recipes()).collect();
+    let mut surfaces: Vec<Surface> = recipes.par_iter().map(|recipe| surface(recipe, detail)).collect();
+    surfaces.extend(things::surfaces(detail));
+    surfaces
 }
 
-fn surface((id, kind, paint): &Recipe) -> Surface {
+fn surface((id, kind, paint): &Recipe, detail: u32) -> Surface {
     let (canvas, cells, design) = match paint {
-        Paint::Plain(paint) => (paint(), [1, 1], None),
+        Paint::Plain(paint) => (paint(detail), [1, 1], None),
         Paint::Storeys(style, seed) => (style.paint(*seed), style.grid.cells, Some(Arc::new(style.rules()))),
         Paint::Cells(cells, paint, seed) => (paint(*seed), *cells, None),
     };
-    let mut material = canvas.material(id, 2);
+    // Near facades are cut, so that their gloss and relief is seen from afar only.
+    let mut material = canvas.material(id, if design.is_some() { 4 } else { 2 });
     material.dirt = dirt(*kind);
     // What has no joints, windows or patches that would be cut.
     if [
@@ -84,6 +95,12 @@ fn surface((id, kind, paint): &Recipe) -> Surface {
     if *kind == SurfaceKind::Water {
         material.ior = 1.33;
     }
+    match *id {
+        "asphalt/wet" => material.wetness = 0.7,
+        "glass/pane" => material.transmission = 0.92,
+        "paint/lacquer" => material.coat = 1.0,
+        _ => {}
+    }
     Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells, design }
 }
 
@@ -94,54 +111,57 @@ fn dirt(kind: SurfaceKind) -> f32 {
         SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete | SurfaceKind::FlatRoof => 0.6,
         SurfaceKind::Facade | SurfaceKind::FacadeGroundFloor => 0.5,
         SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel | SurfaceKind::RoofTiles => 0.4,
-        SurfaceKind::Wall | SurfaceKind::ShopSign => 0.3,
+        SurfaceKind::Wall | SurfaceKind::ShopSign | SurfaceKind::Thing => 0.3,
         SurfaceKind::Water | SurfaceKind::RoomBack => 0.0,
     }
 }
 
+// Asphalt that has greyed over the years reflects 15 to 25 %, after its first year about 12 %.
+const WORN: Wear = Wear { binder: 0.205, stone: 0.3, stone_m: 0.014, worn: 0.6, cracks: 0.2, seed: 2 };
+const NEW: Wear = Wear { binder: 0.115, stone: 0.185, worn: 0.2, cracks: 0.0, seed: 1, ..WORN };
+
 /// Roads, paths and land.
 fn ground_recipes() -> Vec<Recipe> {
     use SurfaceKind::*;
-    // Asphalt that has greyed over the years reflects 15 to 20 %, after its first year about 11 %.
-    let worn = Wear { binder: 0.185, stone: 0.28, stone_m: 0.014, worn: 0.6, cracks: 0.2, seed: 2 };
-    let new = Wear { binder: 0.095, stone: 0.16, worn: 0.2, cracks: 0.0, seed: 1, ..worn };
-    let walk = Wear { binder: 0.15, stone: 0.22, stone_m: 0.009, worn: 0.4, cracks: 0.3, seed: 3 };
+    let walk = Wear { binder: 0.165, stone: 0.24, stone_m: 0.009, worn: 0.4, cracks: 0.3, seed: 3 };
+    let pale = Wear { binder: 0.215, stone: 0.31, worn: 0.75, cracks: 0.35, seed: 4, ..WORN };
     let green = vec3(0.092, 0.138, 0.04);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
-        plain("asphalt/new", Asphalt, move || road::asphalt(new)),
-        plain("asphalt/worn", Asphalt, move || road::asphalt(worn)),
-        plain("marking/white", MarkingWhite, || road::marking(vec3(0.74, 0.74, 0.71), 11)),
-        plain("marking/yellow", MarkingYellow, || road::marking(vec3(0.62, 0.36, 0.04), 12)),
-        plain("cover/round", RoadCover, || road::cover(Cover::Round, [0.68, 0.68], 13)),
-        plain("cover/square", RoadCover, || road::cover(Cover::Square, [0.9, 0.6], 14)),
-        plain("cover/grating", RoadCover, || road::cover(Cover::Grating, [0.5, 0.4], 15)),
-        plain("paving/slabs", Paving, || paving::slabs(vec3(0.31, 0.3, 0.28), vec2(0.6, 0.6), 21)),
-        plain("paving/bricks", Paving, || paving::bricks(vec3(0.24, 0.13, 0.095), 22)),
-        plain("paving/herringbone", Paving, || paving::herringbone(vec3(0.25, 0.19, 0.155), 23)),
-        plain("paving/concrete", Paving, || paving::flags(vec3(0.33, 0.32, 0.295), 24)),
-        plain("paving/setts", Paving, || road::setts(vec3(0.2, 0.195, 0.19), 25)),
-        plain("paving/mosaic", Paving, || road::mosaic(vec3(0.21, 0.205, 0.2), 26)),
-        plain("paving/asphalt-walk", Paving, move || road::asphalt(walk)),
-        plain("kerb/concrete", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), false, 31)),
-        plain("kerb/granite", Kerb, || paving::kerb(vec3(0.25, 0.245, 0.24), false, 34)),
-        plain("kerb/black-white", Kerb, || paving::kerb(vec3(0.3, 0.29, 0.27), true, 32)),
-        plain("concrete/plain", Concrete, || paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33)),
-        plain("grass/lawn", Grass, move || ground::grass(green, straw, 0.12, 41)),
-        plain("grass/worn", Grass, move || ground::grass(vec3(0.084, 0.136, 0.04), straw, 0.42, 42)),
-        plain("soil/earth", Soil, || ground::soil(43)),
-        plain("gravel/grey", Gravel, || ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44)),
+        plain("asphalt/new", Asphalt, |d| road::asphalt(NEW, d)),
+        plain("asphalt/worn", Asphalt, |d| road::asphalt(WORN, d)),
+        plain("asphalt/worn-pale", Asphalt, move |d| road::asphalt(pale, d)),
+        plain("marking/white", MarkingWhite, |d| road::marking(vec3(0.74, 0.74, 0.71), 11, d)),
+        plain("marking/yellow", MarkingYellow, |d| road::marking(vec3(0.62, 0.36, 0.04), 12, d)),
+        plain("cover/round", RoadCover, |d| road::cover(Cover::Round, [0.68, 0.68], 13, d)),
+        plain("cover/square", RoadCover, |d| road::cover(Cover::Square, [0.9, 0.6], 14, d)),
+        plain("cover/grating", RoadCover, |d| road::cover(Cover::Grating, [0.5, 0.4], 15, d)),
+        plain("paving/slabs", Paving, |d| paving::slabs(vec3(0.31, 0.3, 0.28), vec2(0.6, 0.6), 21, d)),
+        plain("paving/bricks", Paving, |d| paving::bricks(vec3(0.24, 0.13, 0.095), 22, d)),
+        plain("paving/herringbone", Paving, |d| paving::herringbone(vec3(0.25, 0.19, 0.155), 23, d)),
+        plain("paving/concrete", Paving, |d| paving::flags(vec3(0.33, 0.32, 0.295), 24, d)),
+        plain("paving/setts", Paving, |d| road::setts(vec3(0.2, 0.195, 0.19), 25, d)),
+        plain("paving/mosaic", Paving, |d| road::mosaic(vec3(0.21, 0.205, 0.2), 26, d)),
+        plain("paving/asphalt-walk", Paving, move |d| road::asphalt(walk, d)),
+        plain("kerb/concrete", Kerb, |d| paving::kerb(vec3(0.3, 0.29, 0.27), false, 31, d)),
+        plain("kerb/granite", Kerb, |d| paving::kerb(vec3(0.25, 0.245, 0.24), false, 34, d)),
+        plain("kerb/black-white", Kerb, |d| paving::kerb(vec3(0.3, 0.29, 0.27), true, 32, d)),
+        plain("concrete/plain", Concrete, |d| paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33, d)),
+        plain("grass/lawn", Grass, move |d| ground::grass(green, straw, 0.12, 41, d)),
+        plain("grass/worn", Grass, move |d| ground::grass(vec3(0.084, 0.136, 0.04), straw, 0.42, 42, d)),
+        plain("soil/earth", Soil, |d| ground::soil(43, d)),
+        plain("gravel/grey", Gravel, |d| ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44, d)),
         plain("water/still", Water, ground::water),
-        plain("flat-roof/bitumen", FlatRoof, || roof::bitumen(51)),
-        plain("flat-roof/gravel", FlatRoof, || ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52)),
-        plain("flat-roof/membrane", FlatRoof, || roof::membrane(vec3(0.5, 0.5, 0.48), 55)),
-        plain("flat-roof/green", FlatRoof, || roof::stonecrop(56)),
-        plain("roof-tiles/slate", RoofTiles, || roof::slates(vec3(0.085, 0.09, 0.1), false, 57)),
-        plain("roof-tiles/shingle", RoofTiles, || roof::slates(vec3(0.115, 0.1, 0.088), true, 58)),
-        plain("roof-tiles/metal", RoofTiles, || roof::seams(vec3(0.3, 0.31, 0.32), 0.2, 59)),
-        plain("roof-tiles/copper", RoofTiles, || roof::seams(vec3(0.13, 0.27, 0.21), 1.0, 60)),
-        plain("roof-tiles/red", RoofTiles, || roof::tiles(vec3(0.27, 0.105, 0.06), 53)),
-        plain("roof-tiles/dark", RoofTiles, || roof::tiles(vec3(0.085, 0.08, 0.08), 54)),
+        plain("flat-roof/bitumen", FlatRoof, |d| roof::bitumen(51, d)),
+        plain("flat-roof/gravel", FlatRoof, |d| ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52, d)),
+        plain("flat-roof/membrane", FlatRoof, |d| roof::membrane(vec3(0.5, 0.5, 0.48), 55, d)),
+        plain("flat-roof/green", FlatRoof, |d| roof::stonecrop(56, d)),
+        plain("roof-tiles/slate", RoofTiles, |d| roof::slates(vec3(0.085, 0.09, 0.1), false, 57, d)),
+        plain("roof-tiles/shingle", RoofTiles, |d| roof::slates(vec3(0.115, 0.1, 0.088), true, 58, d)),
+        plain("roof-tiles/metal", RoofTiles, |d| roof::seams(vec3(0.3, 0.31, 0.32), 0.2, 59, d)),
+        plain("roof-tiles/copper", RoofTiles, |d| roof::seams(vec3(0.13, 0.27, 0.21), 1.0, 60, d)),
+        plain("roof-tiles/red", RoofTiles, |d| roof::tiles(vec3(0.27, 0.105, 0.06), 53, d)),
+        plain("roof-tiles/dark", RoofTiles, |d| roof::tiles(vec3(0.085, 0.08, 0.08), 54, d)),
     ]
 }
 
@@ -183,6 +203,6 @@ fn building_recipes() -> Vec<Recipe> {
         ("sign/shops", ShopSign, Paint::Cells(inside::SIGNS, inside::signs, 131)),
         ("room/backs", RoomBack, Paint::Cells(inside::ROOMS, inside::rooms, 132)),
     ];
-    recipes.extend(Finish::ALL.iter().map(|&finish| plain(finish.id(), Wall, move || finish.bare(141))));
+    recipes.extend(Finish::ALL.iter().map(|&finish| plain(finish.id(), Wall, move |d| finish.bare(141, d))));
     recipes
 }

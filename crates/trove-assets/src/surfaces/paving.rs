@@ -64,12 +64,12 @@ fn running(p: Vec2, size_m: Vec2, piece_m: Vec2, shifted: bool) -> Piece {
 }
 
 /// Concrete slabs of `slab_m` with joints.
-pub(super) fn slabs(color: Vec3, slab_m: Vec2, seed: u32) -> Canvas {
+pub(super) fn slabs(color: Vec3, slab_m: Vec2, seed: u32, detail: u32) -> Canvas {
     let size = [slab_m.x * 6.0, slab_m.y * 6.0];
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
     let spots = Noise::new(size_m, 0.11, seed + 5);
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let mut texel = cement.at(p);
         let gum = spots.near(p);
         let is_gum = step(0.2, 0.14, gum.first) * step(0.93, 0.94, gum.id);
@@ -80,13 +80,13 @@ pub(super) fn slabs(color: Vec3, slab_m: Vec2, seed: u32) -> Canvas {
 }
 
 /// Concrete cast in squares of a metre and a half, each with a smooth rim, cracked here and there, with spots of gum.
-pub(super) fn flags(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn flags(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let (size, flag_m) = ([4.5, 4.5], vec2(1.5, 1.5));
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
     let (spots, plates) = (Noise::new(size_m, 0.16, seed + 5), Noise::new(size_m, 1.5, seed + 6));
     let (warp, sparse) = (Noise::new(size_m, 0.3, seed + 7).field(3), Noise::new(size_m, 1.5, seed + 8));
-    Canvas::new([768, 768], size, |p| {
+    Canvas::new([768 * detail, 768 * detail], size, |p| {
         let mut texel = cement.at(p);
         let gum = spots.near(p);
         texel.albedo *= 1.0 - 0.45 * step(0.17, 0.12, gum.first) * step(0.9, 0.91, gum.id);
@@ -101,11 +101,11 @@ pub(super) fn flags(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Small bricks in a running bond.
-pub(super) fn bricks(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn bricks(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [2.4, 2.4];
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let mut texel = cement.at(p);
         lay(&mut texel, &running(p, size_m, vec2(0.2, 0.1), true), 0.006, Vec3::splat(0.075), 0.5, seed);
         texel
@@ -113,12 +113,12 @@ pub(super) fn bricks(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Bricks of 0.2 × 0.1 m in a herringbone.
-pub(super) fn herringbone(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn herringbone(color: Vec3, seed: u32, detail: u32) -> Canvas {
     // The pattern of 2:1 bricks repeats every four widths each way.
     let (size, width) = ([2.4, 2.4], 0.1);
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let q = p / width;
         let (x, y) = (q.x.floor() as i32, q.y.floor() as i32);
         let f = vec2(q.x - x as f32, q.y - y as f32);
@@ -140,10 +140,10 @@ pub(super) fn herringbone(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Plain concrete, cast in fields of `size_m`.
-pub(crate) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32) -> Canvas {
+pub(crate) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32, detail: u32) -> Canvas {
     let area = Vec2::from_array(size_m);
     let cement = Cement::new(area, color, seed);
-    Canvas::new([512, 512], size_m, |p| {
+    Canvas::new([512 * detail, 512 * detail], size_m, |p| {
         let mut texel = cement.at(p);
         if joint_m > 0.0 {
             lay(&mut texel, &running(p + area * 0.37, area, area, false), joint_m, Vec3::splat(0.09), 0.0, seed);
@@ -153,12 +153,12 @@ pub(crate) fn concrete(color: Vec3, size_m: [f32; 2], joint_m: f32, seed: u32) -
 }
 
 /// Kerb stones of a metre, along u; `black` paints every second one, both worn.
-pub(super) fn kerb(color: Vec3, black: bool, seed: u32) -> Canvas {
+pub(super) fn kerb(color: Vec3, black: bool, seed: u32, detail: u32) -> Canvas {
     let size = [4.0, 1.0];
     let size_m = Vec2::from_array(size);
     let cement = Cement::new(size_m, color, seed);
     let (wear, chips) = (Noise::new(size_m, 0.3, seed + 7).field(4), Noise::new(size_m, 0.04, seed + 8));
-    Canvas::new([1024, 256], size, |p| {
+    Canvas::new([1024 * detail, 256 * detail], size, |p| {
         let mut texel = cement.at(p);
         let stone = p.x.floor() as i32;
         let edge_m = (p.x - p.x.floor()).min(p.x.ceil() - p.x);
@@ -169,6 +169,56 @@ pub(super) fn kerb(color: Vec3, black: bool, seed: u32) -> Canvas {
             texel.roughness = 0.6 + 0.25 * worn;
         }
         lay(&mut texel, &Piece { edge_m, id: (stone, 0) }, 0.008, Vec3::splat(0.06), 0.1, seed);
+        texel
+    })
+}
+
+/// Concrete that boards were taken off: their grain, their edges, holes of bubbles and of the ties.
+pub(super) fn board_marked(color: Vec3, seed: u32, detail: u32) -> Canvas {
+    let (size, board_m) = ([2.4, 2.4], 0.15);
+    let size_m = Vec2::from_array(size);
+    let cement = Cement::new(size_m, color, seed);
+    let grain = Noise::stretched(size_m, vec2(0.35, 0.006), seed * 31 + 11);
+    let bubbles = Noise::new(size_m, 0.03, seed * 31 + 12);
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let row = (p.y / board_m).floor() as i32;
+        let edge_m = (p.y - row as f32 * board_m).min((row + 1) as f32 * board_m - p.y);
+        let fibre = grain.at(p + vec2(hash(row, 0, seed), 0.0) * size_m);
+        let mut texel = cement.at(p);
+        texel.albedo *= 0.92 + 0.16 * hash(row, 1, seed) + 0.07 * fibre;
+        let bubble = bubbles.near(p);
+        let hole = step(0.16, 0.1, bubble.first) * step(0.8, 0.82, bubble.id);
+        let tie = ((p / 1.2 - (p / 1.2).floor() - 0.5) * 1.2).length();
+        let hole = hole.max(step(0.017, 0.013, tie));
+        texel.albedo *= 1.0 - 0.6 * hole;
+        texel.albedo *= 1.0 - 0.25 * step(0.006, 0.001, edge_m);
+        texel.height_m +=
+            0.0007 * fibre + 0.003 * hash(row, 2, seed) - 0.006 * hole - 0.002 * step(0.005, 0.001, edge_m);
+        texel
+    })
+}
+
+/// Concrete whose skin has gone: stones show, edges crumble, cracks are long open.
+pub(super) fn weathered(color: Vec3, seed: u32, detail: u32) -> Canvas {
+    let size = [2.4, 2.4];
+    let size_m = Vec2::from_array(size);
+    let cement = Cement::new(size_m, color, seed);
+    let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
+    let (stones, worn, plates, warp) =
+        (noise(0.014, 11), noise(0.5, 12).field(4), noise(0.8, 13), noise(0.2, 14).field(3));
+    let soot = Noise::stretched(size_m, vec2(0.07, 1.2), seed * 31 + 15).field(4);
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let mut texel = cement.at(p);
+        let open = step(-0.05, 0.4, worn.at(p));
+        let stone = stones.near(p);
+        let shown = open * step(0.5, 0.3, stone.first);
+        texel.tint(vec3(0.26, 0.25, 0.235) * (0.45 + 1.1 * stone.id), 0.7 * shown);
+        texel.height_m += 0.0022 * shown - 0.002 * open;
+        let cell = plates.near(p + 0.1 * vec2(warp.at(p), warp.at(p + size_m * 0.37)));
+        let crack = step(0.014, 0.004, cell.second - cell.first) * step(-0.1, 0.2, warp.at(p * 0.5));
+        texel.tint(Vec3::splat(0.04), 0.8 * crack);
+        texel.height_m -= 0.004 * crack;
+        texel.albedo *= 1.0 - 0.35 * step(0.0, 0.7, soot.at(p));
         texel
     })
 }

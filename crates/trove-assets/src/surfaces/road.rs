@@ -22,15 +22,16 @@ pub(super) struct Wear {
 }
 
 /// Stones in bitumen, stains, hairline cracks.
-pub(super) fn asphalt(kind: Wear) -> Canvas {
+pub(super) fn asphalt(kind: Wear, detail: u32) -> Canvas {
     let size = [6.0, 6.0];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, kind.seed * 31 + salt);
     let (stones, grain, blotch, stain) =
         (noise(kind.stone_m, 1), noise(0.05, 2), noise(1.5, 3).field(3), noise(0.6, 4).field(3));
     let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6).field(3), noise(1.7, 7));
-    let warm = vec3(1.02, 1.0, 0.965);
-    Canvas::new([1024, 1024], size, |p| {
+    // Dust of the ground takes the blue away.
+    let warm = vec3(1.04, 1.0, 0.93);
+    Canvas::new([1024 * detail, 1024 * detail], size, |p| {
         let stone = stones.near(p);
         let broad = blotch.at(p);
         let shown = step(0.62, 0.25, stone.first) * step(1.0 - kind.worn, 1.15 - kind.worn, stone.id + 0.25 * broad);
@@ -51,14 +52,36 @@ pub(super) fn asphalt(kind: Wear) -> Canvas {
     })
 }
 
+/// Asphalt in which trenches were closed with darker asphalt, its seams poured.
+pub(super) fn patched(kind: Wear, patch: Wear, detail: u32) -> Canvas {
+    let (mut canvas, fresh) = (asphalt(kind, detail), asphalt(patch, detail));
+    let edge = Noise::new(canvas.size_m, 0.2, kind.seed * 31 + 9).field(4);
+    for (low, size) in
+        [(vec2(0.7, 0.9), vec2(1.3, 2.6)), (vec2(3.1, 3.7), vec2(2.2, 0.9)), (vec2(4.3, 1.0), vec2(0.8, 0.8))]
+    {
+        canvas.rect(low - 0.1, low + size + 0.1, |p, texel| {
+            let q = p - 0.1;
+            let inside_m = q.min(size - q).min_element() + 0.02 * edge.at(p + low);
+            let share = step(-0.008, 0.008, inside_m);
+            let within = fresh.at(p + low - 0.1);
+            texel.tint(within.albedo, share);
+            texel.height_m += (within.height_m + 0.003 - texel.height_m) * share;
+            let poured = step(0.035, 0.02, inside_m.abs());
+            texel.tint(Vec3::splat(0.028), 0.9 * poured);
+            texel.roughness -= 0.35 * poured;
+        });
+    }
+    canvas
+}
+
 /// Road paint that has worn off in places (alpha), over stones that show through.
-pub(super) fn marking(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn marking(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [3.0, 3.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (stones, grain, blotch, dirt) =
         (noise(0.014, 1), noise(0.03, 2), noise(0.6, 3).field(4), noise(0.25, 4).field(3));
     let (plates, warp) = (noise(0.4, 5), noise(0.12, 6).field(2));
-    Canvas::new([768, 768], size, |p| {
+    Canvas::new([768 * detail, 768 * detail], size, |p| {
         let stone = stones.near(p);
         let broad = blotch.at(p);
         let worn = broad + 0.5 * (0.5 - stone.first) + 0.3 * grain.at(p);
@@ -74,13 +97,13 @@ pub(super) fn marking(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Cut stones of about a decimetre in rows, none like the next.
-pub(super) fn setts(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn setts(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [2.4, 2.4];
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
     let (grain, bend, stain) = (noise(0.012, 1), noise(0.25, 2).field(2), noise(0.5, 3).field(3));
     let (rows, columns) = (20.0, 18.0);
-    Canvas::new([768, 768], size, |p| {
+    Canvas::new([768 * detail, 768 * detail], size, |p| {
         let p = p + 0.012 * vec2(bend.at(p), bend.at(p + size_m * 0.41));
         let y = p.y / size_m.y * rows;
         let row = y.floor() as i32;
@@ -104,11 +127,11 @@ pub(super) fn setts(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Small stones of some centimetres, set as they come.
-pub(super) fn mosaic(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn mosaic(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [2.0, 2.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (stones, grain, stain) = (noise(0.058, 1), noise(0.012, 2), noise(0.6, 3).field(3));
-    Canvas::new([768, 768], size, |p| {
+    Canvas::new([768 * detail, 768 * detail], size, |p| {
         let stone = stones.near(p);
         let edge = stone.second - stone.first;
         let tone = (0.7 + 0.6 * stone.id) * (1.0 + 0.2 * grain.at(p)) * (1.0 + 0.12 * stain.at(p));
@@ -132,11 +155,11 @@ pub(super) enum Cover {
 }
 
 /// An iron cover that fills its texture, worn bright where wheels polish it.
-pub(super) fn cover(kind: Cover, size: [f32; 2], seed: u32) -> Canvas {
+pub(super) fn cover(kind: Cover, size: [f32; 2], seed: u32, detail: u32) -> Canvas {
     let size_m = Vec2::from_array(size);
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
     let (rust, grain) = (noise(0.15, 1).field(3), noise(0.01, 2));
-    Canvas::new([256, 256], size, |p| {
+    Canvas::new([256 * detail, 256 * detail], size, |p| {
         let q = p - size_m / 2.0;
         let half = size_m / 2.0;
         // From the cover's edge inwards.

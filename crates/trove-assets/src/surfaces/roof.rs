@@ -6,11 +6,11 @@ use super::canvas::{Canvas, Texel};
 use super::noise::{Noise, hash, step};
 
 /// Bitumen sheets a metre wide with lapped seams and puddle stains.
-pub(super) fn bitumen(seed: u32) -> Canvas {
+pub(super) fn bitumen(seed: u32, detail: u32) -> Canvas {
     let size = [6.0, 6.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (grit, puddle, broad) = (noise(0.03, 1), noise(1.8, 2).field(3), noise(0.5, 3).field(3));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let seam = (p.y - p.y.floor()).min(p.y.ceil() - p.y);
         let pond = step(0.1, 0.25, puddle.at(p));
         let value = 0.095 * (1.0 + 0.25 * grit.at(p) + 0.2 * broad.at(p)) * (1.0 + 0.35 * pond);
@@ -22,13 +22,13 @@ pub(super) fn bitumen(seed: u32) -> Canvas {
 }
 
 /// Pantiles in courses.
-pub(super) fn tiles(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn tiles(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [3.6, 3.6];
     let size_m = Vec2::from_array(size);
     let (count, noise) = (vec2(16.0, 11.0), |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt));
     let (moss, grain, broad) = (noise(0.25, 1).field(4), noise(0.03, 2), noise(1.0, 3).field(3));
     let tile_m = size_m / count;
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let q = p / tile_m;
         let (column, row) = (q.x.floor(), q.y.floor());
         let (u, v) = (q.x - column, q.y - row);
@@ -47,14 +47,14 @@ pub(super) fn tiles(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Flat pieces in courses, every other one moved by half a piece: slates, or shingles with `soft` edges and grit.
-pub(super) fn slates(color: Vec3, soft: bool, seed: u32) -> Canvas {
+pub(super) fn slates(color: Vec3, soft: bool, seed: u32, detail: u32) -> Canvas {
     let size = [3.6, 3.6];
     let size_m = Vec2::from_array(size);
     let count = if soft { vec2(12.0, 24.0) } else { vec2(14.0, 18.0) };
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, seed * 31 + salt);
     let (grit, streak, broad) = (noise(0.02, 1), noise(0.3, 2).field(3), noise(1.2, 3).field(3));
     let piece_m = size_m / count;
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let row = (p.y / piece_m.y).floor();
         let shift = if row as i32 % 2 == 0 { 0.0 } else { 0.5 };
         let along = p.x / piece_m.x + shift;
@@ -74,11 +74,11 @@ pub(super) fn slates(color: Vec3, soft: bool, seed: u32) -> Canvas {
 }
 
 /// Sheets with standing seams half a metre apart that run up the slope.
-pub(super) fn seams(color: Vec3, patina: f32, seed: u32) -> Canvas {
+pub(super) fn seams(color: Vec3, patina: f32, seed: u32, detail: u32) -> Canvas {
     let size = [3.0, 4.0];
     let noise = |feature: Vec2, salt| Noise::stretched(Vec2::from_array(size), feature, seed * 31 + salt);
     let (streak, broad) = (noise(vec2(0.08, 1.0), 1).field(3), noise(vec2(0.9, 1.3), 2).field(3));
-    Canvas::new([384, 512], size, |p| {
+    Canvas::new([384 * detail, 512 * detail], size, |p| {
         let sheet = (p.x / 0.5).floor();
         let across = p.x - sheet * 0.5;
         let edge_m = across.min(0.5 - across);
@@ -96,11 +96,11 @@ pub(super) fn seams(color: Vec3, patina: f32, seed: u32) -> Canvas {
 }
 
 /// A welded membrane, pale and stained where water stood.
-pub(super) fn membrane(color: Vec3, seed: u32) -> Canvas {
+pub(super) fn membrane(color: Vec3, seed: u32, detail: u32) -> Canvas {
     let size = [8.0, 8.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (puddle, broad, speck) = (noise(2.1, 1).field(3), noise(0.7, 2).field(4), noise(0.05, 3));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let seam_m = (p.y / 2.0 - (p.y / 2.0).round()).abs() * 2.0;
         let mut texel = Texel::new(color * (1.0 + 0.06 * broad.at(p) + 0.04 * speck.at(p)), 0.7);
         texel.tint(vec3(0.16, 0.15, 0.12), 0.45 * step(0.05, 0.4, puddle.at(p)));
@@ -111,11 +111,11 @@ pub(super) fn membrane(color: Vec3, seed: u32) -> Canvas {
 }
 
 /// Stonecrop on a thin bed: green, rust and straw in patches.
-pub(super) fn stonecrop(seed: u32) -> Canvas {
+pub(super) fn stonecrop(seed: u32, detail: u32) -> Canvas {
     let size = [5.0, 5.0];
     let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
     let (leaf, patch, dry) = (noise(0.035, 1), noise(0.6, 2).field(4), noise(1.1, 3).field(3));
-    Canvas::new([512, 512], size, |p| {
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
         let mut texel = Texel::new(vec3(0.07, 0.1, 0.035), 0.9);
         texel.tint(vec3(0.16, 0.075, 0.05), step(0.05, 0.5, patch.at(p)));
         texel.tint(vec3(0.2, 0.17, 0.08), 0.8 * step(0.15, 0.5, dry.at(p)));

@@ -13,7 +13,7 @@ pub(super) const DARK: Vec3 = vec3(0.06, 0.06, 0.065);
 
 /// Four by four cells.
 fn grid(bay_m: f32, storey_m: f32) -> Grid {
-    Grid { cells: [4, 4], cell_m: vec2(bay_m, storey_m) }
+    Grid { cells: [4, 4], cell_m: vec2(bay_m, storey_m), detail: 1 }
 }
 
 pub(super) fn opening(filling: Filling, low_m: [f32; 2], size_m: [f32; 2], panes: [u32; 2]) -> Opening {
@@ -277,7 +277,7 @@ pub(super) fn tiled_flats() -> Style {
         ..FacadeDesign::default()
     };
     // Three patterns in four bays: the texture starts anew after three.
-    let grid = Grid { cells: [3, 4], cell_m: vec2(3.4, 3.2) };
+    let grid = Grid { cells: [3, 4], cell_m: vec2(3.4, 3.2), detail: 1 };
     Style { grid, finish: Finish::Tiles, color: vec3(0.46, 0.45, 0.41), worn: 0.3, design }
 }
 
@@ -308,7 +308,7 @@ pub(super) fn warehouse() -> Style {
         paints: vec![Vec3::ONE, vec3(0.7, 0.9, 1.2), vec3(1.3, 1.25, 1.1), vec3(0.8, 1.0, 0.85)],
         ..FacadeDesign::default()
     };
-    let grid = Grid { cells: [4, 2], cell_m: vec2(4.0, 4.0) };
+    let grid = Grid { cells: [4, 2], cell_m: vec2(4.0, 4.0), detail: 1 };
     Style { grid, finish: Finish::Corrugated, color: vec3(0.36, 0.38, 0.39), worn: 0.2, design }
 }
 

@@ -24,12 +24,14 @@ fn mean_albedo(surface: &Surface) -> Vec3 {
 
 #[test]
 fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
-    let surfaces = surfaces();
+    let surfaces = surfaces(1);
     let mut count: BTreeMap<SurfaceKind, usize> = BTreeMap::new();
+    let mut wrong = Vec::new();
     for surface in &surfaces {
         *count.entry(surface.kind).or_default() += 1;
         let range = match surface.kind {
-            SurfaceKind::Asphalt => 0.06..0.23,
+            SurfaceKind::Asphalt => 0.06..0.27,
+            SurfaceKind::Thing => 0.015..0.97,
             SurfaceKind::MarkingWhite => 0.45..0.75,
             SurfaceKind::MarkingYellow => 0.15..0.45,
             SurfaceKind::Paving | SurfaceKind::Kerb | SurfaceKind::Concrete => 0.12..0.4,
@@ -43,7 +45,9 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
             _ => 0.05..0.3,
         };
         let albedo = mean_albedo(surface);
-        assert!(range.contains(&albedo.y), "{}: {albedo}", surface.id);
+        if !range.contains(&albedo.y) {
+            wrong.push(format!("{}: {albedo}", surface.id));
+        }
         if surface.kind == SurfaceKind::Grass {
             // Worn grass is as red as green.
             assert!(albedo.y > 0.85 * albedo.x && albedo.x > albedo.z, "{}: {albedo}", surface.id);
@@ -53,21 +57,25 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
                 let n = if transposed { texture.height } else { texture.width };
                 let inside = (1..n).map(|i| difference(texture, i - 1, i, transposed)).fold(0.0, f64::max);
                 let around = difference(texture, n - 1, 0, transposed);
-                assert!(around <= inside * 1.1 + 0.5, "{} has a seam: {around} for {inside}", texture.name);
+                if around > inside * 1.2 + 0.5 {
+                    wrong.push(format!("{} has a seam: {around} for {inside}", texture.name));
+                }
             }
         }
         let scale = surface.material.uv_scale;
         assert!((scale * glam::Vec2::from_array(surface.size_m) - 1.0).length() < 1e-5);
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let least = |kind| match kind {
         SurfaceKind::Facade => 10,
         SurfaceKind::FacadeGroundFloor => 7,
         SurfaceKind::Asphalt => 2,
+        SurfaceKind::Thing => 35,
         SurfaceKind::Paving | SurfaceKind::RoadCover => 3,
         SurfaceKind::Grass | SurfaceKind::Kerb | SurfaceKind::FlatRoof | SurfaceKind::RoofTiles => 2,
         _ => 1,
     };
-    assert_eq!(count.len(), 18);
+    assert_eq!(count.len(), 19);
     assert!(count.iter().all(|(&kind, &n)| n >= least(kind)), "{count:?}");
     let bytes: usize = surfaces.iter().flat_map(|s| s.material.textures()).map(|t| t.rgba.len() * 4).sum();
     assert!(bytes < 256 << 20, "{} MB of textures", bytes >> 20);
@@ -75,6 +83,6 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
 
 #[test]
 fn a_surface_is_the_same_every_time() {
-    let recipe = plain("grass/lawn", SurfaceKind::Grass, || ground::grass(vec3(0.1, 0.1, 0.0), Vec3::ONE, 0.2, 1));
-    assert_eq!(surface(&recipe).material, surface(&recipe).material);
+    let recipe = plain("grass/lawn", SurfaceKind::Grass, |d| ground::grass(vec3(0.1, 0.1, 0.0), Vec3::ONE, 0.2, 1, d));
+    assert_eq!(surface(&recipe, 1).material, surface(&recipe, 1).material);
 }

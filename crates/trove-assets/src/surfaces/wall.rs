@@ -57,8 +57,8 @@ impl Finish {
     }
 
     /// That surface.
-    pub(super) fn bare(self, seed: u32) -> Canvas {
-        self.paint(Grid { cells: [1, 1], cell_m: Vec2::splat(1.8) }, self.color(), seed)
+    pub(super) fn bare(self, seed: u32, detail: u32) -> Canvas {
+        self.paint(Grid { cells: [1, 1], cell_m: Vec2::splat(1.8), detail }, self.color(), seed)
     }
 
     /// A wall of a colour.
@@ -82,6 +82,8 @@ pub(super) struct Grid {
     pub(super) cells: [u32; 2],
     /// Of one bay and storey.
     pub(super) cell_m: Vec2,
+    /// Resolution as a multiple of the ordinary one.
+    pub(super) detail: u32,
 }
 
 impl Grid {
@@ -90,16 +92,17 @@ impl Grid {
     }
 
     fn size_px(&self) -> [u32; 2] {
-        match self.cells {
+        let size = match self.cells {
             [1, 1] => [512, 512],
             [_, rows] if rows < 4 => [1024, 512],
             _ => [1024, 1024],
-        }
+        };
+        size.map(|px| px * self.detail)
     }
 
     /// Every cell's low corner, with a number of its own.
     pub(super) fn corners(&self) -> impl Iterator<Item = (u64, Vec2)> + use<> {
-        let Self { cells: [columns, rows], cell_m } = *self;
+        let Self { cells: [columns, rows], cell_m, .. } = *self;
         (0..rows * columns).map(move |i| (u64::from(i), vec2((i % columns) as f32, (i / columns) as f32) * cell_m))
     }
 }

@@ -138,7 +138,7 @@ choices! {
     CoverKind { GrassNear, GrassMiddle, GrassFar, Weeds, Flowers, Leaves, TreePit }
     SurfaceKind {
         Asphalt, MarkingWhite, MarkingYellow, RoadCover, Paving, Kerb, Concrete, Grass, Soil, Gravel, Water, FlatRoof,
-        RoofTiles, Facade, FacadeGroundFloor, Wall, ShopSign, RoomBack,
+        RoofTiles, Facade, FacadeGroundFloor, Wall, ShopSign, RoomBack, Thing,
     }
 }
 
