@@ -1,8 +1,7 @@
-//! People on foot, with what they push, ride or sit in, and a dog.
+//! People on foot, with what they push, ride or sit in.
 
 mod adults;
 mod body;
-mod dog;
 mod figure;
 mod mobility;
 mod wardrobe;
@@ -15,5 +14,5 @@ pub(crate) use wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 /// Every model of this family; people on foot are plainer without a body to make them from.
 pub(crate) fn assets(body: Option<&HumanBody>) -> Vec<Asset> {
     let on_foot = body.map(body::assets).filter(|people| !people.is_empty()).unwrap_or_else(adults::assets);
-    [on_foot, mobility::assets(), dog::assets()].concat()
+    [on_foot, mobility::assets()].concat()
 }

@@ -180,14 +180,10 @@ fn jersey() -> Asset {
         );
         model.add(amber, bar(vec3(0.132, y * 0.4, 0.62), vec3(0.03, 0.06, 0.09)));
     }
-    for z in [0.25, 0.6] {
-        for y in [-end, end] {
-            let eye: Vec<Vec3> = (0..=8)
-                .map(|i| Vec2::from_angle(y.signum() * (TAU * i as f32 / 16.0 - FRAC_PI_2)))
-                .map(|a| vec3(0.045 * a.y, y + 0.045 * a.x * y.signum() * y.signum(), z))
-                .collect();
-            model.add(rod, Shape::tube(&eye, 0.009, 6));
-        }
+    for (y, z) in [(-end, 0.25), (-end, 0.6), (end, 0.25), (end, 0.6)] {
+        let around = |i: usize| Vec2::from_angle(TAU * i as f32 / 16.0 - FRAC_PI_2) * 0.045;
+        let eye: Vec<Vec3> = (0..=8).map(around).map(|a| vec3(a.y, y + a.x * y.signum(), z)).collect();
+        model.add(rod, Shape::tube(&eye, 0.009, 6));
     }
     asset(model, "barrier/jersey")
 }

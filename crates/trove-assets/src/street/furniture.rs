@@ -1,4 +1,4 @@
-//! Bollards, hydrants, bins, benches, bicycle racks and shelters.
+//! Bollards, hydrants, bicycle racks and shelters.
 
 use std::f32::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind};
 
 use super::finish::{
-    bar, board, concrete, galvanised, glass, painted, plastic, post, reflective, rubber, stainless, timber,
+    bar, board, galvanised, glass, grey_timber, painted, plastic, post, reflective, rubber, stainless, timber,
 };
 use crate::shape::{Model, Shape};
 
@@ -16,11 +16,11 @@ pub(super) fn assets() -> Vec<Asset> {
         iron_bollard(),
         hydrant("hydrant/pillar", vec3(0.42, 0.03, 0.02)),
         hydrant("hydrant/yellow", vec3(0.52, 0.34, 0.02)),
-        round_bin(),
-        post_bin(),
-        slatted_bench(),
-        stone_bench(),
-        rack(),
+        flexible_bollard(),
+        concrete_bollard(),
+        timber_bollard(),
+        rack(true),
+        rack(false),
         shelter(),
     ]
 }
@@ -61,6 +61,46 @@ fn iron_bollard() -> Asset {
     model.asset("bollard/iron", Kind::Bollard, Class::TrafficSign)
 }
 
+/// A plastic post that springs back, with bands.
+fn flexible_bollard() -> Asset {
+    let mut model = Model::default();
+    let orange = vec3(0.75, 0.16, 0.03);
+    let body = model.slot(plastic(orange), &[orange, vec3(0.68, 0.68, 0.64), vec3(0.05, 0.2, 0.08)]);
+    let tape = model.slot(reflective(vec3(0.7, 0.7, 0.66)), &[]);
+    let black = model.slot(rubber(), &[]);
+    let profile = [(0.0, 0.02), (0.05, 0.02), (0.04, 0.05), (0.04, 0.7), (0.044, 0.72), (0.036, 0.75), (0.0, 0.755)];
+    model.add(body, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 20));
+    for z in [0.45, 0.58] {
+        let band = [(0.0405, z), (0.042, z), (0.042, z + 0.07), (0.0405, z + 0.07)];
+        model.add(tape, Shape::lathe(&band.map(|(r, z)| vec2(r, z)), 20));
+    }
+    let foot = [(0.0, 0.0), (0.11, 0.0), (0.105, 0.015), (0.06, 0.035), (0.0, 0.035)];
+    model.add(black, Shape::lathe(&foot.map(|(r, z)| vec2(r, z)), 24));
+    model.asset("bollard/flexible", Kind::Bollard, Class::TrafficSign)
+}
+
+fn concrete_bollard() -> Asset {
+    let mut model = Model::default();
+    let body = model.slot(crate::surfaces::set("concrete/weathered"), &[]);
+    let profile =
+        [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02), (0.13, 0.7), (0.135, 0.72), (0.135, 0.78), (0.115, 0.85), (0.0, 0.88)];
+    model.add(body, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 28));
+    model.asset("bollard/concrete", Kind::Bollard, Class::TrafficSign)
+}
+
+fn timber_bollard() -> Asset {
+    let mut model = Model::default();
+    let wood = model.slot(grey_timber(), &[]);
+    let tape = model.slot(reflective(vec3(0.66, 0.66, 0.62)), &[]);
+    let section =
+        |z: f32, side: f32| super::finish::rounded(vec2(side, side), 0.018).iter().map(|p| p.extend(z)).collect();
+    let rings: Vec<Vec<Vec3>> =
+        [(0.0, 0.16), (0.93, 0.16), (0.945, 0.155), (0.99, 0.07)].map(|(z, side)| section(z, side)).to_vec();
+    model.add(wood, Shape::loft(&rings).laid(Vec3::Z, vec2(0.3, 0.7)));
+    model.add(tape, bar(vec3(0.0, 0.0, 0.82), vec3(0.163, 0.163, 0.06)));
+    model.asset("bollard/timber", Kind::Bollard, Class::TrafficSign)
+}
+
 fn hydrant(id: &str, color: Vec3) -> Asset {
     let mut model = Model::default();
     let red = model.slot(painted(color), &[]);
@@ -97,85 +137,8 @@ fn hydrant(id: &str, color: Vec3) -> Asset {
     model.asset(id, Kind::Hydrant, Class::TrafficSign)
 }
 
-/// A steel drum of slats with a dark opening under a lid.
-fn round_bin() -> Asset {
-    let mut model = Model::default();
-    let green = vec3(0.03, 0.06, 0.045);
-    let frame = model.slot(painted(green), &[green, Vec3::splat(0.05), vec3(0.1, 0.1, 0.1)]);
-    let liner = model.slot(plastic(Vec3::splat(0.03)), &[]);
-    model.add(liner, post(vec3(0.0, 0.0, 0.06), 0.235, 0.72, 24));
-    for k in 0..20 {
-        let turn = Quat::from_rotation_z(TAU * k as f32 / 20.0);
-        model.add(frame, bar(vec3(0.265, 0.0, 0.42), vec3(0.014, 0.05, 0.74)).turned(turn));
-        if k % 5 == 0 {
-            model.add(frame, bar(vec3(0.25, 0.0, 0.87), vec3(0.02, 0.03, 0.2)).turned(turn));
-        }
-    }
-    for z in [0.05, 0.78] {
-        let ring = [vec2(0.25, z), vec2(0.28, z), vec2(0.28, z + 0.04), vec2(0.25, z + 0.04), vec2(0.25, z)];
-        model.add(frame, Shape::lathe(&ring, 28));
-    }
-    let lid = [(0.0, 0.95), (0.29, 0.95), (0.29, 0.97), (0.2, 1.03), (0.0, 1.06)];
-    model.add(frame, Shape::lathe(&lid.map(|(r, z)| vec2(r, z)), 28));
-    model.add(frame, post(Vec3::ZERO, 0.2, 0.06, 20));
-    model.asset("bin/round", Kind::Bin, Class::Void)
-}
-
-/// A box on a post.
-fn post_bin() -> Asset {
-    let mut model = Model::default();
-    let orange = vec3(0.5, 0.2, 0.03);
-    let body = model.slot(plastic(orange), &[orange, vec3(0.05, 0.15, 0.08), Vec3::splat(0.1)]);
-    let dark = model.slot(rubber(), &[]);
-    let steel = model.slot(galvanised(), &[]);
-    model.add(steel, post(vec3(-0.2, 0.0, 0.0), 0.035, 1.2, 14));
-    model.add(body, Shape::rounded_block(vec3(0.34, 0.42, 0.72), 0.05).moved(vec3(0.0, 0.0, 0.72)));
-    model.add(body, Shape::rounded_block(vec3(0.37, 0.45, 0.07), 0.03).moved(vec3(0.01, 0.0, 1.08)));
-    model.add(dark, bar(vec3(0.168, 0.0, 0.95), vec3(0.012, 0.3, 0.11)));
-    model.add(steel, bar(vec3(-0.17, 0.0, 0.5), vec3(0.05, 0.1, 0.05)));
-    model.asset("bin/post", Kind::Bin, Class::Void)
-}
-
-fn slatted_bench() -> Asset {
-    let mut model = Model::default();
-    let wood = model.slot(timber(), &[]);
-    let iron = model.slot(painted(Vec3::splat(0.03)), &[]);
-    for i in 0..5 {
-        model.add(wood, board(vec3(0.17 - 0.095 * i as f32, 0.0, 0.445), vec3(0.075, 1.8, 0.035)));
-    }
-    let lean = Quat::from_rotation_y(-0.22);
-    for i in 0..3 {
-        let slat = board(vec3(0.0, 0.0, 0.12 + 0.115 * i as f32), vec3(0.03, 1.8, 0.085)).turned(lean);
-        model.add(wood, slat.moved(vec3(-0.25, 0.0, 0.44)));
-    }
-    for y in [-0.75, 0.0, 0.75] {
-        model.add(iron, bar(vec3(0.0, y, 0.415), vec3(0.46, 0.05, 0.025)));
-        model.add(iron, bar(vec3(0.17, y, 0.2), vec3(0.045, 0.05, 0.42)));
-        model.add(iron, bar(vec3(-0.2, y, 0.2), vec3(0.045, 0.05, 0.42)));
-        model.add(iron, bar(vec3(0.0, 0.0, 0.2), vec3(0.02, 0.05, 0.48)).turned(lean).moved(vec3(-0.265, y, 0.43)));
-        if y != 0.0 {
-            model.add(iron, bar(vec3(-0.02, y, 0.65), vec3(0.42, 0.05, 0.03)));
-            model.add(iron, bar(vec3(0.17, y, 0.54), vec3(0.03, 0.05, 0.2)));
-        }
-    }
-    model.asset("bench/slatted", Kind::Bench, Class::Void)
-}
-
-fn stone_bench() -> Asset {
-    let mut model = Model::default();
-    let stone = model.slot(concrete(), &[]);
-    let wood = model.slot(timber(), &[]);
-    for y in [-0.75, 0.75] {
-        model.add(stone, bar(vec3(0.0, y, 0.2), vec3(0.42, 0.25, 0.4)));
-    }
-    for i in 0..6 {
-        model.add(wood, board(vec3(-0.2 + 0.08 * i as f32, 0.0, 0.43), vec3(0.065, 2.0, 0.05)));
-    }
-    model.asset("bench/stone", Kind::Bench, Class::Void)
-}
-
-/// Hoops along x, bicycles leaning on some of them.
-fn rack() -> Asset {
+/// Hoops along x, with bicycles leaning on most of them or empty.
+fn rack(used: bool) -> Asset {
     let mut model = Model::default();
     let steel = model.slot(stainless(), &[]);
     let blue = vec3(0.02, 0.07, 0.2);
@@ -188,7 +151,7 @@ fn rack() -> Asset {
         let arc = (0..=8).map(|k| PI * k as f32 / 8.0).map(|a| vec3(x, -0.38 * a.cos(), 0.55 + 0.28 * a.sin()));
         let path: Vec<Vec3> = std::iter::once(vec3(x, -0.38, 0.0)).chain(arc).chain([vec3(x, 0.38, 0.0)]).collect();
         model.add(steel, Shape::tube(&path, 0.024, 10));
-        if i != 3 {
+        if used && i != 3 {
             let lean = Quat::from_rotation_y(0.07);
             let turn = Quat::from_rotation_z(PI / 2.0 * if i % 2 == 0 { 1.0 } else { -1.0 });
             for (slot, part) in bicycle(frames[i % 4], tyres, metal) {
@@ -196,7 +159,7 @@ fn rack() -> Asset {
             }
         }
     }
-    model.asset("bicycle-rack/hoops", Kind::BicycleRack, Class::Void)
+    model.asset(if used { "bicycle-rack/hoops" } else { "bicycle-rack/empty" }, Kind::BicycleRack, Class::Void)
 }
 
 /// A parked bicycle along x: wheels, frame, saddle, handlebar.

@@ -1,6 +1,8 @@
 //! What stands along and on streets.
 
+mod animals;
 mod barriers;
+mod bins;
 mod carts;
 mod cones;
 mod fences;
@@ -8,23 +10,31 @@ mod finish;
 mod fittings;
 mod furniture;
 mod lamps;
+mod seats;
 mod signals;
 mod signs;
+mod wheeled;
+mod works;
 
 use trove_model::Asset;
 
 /// Every model of this family.
 pub(crate) fn assets() -> Vec<Asset> {
     [
+        animals::assets(),
         barriers::assets(),
+        bins::assets(),
         carts::assets(),
         cones::assets(),
         fences::assets(),
         fittings::assets(),
         furniture::assets(),
         lamps::assets(),
+        seats::assets(),
         signals::assets(),
         signs::assets(),
+        wheeled::assets(),
+        works::assets(),
     ]
     .concat()
 }
@@ -40,10 +50,10 @@ mod tests {
         let assets = assets();
         #[rustfmt::skip]
         let wanted = [
-            (Kind::TrafficCone, 3), (Kind::Barrier, 5), (Kind::PushablePullable, 3), (Kind::Debris, 3),
-            (Kind::BicycleRack, 1), (Kind::TrafficSign, 6), (Kind::TrafficSignal, 2), (Kind::StreetLamp, 3),
-            (Kind::UtilityPole, 1), (Kind::Bollard, 2), (Kind::Hydrant, 1), (Kind::Bin, 2), (Kind::Bench, 2),
-            (Kind::Shelter, 1), (Kind::StreetFurniture, 10), (Kind::Fence, 6), (Kind::Wall, 3), (Kind::GuardRail, 3),
+            (Kind::TrafficCone, 9), (Kind::Barrier, 7), (Kind::PushablePullable, 8), (Kind::Debris, 8), (Kind::Animal, 5),
+            (Kind::BicycleRack, 2), (Kind::TrafficSign, 6), (Kind::TrafficSignal, 2), (Kind::StreetLamp, 3),
+            (Kind::UtilityPole, 1), (Kind::Bollard, 5), (Kind::Hydrant, 1), (Kind::Bin, 6), (Kind::Bench, 4),
+            (Kind::Shelter, 1), (Kind::StreetFurniture, 22), (Kind::Fence, 6), (Kind::Wall, 3), (Kind::GuardRail, 3),
         ];
         for (kind, least) in wanted {
             let found = assets.iter().filter(|a| a.kind == kind).count();

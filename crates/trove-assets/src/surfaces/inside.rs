@@ -87,7 +87,8 @@ fn fill(canvas: &mut Canvas, low: Vec2, size: Vec2, color: Vec3) {
 }
 
 fn home(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
-    let walls = [vec3(0.55, 0.52, 0.46), vec3(0.5, 0.42, 0.3), vec3(0.4, 0.45, 0.48), vec3(0.55, 0.55, 0.53)];
+    // Rooms get little of the light that a street gets, so that their walls are painted in the shade of their depth.
+    let walls = [vec3(0.36, 0.34, 0.29), vec3(0.33, 0.27, 0.19), vec3(0.25, 0.28, 0.3), vec3(0.36, 0.36, 0.34)];
     let wall = walls[random.index(4)];
     canvas.rect(corner, corner + cell, |p, texel| *texel = Texel::new(wall * (1.0 - 0.1 * p.y / cell.y), 0.9));
     fill(canvas, corner, vec2(cell.x, 0.1), vec3(0.5, 0.5, 0.48));
@@ -104,7 +105,7 @@ fn home(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
 }
 
 fn office(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
-    canvas.rect(corner, corner + cell, |_, texel| *texel = Texel::new(vec3(0.5, 0.5, 0.5), 0.9));
+    canvas.rect(corner, corner + cell, |_, texel| *texel = Texel::new(vec3(0.27, 0.27, 0.265), 0.9));
     fill(canvas, corner + vec2(random.range(0.0, 2.0) as f32, 0.0), vec2(1.1, 1.9), vec3(0.25, 0.26, 0.28));
     for k in 0..3 {
         let x = 0.15 + k as f32 * 1.05;
@@ -117,7 +118,7 @@ fn office(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
 fn shop(canvas: &mut Canvas, corner: Vec2, cell: Vec2, random: &mut Random) {
     let salt = random.bits() as u32;
     let rows = 5.0 + random.index(3) as f32;
-    let wall = vec3(0.55, 0.5, 0.42) * random.range(0.6, 1.1) as f32;
+    let wall = vec3(0.42, 0.38, 0.31) * random.range(0.6, 1.1) as f32;
     canvas.rect(corner, corner + cell, |p, texel| {
         let row = p.y / cell.y * rows;
         let (shelf, up) = (row as i32, row.fract());

@@ -127,6 +127,22 @@ pub(super) fn rubble(color: Vec3, seed: u32, detail: u32) -> Canvas {
     })
 }
 
+/// Granite: grains of feldspar, quartz and mica.
+pub(super) fn granite(detail: u32) -> Canvas {
+    let size = [0.6, 0.6];
+    let size_m = Vec2::from_array(size);
+    let noise = |feature_m, salt: u32| Noise::new(size_m, feature_m, 350 + salt);
+    let (grains, mica, cloud) = (noise(0.0045, 1), noise(0.007, 2), noise(0.2, 3).field(3));
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let (grain, dark) = (grains.near(p), mica.near(p));
+        let mut texel = Texel::new(vec3(0.34, 0.325, 0.31) * (0.65 + 0.7 * grain.id), 0.6 - 0.2 * grain.id);
+        texel.tint(Vec3::splat(0.05), 0.85 * step(0.4, 0.3, dark.first) * step(0.68, 0.72, dark.id));
+        texel.albedo *= 1.0 - 0.2 * step(0.0, 0.7, cloud.at(p));
+        texel.height_m = 0.0001 * grain.id;
+        texel
+    })
+}
+
 /// Square tiles on their own glaze: `gloss` for glazed ones; without it fired clay.
 pub(super) fn tiles(color: Vec3, tile_m: f32, gloss: bool, seed: u32, detail: u32) -> Canvas {
     let size_m = Vec2::splat(tile_m * 10.0);

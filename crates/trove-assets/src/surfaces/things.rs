@@ -91,10 +91,12 @@ fn recipes() -> Vec<Recipe> {
         thing("brick/white", |d| masonry::bricks(Bond::Stack, [Vec3::splat(0.5); 3], LIME, 314, d)),
         thing("stone/ashlar", |d| masonry::ashlar(vec3(0.4, 0.35, 0.27), 321, d)),
         thing("stone/rubble", |d| masonry::rubble(vec3(0.24, 0.22, 0.19), 322, d)),
+        thing("stone/granite", masonry::granite),
         thing("tile/glazed", |d| masonry::tiles(vec3(0.55, 0.57, 0.55), 0.1, true, 331, d)),
         thing("tile/quarry", |d| masonry::tiles(vec3(0.27, 0.12, 0.075), 0.15, false, 332, d)),
         thing("asphalt/patched", |d| road::patched(super::WORN, super::NEW, d)),
         thing("asphalt/wet", |d| road::asphalt(super::WORN, d)),
+        thing("soil/earth-dry", |d| ground::soil(343, d)),
         thing("soil/mud", |d| ground::mud(341, d)),
         thing("soil/sand", |d| ground::sand(342, d)),
     ]
