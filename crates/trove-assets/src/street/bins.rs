@@ -76,10 +76,7 @@ fn steel_bin() -> Asset {
     model.add(steel, Shape::lathe(&body.map(|(r, z)| vec2(r, z)), 32));
     let hood = [(0.215, 0.78), (0.215, 1.0), (0.2, 1.05), (0.15, 1.1), (0.08, 1.125), (0.0, 1.13)];
     model.add(steel, Shape::lathe(&hood.map(|(r, z)| vec2(r, z)), 32));
-    for turn in [0.0, FRAC_PI_2 * 2.0] {
-        let mouth = Shape::rounded_block(vec3(0.05, 0.24, 0.11), 0.02).moved(vec3(0.188, 0.0, 0.92));
-        model.add(black, mouth.turned(Quat::from_rotation_z(turn)));
-    }
+    model.add(black, Shape::rounded_block(vec3(0.06, 0.26, 0.09), 0.015).moved(vec3(0.18, 0.0, 0.9)));
     model.add(black, post(Vec3::Z * 1.115, 0.055, 0.022, 16));
     bin(model, "bin/steel")
 }

@@ -304,7 +304,7 @@ fn covered_heap() -> Asset {
                     let edge = (1.0 - u.abs().max(v.abs())).max(0.0);
                     // Three things below, the cloth hung between them.
                     let bump = |cu: f32, cv: f32, wide: f32, high: f32| {
-                        high * (-((u - cu) / wide).powi(4) - ((v - cv) / wide).powi(4)).exp()
+                        high * (-((u - cu) / wide).powi(6) - ((v - cv) / wide).powi(6)).exp()
                     };
                     let below =
                         bump(-0.35, 0.0, 0.45, 0.85).max(bump(0.4, 0.2, 0.42, 0.62)).max(bump(0.3, -0.35, 0.4, 0.5));

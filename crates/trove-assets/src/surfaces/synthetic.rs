@@ -21,7 +21,7 @@ pub(super) fn plastic(detail: u32) -> Canvas {
     let mut canvas = Canvas::new([512 * detail, 512 * detail], size, |p| {
         let mut texel = Texel::new(Vec3::splat(0.86 + 0.05 * bleach.at(p)), 0.5 + 0.06 * bleach.at(p));
         let rubbed = step(0.2, 0.55, rub.at(p)) * (0.55 + 0.45 * hatch.at(p));
-        texel.tint(Vec3::splat(0.62), 0.4 * rubbed);
+        texel.tint(Vec3::splat(0.7), 0.3 * rubbed);
         texel.roughness += 0.2 * rubbed;
         let dirty = step(0.05, 0.7, 0.7 * grime.at(p) + 0.6 * runs.at(p));
         texel.tint(vec3(0.34, 0.3, 0.25), 0.42 * dirty);
