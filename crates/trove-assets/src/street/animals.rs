@@ -73,7 +73,7 @@ fn dog(id: &str, scale: f32, commonness: f32) -> Asset {
     let mut blend = Blend::new(limbs, 0.03);
     blend.floor_m = 0.0;
     let size = Vec3::splat(scale);
-    model.add(fur, blend.surface(0.015).scaled(size));
+    model.add(fur, blend.surface(0.018).scaled(size));
     model.add(dark, Shape::ellipsoid(vec3(0.015, 0.018, 0.014), 10).moved(vec3(0.565, 0.0, 0.65)).scaled(size));
     for side in [1.0, -1.0] {
         model.add(dark, Shape::ellipsoid(Vec3::splat(0.0095), 8).moved(vec3(0.447, side * 0.04, 0.706)).scaled(size));
@@ -114,7 +114,7 @@ fn cat() -> Asset {
     }
     let mut blend = Blend::new(limbs, 0.016);
     blend.floor_m = 0.0;
-    model.add(fur, blend.surface(0.0085));
+    model.add(fur, blend.surface(0.01));
     model.add(dark, Shape::ellipsoid(vec3(0.005, 0.007, 0.005), 8).moved(vec3(0.259, 0.0, 0.274)));
     for side in [1.0, -1.0] {
         model.add(eye, Shape::ellipsoid(Vec3::splat(0.0075), 8).moved(vec3(0.236, side * 0.019, 0.293)));
@@ -140,7 +140,7 @@ fn pigeon(id: &str, bow_rad: f32) -> Asset {
         ],
         0.03,
     );
-    model.add(body, bow(trunk.surface(0.0065)));
+    model.add(body, bow(trunk.surface(0.0075)));
     let head = Blend::new(
         vec![
             limb(vec3(0.075, 0.0, 0.155), vec3(0.095, 0.0, 0.215), 0.041, 0.025),
@@ -148,7 +148,7 @@ fn pigeon(id: &str, bow_rad: f32) -> Asset {
         ],
         0.02,
     );
-    model.add(neck, bow(head.surface(0.006)));
+    model.add(neck, bow(head.surface(0.007)));
     model.add(bar, bow(Shape::tapered_tube(&[(vec3(0.125, 0.0, 0.236), 0.008), (vec3(0.15, 0.0, 0.229), 0.002)], 7)));
     for side in [1.0, -1.0] {
         let wing = Shape::ellipsoid(vec3(0.105, 0.016, 0.042), 18).turned(Quat::from_rotation_y(0.16));

@@ -153,7 +153,8 @@ fn jersey() -> Asset {
     let rod = model.slot(super::finish::rusty(), &[]);
     let amber = model.slot(reflective(vec3(0.75, 0.4, 0.03)), &[]);
     let (height_m, length_m) = (0.86, 2.4);
-    let half = |h: f32| Curve::rounded(&[(0.0, 0.3), (0.09, 0.3), (0.36, 0.18), (1.0, 0.1)], 0.02).at(h);
+    let profile = Curve::new(&[(0.0, 0.3), (0.09, 0.3), (0.36, 0.18), (1.0, 0.1)]);
+    let half = |h: f32| profile.at(h);
     let heights = [0.0, 0.03, 0.08, 0.1, 0.2, 0.33, 0.36, 0.39, 0.6, 0.8, 0.965, 0.99, 1.0];
     let ring = |y: f32, inset: f32| -> Vec<Vec3> {
         let chip = |h: f32, s: f32| 0.006 * surfaces::hash((y * 23.0) as i32, (h * 40.0 * s) as i32, 5);

@@ -69,7 +69,7 @@ mod tests {
             let ranges = match asset.kind {
                 Kind::TrafficCone => [0.3..0.75, 0.3..0.75, 0.5..1.4],
                 Kind::Barrier => [0.5..0.8, 1.7..2.6, 0.8..1.4],
-                Kind::BicycleRack => [4.0..15.0, 1.2..2.0, 0.8..1.5],
+                Kind::BicycleRack => [4.0..15.0, 0.8..2.0, 0.8..1.5],
                 _ => continue,
             };
             for (range, size) in ranges.iter().zip(asset.size_m.to_array()) {

@@ -124,8 +124,8 @@ impl Canvas {
         texture(name, "color", self.size_px, self.texels.iter().map(texel).collect(), ColorSpace::Srgb)
     }
 
-    /// The material for uvs in metres; gloss and normals are kept at a `coarser`-th of the resolution, heights at half
-    /// of theirs.
+    /// The material for uvs in metres; gloss and normals are kept at a `coarser`-th of the resolution, heights at a
+    /// quarter of theirs.
     pub(crate) fn material(&self, name: &str, coarser: u32) -> Material {
         let orm_px = self.size_px / coarser;
         let gloss: Vec<Vec2> = self.texels.iter().map(|t| vec2(t.roughness, t.metalness)).collect();
@@ -140,7 +140,7 @@ impl Canvas {
         let (low_m, high_m) = heights.iter().fold((f32::MAX, f32::MIN), |(low, high), &h| (low.min(h), high.max(h)));
         let height_m = high_m - low_m;
         let height_map = (height_m > 0.0).then(|| {
-            let coarser = (coarser * 2).min(self.size_px.min_element());
+            let coarser = (coarser * 4).min(self.size_px.min_element());
             let heights = boxed(&heights, self.size_px, coarser, |h| {
                 let h = byte((h - low_m) / height_m);
                 [h, h, h, 255]

@@ -18,20 +18,24 @@ pub(super) struct Wear {
     pub(super) worn: f32,
     /// Hairline cracks, 0 to 1.
     pub(super) cracks: f32,
+    /// What the texture covers, each way.
+    pub(super) size_m: f32,
     pub(super) seed: u32,
 }
 
 /// Stones in bitumen, stains, hairline cracks.
 pub(super) fn asphalt(kind: Wear, detail: u32) -> Canvas {
-    let size = [6.0, 6.0];
+    let size = [kind.size_m; 2];
     let size_m = Vec2::from_array(size);
+    // Stones of a centimetre get two texels.
+    let side = (kind.size_m / 6.0 * 1024.0) as u32 * detail;
     let noise = |feature_m, salt| Noise::new(size_m, feature_m, kind.seed * 31 + salt);
     let (stones, grain, blotch, stain) =
         (noise(kind.stone_m, 1), noise(0.05, 2), noise(1.5, 3).field(3), noise(0.6, 4).field(3));
     let (plates, warp, sparse) = (noise(2.0, 5), noise(0.35, 6).field(3), noise(1.7, 7));
     // Dust of the ground takes the blue away.
     let warm = vec3(1.04, 1.0, 0.93);
-    Canvas::new([1024 * detail, 1024 * detail], size, |p| {
+    Canvas::new([side, side], size, |p| {
         let stone = stones.near(p);
         let broad = blotch.at(p);
         let shown = step(0.62, 0.25, stone.first) * step(1.0 - kind.worn, 1.15 - kind.worn, stone.id + 0.25 * broad);

@@ -7,6 +7,7 @@ use glam::{Vec3, vec3};
 use trove_model::{Asset, Mapping, Material, Surface, SurfaceKind, Texture};
 
 use super::masonry::Bond;
+use super::road::Wear;
 use super::{Recipe, cloth, ground, masonry, metal, paving, plain, road, surface, synthetic, timber};
 
 /// A set and, once it was asked for, its surface at the ordinary resolution.
@@ -95,7 +96,7 @@ fn recipes() -> Vec<Recipe> {
         thing("tile/glazed", |d| masonry::tiles(vec3(0.55, 0.57, 0.55), 0.1, true, 331, d)),
         thing("tile/quarry", |d| masonry::tiles(vec3(0.27, 0.12, 0.075), 0.15, false, 332, d)),
         thing("asphalt/patched", |d| road::patched(super::WORN, super::NEW, d)),
-        thing("asphalt/wet", |d| road::asphalt(super::WORN, d)),
+        thing("asphalt/wet", |d| road::asphalt(Wear { size_m: 3.0, ..super::WORN }, d)),
         thing("soil/earth-dry", |d| ground::soil(343, d)),
         thing("soil/mud", |d| ground::mud(341, d)),
         thing("soil/sand", |d| ground::sand(342, d)),
