@@ -110,7 +110,7 @@ fn cat() -> Asset {
         limbs.push(limb(vec3(-0.1 - swing * 0.4, y, 0.115), vec3(-0.165 - swing, y, 0.075), 0.025, 0.015));
         limbs.push(limb(vec3(-0.165 - swing, y, 0.075), vec3(-0.145 - swing, y, 0.014), 0.014, 0.013));
         limbs.push(limb(vec3(-0.145 - swing, y, 0.013), vec3(-0.12 - swing, y, 0.013), 0.016, 0.014));
-        limbs.push(limb(vec3(0.185, side * 0.024, 0.318), vec3(0.182, side * 0.03, 0.345), 0.015, 0.003));
+        limbs.push(limb(vec3(0.185, side * 0.024, 0.317), vec3(0.182, side * 0.03, 0.345), 0.015, 0.003));
     }
     let mut blend = Blend::new(limbs, 0.016);
     blend.floor_m = 0.0;
