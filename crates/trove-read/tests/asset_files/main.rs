@@ -6,3 +6,4 @@ mod damaged;
 mod files;
 mod libraries;
 mod models;
+mod packed;
