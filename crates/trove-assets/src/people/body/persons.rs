@@ -433,7 +433,7 @@ pub(super) fn persons() -> Vec<Person> {
             layers: vec![collared(JACKET, Coated, COATS)],
             bag: Bag::Umbrella,
             acts: &[Easy],
-            commonness: 0.3,
+            commonness: 0.05,
             ..lady.clone()
         },
         Person {
