@@ -19,8 +19,8 @@ use trove_write::write_atomically;
 use crate::cache;
 use crate::recipe::{LibrarySource, Recipe};
 
-/// So many generations of the library stay in the cache, for programs that are installed side by side.
-const KEPT: usize = 2;
+/// So many generations of the library stay in the cache: a few hundred megabytes each.
+const KEPT: usize = 1;
 
 /// What the built-in library is made from.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,10 @@ use trove_model::AssetLibrary;
 
 use super::packed::{Packed, Packer, Unpacker};
 
+/// Noise, of which textures are full, gains little by a higher one.
+const LEVEL: i32 = 1;
 /// Changes with the layout of the file.
-const MAGIC: &[u8; 8] = b"TROVELB1";
+const MAGIC: &[u8; 8] = b"TROVELB2";
 
 /// The whole library as bytes.
 pub(super) fn pack(library: &AssetLibrary) -> Vec<u8> {
@@ -17,7 +19,7 @@ pub(super) fn pack(library: &AssetLibrary) -> Vec<u8> {
     let Packer { bytes, meshes, textures, .. } = packer;
     let mut blocks: Vec<Vec<u8>> = textures.par_iter().map(|t| block(&**t)).collect();
     blocks.par_extend(meshes.par_iter().map(|m| block(&**m)));
-    blocks.push(lz4_flex::compress_prepend_size(&bytes));
+    blocks.push(compressed(&bytes));
 
     let mut file = MAGIC.to_vec();
     for count in [textures.len(), meshes.len()] {
@@ -34,7 +36,11 @@ pub(super) fn pack(library: &AssetLibrary) -> Vec<u8> {
 fn block(value: &impl Packed) -> Vec<u8> {
     let mut packer = Packer::default();
     value.pack(&mut packer);
-    lz4_flex::compress_prepend_size(&packer.bytes)
+    compressed(&packer.bytes)
+}
+
+fn compressed(bytes: &[u8]) -> Vec<u8> {
+    zstd::encode_all(bytes, LEVEL).expect("writing to memory does not fail")
 }
 
 /// The library again; `None` where the file is damaged or of another layout.
@@ -74,5 +80,5 @@ fn value<T: Packed>(block: &(&[u8], u32)) -> Option<T> {
 /// A block's bytes, where its sum is right.
 fn opened((block, sum): &(&[u8], u32)) -> Option<Vec<u8>> {
     let whole = crc32fast::hash(block) == *sum;
-    whole.then(|| lz4_flex::decompress_size_prepended(block).ok()).flatten()
+    whole.then(|| zstd::decode_all(*block).ok()).flatten()
 }
