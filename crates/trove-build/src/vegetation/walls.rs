@@ -15,7 +15,7 @@ const SHRUB_SHARE: f64 = 0.22;
 /// Shorter walls are left alone, metres.
 const LEAST_WALL_M: f64 = 3.5;
 /// Rows stand this far from the wall, and end before its corners by as much, metres.
-const OFF_WALL_M: f64 = 0.85;
+const OFF_WALL_M: f64 = 1.2;
 /// Shrubs stand this far from each other, metres.
 const SHRUB_SPACING_M: [f64; 2] = [1.3, 2.4];
 /// Beds in gardens lie at least this far apart and are so long, metres.
