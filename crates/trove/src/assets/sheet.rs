@@ -61,6 +61,10 @@ impl Sheet {
             Studio { size_px: self.size, spp: self.spp, seed: self.seed, turn_deg: self.turn_deg, environment };
         let renderer =
             Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
+        if let Some(folder) = &self.each {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
+        }
         let subjects = self.chosen(library);
         ensure!(
             !subjects.is_empty(),
