@@ -132,7 +132,7 @@ pub(crate) fn vegetation<'a>(
             // A trunk beside the road; what hangs low keeps off what passes by.
             Kind::Tree => Room {
                 road_m: 0.7,
-                buildings_m: 0.8,
+                buildings_m: body_m.max(0.8),
                 recorded_m: (grown.low_radius_m * 0.8).max(body_m).max(1.0),
                 radius_m: body_m,
             },
