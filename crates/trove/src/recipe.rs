@@ -373,16 +373,6 @@ impl Recipe {
         let count = self.variations.count;
         check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
         ensure!(!assets.libraries.is_empty(), "assets.libraries: expected at least one, found none");
-        for source in self.libraries() {
-            if let LibrarySource::Folder(folder) = source {
-                ensure!(
-                    folder.is_dir(),
-                    "assets.libraries: expected \"{}\" or a folder of models, found no folder {}",
-                    crate::PROCEDURAL,
-                    folder.display()
-                );
-            }
-        }
         Ok(())
     }
 
@@ -506,7 +496,6 @@ mod tests {
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[variations]\ncount = 0\n", "variations.count"),
             ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
-            ("[assets]\nlibraries = [\"mine\"]\n", "found no folder"),
         ] {
             let message = error(&format!("{DRIVE}{text}"));
             assert!(message.contains(expect), "{message}");
