@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // all of this is tests
 use std::path::{Path, PathBuf};
 
-const STAGES: [&str; 5] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write"];
+const STAGES: [&str; 6] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write", "trove-judge"];
 /// A file longer than this does more than one thing.
 const LONGEST_FILE: usize = 800;
 

@@ -1,0 +1,43 @@
+//! What can go wrong.
+
+use std::path::{Path, PathBuf};
+
+/// An error that names the file, what was expected there and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum JudgeError {
+    /// A file or folder cannot be read.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file is not what it should be.
+    #[error("{}: expected {expected}, found {found}; {remedy}", path.display())]
+    Unexpected {
+        /// Which.
+        path: PathBuf,
+        /// What should be there.
+        expected: String,
+        /// What is there.
+        found: String,
+        /// What the user can do.
+        remedy: String,
+    },
+}
+
+impl JudgeError {
+    pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
+        |source| Self::Io { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn unexpected(path: &Path, expected: impl Into<String>, found: impl Into<String>, remedy: &str) -> Self {
+        Self::Unexpected {
+            path: path.to_owned(),
+            expected: expected.into(),
+            found: found.into(),
+            remedy: remedy.into(),
+        }
+    }
+}
