@@ -1,0 +1,137 @@
+//! What is known of a frame from its labels.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+use serde::Deserialize;
+use trove_model::CLASSES;
+
+use super::hash::{difference_hash, luma};
+use crate::JudgeError;
+use crate::pictures::read_labels;
+
+/// Share of a picture's pixels from which a class counts as seen: 100 pixels of 480 × 360.
+const SEEN: f64 = 6e-4;
+
+/// An object in a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct SeenObject {
+    /// Id of its class.
+    pub class_id: u8,
+    /// Pixels that show it.
+    pub visible_px: u64,
+    /// From the camera, metres.
+    pub distance_m: f64,
+}
+
+/// A frame as far as its worth for training goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandidateFrame {
+    /// Folder below the dataset's (`scene-0103/v00/k005/ego.CAM_FRONT`).
+    pub path: String,
+    /// Where its camera is in the plane of its dataset's place, metres, with the place's name.
+    pub place: String,
+    /// East and north of the place's origin, metres.
+    pub position_m: DVec2,
+    /// Pixels by class id.
+    pub pixels: [u64; 20],
+    /// Objects that are visible.
+    pub objects: Vec<SeenObject>,
+    /// Difference hash of its picture, or of its classes where there is no picture.
+    pub hash: u64,
+    /// Whether there is a picture.
+    pub has_picture: bool,
+}
+
+/// The fields of `frame.json` that are needed.
+#[derive(Deserialize)]
+struct FrameFile {
+    scene: String,
+    #[serde(default)]
+    place: String,
+    world_from_camera_translation_m: [f64; 3],
+    projection: Projection,
+    objects: Vec<SeenObject>,
+}
+
+#[derive(Deserialize)]
+struct Projection {
+    anchor_m: [f64; 2],
+}
+
+impl CandidateFrame {
+    /// Reads a frame's folder.
+    pub(super) fn read(root: &Path, folder: &Path) -> Result<Self, JudgeError> {
+        let file = folder.join("frame.json");
+        let bytes = fs::read(&file).map_err(JudgeError::io(&file))?;
+        let frame: FrameFile = serde_json::from_slice(&bytes).map_err(|e| {
+            JudgeError::unexpected(
+                &file,
+                "a frame of trove generate",
+                e.to_string(),
+                "remove the folder and run trove generate again",
+            )
+        })?;
+        let labels = read_labels(&folder.join("class.png"))?;
+        let mut pixels = [0; 20];
+        labels.ids.iter().for_each(|id| pixels[usize::from(*id).min(19)] += 1);
+        let picture = folder.join("rgb.png");
+        let has_picture = picture.exists();
+        let hash = if has_picture {
+            difference_hash(&crate::pictures::read(&picture)?.into_luma8())
+        } else {
+            let grey = |id: &u8| luma(CLASSES[usize::from(*id).min(19)].rgb);
+            let grey = labels.ids.iter().map(grey).collect();
+            let height = labels.ids.len() as u32 / labels.width.max(1);
+            image::GrayImage::from_raw(labels.width, height, grey).map_or(0, |grey| difference_hash(&grey))
+        };
+        let [x, y, _] = frame.world_from_camera_translation_m;
+        let place = if frame.place.is_empty() { frame.scene } else { frame.place };
+        let path = folder.strip_prefix(root).unwrap_or(folder).to_string_lossy().replace('\\', "/");
+        let position_m = DVec2::from_array(frame.projection.anchor_m) + DVec2::new(x, y);
+        let objects = frame.objects.into_iter().filter(|o| o.visible_px > 0).collect();
+        Ok(Self { path, place, position_m, pixels, objects, hash, has_picture })
+    }
+
+    /// Share of its pixels by class.
+    pub fn shares(&self) -> [f64; 20] {
+        let all = self.pixels.iter().sum::<u64>().max(1) as f64;
+        self.pixels.map(|n| n as f64 / all)
+    }
+
+    /// How many classes but void are seen.
+    pub fn classes(&self) -> usize {
+        self.shares().iter().skip(1).filter(|share| **share >= SEEN).count()
+    }
+
+    /// Entropy of its classes, bits.
+    pub fn entropy(&self) -> f64 {
+        entropy(&self.shares())
+    }
+}
+
+/// Entropy of shares, bits.
+pub(super) fn entropy(shares: &[f64]) -> f64 {
+    shares.iter().filter(|p| **p > 0.0).map(|p| -p * p.log2()).sum()
+}
+
+/// The folders of finished frames below a dataset's folder, in the order of their names.
+pub(super) fn folders(root: &Path) -> Result<Vec<PathBuf>, JudgeError> {
+    let (mut found, mut open) = (Vec::new(), vec![root.to_owned()]);
+    while let Some(folder) = open.pop() {
+        if folder.join("frame.json").is_file() {
+            found.push(folder);
+            continue;
+        }
+        for entry in fs::read_dir(&folder).map_err(JudgeError::io(&folder))? {
+            let path = entry.map_err(JudgeError::io(&folder))?.path();
+            let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if path.is_dir() && !hidden {
+                open.push(path);
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}

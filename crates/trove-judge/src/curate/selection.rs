@@ -1,0 +1,123 @@
+//! Which frames to keep: no near-duplicates, enough classes each, and together all classes often.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use super::frame::CandidateFrame;
+
+/// What a choice has to hold to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules {
+    /// Frames to keep; fewer where fewer pass.
+    pub count: usize,
+    /// Classes that a frame has to show at least: the paper's 6 to 8.
+    pub min_classes: usize,
+    /// Frames whose hashes differ in at most so many of 64 bits are near-duplicates.
+    pub duplicate_bits: u32,
+}
+
+/// What became of the frames.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Indices of those kept, in the order in which they were chosen: the first are the most worth.
+    pub kept: Vec<usize>,
+    /// Dropped for too few classes.
+    pub poor: usize,
+    /// Dropped as near-duplicates of kept ones.
+    pub duplicates: usize,
+}
+
+/// A frame with the gain that it had when it was last looked at.
+struct Gain(f64, usize);
+
+impl PartialEq for Gain {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Gain {}
+impl PartialOrd for Gain {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Gain {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // Of equal gains the earlier frame.
+        self.0.total_cmp(&other.0).then(other.1.cmp(&self.1))
+    }
+}
+
+/// Chooses greedily by what a frame adds to Σ √(pixels of a class), which is worth the more the rarer the class is among
+/// those kept. Gains only ever fall, so the best is found lazily (Minoux 1978), and the greedy choice is within 1 − 1/e
+/// of the best one (Nemhauser, Wolsey and Fisher 1978).
+pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
+    let mut selection = Selection::default();
+    let mut sums = [0.0f64; 20];
+    let gain = |sums: &[f64; 20], shares: &[f64; 20]| -> f64 {
+        // Void is worth nothing.
+        (1..20).map(|c| (sums[c] + shares[c]).sqrt() - sums[c].sqrt()).sum()
+    };
+    let mut queue = BinaryHeap::new();
+    for (i, frame) in frames.iter().enumerate() {
+        if frame.classes() < rules.min_classes {
+            selection.poor += 1;
+        } else {
+            queue.push(Gain(gain(&sums, &frame.shares()), i));
+        }
+    }
+    while selection.kept.len() < rules.count {
+        let Some(Gain(_, i)) = queue.pop() else { break };
+        let shares = frames[i].shares();
+        let now = gain(&sums, &shares);
+        if queue.peek().is_some_and(|best| best.0 > now) {
+            queue.push(Gain(now, i));
+            continue;
+        }
+        let is_duplicate = |k: &usize| {
+            let kept = &frames[*k];
+            kept.has_picture == frames[i].has_picture
+                && (kept.hash ^ frames[i].hash).count_ones() <= rules.duplicate_bits
+        };
+        if selection.kept.iter().any(is_duplicate) {
+            selection.duplicates += 1;
+            continue;
+        }
+        sums.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share);
+        selection.kept.push(i);
+    }
+    selection
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    fn frame(i: u64, pixels: &[(usize, u64)]) -> CandidateFrame {
+        let mut all = [0; 20];
+        pixels.iter().for_each(|(class, n)| all[*class] = *n);
+        CandidateFrame {
+            path: i.to_string(),
+            place: String::new(),
+            position_m: DVec2::ZERO,
+            pixels: all,
+            objects: Vec::new(),
+            hash: i.wrapping_mul(0x9e37_79b9_7f4a_7c15),
+            has_picture: true,
+        }
+    }
+
+    #[test]
+    fn rare_classes_come_first_and_poor_frames_and_duplicates_not_at_all() {
+        let mut frames: Vec<CandidateFrame> = (1..30).map(|i| frame(i, &[(1, 500), (9, 500)])).collect();
+        frames.push(frame(40, &[(1, 450), (9, 450), (16, 100)]));
+        frames.push(frame(41, &[(1, 1000)]));
+        frames.push(CandidateFrame { hash: frames[29].hash ^ 3, ..frame(42, &[(1, 460), (9, 450), (16, 90)]) });
+        let rules = Rules { count: 31, min_classes: 2, duplicate_bits: 3 };
+        let found = select(&frames, &rules);
+        assert_eq!(found.kept[0], 29);
+        assert_eq!((found.kept.len(), found.poor, found.duplicates), (30, 1, 1));
+        assert_eq!(select(&frames, &Rules { count: 5, ..rules }).kept, found.kept[..5]);
+    }
+}
