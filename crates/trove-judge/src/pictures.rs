@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use image::imageops::{FilterType, resize};
 use image::{DynamicImage, ImageReader};
+use trove_model::Raster;
 
 use crate::JudgeError;
 
@@ -49,6 +51,14 @@ pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
     reader
         .decode()
         .map_err(|e| JudgeError::unexpected(path, "a PNG or JPEG picture", e.to_string(), "make the file again"))
+}
+
+/// A small picture of a picture, `width` pixels wide.
+pub fn thumbnail(path: &Path, width: u32) -> Result<Raster<[u8; 3]>, JudgeError> {
+    let picture = read(path)?.into_rgb8();
+    let height = (picture.height() * width / picture.width().max(1)).max(1);
+    let small = resize(&picture, width, height, FilterType::Triangle);
+    Ok(Raster::from_fn(width, height, |x, y| small.get_pixel(x, y).0))
 }
 
 /// A picture of labels: one number a pixel.

@@ -10,6 +10,9 @@ use serde_json::json;
 use trove_render::KernelChoice;
 
 use crate::assets::{self, AssetsCommand};
+use crate::judge::curate::{Curate, Curated};
+use crate::judge::evaluate::Evaluate;
+use crate::judge::recolor::Recolor;
 use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{Dataset, Recipe};
@@ -86,6 +89,17 @@ enum Command {
         #[command(subcommand)]
         command: AssetsCommand,
     },
+    /// Chooses the frames that are worth training on, from labels alone, and shows what they hold.
+    #[command(
+        after_help = "Example:\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
+    )]
+    Curate(Curate),
+    /// Gives pictures the colours of others.
+    #[command(after_help = "Example:\n  trove recolor out/boston --to camvid/images/train --out out/boston-recolored")]
+    Recolor(Recolor),
+    /// Says what predicted labels are worth: IoU, accuracy, boundary IoU, panoptic quality, with intervals.
+    #[command(after_help = "Example:\n  trove evaluate predictions labels --classes cityscapes --boundary --json")]
+    Evaluate(Evaluate),
     /// Does everything; running it again on the same folder finishes what is missing and redoes nothing.
     #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
     Generate {
@@ -94,6 +108,9 @@ enum Command {
         /// Folder to write to.
         #[arg(long)]
         out: PathBuf,
+        /// Renders only the frames in a list that trove curate wrote.
+        #[arg(long, value_name = "FILE.json")]
+        frames: Option<PathBuf>,
         #[command(flatten)]
         machine: Machine,
         /// Prints a summary as JSON.
@@ -127,7 +144,7 @@ impl Machine {
             Kernel::Embree => KernelChoice::Embree,
             Kernel::Obvhs => KernelChoice::Obvhs,
         };
-        RunOptions { kernel, search: libraries::search(site_packages) }
+        RunOptions { kernel, search: libraries::search(site_packages), frames: None }
     }
 }
 
@@ -164,22 +181,27 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
         Command::Assets { command } => assets::run(command, libraries::search(site_packages)),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
-            produce(recipe, &out, &machine, site_packages, json)
+            produce(recipe, &out, &machine, machine.options(site_packages), json)
         }
-        Command::Generate { recipe, out, machine, json } => {
-            produce(Recipe::read(&recipe)?, &out, &machine, site_packages, json)
+        Command::Generate { recipe, out, frames, machine, json } => {
+            let frames = frames.as_deref().map(Curated::read).transpose()?;
+            let options = RunOptions { frames, ..machine.options(site_packages) };
+            produce(Recipe::read(&recipe)?, &out, &machine, options, json)
         }
+        Command::Curate(curate) => curate.run().map(|()| 0),
+        Command::Recolor(recolor) => recolor.run().map(|()| 0),
+        Command::Evaluate(evaluate) => evaluate.run().map(|()| 0),
     }
 }
 
-fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, site_packages: &[PathBuf], json: bool) -> Result<i32> {
+fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<i32> {
     interrupt::listen();
     if let Some(threads) = machine.threads {
         recipe.render.threads = threads;
     }
     let started = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(recipe.render.threads).build()?;
-    let summary = pool.install(|| generate(&recipe, out, &machine.options(site_packages)))?;
+    let summary = pool.install(|| generate(&recipe, out, &options))?;
     print(&summary, out, started.elapsed().as_secs_f64(), json)?;
     Ok(i32::from(summary.interrupted))
 }

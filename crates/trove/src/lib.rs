@@ -10,6 +10,7 @@ mod demo;
 mod doctor;
 mod inspect;
 mod interrupt;
+mod judge;
 mod libraries;
 mod library;
 mod message;

@@ -3,6 +3,7 @@
 mod manifest;
 mod output;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -31,6 +32,8 @@ pub struct RunOptions {
     pub kernel: KernelChoice,
     /// Files and folders to look for Embree and Open Image Denoise in.
     pub search: Vec<PathBuf>,
+    /// Paths of the only frames to render (`scene-0103/v00/k005/ego.CAM_FRONT`); `None`: all that the recipe asks for.
+    pub frames: Option<BTreeSet<String>>,
 }
 
 /// What a run did.
@@ -82,6 +85,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         output,
         progress: Progress::new(planned),
         report,
+        frames: options.frames.as_ref(),
         rows: Vec::new(),
         sites: Vec::new(),
         rendered: Vec::new(),
@@ -161,6 +165,7 @@ struct Run<'a> {
     output: OutputFolder,
     progress: Progress,
     report: Report,
+    frames: Option<&'a BTreeSet<String>>,
     rows: Vec<Value>,
     sites: Vec<SiteSummary>,
     rendered: Vec<RenderedFrame>,
@@ -180,6 +185,11 @@ impl Run<'_> {
         for variation in 0..self.recipe.variations.count {
             let folder = self.output.root().join(scene).join(format!("v{variation:02}"));
             let known = SiteFile::read(&folder);
+            let prefix = format!("{scene}/v{variation:02}/");
+            if self.frames.is_some_and(|frames| !frames.iter().any(|frame| frame.starts_with(&prefix))) {
+                self.progress.correct(frames_hint, 0);
+                continue;
+            }
             let missing = match &known {
                 Some(site) => self.missing(scene, variation, site)?,
                 None => true,
@@ -203,7 +213,10 @@ impl Run<'_> {
                     }
                 }
             };
-            self.progress.correct(frames_hint, file.frames.len());
+            let wanted = file.frames.iter().filter(|(keyframe, view)| {
+                self.wants(&FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() })
+            });
+            self.progress.correct(frames_hint, wanted.count());
             self.frames(scene, variation, &file, built.as_ref())?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
         }
@@ -214,11 +227,16 @@ impl Run<'_> {
     fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile) -> Result<bool> {
         for (keyframe, view) in &site.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
-            if self.finished(&key)?.is_none() {
+            if self.wants(&key) && self.finished(&key)?.is_none() {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Whether a frame is among those to render.
+    fn wants(&self, key: &FrameKey) -> bool {
+        self.frames.is_none_or(|frames| frames.contains(&key.path()))
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
@@ -280,6 +298,9 @@ impl Run<'_> {
         let mut photographed: Option<(usize, Scene, trove_render::PreparedScene)> = None;
         for (keyframe, view) in &file.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
+            if !self.wants(&key) {
+                continue;
+            }
             let files = match (self.finished(&key)?, built) {
                 (Some(files), _) => files,
                 (None, Some(built)) => {

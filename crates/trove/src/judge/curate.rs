@@ -1,0 +1,130 @@
+//! `trove curate`: which frames are worth training on.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::Args;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use trove_judge::curate::{Curation, Rules, Split, curate, report};
+use trove_model::{CLASSES, Seed};
+use trove_write::write_atomically;
+
+/// What to choose from, and how.
+#[derive(Args)]
+pub(crate) struct Curate {
+    /// A folder of trove generate; labels alone (`[render] light = false`) are enough.
+    dir: PathBuf,
+    /// Frames to keep.
+    #[arg(long, default_value_t = 5000)]
+    count: usize,
+    /// Classes that a frame has to show at least.
+    #[arg(long, default_value_t = 6)]
+    min_classes: usize,
+    /// Frames whose perceptual hashes differ in at most so many of 64 bits are near-duplicates.
+    #[arg(long, default_value_t = 2)]
+    duplicate_bits: u32,
+    /// Share of the kept frames for validation; no place is on both sides.
+    #[arg(long, default_value_t = 0.1, value_parser = share)]
+    val_share: f64,
+    /// Draws the places for validation.
+    #[arg(long, default_value_t = 7)]
+    seed: u64,
+    /// The list to write; without it DIR/curated.json.
+    #[arg(long, value_name = "FILE.json")]
+    out: Option<PathBuf>,
+    /// The page to write; without it DIR/curated.html.
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
+    /// Prints a summary as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Frames by what they serve for, as paths below the dataset's folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Curated {
+    /// Training, the most worth first.
+    train: Vec<String>,
+    /// Validation.
+    val: Vec<String>,
+    /// Kept, but too near to both sides' places.
+    #[serde(default)]
+    gap: Vec<String>,
+}
+
+impl Curated {
+    /// The frames of a list that trove curate wrote.
+    pub(crate) fn read(path: &Path) -> Result<BTreeSet<String>> {
+        let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+        let Self { train, val, .. } = serde_json::from_slice(&bytes)
+            .with_context(|| format!("{}: expected a list that trove curate wrote", path.display()))?;
+        Ok(train.into_iter().chain(val).collect())
+    }
+
+    fn of(curation: &Curation) -> Self {
+        let of = |wanted: Split| {
+            let kept = curation.selection.kept.iter().zip(&curation.splits);
+            kept.filter(|(_, split)| **split == wanted).map(|(i, _)| curation.frames[*i].path.clone()).collect()
+        };
+        Self { train: of(Split::Train), val: of(Split::Val), gap: of(Split::Gap) }
+    }
+}
+
+impl Curate {
+    pub(crate) fn run(&self) -> Result<()> {
+        let rules = Rules { count: self.count, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
+        let curation = curate(&self.dir, rules, self.val_share, Seed(self.seed))?;
+        let list = Curated::of(&curation);
+        let out = self.out.clone().unwrap_or_else(|| self.dir.join("curated.json"));
+        let page = self.page.clone().unwrap_or_else(|| self.dir.join("curated.html"));
+        write_atomically(&out, &serde_json::to_vec_pretty(&list)?)?;
+        write_atomically(&page, report(&self.dir, &curation)?.as_bytes())?;
+        let selection = &curation.selection;
+        if self.json {
+            let shares = |kept: bool| -> serde_json::Map<String, serde_json::Value> {
+                let shares = curation.shares(kept);
+                CLASSES.iter().zip(shares).map(|(row, share)| (row.name.to_owned(), json!(share))).collect()
+            };
+            let printed = json!({
+                "frames": curation.frames.len(),
+                "kept": selection.kept.len(),
+                "train": list.train.len(),
+                "val": list.val.len(),
+                "gap": list.gap.len(),
+                "too_few_classes": selection.poor,
+                "near_duplicates": selection.duplicates,
+                "shares_before": shares(false),
+                "shares_after": shares(true),
+                "list": out,
+                "page": page,
+            });
+            println!("{}", serde_json::to_string_pretty(&printed)?);
+            return Ok(());
+        }
+        println!(
+            "{} of {} frames kept: {} for training, {} for validation, {} near to both; {} have fewer than {} classes, {} \
+             are near-duplicates",
+            selection.kept.len(),
+            curation.frames.len(),
+            list.train.len(),
+            list.val.len(),
+            list.gap.len(),
+            selection.poor,
+            self.min_classes,
+            selection.duplicates,
+        );
+        println!(
+            "see {}; trove generate RECIPE --out DIR --frames {} renders these alone",
+            page.display(),
+            out.display()
+        );
+        Ok(())
+    }
+}
+
+/// A share of 1.
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|share| (0.0..=1.0).contains(share)).ok_or("expected a number from 0 to 1".into())
+}

@@ -1,0 +1,126 @@
+//! `trove recolor`: pictures in the colours of others.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor};
+use trove_model::Raster;
+use trove_write::write_sheet;
+
+use super::curate::share;
+
+/// Pairs that the page shows.
+const SHOWN: usize = 24;
+/// Width of a picture on it, pixels.
+const WIDTH_PX: u32 = 400;
+
+/// What to recolour, and how.
+#[derive(Args)]
+pub(crate) struct Recolor {
+    /// A folder of trove generate, or of pictures.
+    dir: PathBuf,
+    /// Pictures in the colours that are wanted.
+    #[arg(long, value_name = "IMAGES")]
+    to: PathBuf,
+    /// Folder to write to: every picture under the path that it has below DIR.
+    #[arg(long)]
+    out: PathBuf,
+    /// What is moved: means and deviations of each picture or of the whole set, or histograms class by class.
+    #[arg(long, value_enum, default_value = "set")]
+    method: MethodName,
+    /// Where it is moved.
+    #[arg(long, value_enum, default_value = "lab")]
+    space: SpaceName,
+    /// How far: 0 is not at all, 1 is all the way.
+    #[arg(long, default_value_t = 0.75, value_parser = share_f32)]
+    strength: f32,
+    /// Labels of IMAGES, in the numbering of DIR's class.png, for histograms by class.
+    #[arg(long, value_name = "LABELS")]
+    to_labels: Option<PathBuf>,
+    /// Prints a summary as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    Picture,
+    Set,
+    Classes,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SpaceName {
+    Lab,
+    LAlphaBeta,
+}
+
+impl Recolor {
+    pub(crate) fn run(&self) -> Result<()> {
+        let absolute = |path: &PathBuf| std::path::absolute(path);
+        ensure!(
+            absolute(&self.out)? != absolute(&self.dir)?,
+            "--out: expected another folder than {}, so that its pictures are not lost",
+            self.dir.display()
+        );
+        let settings = Settings {
+            method: match self.method {
+                MethodName::Picture => Method::PerPicture,
+                MethodName::Set => Method::PerSet,
+                MethodName::Classes => Method::HistogramPerClass,
+            },
+            space: match self.space {
+                SpaceName::Lab => Space::Lab,
+                SpaceName::LAlphaBeta => Space::LAlphaBeta,
+            },
+            strength: self.strength,
+            target_labels: self.to_labels.clone(),
+        };
+        let done = recolor(&self.dir, &self.to, &self.out, &settings)?;
+        let page = self.out.join("before_after.png");
+        write_sheet(&page, &self.pairs(&done)?)?;
+        let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
+        let [before, target, after] = &done.statistics;
+        if self.json {
+            let printed = json!({
+                "out": self.out,
+                "pictures": done.pictures.len(),
+                "before": statistics(before),
+                "target": statistics(target),
+                "after": statistics(after),
+                "page": page,
+            });
+            println!("{}", serde_json::to_string_pretty(&printed)?);
+            return Ok(());
+        }
+        println!("{} pictures recoloured; means and deviations of the three channels:", done.pictures.len());
+        for (name, s) in [("before", before), ("target", target), ("after", after)] {
+            println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
+        }
+        println!("see {}", page.display());
+        Ok(())
+    }
+
+    /// Some pictures before and after, side by side.
+    fn pairs(&self, done: &Recoloring) -> Result<Vec<(String, Raster<[u8; 3]>)>> {
+        let step = done.pictures.len().div_ceil(SHOWN).max(1);
+        let mut pairs = Vec::new();
+        for (after, before) in done.pictures.iter().step_by(step) {
+            let name = before.strip_prefix(&self.dir).unwrap_or(before).with_extension("");
+            let sides = [before, after].map(|path| trove_judge::thumbnail(path, WIDTH_PX));
+            let [before, after] = [sides[0].as_ref(), sides[1].as_ref()];
+            let (Ok(before), Ok(after)) = (before, after) else { continue };
+            let both = Raster::from_fn(2 * WIDTH_PX, before.height.min(after.height), |x, y| {
+                if x < WIDTH_PX { *before.at(x, y) } else { *after.at(x - WIDTH_PX, y) }
+            });
+            pairs.push((name.to_string_lossy().into_owned(), both));
+        }
+        Ok(pairs)
+    }
+}
+
+fn share_f32(text: &str) -> Result<f32, String> {
+    share(text).map(|share| share as f32)
+}
