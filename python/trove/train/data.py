@@ -1,0 +1,117 @@
+"""Pictures with labels, from every dataset's own layout."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+from PIL import Image
+from torch.utils.data import Dataset
+
+from trove.train.labels import lookup
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A picture and its labels, as files."""
+
+    picture: Path
+    labels: Path
+
+
+def native(root: Path, pictures: Path | None = None, frames: Path | None = None, split: str = "train") -> list[Sample]:
+    """Frames of `trove generate`.
+
+    `pictures` is a folder of `trove recolor` whose pictures stand in for the frames' own; `frames` a list of
+    `trove curate`, of which `split` is taken.
+    """
+    if frames is None:
+        folders = sorted(path.parent.relative_to(root) for path in root.rglob("rgb.png"))
+    else:
+        folders = [Path(path) for path in json.loads(frames.read_text())[split]]
+    return [Sample((pictures or root) / folder / "rgb.png", root / folder / "class.png") for folder in folders]
+
+
+def camvid(root: Path, split: str = "train") -> list[Sample]:
+    """CamVid in its 12-class form: `images/SPLIT/NAME.png` (or .jpg) and `labels/SPLIT/NAME.png`."""
+    pictures = sorted(path for path in (root / "images" / split).glob("*") if path.suffix in (".png", ".jpg"))
+    return [Sample(path, root / "labels" / split / f"{path.stem}.png") for path in pictures]
+
+
+def cityscapes(root: Path, split: str = "train") -> list[Sample]:
+    """Cityscapes' fine annotations: `leftImg8bit/SPLIT/CITY/…` and `gtFine/SPLIT/CITY/…_labelIds.png`."""
+    samples = []
+    for path in sorted((root / "leftImg8bit" / split).glob("*/*_leftImg8bit.png")):
+        name = path.name.replace("_leftImg8bit", "_gtFine_labelIds")
+        samples.append(Sample(path, root / "gtFine" / split / path.parent.name / name))
+    return samples
+
+
+def kitti_step(root: Path, split: str = "train") -> list[Sample]:
+    """KITTI-STEP: `image_02/SEQUENCE/FRAME.png` and `panoptic_maps/SPLIT/SEQUENCE/FRAME.png` (class in red)."""
+    labels = sorted((root / "panoptic_maps" / split).glob("*/*.png"))
+    return [Sample(root / "image_02" / path.parent.name / path.name, path) for path in labels]
+
+
+FORMATS = {
+    "native": (native, "native"),
+    "camvid": (camvid, "camvid"),
+    "cityscapes": (cityscapes, "cityscapes"),
+    "kitti-step": (kitti_step, "cityscapes-train"),
+}
+
+
+class Pictures(Dataset):
+    """Pictures as float tensors (3, H, W), 0 to 1, and labels as int64 tensors (H, W).
+
+    Pictures are scaled to cover `size` (width, height) and cut to it, in the middle, or with `augment` at random with a
+    random scale of 1 to 1.4 and a random mirroring that `epoch` and the index decide.
+    """
+
+    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], augment: bool, seed: int):
+        self.samples, self.size, self.augment, self.seed = samples, size, augment, seed
+        self.table = lookup(numbering, target)
+        self.epoch = 0
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def __getitem__(self, index: int) -> tuple[torch.Tensor, torch.Tensor]:
+        sample = self.samples[index]
+        picture, labels = Image.open(sample.picture).convert("RGB"), Image.open(sample.labels)
+        if labels.mode not in ("L", "P"):
+            labels = labels.getchannel(0)
+        if picture.size != labels.size:
+            raise ValueError(f"{sample.labels}: expected {picture.size} pixels as the picture, found {labels.size}")
+        width, height = self.size
+        random = np.random.default_rng((self.seed, self.epoch, index))
+        zoom, x, y, mirrored = (random.uniform(1, 1.4), *random.random(2), random.random() < 0.5) if self.augment else (1, 0.5, 0.5, False)
+        scale = max(width / picture.width, height / picture.height) * zoom
+        full = (max(width, round(picture.width * scale)), max(height, round(picture.height * scale)))
+        left, top = int(x * (full[0] - width)), int(y * (full[1] - height))
+        box = (left, top, left + width, top + height)
+        rgb = np.asarray(picture.resize(full, Image.Resampling.BILINEAR).crop(box))
+        ids = self.table[np.asarray(labels.resize(full, Image.Resampling.NEAREST).crop(box))]
+        if mirrored:
+            rgb, ids = rgb[:, ::-1], ids[:, ::-1]
+        picture = torch.from_numpy(rgb.copy()).permute(2, 0, 1).float() / 255
+        return picture, torch.from_numpy(ids.copy()).long()
+
+
+def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list[list[tuple[int, int]]]:
+    """Batches of (set, index): each holds as many of every set, and each set runs through all its pictures in turn."""
+    random = np.random.default_rng(seed)
+    queues: list[list[int]] = [[] for _ in lengths]
+    shares = [batch // len(lengths) + (i < batch % len(lengths)) for i in range(len(lengths))]
+    batches = []
+    for _ in range(steps):
+        members = []
+        for i, (share, length) in enumerate(zip(shares, lengths)):
+            while len(queues[i]) < share:
+                queues[i].extend(random.permutation(length).tolist())
+            members += [(i, queues[i].pop(0)) for _ in range(share)]
+        batches.append(members)
+    return batches
+
+

@@ -1,0 +1,166 @@
+"""What is to be trained on what: a TOML file.
+
+    classes = "camvid"            # or "paper", the 12 classes
+    size    = [480, 360]          # width and height that networks see
+    rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: first without, then on the real set alone; [M]: mixed batches
+    compare = { "S+R[M]" = "R" }  # rows whose gain is told
+
+    [sets.R]
+    format = "camvid"             # native | camvid | cityscapes | kitti-step
+    root   = "data/camvid"        # relative to this file
+    split  = "train"
+
+    [sets.P]
+    of    = "R"                   # a part of another set
+    count = 100
+
+    [sets.S]
+    format = "native"
+    root   = "out/camvid-twin"
+    frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
+
+    [sets.C]                      # S in other colours: a row with C holds these in place of S
+    format   = "native"
+    root     = "out/camvid-twin"
+    pictures = "out/camvid-twin-recolored"
+
+    [val]
+    format = "camvid"
+    root   = "data/camvid"
+    split  = "val"
+
+    [training]
+    model  = "small"              # or "deeplab"
+    steps  = 600                  # the same for every row; or epochs = 30, of a row's own pictures
+    batch  = 10
+    rate   = 1e-3
+    seeds  = [1, 2, 3]
+"""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from trove.train.data import FORMATS, Sample
+from trove.train.labels import TARGETS
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.10
+    import tomli as tomllib
+
+
+class ExperimentError(ValueError):
+    """The file asks for something that cannot be; the message names the place and what was expected."""
+
+
+@dataclass(frozen=True)
+class Training:
+    """How networks are trained."""
+
+    model: str = "small"
+    steps: int = 0
+    epochs: int = 30
+    batch: int = 10
+    rate: float = 1e-4
+    seeds: tuple[int, ...] = (1, 2, 3)
+    weights: Path | None = None
+
+
+@dataclass(frozen=True)
+class Pool:
+    """A set of samples with the numbering of its labels."""
+
+    samples: list[Sample]
+    numbering: str
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """An experiment, with its sets found."""
+
+    classes: str
+    size: tuple[int, int]
+    rows: list[str]
+    compare: dict[str, str]
+    pools: dict[str, Pool]
+    val: Pool
+    training: Training = field(default_factory=Training)
+
+    def stages(self, row: str) -> list[list[str]]:
+        """The sets of each stage of a row: `S+R[F]` is trained on S, then on R; `S+C+R[M]` on C and R at once.
+
+        C is S in other colours, so it stands in for S.
+        """
+        names = re.sub(r"\[.\]$", "", row).split("+")
+        names = [name for name in names if not (name == "S" and "C" in names)]
+        if row.endswith("[F]"):
+            return [names[:-1], names[-1:]]
+        return [names]
+
+
+def read(path: Path) -> Experiment:
+    """Reads an experiment and finds its pictures; raises `ExperimentError`."""
+    try:
+        table = tomllib.loads(path.read_text())
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise ExperimentError(f"{path}: {error}") from error
+    _known(path, "", table, {"classes", "size", "rows", "compare", "sets", "val", "training"})
+    classes = table.get("classes", "paper")
+    if classes not in TARGETS:
+        raise ExperimentError(f"{path}: classes: expected one of {', '.join(TARGETS)}, found {classes}")
+    sets = table.get("sets", {})
+    pools: dict[str, Pool] = {}
+    for name, entry in sets.items():
+        if "of" not in entry:
+            pools[name] = _pool(path, f"sets.{name}", entry)
+    for name, entry in sets.items():
+        if "of" in entry:
+            _known(path, f"sets.{name}.", entry, {"of", "count", "seed"})
+            whole = pools.get(entry["of"])
+            if whole is None:
+                raise ExperimentError(f"{path}: sets.{name}.of: expected another set, found {entry['of']}")
+            pools[name] = _part(whole, entry.get("count", 100), entry.get("seed", 1))
+    if "val" not in table:
+        raise ExperimentError(f"{path}: expected a section [val], found none")
+    entry = dict(table.get("training", {}))
+    _known(path, "training.", entry, {"model", "steps", "epochs", "batch", "rate", "seeds", "weights"})
+    if "seeds" in entry:
+        entry["seeds"] = tuple(entry["seeds"])
+    if "weights" in entry:
+        entry["weights"] = path.parent / entry["weights"]
+    size = table.get("size", [512, 256])
+    experiment = Experiment(
+        classes, (size[0], size[1]), table.get("rows", []), table.get("compare", {}), pools, _pool(path, "val", table["val"]), Training(**entry)
+    )
+    for row in experiment.rows:
+        for name in sum(experiment.stages(row), []):
+            if name not in pools:
+                raise ExperimentError(f"{path}: rows: {row} asks for the set {name}, which is not under [sets]")
+    return experiment
+
+
+def _pool(path: Path, place: str, entry: dict) -> Pool:
+    _known(path, f"{place}.", entry, {"format", "root", "split", "pictures", "frames"})
+    if entry.get("format") not in FORMATS:
+        raise ExperimentError(f"{path}: {place}.format: expected one of {', '.join(FORMATS)}, found {entry.get('format')}")
+    find, numbering = FORMATS[entry["format"]]
+    options = {key: path.parent / entry[key] for key in ("pictures", "frames") if key in entry}
+    root = path.parent / entry.get("root", "")
+    samples = find(root, split=entry.get("split", "train"), **options)
+    if not samples:
+        raise ExperimentError(f"{path}: {place}.root: expected pictures laid out as {entry['format']} in {root}, found none")
+    return Pool(samples, numbering)
+
+
+def _part(whole: Pool, count: int, seed: int) -> Pool:
+    chosen = np.random.default_rng(seed).permutation(len(whole.samples))[:count]
+    return Pool([whole.samples[i] for i in sorted(chosen)], whole.numbering)
+
+
+def _known(path: Path, place: str, table: dict, keys: set[str]) -> None:
+    unknown = sorted(set(table) - keys)
+    if unknown:
+        raise ExperimentError(f"{path}: {place}{unknown[0]} is not known; expected {', '.join(sorted(keys))}")

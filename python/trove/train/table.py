@@ -1,0 +1,70 @@
+"""The results in the paper's form."""
+
+import numpy as np
+
+from trove.train.training import iou
+
+# 97.5 % quantile of Student's t for 1 to 10 degrees of freedom.
+_STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228]
+
+
+def _interval(values: np.ndarray) -> float:
+    """Half the width of the 95 % interval of the mean over seeds; NaN for one seed."""
+    n = len(values)
+    return float("nan") if n < 2 else _STUDENT[min(n - 2, 9)] * float(np.std(values, ddof=1)) / n**0.5
+
+
+def summary(results: list[dict]) -> dict:
+    """Means over the seeds of one row, percent: `iou` by class, `miou` and its interval, `accuracy`."""
+    counts = [np.array(result["confusion"]) for result in results]
+    ious = np.array([iou(c) for c in counts]) * 100
+    mious = np.nanmean(ious, axis=1)
+    accuracy = np.array([np.trace(c) / c.sum() for c in counts]) * 100
+    return {"iou": np.nanmean(ious, axis=0), "miou": float(mious.mean()), "half": _interval(mious), "accuracy": float(accuracy.mean()), "mious": mious}
+
+
+def _rows(summaries: dict[str, dict]) -> list[list[str]]:
+    def number(value: float) -> str:
+        return "–" if np.isnan(value) else f"{value:.2f}"
+
+    rows = []
+    for row, s in summaries.items():
+        half = "" if np.isnan(s["half"]) else f" ± {s['half']:.2f}"
+        rows.append([row, *map(number, s["iou"]), number(s["miou"]) + half, number(s["accuracy"])])
+    return rows
+
+
+def markdown(classes: list[str], summaries: dict[str, dict], compare: dict[str, str]) -> str:
+    """A Markdown table with a line for every gain asked for."""
+    head = ["trained on", *classes, "mIoU", "accuracy"]
+    lines = [head, ["---"] * len(head), *_rows(summaries)]
+    text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+    for better, than in compare.items():
+        if better in summaries and than in summaries:
+            # Seeds pair the runs: the same seed begins with the same weights.
+            a, b = summaries[better]["mious"], summaries[than]["mious"]
+            apart = a - b if len(a) == len(b) else np.array([a.mean() - b.mean()])
+            half = _interval(apart)
+            text += f"\n{better} against {than}: {apart.mean():+.2f} mIoU" + ("" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})")
+    return text + "\n"
+
+
+def latex(classes: list[str], summaries: dict[str, dict]) -> str:
+    """The same as a LaTeX tabular."""
+    head = ["Training", *classes, "mIoU", "Acc."]
+    lines = [" & ".join(line).replace("_", r"\_").replace("±", r"$\pm$") + r" \\" for line in [head, *_rows(summaries)]]
+    body = "\n".join([lines[0], r"\hline", *lines[1:]])
+    return f"\\begin{{tabular}}{{l{'r' * (len(head) - 1)}}}\n\\hline\n{body}\n\\hline\n\\end{{tabular}}\n"
+
+
+def curves(results: list[dict]) -> str:
+    """The curves of the loss as an SVG picture, a line a run."""
+    most = max((point[2] for r in results for point in r["curve"]), default=1.0)
+    parts = []
+    for i, result in enumerate(results):
+        last = max((point[1] for point in result["curve"]), default=1)
+        points = " ".join(f"{40 + 700 * p[1] / last:.1f},{20 + 360 * (1 - p[2] / most):.1f}" for p in result["curve"])
+        hue = 360 * i // max(len(results), 1)
+        parts.append(f'<polyline points="{points}" fill="none" stroke="hsl({hue},60%,45%)"><title>{result["row"]} seed {result["seed"]}</title></polyline>')
+    axes = '<path d="M40 20V380H740" fill="none" stroke="#888"/>'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 400">{axes}{"".join(parts)}</svg>\n'
