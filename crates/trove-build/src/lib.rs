@@ -36,5 +36,5 @@ pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use placement::{AssetFit, ObjectFit};
 pub use site::{BuildSettings, Site, area, build};
-pub use views::{ALL_CAMERAS, LensChange, ViewSettings, place_drive, shots};
+pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings, place_drive, shots};
 pub use weather::Weather;

@@ -285,7 +285,7 @@ pub(crate) fn track_id(track: usize) -> InstanceId {
 mod tests {
     use super::*;
     use crate::testing;
-    use crate::views::{ViewSettings, shots};
+    use crate::views::{PictureSize, ViewSettings, shots};
 
     fn settings(seed: u64) -> BuildSettings {
         BuildSettings {
@@ -362,7 +362,8 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let drive = testing::drive();
             let site = pool.install(|| site(5));
-            let views = ViewSettings { other_vehicles: 2, scale: 0.5, spp: 1, ..ViewSettings::default() };
+            let size = PictureSize::Scaled(0.5);
+            let views = ViewSettings { other_vehicles: 2, size, spp: 1, ..ViewSettings::default() };
             let scene = site.scene(&drive, 4);
             format!(
                 "{:?} {:?}",

@@ -265,6 +265,48 @@ fn an_edge_is_blurred_as_wide_as_the_camera_turns_while_it_is_exposed() {
 }
 
 #[test]
+fn a_cropped_cameras_labels_are_the_middle_of_the_whole_pictures() {
+    let bent = Distortion::brown_conrady(&[-0.25, 0.05, 1e-3, -5e-4]).unwrap();
+    let scene = scene(vec![
+        stuff(GROUND, PLACE - DVec3::Z * 1.5),
+        object(1, PLACE + DVec3::new(0.4, 6.0, 0.2), 1.5),
+        object(2, PLACE + DVec3::new(-4.2, 9.0, 0.0), 3.0),
+    ]);
+    for (lens, scale) in [(LENS, 1.0), (LENS, 0.5), (Lens { distortion: bent, ..LENS }, 1.0)] {
+        let taken = |lens: Lens| {
+            let mut shot = Shot { lens, ..shot(PLACE) };
+            shot.world_from_camera_next = Some(Pose::new(shot.world_from_camera.rotation, PLACE + DVec3::Y));
+            look(&scene, &shot)
+        };
+        // Half as wide as the recording and as high.
+        let whole = taken(lens.scaled(scale));
+        let (width, height) = (whole.class.width / 2, whole.class.height);
+        let cropped = lens.cropped(width, height);
+        let part = taken(cropped);
+        assert_eq!((part.class.width, part.class.height), (width, height));
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let from = x + width / 2;
+            assert_eq!(part.class.at(x, y), whole.class.at(from, y));
+            assert_eq!(part.instance.at(x, y), whole.instance.at(from, y));
+            let (depth, there) = (part.depth_m.at(x, y), whole.depth_m.at(from, y));
+            assert!(depth == there || (depth / there - 1.0).abs() < 1e-5, "({x}, {y}): {depth} instead of {there}");
+            let flow = [part.flow_forward.at(x, y), whole.flow_forward.at(from, y)].map(|f| glam::Vec2::from_array(*f));
+            let apart = (flow[0] - flow[1]).length();
+            assert!(apart < 1e-3 || flow.iter().all(|f| f.is_nan()), "({x}, {y}): {flow:?}");
+        }
+        let near = part.objects.iter().find(|o| o.id.0 == 1).unwrap();
+        let seen = (0..width * height).filter(|i| part.instance.data[*i as usize] == 1).map(|i| [i % width, i / width]);
+        let around = seen
+            .map(|p| (p, p))
+            .reduce(|(a, b), (p, _)| ([a[0].min(p[0]), a[1].min(p[1])], [b[0].max(p[0]), b[1].max(p[1])]));
+        assert_eq!(near.visible_box.map(|b| (b.min, b.max)), around);
+        let middle = cropped.project(DVec3::new(0.4, -0.2, 6.0)).unwrap();
+        assert_eq!(*part.instance.at(middle.x as u32, middle.y as u32), 1);
+        assert!(part.objects.iter().any(|o| o.id.0 == 2 && o.truncation > 0.1), "the left one is cut");
+    }
+}
+
+#[test]
 fn one_thread_and_two_give_the_same_labels() {
     let boxes = (1..20).map(|i| {
         let angle = f64::from(i) * 2.4;

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use trove_build::{BuildSettings, LightChoice, OnDisagreement, SkyChoice, ViewSettings, Weather};
+use trove_build::{BuildSettings, LightChoice, OnDisagreement, PictureSize, SkyChoice, ViewSettings, Weather};
 use trove_model::{Report, Seed};
 use trove_read::{nuscenes::NuScenes, osm};
 use trove_render::{KernelChoice, RaySeconds, Renderer, RendererOptions};
@@ -31,7 +31,8 @@ fn main() -> Result<()> {
             on_disagreement: OnDisagreement::default(),
         };
         let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
-        let views = ViewSettings { rig: Some(vec!["CAM_FRONT".into()]), scale: 0.5, spp: 1, ..ViewSettings::default() };
+        let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(0.5));
+        let views = ViewSettings { rig, size, spp: 1, ..ViewSettings::default() };
         let shots = trove_build::shots(&drive, &site, 1, &views, Seed(5), &report);
         let prepared = renderer.prepare(&site.scene(&drive, 1))?;
         // The first time warms the caches.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
-use trove_build::Weather;
+use trove_build::{PictureSize, Weather};
 use trove_model::Season;
 use trove_write::Pictures;
 
@@ -235,8 +235,10 @@ impl From<SeasonChoice> for Option<Season> {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RenderSection {
-    /// Of the dataset's own resolution.
-    pub scale: f64,
+    /// Of the dataset's own resolution; `None` is 1.
+    pub scale: Option<f64>,
+    /// In place of `scale`: width and height in pixels of the picture's middle, which is cut to that aspect.
+    pub size: Option<[u32; 2]>,
     /// Samples a pixel; the most that one may get where `noise` is more than 0.
     pub spp: u32,
     /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
@@ -281,7 +283,7 @@ impl Default for WeatherSection {
 
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: 1.0, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
+        Self { scale: None, size: None, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
     }
 }
 
@@ -356,7 +358,17 @@ impl Recipe {
             }
         }
         let (render, assets) = (&self.render, &self.assets);
-        check("render.scale", render.scale, render.scale > 0.0 && render.scale <= 4.0, "more than 0, at most 4")?;
+        match (render.scale, render.size) {
+            (Some(_), Some(_)) => bail!("expected render.scale or render.size, found both; remove one of them"),
+            (Some(scale), None) => {
+                check("render.scale", scale, scale > 0.0 && scale <= 4.0, "more than 0, at most 4")?;
+            }
+            (None, Some([width, height])) => {
+                let is_picture = [width, height].iter().all(|side| (1..=16_384).contains(side));
+                check("render.size", format!("[{width}, {height}]"), is_picture, "two numbers of 1 to 16384")?;
+            }
+            (None, None) => {}
+        }
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
         check("render.noise", render.noise, (0.0..1.0).contains(&render.noise), "0 to less than 1")?;
         ensure!(
@@ -414,6 +426,13 @@ impl Recipe {
             Rig::One(name) => Some(vec![name.clone()]),
             Rig::Named(names) => Some(names.clone()),
         }
+    }
+}
+
+impl RenderSection {
+    /// How large pictures are.
+    pub fn picture_size(&self) -> PictureSize {
+        self.size.map_or(PictureSize::Scaled(self.scale.unwrap_or(1.0)), PictureSize::Cropped)
     }
 }
 
@@ -492,6 +511,8 @@ mod tests {
     fn a_value_out_of_range_says_what_was_expected() {
         for (text, expect) in [
             ("[render]\nscale = 0\n", "render.scale: expected more than 0"),
+            ("[render]\nscale = 0.5\nsize = [480, 360]\n", "render.scale or render.size, found both"),
+            ("[render]\nsize = [0, 360]\n", "render.size: expected two numbers of 1 to 16384, found [0, 360]"),
             ("[render]\nspp = 0\n", "render.spp: expected 1 to 65536, found 0"),
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[variations]\ncount = 0\n", "variations.count"),

@@ -22,8 +22,8 @@ pub struct ViewSettings {
     pub rig: Option<Vec<String>>,
     /// How many vehicles of the scene carry the rig too.
     pub other_vehicles: usize,
-    /// Of the dataset's own resolution.
-    pub scale: f64,
+    /// How large pictures are.
+    pub size: PictureSize,
     /// Samples a pixel, or the most of them.
     pub spp: u32,
     /// As in [`Shot::noise`].
@@ -36,6 +36,21 @@ pub struct ViewSettings {
     pub readout_s: f64,
     /// From light to picture.
     pub film: Film,
+}
+
+/// How large pictures are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PictureSize {
+    /// So many times the recorded one.
+    Scaled(f64),
+    /// Width and height in pixels, of the picture's middle: see [`Lens::cropped`].
+    Cropped([u32; 2]),
+}
+
+impl Default for PictureSize {
+    fn default() -> Self {
+        Self::Scaled(1.0)
+    }
 }
 
 /// The name under which [`ViewSettings::lenses`] holds the lens of all cameras without one of their own.
@@ -61,7 +76,11 @@ impl ViewSettings {
             lens.distortion = change.distortion;
             (lens.fx_px, lens.fy_px) = change.focal_px.map_or((lens.fx_px, lens.fy_px), |f| (f, f));
         }
-        if self.scale == 1.0 { lens } else { lens.scaled(self.scale) }
+        match self.size {
+            PictureSize::Scaled(1.0) => lens,
+            PictureSize::Scaled(scale) => lens.scaled(scale),
+            PictureSize::Cropped([width_px, height_px]) => lens.cropped(width_px, height_px),
+        }
     }
 
     /// `neighbours_ns` are the times of the previous and the next keyframe's picture.
@@ -147,7 +166,8 @@ mod tests {
     }
 
     fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
-        let views = ViewSettings { other_vehicles: 2, scale: 0.5, spp: 1, ..ViewSettings::default() };
+        let size = PictureSize::Scaled(0.5);
+        let views = ViewSettings { other_vehicles: 2, size, spp: 1, ..ViewSettings::default() };
         shots(&testing::drive(), site, keyframe, &views, Seed(seed), &Report::default())
     }
 

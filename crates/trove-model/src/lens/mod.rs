@@ -73,6 +73,22 @@ impl Lens {
         }
     }
 
+    /// The same camera with the largest part of its picture's middle that has the aspect `width_px` : `height_px`, at that
+    /// size. Pixels keep their shape.
+    pub fn cropped(&self, width_px: u32, height_px: u32) -> Self {
+        let (width, height) = (f64::from(self.width_px), f64::from(self.height_px));
+        let scale = (f64::from(width_px) / width).max(f64::from(height_px) / height);
+        Self {
+            width_px,
+            height_px,
+            fx_px: self.fx_px * scale,
+            fy_px: self.fy_px * scale,
+            cx_px: (self.cx_px - 0.5 * width) * scale + 0.5 * f64::from(width_px),
+            cy_px: (self.cy_px - 0.5 * height) * scale + 0.5 * f64::from(height_px),
+            distortion: self.distortion,
+        }
+    }
+
     /// Whether a position in pixels lies in the image.
     pub fn contains(&self, pixel: DVec2) -> bool {
         pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < f64::from(self.width_px) && pixel.y < f64::from(self.height_px)
@@ -137,6 +153,31 @@ mod tests {
             let (small, pixel) = (lens.scaled(0.5), DVec2::new(523.0, 256.0));
             assert!((small.unproject(pixel * 0.5).unwrap() - lens.unproject(pixel).unwrap()).length() < 1e-9);
         }
+    }
+
+    #[test]
+    fn a_cropped_camera_sees_the_middle_of_the_picture() {
+        // 1600×900 keeps its height: 1200 of its columns, at 8/15.
+        let small = PINHOLE.cropped(640, 480);
+        let scale = 480.0 / 900.0;
+        assert!((small.fx_px - 1266.4 * scale).abs() < 1e-9 && (small.fy_px - 1260.0 * scale).abs() < 1e-9);
+        let (cx_px, cy_px) = ((816.3 - 200.0) * scale, 491.5 * scale);
+        assert!((small.cx_px - cx_px).abs() < 1e-9 && (small.cy_px - cy_px).abs() < 1e-9);
+        // Wider than the recording: all columns, of the rows the middle.
+        assert!((PINHOLE.cropped(800, 200).cy_px - (491.5 / 2.0 - 125.0)).abs() < 1e-9);
+        for lens in [PINHOLE].into_iter().chain(typical()) {
+            let (width, height) = (f64::from(lens.width_px), f64::from(lens.height_px));
+            let small = lens.cropped(300, 200);
+            let pixels_a_pixel = lens.fx_px / small.fx_px;
+            for corner in [DVec2::ZERO, DVec2::new(300.0, 200.0), DVec2::new(31.5, 120.5)] {
+                let pixel = (corner - DVec2::new(150.0, 100.0)) * pixels_a_pixel + DVec2::new(width, height) * 0.5;
+                assert!(pixel.cmpge(DVec2::splat(-1e-9)).all() && pixel.x <= width + 1e-9 && pixel.y <= height + 1e-9);
+                let (whole, part) = (lens.unproject(pixel), small.unproject(corner));
+                assert_eq!(whole.is_some(), part.is_some(), "{lens:?}");
+                assert!(whole.zip(part).is_none_or(|(whole, part)| (whole - part).length() < 1e-9), "{lens:?}");
+            }
+        }
+        assert_eq!(PINHOLE.cropped(1600, 900), PINHOLE);
     }
 
     #[test]

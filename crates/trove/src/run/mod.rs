@@ -134,7 +134,7 @@ pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
     Ok(ViewSettings {
         rig: recipe.camera_names(),
         other_vehicles: recipe.views.other_vehicles,
-        scale: recipe.render.scale,
+        size: recipe.render.picture_size(),
         spp: recipe.render.spp,
         noise: recipe.render.noise,
         lenses: recipe.camera.lenses()?,
