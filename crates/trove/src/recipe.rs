@@ -119,11 +119,38 @@ pub struct PlaceSection {
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapSection {
-    /// OpenStreetMap extract, `.osm` or `.osm.pbf`.
-    pub osm: Option<PathBuf>,
+    /// OpenStreetMap extracts, `.osm` or `.osm.pbf`; each scene takes the first that covers it.
+    #[serde(default)]
+    pub osm: Extracts,
     /// What becomes of it where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
+}
+
+/// One path or a list of them.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum Extracts {
+    /// A path.
+    One(PathBuf),
+    /// A list.
+    Several(Vec<PathBuf>),
+}
+
+impl Default for Extracts {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
+}
+
+impl Extracts {
+    /// The paths as the recipe has them.
+    pub fn paths(&self) -> &[PathBuf] {
+        match self {
+            Self::One(path) => std::slice::from_ref(path),
+            Self::Several(paths) => paths,
+        }
+    }
 }
 
 /// What becomes of a street map that does not lie on the drive.
@@ -342,7 +369,7 @@ impl Recipe {
                 check("place.lon_deg", place.lon_deg, (-180.0..=180.0).contains(&place.lon_deg), "-180 to 180")?;
                 check("place.size_m", place.size_m, (50.0..=5000.0).contains(&place.size_m), "50 to 5000")?;
                 ensure!(
-                    self.map.osm.is_some(),
+                    !self.map.osm.paths().is_empty(),
                     "map.osm: a [place] has no map of its own; name an OpenStreetMap extract"
                 );
             }
@@ -489,6 +516,13 @@ mod tests {
         assert_eq!((recipe.render.spp, recipe.assets.top_k, recipe.variations.count), (64, 3, 1));
         assert_eq!(recipe.drive.unwrap().keyframes, Keyframes::All);
         assert_eq!(recipe.views.rig, Rig::All);
+    }
+
+    #[test]
+    fn a_map_is_one_extract_or_several() {
+        for (text, count) in [("", 0), ("[map]\nosm = \"a.osm\"\n", 1), ("[map]\nosm = [\"a.osm\", \"b.osm\"]\n", 2)] {
+            assert_eq!(Recipe::parse(&format!("{DRIVE}{text}")).unwrap().map.osm.paths().len(), count, "{text}");
+        }
     }
 
     #[test]

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 use trove_build::LightChoice;
-use trove_model::{Drive, EnvironmentMap, Outcome, Report, StreetMap};
+use trove_model::{Bounds, Drive, EnvironmentMap, MapProjection, Outcome, Report, StreetMap};
 use trove_read::nuscenes::NuScenes;
-use trove_read::{environment, osm};
+use trove_read::{ReadError, environment, osm};
 
 use crate::recipe::{Dataset, DriveSection, Recipe};
 use crate::{cache, place};
@@ -70,14 +70,31 @@ impl<'a> Sources<'a> {
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
         let Some(dataset) = &self.dataset else { return place::drive(self.recipe, report) };
         let drive = dataset.drive(scene, report)?;
-        let Some(path) = &self.recipe.map.osm else {
-            report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
-            return Ok((drive, None));
-        };
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
-        let map = osm::read(&self.recipe.at(path), &drive.projection, area, report)?;
-        Ok((drive, Some(map)))
+        let map = street_map(self.recipe, &drive.projection, area, report)?;
+        if map.is_none() {
+            report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
+        }
+        Ok((drive, map))
     }
+}
+
+/// The map around a place from the first of the recipe's extracts that covers it; `None` if the recipe has none.
+pub(crate) fn street_map(
+    recipe: &Recipe,
+    projection: &MapProjection,
+    area: Bounds,
+    report: &Report,
+) -> Result<Option<StreetMap>> {
+    let mut elsewhere = None;
+    for path in recipe.map.osm.paths() {
+        match osm::read(&recipe.at(path), projection, area, report) {
+            Ok(map) => return Ok(Some(map)),
+            Err(error @ ReadError::Missing { .. }) => elsewhere = Some(error),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    elsewhere.map_or(Ok(None), |error| Err(error.into()))
 }
 
 /// Opens a dataset; without a version the only one that is there.

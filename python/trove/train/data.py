@@ -5,9 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import torch
 from PIL import Image
-from torch.utils.data import Dataset
 
 from trove.train.labels import lookup
 
@@ -62,41 +60,64 @@ FORMATS = {
 }
 
 
-class Pictures(Dataset):
-    """Pictures as float tensors (3, H, W), 0 to 1, and labels as int64 tensors (H, W).
+# How much pictures may be enlarged before they are cut.
+_ZOOM = 1.4
+
+
+class Pictures:
+    """Pairs of a picture (H, W, 3) and its labels (H, W) in the target's numbers, both `uint8`.
 
     Pictures are scaled to cover `size` (width, height) and cut to it, in the middle, or with `augment` at random with a
     random scale of 1 to 1.4 and a random mirroring that `epoch` and the index decide.
+    Up to 2 GiB of pictures are kept, as small as the largest of these scales allows.
     """
+
+    KEPT_BYTES = 2 << 30
 
     def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], augment: bool, seed: int):
         self.samples, self.size, self.augment, self.seed = samples, size, augment, seed
         self.table = lookup(numbering, target)
         self.epoch = 0
+        self._kept: dict[int, tuple[Image.Image, Image.Image]] = {}
+        self._kept_bytes = 0
 
     def __len__(self) -> int:
         return len(self.samples)
 
-    def __getitem__(self, index: int) -> tuple[torch.Tensor, torch.Tensor]:
+    def __getitem__(self, index: int) -> tuple[np.ndarray, np.ndarray]:
+        picture, labels = self._pair(index)
+        random = np.random.default_rng((self.seed, self.epoch, index))
+        zoom, x, y, mirrored = (random.uniform(1, _ZOOM), *random.random(2), random.random() < 0.5) if self.augment else (1, 0.5, 0.5, False)
+        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * zoom
+        width, height = self.size[0] / scale, self.size[1] / scale
+        left, top = x * (picture.width - width), y * (picture.height - height)
+        box = (left, top, left + width, top + height)
+        rgb = np.asarray(picture.resize(self.size, Image.Resampling.BILINEAR, box=box))
+        ids = np.asarray(labels.resize(self.size, Image.Resampling.NEAREST, box=box))
+        if mirrored:
+            rgb, ids = rgb[:, ::-1], ids[:, ::-1]
+        return rgb, ids
+
+    def _pair(self, index: int) -> tuple[Image.Image, Image.Image]:
+        """The picture and its labels in the target's numbers, as large as the largest zoom needs."""
+        if index in self._kept:
+            return self._kept[index]
         sample = self.samples[index]
         picture, labels = Image.open(sample.picture).convert("RGB"), Image.open(sample.labels)
         if labels.mode not in ("L", "P"):
             labels = labels.getchannel(0)
         if picture.size != labels.size:
             raise ValueError(f"{sample.labels}: expected {picture.size} pixels as the picture, found {labels.size}")
-        width, height = self.size
-        random = np.random.default_rng((self.seed, self.epoch, index))
-        zoom, x, y, mirrored = (random.uniform(1, 1.4), *random.random(2), random.random() < 0.5) if self.augment else (1, 0.5, 0.5, False)
-        scale = max(width / picture.width, height / picture.height) * zoom
-        full = (max(width, round(picture.width * scale)), max(height, round(picture.height * scale)))
-        left, top = int(x * (full[0] - width)), int(y * (full[1] - height))
-        box = (left, top, left + width, top + height)
-        rgb = np.asarray(picture.resize(full, Image.Resampling.BILINEAR).crop(box))
-        ids = self.table[np.asarray(labels.resize(full, Image.Resampling.NEAREST).crop(box))]
-        if mirrored:
-            rgb, ids = rgb[:, ::-1], ids[:, ::-1]
-        picture = torch.from_numpy(rgb.copy()).permute(2, 0, 1).float() / 255
-        return picture, torch.from_numpy(ids.copy()).long()
+        labels = Image.fromarray(self.table[np.asarray(labels)])
+        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * _ZOOM
+        if scale < 1:
+            size = (round(picture.width * scale), round(picture.height * scale))
+            picture, labels = picture.resize(size, Image.Resampling.BILINEAR), labels.resize(size, Image.Resampling.NEAREST)
+        size_bytes = 4 * picture.width * picture.height
+        if self._kept_bytes + size_bytes <= self.KEPT_BYTES:
+            self._kept[index] = (picture, labels)
+            self._kept_bytes += size_bytes
+        return picture, labels
 
 
 def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list[list[tuple[int, int]]]:

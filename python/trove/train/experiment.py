@@ -37,8 +37,10 @@
     seeds  = [1, 2, 3]
 """
 
+import hashlib
 import re
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +70,10 @@ class Training:
     seeds: tuple[int, ...] = (1, 2, 3)
     weights: Path | None = None
 
+    def settings(self) -> list:
+        """All that changes what a run finds, but for its seed."""
+        return [self.model, self.steps, self.epochs, self.batch, self.rate, str(self.weights)]
+
 
 @dataclass(frozen=True)
 class Pool:
@@ -75,6 +81,11 @@ class Pool:
 
     samples: list[Sample]
     numbering: str
+
+    def digest(self) -> str:
+        """A hash of the numbering and of the names and sizes of all files."""
+        files = [(str(f), f.stat().st_size) for sample in self.samples for f in (sample.picture, sample.labels)]
+        return _digest(self.numbering, files)
 
 
 @dataclass(frozen=True)
@@ -99,6 +110,20 @@ class Experiment:
         if row.endswith("[F]"):
             return [names[:-1], names[-1:]]
         return [names]
+
+    def folders(self, row: str, seed: int, out: Path) -> list[tuple[Path, list[str]]]:
+        """The folder and the sets of each stage of a row."""
+        folders, name, key = [], "", _digest(self.classes, self.size, self.training.settings(), self.val.digest())
+        for names in self.stages(row):
+            key = _digest(key, seed, [self.digests[n] for n in names])
+            name += (" then " if name else "") + "+".join(names)
+            folders.append((out / "runs" / f"{name}, seed {seed}, {key}", names))
+        return folders
+
+    @cached_property
+    def digests(self) -> dict[str, str]:
+        """Of every set."""
+        return {name: pool.digest() for name, pool in self.pools.items()}
 
 
 def read(path: Path) -> Experiment:
@@ -158,6 +183,10 @@ def _pool(path: Path, place: str, entry: dict) -> Pool:
 def _part(whole: Pool, count: int, seed: int) -> Pool:
     chosen = np.random.default_rng(seed).permutation(len(whole.samples))[:count]
     return Pool([whole.samples[i] for i in sorted(chosen)], whole.numbering)
+
+
+def _digest(*parts) -> str:
+    return hashlib.sha256(repr(parts).encode()).hexdigest()[:12]
 
 
 def _known(path: Path, place: str, table: dict, keys: set[str]) -> None:

@@ -7,7 +7,9 @@ import numpy as np
 
 IGNORED = 255
 
-CAMVID = ["sky", "building", "pole", "road", "pavement", "tree", "sign", "fence", "car", "pedestrian", "bicyclist"]
+# CamVid's 11, with pole and sign as one as in the native classes and the paper's.
+_CAMVID_IDS = ["sky", "building", "pole", "road", "pavement", "tree", "pole", "fence", "car", "pedestrian", "bicyclist"]
+CAMVID = list(dict.fromkeys(_CAMVID_IDS))
 PAPER = [
     "car", "bus", "truck", "person", "rider", "road", "sidewalk", "building", "traffic_pole", "vegetation", "terrain", "sky",
 ]  # fmt: skip
@@ -20,7 +22,7 @@ _NATIVE = {
     7: ("pedestrian", "person"), 8: ("building", "building"), 9: ("road", "road"), 10: ("fence", ""),
     11: ("tree", "terrain"), 12: ("bicyclist", "rider"), 13: ("car", "truck"), 14: ("tree", "vegetation"),
     15: ("tree", "vegetation"), 16: ("bicyclist", "rider"), 17: ("pole", "traffic_pole"),
-    18: ("sign", "traffic_pole"), 19: ("pavement", "sidewalk"),
+    18: ("pole", "traffic_pole"), 19: ("pavement", "sidewalk"),
 }  # fmt: skip
 
 # Cityscapes id -> paper's class; two-wheelers belong to their riders, as in our own labels.
@@ -45,7 +47,7 @@ def lookup(numbering: str, target: str) -> np.ndarray:
     if numbering == "native":
         names = {number: row[0 if target == "camvid" else 1] for number, row in _NATIVE.items()}
     elif numbering == "camvid" and target == "camvid":
-        names = dict(enumerate(CAMVID))
+        names = dict(enumerate(_CAMVID_IDS))
     elif numbering in ("cityscapes", "cityscapes-train") and target == "paper":
         names = _CITYSCAPES if numbering == "cityscapes" else _CITYSCAPES_TRAIN
     else:

@@ -1,4 +1,4 @@
-"""Networks that give a class to every pixel: (N, 3, H, W), 0 to 1 → logits (N, classes, H, W)."""
+"""Networks that give a class to every pixel: (N, 3, H, W), 0 to 1 → logits (N, classes, h, w) of a smaller size."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 
 
 class Normalised(nn.Module):
-    """Brings pictures to the mean and deviation that ImageNet's networks expect, and logits to the picture's size."""
+    """Brings pictures to the mean and deviation that ImageNet's networks expect."""
 
     def __init__(self, body: nn.Module):
         super().__init__()
@@ -19,8 +19,7 @@ class Normalised(nn.Module):
         self.register_buffer("deviation", torch.tensor(DEVIATION).view(1, 3, 1, 1), persistent=False)
 
     def forward(self, pictures: torch.Tensor) -> torch.Tensor:
-        logits = self.body((pictures - self.mean) / self.deviation)
-        return F.interpolate(logits, pictures.shape[-2:], mode="bilinear", align_corners=False)
+        return self.body((pictures - self.mean) / self.deviation)
 
 
 class DeepLabV2(nn.Module):
@@ -41,28 +40,38 @@ class DeepLabV2(nn.Module):
         return sum(branch(features) for branch in self.branches)
 
 
-def _block(inside: int, outside: int, stride: int = 1, rate: int = 1) -> nn.Sequential:
-    """A depthwise separable convolution (Howard et al. 2017)."""
-    return nn.Sequential(
-        nn.Conv2d(inside, inside, 3, stride, rate, rate, groups=inside, bias=False),
-        nn.BatchNorm2d(inside),
-        nn.ReLU(inplace=True),
-        nn.Conv2d(inside, outside, 1, bias=False),
-        nn.BatchNorm2d(outside),
-        nn.ReLU(inplace=True),
-    )
+def _convolution(inside: int, outside: int, stride: int = 1) -> nn.Sequential:
+    return nn.Sequential(nn.Conv2d(inside, outside, 3, stride, 1, bias=False), nn.BatchNorm2d(outside), nn.ReLU(inplace=True))
+
+
+class _Residual(nn.Module):
+    """Two convolutions beside a projection (He et al. 2016)."""
+
+    def __init__(self, inside: int, outside: int, stride: int):
+        super().__init__()
+        self.body = nn.Sequential(_convolution(inside, outside, stride), nn.Conv2d(outside, outside, 3, 1, 1, bias=False), nn.BatchNorm2d(outside))
+        self.side = nn.Sequential(nn.Conv2d(inside, outside, 1, stride, bias=False), nn.BatchNorm2d(outside))
+
+    def forward(self, x: torch.Tensor) -> torch.Tensor:
+        return F.relu(self.body(x) + self.side(x), inplace=True)
 
 
 class Small(nn.Module):
-    """A U-Net (Ronneberger et al. 2015) of separable convolutions, 0.4 M parameters: trains on a CPU in minutes."""
+    """A U-Net (Ronneberger et al. 2015) of residual blocks, 0.8 M parameters: trains on a CPU in minutes.
+
+    Logits have half the picture's size.
+    """
+
+    WIDTHS = (24, 48, 96, 160)
 
     def __init__(self, classes: int):
         super().__init__()
-        self.stem = nn.Sequential(nn.Conv2d(3, 24, 3, 2, 1, bias=False), nn.BatchNorm2d(24), nn.ReLU(inplace=True))
-        self.down = nn.ModuleList([_block(24, 48, 2), nn.Sequential(_block(48, 96, 2), _block(96, 96)), nn.Sequential(_block(96, 160, 2), _block(160, 160, rate=2), _block(160, 160, rate=4))])
-        self.side = nn.ModuleList([nn.Conv2d(24, 48, 1), nn.Conv2d(48, 48, 1), nn.Conv2d(96, 96, 1)])
-        self.up = nn.ModuleList([_block(48, 48), _block(96, 48), _block(160, 96)])
-        self.head = nn.Conv2d(48, classes, 1)
+        first, *wider = self.WIDTHS
+        self.stem = _convolution(3, first, 2)
+        self.down = nn.ModuleList(_Residual(inside, outside, 2) for inside, outside in zip(self.WIDTHS, wider))
+        self.side = nn.ModuleList(nn.Conv2d(width, width, 1) for width in self.WIDTHS[:-1])
+        self.up = nn.ModuleList(_convolution(inside, outside) for inside, outside in zip(wider, self.WIDTHS))
+        self.head = nn.Conv2d(first, classes, 1)
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
         levels = [self.stem(x)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from trove.train.training import iou
+from trove.train.confusion import iou
 
 # 97.5 % quantile of Student's t for 1 to 10 degrees of freedom.
 _STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228]

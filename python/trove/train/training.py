@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import torch
 from torch import nn
+from torch.nn import functional as F
 
+from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
 from trove.train.experiment import Experiment
 from trove.train.labels import IGNORED, TARGETS
@@ -17,13 +19,6 @@ from trove.train.models import network
 _LINE_EVERY, _SAVE_EVERY = 20, 100
 
 
-def iou(confusion: np.ndarray) -> np.ndarray:
-    """IoU of every class from counts (truth, prediction); NaN where a class is neither there nor predicted."""
-    both = np.diag(confusion).astype(float)
-    union = confusion.sum(0) + confusion.sum(1) - both
-    return np.divide(both, union, out=np.full_like(both, np.nan), where=union > 0)
-
-
 def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.device) -> np.ndarray:
     """Counts of pixels (truth, prediction) over all pictures."""
     model.eval()
@@ -31,8 +26,10 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
     with torch.no_grad():
         for start in range(0, len(pictures), 4):
             batch = [pictures[i] for i in range(start, min(start + 4, len(pictures)))]
-            predicted = model(torch.stack([p for p, _ in batch]).to(device)).argmax(1).cpu().numpy()
-            truth = np.stack([t.numpy() for _, t in batch])
+            truth = np.stack([labels for _, labels in batch]).astype(int)
+            logits = model(_tensor(batch, device))
+            logits = F.interpolate(logits, truth.shape[1:], mode="bilinear", align_corners=False)
+            predicted = logits.argmax(1).cpu().numpy()
             counted = truth != IGNORED
             pairs = truth[counted] * classes + predicted[counted]
             confusion += np.bincount(pairs, minlength=classes * classes).reshape(classes, classes)
@@ -40,76 +37,74 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
 
 
 def run(experiment: Experiment, row: str, seed: int, out: Path, say) -> dict:
-    """Trains and measures one row with one seed; what is finished in `out` is not done again, what was begun goes on.
+    """Trains and measures one row with one seed.
 
+    What is finished in `out` is not done again, what was begun goes on, and rows that begin alike share their first
+    stage; a folder's name holds a hash of all that went into it, so that other data or settings get another.
     Returns `{"row", "seed", "confusion", "curve"}`; `curve` holds (stage, step, loss).
     """
-    folder = out / "runs" / row / str(seed)
-    result = folder / "result.json"
-    if result.exists():
-        return json.loads(result.read_text())
-    folder.mkdir(parents=True, exist_ok=True)
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     torch.manual_seed(seed)
     classes = len(TARGETS[experiment.classes])
     model = network(experiment.training.model, classes, experiment.training.weights).to(device)
     curve: list[list[float]] = []
-    stages = experiment.stages(row)
-    for number, names in enumerate(stages):
-        # Rows that begin alike share their first stage: S and S+R[F].
-        shared = out / "stages" / f"{'+'.join(names)}-{seed}.pt" if number == 0 else None
-        if shared is not None and shared.exists():
-            model.load_state_dict(torch.load(shared, map_location=device, weights_only=True))
+    for number, (folder, names) in enumerate(experiment.folders(row, seed, out)):
+        trained = folder / "model.pt"
+        if trained.exists():
+            state = torch.load(trained, map_location=device, weights_only=True)
+            model.load_state_dict(state["model"])
+            curve = state["curve"]
             continue
-        _stage(experiment, names, seed * 1000 + number, model, device, folder / f"stage{number}.pt", curve, number, lambda text: say(f"{row} seed {seed}: {text}"))
-        if shared is not None and "R" not in names and "P" not in names:
-            shared.parent.mkdir(parents=True, exist_ok=True)
-            _save(shared, model.state_dict())
-    val = Pictures(experiment.val.samples, experiment.val.numbering, experiment.classes, experiment.size, False, 0)
-    confusion = measure(model, val, classes, device)
-    found = {"row": row, "seed": seed, "confusion": confusion.tolist(), "curve": curve}
-    _save(folder / "model.pt", model.state_dict())
-    partial = result.with_suffix(".partial")
-    partial.write_text(json.dumps(found))
-    os.replace(partial, result)
-    for checkpoint in folder.glob("stage*.pt"):
-        checkpoint.unlink()
-    say(f"{row} seed {seed}: mIoU {100 * np.nanmean(iou(confusion)):.2f}")
+        folder.mkdir(parents=True, exist_ok=True)
+        _stage(experiment, names, seed * 1000 + number, model, device, folder / "checkpoint.pt", curve, number, lambda text: say(f"{row} seed {seed}: {text}"))
+        _save(trained, {"model": model.state_dict(), "curve": curve})
+        (folder / "checkpoint.pt").unlink(missing_ok=True)
+    result = folder / "result.json"
+    if not result.exists():
+        val = Pictures(experiment.val.samples, experiment.val.numbering, experiment.classes, experiment.size, False, 0)
+        confusion = measure(model, val, classes, device)
+        partial = result.with_suffix(".partial")
+        partial.write_text(json.dumps({"seed": seed, "confusion": confusion.tolist(), "curve": curve}))
+        os.replace(partial, result)
+    found = {"row": row, **json.loads(result.read_text())}
+    say(f"{row} seed {seed}: mIoU {100 * np.nanmean(iou(np.array(found['confusion']))):.2f}")
     return found
 
 
 def _stage(experiment, names, seed, model, device, checkpoint, curve, number, say) -> None:
+    """Trains on all `names` in mixed batches; the checkpoint is what an interrupted stage goes on from."""
     training = experiment.training
     pools = [experiment.pools[name] for name in names]
     sets = [Pictures(p.samples, p.numbering, experiment.classes, experiment.size, True, seed + i) for i, p in enumerate(pools)]
     lengths = [len(s) for s in sets]
     steps = training.steps or max(1, training.epochs * sum(lengths) // training.batch)
     batches = mixed_batches(lengths, training.batch, steps, seed)
-    decay = [p for p in model.parameters() if p.ndim > 1]
-    plain = [p for p in model.parameters() if p.ndim <= 1]
-    optimiser = torch.optim.AdamW([{"params": decay, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}], lr=training.rate)
+    optimiser = _optimiser(model, training.rate)
     # The polynomial schedule of DeepLab.
     schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: (1 - step / (steps + 1)) ** 0.9)
+    mixed = device.type == "cuda" or _fast_bfloat16()
     scaler = torch.amp.GradScaler(device.type, enabled=device.type == "cuda")
+    resumed = {"model": model, "optimiser": optimiser, "schedule": schedule, "scaler": scaler}
     first = 0
     if checkpoint.exists():
         state = torch.load(checkpoint, map_location=device, weights_only=True)
-        model.load_state_dict(state["model"])
-        optimiser.load_state_dict(state["optimiser"])
-        schedule.load_state_dict(state["schedule"])
-        scaler.load_state_dict(state["scaler"])
+        for name, part in resumed.items():
+            part.load_state_dict(state[name])
         first = state["step"]
         curve[:] = state["curve"]
     loss_of = nn.CrossEntropyLoss(ignore_index=IGNORED)
-    model.train()
+    model.train().to(memory_format=torch.channels_last)
     lost = []
     for step in range(first, steps):
         for s in sets:
             s.epoch = step
         items = [sets[i][index] for i, index in batches[step]]
-        pictures, truth = (torch.stack(parts).to(device) for parts in zip(*items))
-        with torch.autocast(device.type, enabled=device.type == "cuda"):
-            loss = loss_of(model(pictures), truth)
+        truth = torch.from_numpy(np.stack([labels for _, labels in items])).to(device)
+        with torch.autocast(device.type, enabled=mixed):
+            logits = model(_tensor(items, device))
+        # As in DeepLab v2 the loss is taken at the logits' size.
+        truth = F.interpolate(truth[:, None].float(), logits.shape[-2:], mode="nearest")[:, 0].long()
+        loss = loss_of(logits.float(), truth)
         optimiser.zero_grad(set_to_none=True)
         scaler.scale(loss).backward()
         scaler.step(optimiser)
@@ -121,8 +116,25 @@ def _stage(experiment, names, seed, model, device, checkpoint, curve, number, sa
             say(f"stage {number + 1} on {'+'.join(names)}, step {step + 1} of {steps}, loss {np.mean(lost):.3f}")
             lost = []
         if (step + 1) % _SAVE_EVERY == 0:
-            state = {"model": model.state_dict(), "optimiser": optimiser.state_dict(), "schedule": schedule.state_dict(), "scaler": scaler.state_dict(), "step": step + 1, "curve": curve}
-            _save(checkpoint, state)
+            _save(checkpoint, {name: part.state_dict() for name, part in resumed.items()} | {"step": step + 1, "curve": curve})
+
+
+def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
+    """AdamW that decays weights, and neither biases nor normalisation."""
+    decayed = [p for p in model.parameters() if p.ndim > 1]
+    plain = [p for p in model.parameters() if p.ndim <= 1]
+    return torch.optim.AdamW([{"params": decayed, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}], lr=rate)
+
+
+def _tensor(items, device: torch.device) -> torch.Tensor:
+    """The pictures of pairs as (N, 3, H, W), 0 to 1, channels last."""
+    pictures = torch.from_numpy(np.stack([picture for picture, _ in items])).to(device)
+    return pictures.permute(0, 3, 1, 2).float() / 255
+
+
+def _fast_bfloat16() -> bool:
+    """Whether the processor multiplies bfloat16 by itself; elsewhere it is slower than float32."""
+    return torch.backends.mkldnn.is_available() and torch.ops.mkldnn._is_mkldnn_bf16_supported()
 
 
 def _save(path: Path, state) -> None:

@@ -1,0 +1,176 @@
+"""`python -m trove.train`: what goes in, what comes out, and a small run on generated frames."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import trove
+from PIL import Image
+
+from trove.train import labels, table
+from trove.train.confusion import iou
+from trove.train.data import Pictures, mixed_batches
+from trove.train.experiment import ExperimentError, read
+
+EXPERIMENT = """
+classes = "camvid"
+size = [64, 36]
+rows = ["S", "S+R[F]", "S+C+R[M]"]
+[sets.S]
+format = "native"
+root = "{root}"
+[sets.C]
+format = "native"
+root = "{root}"
+pictures = "{root}"
+[sets.R]
+of = "S"
+count = 2
+[val]
+format = "native"
+root = "{root}"
+[training]
+epochs = 1
+batch = 2
+seeds = [1]
+"""
+
+
+@pytest.fixture
+def experiment(finished, tmp_path):
+    path = tmp_path / "experiment.toml"
+    path.write_text(EXPERIMENT.format(root=finished))
+    return path
+
+
+def test_every_class_of_ours_has_a_place_or_is_left_out_on_purpose():
+    paper, camvid = labels.lookup("native", "paper"), labels.lookup("native", "camvid")
+    left_out = {name: [i for i in range(20) if table[i] == labels.IGNORED] for name, table in [("paper", paper), ("camvid", camvid)]}
+    assert left_out == {"paper": [0, 10], "camvid": [0]}
+    assert labels.CAMVID[camvid[18]] == "pole" and labels.PAPER[paper[13]] == "truck"
+    with pytest.raises(ValueError, match="numbered as camvid"):
+        labels.lookup("camvid", "paper")
+
+
+def test_signs_and_poles_of_camvid_are_one_class():
+    table = labels.lookup("camvid", "camvid")
+    assert table[2] == table[6] and table[11] == labels.IGNORED and len(labels.CAMVID) == 10
+
+
+def test_a_row_is_trained_in_the_stages_of_its_name(experiment):
+    found = read(experiment)
+    assert found.stages("S+R[F]") == [["S"], ["R"]]
+    assert found.stages("S+C+R[M]") == [["C", "R"]]
+    assert found.stages("R") == [["R"]]
+
+
+def test_other_data_or_settings_have_another_folder(experiment, tmp_path):
+    before = read(experiment).folders("S+R[F]", 1, tmp_path)
+    assert before == read(experiment).folders("S+R[F]", 1, tmp_path)
+    assert before[0] == read(experiment).folders("S", 1, tmp_path)[0]
+    experiment.write_text(experiment.read_text().replace("count = 2", "count = 1"))
+    after = read(experiment).folders("S+R[F]", 1, tmp_path)
+    assert after[0] == before[0] and after[1] != before[1]
+    experiment.write_text(experiment.read_text().replace("epochs = 1", "epochs = 2"))
+    assert read(experiment).folders("S", 1, tmp_path)[0] != before[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (("epochs", "epoch"), "training.epoch is not known"),
+        (('"S+R[F]"', '"S+X"'), "rows: S+X asks for the set X"),
+        (('classes = "camvid"', 'classes = "coco"'), "classes: expected one of"),
+        (('format = "native"', 'format = "kitti"'), "format: expected one of"),
+        (('of = "S"', 'of = "T"'), "sets.R.of"),
+        (("[val]", "[test]"), "test is not known"),
+    ],
+)
+def test_a_wrong_experiment_names_the_place(experiment, change, expected):
+    experiment.write_text(experiment.read_text().replace(*change))
+    with pytest.raises(ExperimentError, match=expected.replace("[", r"\[")) as caught:
+        read(experiment)
+    assert str(experiment) in str(caught.value)
+
+
+def test_cuts_keep_picture_and_labels_together(experiment):
+    pool = read(experiment).pools["S"]
+    pictures = Pictures(pool.samples, pool.numbering, "camvid", (64, 36), True, 5)
+    rgb, ids = pictures[1]
+    assert rgb.shape == (36, 64, 3) and ids.shape == (36, 64) and rgb.dtype == ids.dtype == np.uint8
+    again = Pictures(pool.samples, pool.numbering, "camvid", (64, 36), True, 5)[1]
+    assert np.array_equal(rgb, again[0]) and np.array_equal(ids, again[1])
+    pictures.epoch = 1
+    assert not np.array_equal(rgb, pictures[1][0])
+
+
+def test_picture_and_labels_of_other_sizes_are_refused(tmp_path):
+    from trove.train.data import Sample
+
+    Image.new("RGB", (8, 6)).save(tmp_path / "a.png")
+    Image.new("L", (8, 5)).save(tmp_path / "b.png")
+    with pytest.raises(ValueError, match="b.png: expected"):
+        Pictures([Sample(tmp_path / "a.png", tmp_path / "b.png")], "native", "camvid", (4, 3), False, 0)[0]
+
+
+def test_mixed_batches_hold_as_many_of_each_set_and_leave_none_out():
+    batches = mixed_batches([100, 7], 10, 14, 3)
+    assert all([i for i, _ in batch].count(0) == 5 for batch in batches)
+    seen = [index for batch in batches for i, index in batch if i == 1]
+    assert np.bincount(seen).tolist() == [10] * 7
+
+
+def test_the_table_agrees_with_trove_evaluate(finished, tmp_path):
+    truth, predicted = tmp_path / "truth", tmp_path / "predicted"
+    truth.mkdir(), predicted.mkdir()
+    random, confusion = np.random.default_rng(1), np.zeros((20, 20), int)
+    for i, path in enumerate(sorted(finished.rglob("class.png"))):
+        a = np.array(Image.open(path))
+        b = np.where(random.random(a.shape) < 0.2, random.integers(1, 20, a.shape), a).astype(np.uint8)
+        Image.fromarray(a).save(truth / f"{i}.png"), Image.fromarray(b).save(predicted / f"{i}.png")
+        confusion += np.bincount(a.ravel().astype(int) * 20 + b.ravel(), minlength=400).reshape(20, 20)
+    done = trove("evaluate", predicted, truth, "--labels", "trove20", "--json")
+    assert done.returncode == 0, done.stderr
+    confusion[0] = 0
+    ours = {name: value for name, value in zip(range(20), iou(confusion)) if name and confusion[name].any()}
+    assert json.loads(done.stdout)["miou"] == pytest.approx(np.mean(list(ours.values())), abs=1e-12)
+
+
+def test_the_table_has_the_papers_form():
+    a = {"row": "P", "seed": 1, "confusion": [[8, 2], [0, 10]], "curve": [[0, 20, 1.0]]}
+    b = {"row": "S+P[M]", "seed": 1, "confusion": [[10, 0], [0, 10]], "curve": [[0, 20, 0.5]]}
+    rows = {r["row"]: table.summary([r, {**r, "seed": 2}]) for r in (a, b)}
+    text = table.markdown(["road", "car"], rows, {"S+P[M]": "P"})
+    assert "| P | 80.00 | 83.33 | 81.67 ± 0.00 | 90.00 |" in text
+    assert "S+P[M] against P: +18.33 mIoU" in text
+    assert r"S+P[M] & 100.00 & 100.00 & 100.00 $\pm$ 0.00 & 100.00 \\" in table.latex(["road", "car"], rows)
+    assert table.curves([a, b]).count("<polyline") == 2
+
+
+def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stopped(finished, experiment, tmp_path):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train import training
+
+    torch.set_num_threads(1)
+    text = experiment.read_text().replace("epochs = 1", "steps = 120\nrate = 3e-3").replace("[64, 36]", "[160, 90]").replace("batch = 2", "batch = 6")
+    experiment.write_text(text)
+    found = read(experiment)
+    lines = []
+
+    class Stopped(Exception):
+        pass
+
+    def stop(line):
+        lines.append(line)
+        if "step 120" in line:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        training.run(found, "S", 1, tmp_path / "stopped", stop)
+    whole = training.run(found, "S", 1, tmp_path / "whole", lines.append)
+    assert len(list((tmp_path / "stopped").rglob("checkpoint.pt"))) == 1
+    resumed = training.run(found, "S", 1, tmp_path / "stopped", lines.append)
+    assert resumed == whole
+    accuracy = np.trace(whole["confusion"]) / np.sum(whole["confusion"])
+    assert accuracy > 0.85, f"{accuracy}, {whole['curve']}"
+    assert not list((tmp_path / "whole").rglob("checkpoint.pt"))
