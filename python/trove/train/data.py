@@ -98,6 +98,10 @@ class Pictures:
             rgb, ids = rgb[:, ::-1], ids[:, ::-1]
         return rgb, ids
 
+    def labels(self, index: int) -> np.ndarray:
+        """All labels of a picture, not cut, in the target's numbers."""
+        return np.asarray(self._pair(index)[1])
+
     def _pair(self, index: int) -> tuple[Image.Image, Image.Image]:
         """The picture and its labels in the target's numbers, as large as the largest zoom needs."""
         if index in self._kept:

@@ -35,6 +35,7 @@
     batch  = 10
     rate   = 1e-3
     seeds  = [1, 2, 3]
+    balanced = true               # rare classes weigh more in the loss
 """
 
 import hashlib
@@ -69,10 +70,11 @@ class Training:
     rate: float = 1e-4
     seeds: tuple[int, ...] = (1, 2, 3)
     weights: Path | None = None
+    balanced: bool = False
 
     def settings(self) -> list:
         """All that changes what a run finds, but for its seed."""
-        return [self.model, self.steps, self.epochs, self.batch, self.rate, str(self.weights)]
+        return [self.model, self.steps, self.epochs, self.batch, self.rate, str(self.weights), self.balanced]
 
 
 @dataclass(frozen=True)
@@ -151,7 +153,7 @@ def read(path: Path) -> Experiment:
     if "val" not in table:
         raise ExperimentError(f"{path}: expected a section [val], found none")
     entry = dict(table.get("training", {}))
-    _known(path, "training.", entry, {"model", "steps", "epochs", "batch", "rate", "seeds", "weights"})
+    _known(path, "training.", entry, {"model", "steps", "epochs", "batch", "rate", "seeds", "weights", "balanced"})
     if "seeds" in entry:
         entry["seeds"] = tuple(entry["seeds"])
     if "weights" in entry:

@@ -92,7 +92,8 @@ def _stage(experiment, names, seed, model, device, checkpoint, curve, number, sa
             part.load_state_dict(state[name])
         first = state["step"]
         curve[:] = state["curve"]
-    loss_of = nn.CrossEntropyLoss(ignore_index=IGNORED)
+    weight = torch.from_numpy(_weights(sets, len(TARGETS[experiment.classes]))).to(device) if training.balanced else None
+    loss_of = nn.CrossEntropyLoss(weight, ignore_index=IGNORED)
     model.train().to(memory_format=torch.channels_last)
     lost = []
     for step in range(first, steps):
@@ -117,6 +118,15 @@ def _stage(experiment, names, seed, model, device, checkpoint, curve, number, sa
             lost = []
         if (step + 1) % _SAVE_EVERY == 0:
             _save(checkpoint, {name: part.state_dict() for name, part in resumed.items()} | {"step": step + 1, "curve": curve})
+
+
+def _weights(sets: list[Pictures], classes: int) -> np.ndarray:
+    """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set counting alike."""
+    shares = np.zeros(classes)
+    for pictures in sets:
+        counts = sum(np.bincount(pictures.labels(i).ravel(), minlength=256)[:classes] for i in range(len(pictures)))
+        shares += counts / counts.sum() / len(sets)
+    return (1 / np.log(1.02 + shares)).astype(np.float32)
 
 
 def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
