@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 /// An error that names the file, what was expected there and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum JudgeError {
-    /// A file or folder cannot be read.
-    #[error("{}: {source}", path.display())]
+    /// A file or folder cannot be read or written.
+    #[error("{}: expected to be able to use it, found: {source}; check its name and permissions", path.display())]
     Io {
         /// Which.
         path: PathBuf,

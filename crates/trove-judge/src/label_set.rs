@@ -1,6 +1,6 @@
 //! Which numbers a dataset's label pictures hold, and which of them count.
 
-use trove_model::{CLASSES, Class13};
+use trove_model::{CLASSES, Class13, ClassRow};
 
 /// A number and its class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -8,16 +8,20 @@ pub struct NamedId {
     /// The number in pictures.
     pub id: u8,
     /// The class's name in the dataset.
-    pub name: String,
+    pub name: &'static str,
+    /// Whether it is countable; segments of others are one a picture.
+    pub thing: bool,
 }
 
-/// The numbering of a dataset's classes; numbers that are not in it are ignored.
+/// The numbering of a dataset's classes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LabelSet {
     /// The name that it is asked for by (`cityscapes`).
     pub name: &'static str,
     /// Classes that count, in the order of their ids.
     pub classes: Vec<NamedId>,
+    /// Numbers that may be in pictures and do not count.
+    pub ignored: Vec<u8>,
 }
 
 /// Cityscapes' 19 evaluated classes as (id, trainId, name), from its labels table.
@@ -43,6 +47,13 @@ const CITYSCAPES: [(u8, u8, &str); 19] = [
     (33, 18, "bicycle"),
 ];
 
+/// Cityscapes' other classes: unlabeled to ground, parking, rail track, guard rail to tunnel, polegroup, caravan, trailer.
+const CITYSCAPES_IGNORED: [u8; 15] = [0, 1, 2, 3, 4, 5, 6, 9, 10, 14, 15, 16, 18, 29, 30];
+/// The first of Cityscapes' classes with instances (person).
+const CITYSCAPES_THINGS_FROM: u8 = 24;
+/// What many write where there is no label.
+const NOTHING: u8 = 255;
+
 /// CamVid in the 11 classes of SegNet (Badrinarayanan et al. 2017).
 const CAMVID: [&str; 11] =
     ["sky", "building", "pole", "road", "pavement", "tree", "sign", "fence", "car", "pedestrian", "bicyclist"];
@@ -53,16 +64,41 @@ impl LabelSet {
 
     /// The set of a name; `None` for one that is not in [`LabelSet::NAMES`].
     pub fn named(name: &str) -> Option<Self> {
-        let class = |id: u8, name: &str| NamedId { id, name: name.into() };
-        let name = Self::NAMES.into_iter().find(|known| *known == name)?;
-        let classes = match name {
-            "trove13" => CLASSES_13.iter().map(|(c, name)| class(*c as u8, name)).collect(),
-            "trove20" => CLASSES.iter().skip(1).map(|row| class(row.class.id(), row.name)).collect(),
-            "cityscapes" => CITYSCAPES.iter().map(|(id, _, name)| class(*id, name)).collect(),
-            "cityscapes-train" => CITYSCAPES.iter().map(|(_, id, name)| class(*id, name)).collect(),
-            _ => (0..).zip(CAMVID).map(|(id, name)| class(id, name)).collect(),
+        let class = |id: u8, name: &'static str, thing: bool| NamedId { id, name, thing };
+        let cityscapes = |number: fn(&(u8, u8, &'static str)) -> u8| {
+            CITYSCAPES.iter().map(|row| class(number(row), row.2, row.0 >= CITYSCAPES_THINGS_FROM)).collect()
         };
-        Some(Self { name, classes })
+        let name = Self::NAMES.into_iter().find(|known| *known == name)?;
+        let (classes, ignored): (Vec<NamedId>, Vec<u8>) = match name {
+            "trove13" => (CLASSES_13.iter().map(|(c, name, thing)| class(*c as u8, name, *thing)).collect(), vec![0]),
+            "trove20" => {
+                (CLASSES.iter().skip(1).map(|row| class(row.class.id(), row.name, row.thing)).collect(), vec![0])
+            }
+            "cityscapes" => (cityscapes(|row| row.0), CITYSCAPES_IGNORED.to_vec()),
+            "cityscapes-train" => (cityscapes(|row| row.1), Vec::new()),
+            _ => ((0..).zip(CAMVID).map(|(id, name)| class(id, name, id >= 8)).collect(), vec![11]),
+        };
+        Some(Self { name, classes, ignored: ignored.into_iter().chain([NOTHING]).collect() })
+    }
+
+    /// The number that one of our classes has in this set.
+    pub(crate) fn number(&self, row: &ClassRow) -> u8 {
+        match self.name {
+            "trove13" => row.class13 as u8,
+            "trove20" => row.class.id(),
+            "cityscapes" => row.cityscapes_id,
+            "cityscapes-train" => row.train_id,
+            _ => row.camvid_id,
+        }
+    }
+
+    /// The place of the first number that is neither a class nor ignored.
+    pub(crate) fn unknown(&self, ids: &[u8]) -> Option<usize> {
+        let mut known = [false; 256];
+        self.classes.iter().map(|class| class.id).chain(self.ignored.iter().copied()).for_each(|id| {
+            known[usize::from(id)] = true;
+        });
+        ids.iter().position(|id| !known[usize::from(*id)])
     }
 
     /// For every number its place among the classes; `None` for those that are ignored.
@@ -75,20 +111,20 @@ impl LabelSet {
     }
 }
 
-/// The paper's classes but void.
-const CLASSES_13: [(Class13, &str); 12] = [
-    (Class13::Car, "car"),
-    (Class13::Bus, "bus"),
-    (Class13::Truck, "truck"),
-    (Class13::Person, "person"),
-    (Class13::Rider, "rider"),
-    (Class13::Road, "road"),
-    (Class13::Sidewalk, "sidewalk"),
-    (Class13::Building, "building"),
-    (Class13::TrafficPole, "traffic_pole"),
-    (Class13::Vegetation, "vegetation"),
-    (Class13::Terrain, "terrain"),
-    (Class13::Sky, "sky"),
+/// The paper's classes but void, and which are countable.
+const CLASSES_13: [(Class13, &str, bool); 12] = [
+    (Class13::Car, "car", true),
+    (Class13::Bus, "bus", true),
+    (Class13::Truck, "truck", true),
+    (Class13::Person, "person", true),
+    (Class13::Rider, "rider", true),
+    (Class13::Road, "road", false),
+    (Class13::Sidewalk, "sidewalk", false),
+    (Class13::Building, "building", false),
+    (Class13::TrafficPole, "traffic_pole", false),
+    (Class13::Vegetation, "vegetation", false),
+    (Class13::Terrain, "terrain", false),
+    (Class13::Sky, "sky", false),
 ];
 
 #[cfg(test)]
@@ -105,5 +141,15 @@ mod tests {
         }
         assert!(LabelSet::named("trove13").unwrap().index()[0].is_none());
         assert_eq!(LabelSet::named("pascal"), None);
+    }
+
+    #[test]
+    fn our_classes_have_known_numbers_everywhere() {
+        for set in LabelSet::NAMES.map(|name| LabelSet::named(name).unwrap()) {
+            let numbers: Vec<u8> = CLASSES.iter().map(|row| set.number(row)).collect();
+            assert_eq!(set.unknown(&numbers), None, "{}", set.name);
+            assert!(set.classes.iter().all(|class| !set.ignored.contains(&class.id)));
+            assert_eq!(set.unknown(&[numbers[1], 200]), Some(1));
+        }
     }
 }

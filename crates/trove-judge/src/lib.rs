@@ -12,4 +12,4 @@ pub mod recolor;
 
 pub use error::JudgeError;
 pub use label_set::{LabelSet, NamedId};
-pub use pictures::thumbnail;
+pub use pictures::{OnProgress, thumbnail};

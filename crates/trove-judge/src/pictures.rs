@@ -1,41 +1,108 @@
 //! Folders of pictures that belong together.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use image::imageops::{FilterType, resize};
 use image::{DynamicImage, ImageReader};
+use png::{BitDepth, ColorType};
+use rayon::prelude::*;
 use trove_model::Raster;
 
-use crate::JudgeError;
+use crate::{JudgeError, LabelSet};
 
-/// Endings of the names of pictures.
-const PICTURES: [&str; 3] = ["png", "jpg", "jpeg"];
+/// Told how many pictures are done, and of how many.
+pub type OnProgress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
-/// Pictures below a folder by what two folders' pictures of the same thing have in common: the path below the folder
-/// without its ending, and for Cityscapes' files city, sequence and frame alone. `wanted` chooses by file name.
-pub(crate) fn pictures(root: &Path, wanted: impl Fn(&str) -> bool) -> Result<BTreeMap<String, PathBuf>, JudgeError> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![root.to_owned()];
+/// Does something with each of many pictures, in parallel; the answers are in their order.
+pub(crate) fn each<T: Sync, R: Send>(
+    items: &[T],
+    progress: OnProgress,
+    of: impl Fn(&T) -> Result<R, JudgeError> + Sync,
+) -> Result<Vec<R>, JudgeError> {
+    let done = AtomicUsize::new(0);
+    let one = |item: &T| {
+        let answer = of(item)?;
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, items.len());
+        Ok(answer)
+    };
+    items.par_iter().map(one).collect()
+}
+
+/// Files below a folder with one of some endings, in the order of their paths; what is hidden is in the making.
+pub(crate) fn files(root: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, JudgeError> {
+    let (mut found, mut folders) = (Vec::new(), vec![root.to_owned()]);
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).map_err(JudgeError::io(&folder))? {
             let path = entry.map_err(JudgeError::io(&folder))?.path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-            if path.is_dir() {
-                // Hidden folders hold what is being made.
-                if !name.starts_with('.') {
-                    folders.push(path);
-                }
-            } else if PICTURES.contains(&ending.as_str()) && wanted(&name) {
-                let below = path.strip_prefix(root).unwrap_or(&path).with_extension("");
-                let key = cityscapes_key(&name).unwrap_or_else(|| below.to_string_lossy().replace('\\', "/"));
-                found.insert(key, path);
+            if name(&path).starts_with('.') {
+                continue;
+            } else if path.is_dir() {
+                folders.push(path);
+            } else if endings.contains(&ending.as_str()) {
+                found.push(path);
             }
         }
     }
+    found.sort();
     Ok(found)
+}
+
+/// Files by what two folders' files of the same thing have in common: the path below the folder without its ending, of
+/// our own frames that of the frame, and for Cityscapes' files city, sequence and frame alone.
+pub(crate) fn by_key(root: &Path, files: Vec<PathBuf>) -> Result<BTreeMap<String, PathBuf>, JudgeError> {
+    let mut found: BTreeMap<String, PathBuf> = BTreeMap::new();
+    for path in files {
+        let below = path.strip_prefix(root).unwrap_or(&path);
+        let below = match (name(&path).as_str(), below.parent()) {
+            ("class.png" | "rgb.png", Some(frame)) => frame.to_owned(),
+            _ => below.with_extension(""),
+        };
+        let key = cityscapes_key(&name(&path)).unwrap_or_else(|| below.to_string_lossy().replace('\\', "/"));
+        if let Some(other) = found.get(&key) {
+            let two = format!("{} and {}", other.display(), path.display());
+            return Err(JudgeError::unexpected(root, format!("one picture of {key}"), two, "remove one of them"));
+        }
+        found.insert(key, path);
+    }
+    Ok(found)
+}
+
+/// Pictures of labels below a folder: of our own and of Cityscapes' files those with classes, else every PNG.
+pub(crate) fn label_files(root: &Path, set: &LabelSet) -> Result<Vec<PathBuf>, JudgeError> {
+    let all = files(root, &["png"])?;
+    let cityscapes = if set.name == "cityscapes-train" { "_labelTrainIds.png" } else { "_labelIds.png" };
+    for ending in ["class.png", cityscapes] {
+        let named: Vec<PathBuf> = all.iter().filter(|path| name(path).ends_with(ending)).cloned().collect();
+        if !named.is_empty() {
+            return Ok(named);
+        }
+    }
+    match all.is_empty() {
+        true => Err(JudgeError::unexpected(root, "label pictures (.png)", "none", "give the folder that holds them")),
+        false => Ok(all),
+    }
+}
+
+/// Pictures below a folder that show something: where there is an `rgb.png` of ours those alone.
+pub(crate) fn photographs(root: &Path) -> Result<Vec<PathBuf>, JudgeError> {
+    let all = files(root, &["png", "jpg", "jpeg"])?;
+    let ours: Vec<PathBuf> = all.iter().filter(|path| name(path) == "rgb.png").cloned().collect();
+    match (ours.is_empty(), all.is_empty()) {
+        (false, _) => Ok(ours),
+        (true, false) => Ok(all),
+        (true, true) => {
+            Err(JudgeError::unexpected(root, "PNG or JPEG pictures", "none", "give the folder that holds them"))
+        }
+    }
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// `aachen_000000_000019` of `aachen_000000_000019_gtFine_labelIds.png`.
@@ -64,20 +131,43 @@ pub fn thumbnail(path: &Path, width: u32) -> Result<Raster<[u8; 3]>, JudgeError>
 /// A picture of labels: one number a pixel.
 pub(crate) struct Labels {
     pub width: u32,
+    pub height: u32,
     pub ids: Vec<u8>,
 }
 
-/// Reads labels; a picture in colours holds no numbers.
+/// Reads labels: a PNG of greys, or of indices into a palette.
 pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
-    match read(path)? {
-        DynamicImage::ImageLuma8(grey) => Ok(Labels { width: grey.width(), ids: grey.into_raw() }),
-        other => Err(JudgeError::unexpected(
-            path,
-            "8-bit grey labels, a class id a pixel",
-            format!("{:?}", other.color()),
-            "write the ids themselves rather than colours",
-        )),
+    let bad = |found: String, remedy| JudgeError::unexpected(path, "8-bit labels, a class id a pixel", found, remedy);
+    let broken = |e: png::DecodingError| bad(e.to_string(), "make the file again, as PNG");
+    let mut decoder = png::Decoder::new(BufReader::new(File::open(path).map_err(JudgeError::io(path))?));
+    decoder.set_transformations(png::Transformations::IDENTITY);
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let (width, height) = reader.info().size();
+    let (color, depth) = reader.output_color_type();
+    let bits = match (color, depth) {
+        (ColorType::Grayscale | ColorType::Indexed, BitDepth::One) => 1,
+        (ColorType::Grayscale | ColorType::Indexed, BitDepth::Two) => 2,
+        (ColorType::Grayscale | ColorType::Indexed, BitDepth::Four) => 4,
+        (ColorType::Grayscale | ColorType::Indexed, BitDepth::Eight) => 8,
+        _ => {
+            let found = format!("{color:?} of {} bits", depth as u8);
+            return Err(bad(found, "write the ids themselves, as 8-bit greys, rather than colours"));
+        }
+    };
+    let bytes = reader.output_buffer_size().ok_or_else(|| bad("a picture too large".into(), "make it smaller"))?;
+    let mut ids = vec![0; bytes];
+    let line = reader.next_frame(&mut ids).map_err(broken)?.line_size;
+    if bits < 8 {
+        // Greys of few bits stand for 0 to 255, indices for themselves.
+        let scale = if color == ColorType::Grayscale { 255 / ((1u16 << bits) - 1) as u8 } else { 1 };
+        let (per_byte, mask) = (8 / bits as usize, ((1u16 << bits) - 1) as u8);
+        let unpack = |row: &[u8]| -> Vec<u8> {
+            let id = |x: usize| (row[x / per_byte] >> (8 - bits - bits * (x % per_byte) as u32)) & mask;
+            (0..width as usize).map(|x| id(x) * scale).collect()
+        };
+        ids = ids.chunks(line).flat_map(unpack).collect();
     }
+    Ok(Labels { width, height, ids })
 }
 
 #[cfg(test)]
@@ -90,5 +180,28 @@ mod tests {
         assert_eq!(key.as_deref(), Some("aachen_000000_000019"));
         assert_eq!(cityscapes_key("0001TP_006690.png"), None);
         assert_eq!(cityscapes_key("class.png"), None);
+    }
+
+    #[test]
+    fn indices_into_a_palette_are_ids_and_greys_of_few_bits_are_greys() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.png");
+        let write = |color: ColorType, depth: BitDepth, width: u32, bytes: &[u8]| {
+            let mut encoder = png::Encoder::new(File::create(&path).unwrap(), width, 2);
+            encoder.set_color(color);
+            encoder.set_depth(depth);
+            if color == ColorType::Indexed {
+                encoder.set_palette((0..16 * 3).map(|i| 200 - i).collect::<Vec<u8>>());
+            }
+            encoder.write_header().unwrap().write_image_data(bytes).unwrap();
+            read_labels(&path).map(|labels| labels.ids)
+        };
+        assert_eq!(write(ColorType::Indexed, BitDepth::Eight, 2, &[7, 8, 9, 10]).unwrap(), [7, 8, 9, 10]);
+        // Three pixels of four bits take two bytes a row.
+        let packed = [0x12, 0x30, 0x45, 0x60];
+        assert_eq!(write(ColorType::Indexed, BitDepth::Four, 3, &packed).unwrap(), [1, 2, 3, 4, 5, 6]);
+        assert_eq!(write(ColorType::Grayscale, BitDepth::One, 2, &[0b0100_0000, 0]).unwrap(), [0, 255, 0, 0]);
+        let deep = write(ColorType::Grayscale, BitDepth::Sixteen, 1, &[0, 7, 0, 8]).unwrap_err().to_string();
+        assert!(deep.contains("Grayscale of 16 bits"), "{deep}");
     }
 }

@@ -30,6 +30,8 @@ pub struct SeenObject {
 pub struct CandidateFrame {
     /// Folder below the dataset's (`scene-0103/v00/k005/ego.CAM_FRONT`).
     pub path: String,
+    /// Which variation of its scene.
+    pub variation: u32,
     /// Where its camera is in the plane of its dataset's place, metres, with the place's name.
     pub place: String,
     /// East and north of the place's origin, metres.
@@ -50,6 +52,8 @@ struct FrameFile {
     scene: String,
     #[serde(default)]
     place: String,
+    #[serde(default)]
+    variation: u32,
     world_from_camera_translation_m: [f64; 3],
     projection: Projection,
     objects: Vec<SeenObject>,
@@ -73,25 +77,30 @@ impl CandidateFrame {
                 "remove the folder and run trove generate again",
             )
         })?;
-        let labels = read_labels(&folder.join("class.png"))?;
+        let file = folder.join("class.png");
+        let labels = read_labels(&file)?;
+        let mut counts = [0; 256];
+        labels.ids.iter().for_each(|id| counts[usize::from(*id)] += 1);
         let mut pixels = [0; 20];
-        labels.ids.iter().for_each(|id| pixels[usize::from(*id).min(19)] += 1);
+        pixels.copy_from_slice(&counts[..20]);
+        if let Some(id) = (20..256).find(|id| counts[*id] > 0) {
+            let remedy = "remove the folder and run trove generate again";
+            return Err(JudgeError::unexpected(&file, "ids of the 20 classes", id.to_string(), remedy));
+        }
         let picture = folder.join("rgb.png");
         let has_picture = picture.exists();
         let hash = if has_picture {
             difference_hash(&crate::pictures::read(&picture)?.into_luma8())
         } else {
-            let grey = |id: &u8| luma(CLASSES[usize::from(*id).min(19)].rgb);
-            let grey = labels.ids.iter().map(grey).collect();
-            let height = labels.ids.len() as u32 / labels.width.max(1);
-            image::GrayImage::from_raw(labels.width, height, grey).map_or(0, |grey| difference_hash(&grey))
+            let grey = labels.ids.iter().map(|id| luma(CLASSES[usize::from(*id)].rgb)).collect();
+            image::GrayImage::from_raw(labels.width, labels.height, grey).map_or(0, |grey| difference_hash(&grey))
         };
         let [x, y, _] = frame.world_from_camera_translation_m;
         let place = if frame.place.is_empty() { frame.scene } else { frame.place };
         let path = folder.strip_prefix(root).unwrap_or(folder).to_string_lossy().replace('\\', "/");
         let position_m = DVec2::from_array(frame.projection.anchor_m) + DVec2::new(x, y);
         let objects = frame.objects.into_iter().filter(|o| o.visible_px > 0).collect();
-        Ok(Self { path, place, position_m, pixels, objects, hash, has_picture })
+        Ok(Self { path, variation: frame.variation, place, position_m, pixels, objects, hash, has_picture })
     }
 
     /// Share of its pixels by class.

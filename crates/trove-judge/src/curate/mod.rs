@@ -8,10 +8,10 @@ mod split;
 
 use std::path::Path;
 
-use rayon::prelude::*;
 use trove_model::Seed;
 
 use crate::JudgeError;
+use crate::pictures::{OnProgress, each};
 pub use frame::{CandidateFrame, SeenObject};
 pub use hash::difference_hash;
 pub use report::report;
@@ -35,13 +35,18 @@ pub struct Curation {
 ///
 /// # Errors
 /// A folder without frames, or a frame that cannot be read.
-pub fn curate(root: &Path, rules: Rules, val_share: f64, seed: Seed) -> Result<Curation, JudgeError> {
+pub fn curate(
+    root: &Path,
+    rules: Rules,
+    val_share: f64,
+    seed: Seed,
+    progress: OnProgress,
+) -> Result<Curation, JudgeError> {
     let folders = frame::folders(root)?;
     if folders.is_empty() {
         return Err(JudgeError::unexpected(root, "frames of trove generate", "none", "give the folder that it wrote"));
     }
-    let frames: Vec<CandidateFrame> =
-        folders.par_iter().map(|folder| CandidateFrame::read(root, folder)).collect::<Result<_, _>>()?;
+    let frames = each(&folders, progress, |folder| CandidateFrame::read(root, folder))?;
     let selection = select(&frames, &rules);
     let kept: Vec<&CandidateFrame> = selection.kept.iter().map(|i| &frames[*i]).collect();
     let splits = split(&kept, val_share, seed.child("split"));

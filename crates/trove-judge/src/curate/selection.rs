@@ -75,9 +75,11 @@ pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
             continue;
         }
         let is_duplicate = |k: &usize| {
-            let kept = &frames[*k];
-            kept.has_picture == frames[i].has_picture
-                && (kept.hash ^ frames[i].hash).count_ones() <= rules.duplicate_bits
+            let (kept, new) = (&frames[*k], &frames[i]);
+            // What variations differ in hardly shows in labels.
+            let comparable = kept.has_picture && new.has_picture
+                || !kept.has_picture && !new.has_picture && kept.variation == new.variation;
+            comparable && (kept.hash ^ new.hash).count_ones() <= rules.duplicate_bits
         };
         if selection.kept.iter().any(is_duplicate) {
             selection.duplicates += 1;
@@ -99,6 +101,7 @@ mod tests {
         pixels.iter().for_each(|(class, n)| all[*class] = *n);
         CandidateFrame {
             path: i.to_string(),
+            variation: 0,
             place: String::new(),
             position_m: DVec2::ZERO,
             pixels: all,
@@ -119,5 +122,9 @@ mod tests {
         assert_eq!(found.kept[0], 29);
         assert_eq!((found.kept.len(), found.poor, found.duplicates), (30, 1, 1));
         assert_eq!(select(&frames, &Rules { count: 5, ..rules }).kept, found.kept[..5]);
+        // Labels alone of another variation are no duplicate.
+        frames.iter_mut().for_each(|frame| frame.has_picture = false);
+        frames[31].variation = 1;
+        assert_eq!(select(&frames, &rules).duplicates, 0);
     }
 }

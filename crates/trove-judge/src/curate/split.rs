@@ -65,6 +65,7 @@ mod tests {
     fn no_place_is_on_both_sides() {
         let frame = |i: usize| CandidateFrame {
             path: i.to_string(),
+            variation: 0,
             place: if i < 300 { "a".into() } else { "b".into() },
             position_m: DVec2::new(i as f64 * 5.0, 0.0),
             pixels: [1; 20],

@@ -1,18 +1,24 @@
 //! Boundary IoU (Cheng et al. 2021, Boundary IoU: Improving Object-Centric Image Segmentation Evaluation).
 
+use super::mean;
 use crate::LabelSet;
 
 /// Width of the band along outlines as a share of the picture's diagonal, as in the paper.
 const BAND: f64 = 0.02;
 
 /// Pixels in the bands of both, and in the band of either, by class.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Boundary {
     /// By class: both, either.
     counts: Vec<[u64; 2]>,
 }
 
 impl Boundary {
+    /// Nothing counted yet.
+    pub fn new(classes: usize) -> Self {
+        Self { counts: vec![[0; 2]; classes] }
+    }
+
     /// Compares the bands inside the outlines of every class; pixels whose truth is ignored belong to no prediction.
     pub fn of(set: &LabelSet, predicted: &[u8], truth: &[u8], width: usize) -> Self {
         let index = set.index();
@@ -41,14 +47,18 @@ impl Boundary {
 
     /// Adds another's counts.
     pub fn add(&mut self, other: &Self) {
-        self.counts.resize(self.counts.len().max(other.counts.len()), [0; 2]);
         self.counts.iter_mut().zip(&other.counts).for_each(|(a, b)| (0..2).for_each(|i| a[i] += b[i]));
     }
 
     /// Boundary IoU of a class; `None` where it has no outline in either.
     pub fn iou(&self, class: usize) -> Option<f64> {
-        let [both, either] = *self.counts.get(class)?;
+        let [both, either] = self.counts[class];
         (either > 0).then(|| both as f64 / either as f64)
+    }
+
+    /// Mean over the classes that have an outline; `None` without any.
+    pub fn miou(&self) -> Option<f64> {
+        mean((0..self.counts.len()).map(|class| self.iou(class)))
     }
 }
 

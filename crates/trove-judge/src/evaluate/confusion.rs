@@ -1,5 +1,6 @@
 //! Which classes were taken for which.
 
+use super::mean;
 use crate::LabelSet;
 
 /// Counts of pixels by what they are (rows) and what they were taken for (columns); the last column holds predictions
@@ -60,8 +61,7 @@ impl Confusion {
 
     /// Mean IoU over the classes that are there or predicted; `None` without any.
     pub fn miou(&self) -> Option<f64> {
-        let ious: Vec<f64> = (0..self.classes).filter_map(|class| self.iou(class)).collect();
-        (!ious.is_empty()).then(|| ious.iter().sum::<f64>() / ious.len() as f64)
+        mean((0..self.classes).map(|class| self.iou(class)))
     }
 
     /// Share of pixels that were predicted rightly; `None` without any.

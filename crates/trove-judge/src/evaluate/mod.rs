@@ -10,15 +10,17 @@ use image::DynamicImage;
 use rayon::prelude::*;
 use trove_model::Seed;
 
-use crate::pictures::{pictures, read, read_labels};
+use crate::pictures::{Labels, OnProgress, by_key, each, label_files, read, read_labels};
 use crate::{JudgeError, LabelSet};
 pub use boundary::Boundary;
 pub use confusion::Confusion;
-pub use panoptic::Panoptic;
 use panoptic::Segment;
+pub use panoptic::{Panoptic, Quality};
 
 /// Draws of pictures with replacement.
 const DRAWS: u64 = 1000;
+/// In Cityscapes' `…_instanceIds.png` smaller numbers are classes, of a crowd where the class is countable.
+const CITYSCAPES_OBJECTS_FROM: u16 = 1000;
 /// Share of the draws within the interval.
 const WITHIN: f64 = 0.95;
 
@@ -46,6 +48,29 @@ pub struct Estimate {
     pub interval: [f64; 2],
 }
 
+/// What is counted, of one picture or of many.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counts {
+    /// Pixels by class and prediction.
+    pub confusion: Confusion,
+    /// Pixels along outlines; nothing where it was not asked for.
+    pub boundary: Boundary,
+    /// Segments; nothing where it was not asked for.
+    pub panoptic: Panoptic,
+}
+
+impl Counts {
+    fn none(classes: usize) -> Self {
+        Self { confusion: Confusion::new(classes), boundary: Boundary::new(classes), panoptic: Panoptic::new(classes) }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.confusion.add(&other.confusion);
+        self.boundary.add(&other.boundary);
+        self.panoptic.add(&other.panoptic);
+    }
+}
+
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
@@ -53,147 +78,175 @@ pub struct Evaluation {
     pub set: LabelSet,
     /// Pictures compared.
     pub pictures: usize,
+    /// Predictions without a truth, which were left out.
+    pub unused: usize,
     /// Over all pictures.
-    pub confusion: Confusion,
-    /// Mean IoU over the classes present.
+    pub counts: Counts,
+    /// Mean IoU over the classes that are there or predicted.
     pub miou: Option<Estimate>,
     /// Share of pixels that are right.
     pub accuracy: Option<Estimate>,
     /// IoU by class.
     pub iou: Vec<Option<Estimate>>,
-    /// Where it was asked for.
-    pub boundary: Option<Boundary>,
-    /// Where it was asked for.
-    pub panoptic: Option<Panoptic>,
+    /// Mean boundary IoU.
+    pub boundary_miou: Option<Estimate>,
+    /// Boundary IoU by class.
+    pub boundary_iou: Vec<Option<Estimate>>,
+    /// Mean panoptic quality.
+    pub pq: Option<Estimate>,
+    /// Panoptic quality by class.
+    pub class_pq: Vec<Option<Estimate>>,
 }
 
 /// Compares the label pictures below two folders, or two files; every picture of the truth has to be predicted.
 ///
 /// # Errors
-/// A picture that is missing, cannot be read, is in colours, or has another size than its counterpart.
-pub fn evaluate(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Evaluation, JudgeError> {
-    let pairs = pairs(predicted, truth)?;
-    let judged: Vec<Judged> = pairs.par_iter().map(|(p, t)| judge(p, t, settings)).collect::<Result<_, _>>()?;
+/// A picture that is missing, cannot be read, is in colours, has another size than its counterpart, or holds a number
+/// that the set does not know.
+pub fn evaluate(
+    predicted: &Path,
+    truth: &Path,
+    settings: &Settings,
+    progress: OnProgress,
+) -> Result<Evaluation, JudgeError> {
+    let (pairs, unused) = pairs(predicted, truth, &settings.set)?;
+    let judged = each(&pairs, progress, |(p, t)| judge(p, t, settings))?;
     let classes = settings.set.classes.len();
-    let mut confusion = Confusion::new(classes);
-    let (mut boundary, mut panoptic) = (Boundary::default(), Panoptic::default());
-    for picture in &judged {
-        confusion.add(&picture.confusion);
-        boundary.add(&picture.boundary);
-        panoptic.add(&picture.panoptic);
-    }
+    let mut counts = Counts::none(classes);
+    judged.iter().for_each(|picture| counts.add(picture));
     let draws = draws(&judged, classes, settings.seed);
-    let estimate = |of: &dyn Fn(&Confusion) -> Option<f64>| {
+    let estimate = |of: &dyn Fn(&Counts) -> Option<f64>| {
         let drawn: Vec<f64> = draws.iter().filter_map(of).collect();
-        Some(Estimate { value: of(&confusion)?, interval: interval(drawn)? })
+        Some(Estimate { value: of(&counts)?, interval: interval(drawn)? })
+    };
+    let by_class = |of: fn(&Counts, usize) -> Option<f64>| -> Vec<Option<Estimate>> {
+        (0..classes).map(|class| estimate(&|c: &Counts| of(c, class))).collect()
     };
     Ok(Evaluation {
         pictures: judged.len(),
-        miou: estimate(&Confusion::miou),
-        accuracy: estimate(&Confusion::accuracy),
-        iou: (0..classes).map(|class| estimate(&|c: &Confusion| c.iou(class))).collect(),
-        boundary: settings.boundary.then_some(boundary),
-        panoptic: settings.panoptic.then_some(panoptic),
+        unused,
+        miou: estimate(&|c| c.confusion.miou()),
+        accuracy: estimate(&|c| c.confusion.accuracy()),
+        iou: by_class(|c, class| c.confusion.iou(class)),
+        boundary_miou: estimate(&|c| c.boundary.miou()),
+        boundary_iou: by_class(|c, class| c.boundary.iou(class)),
+        pq: estimate(&|c| c.panoptic.mean()),
+        class_pq: by_class(|c, class| Some(c.panoptic.quality(class)?.pq)),
         set: settings.set.clone(),
-        confusion,
+        counts,
     })
 }
 
-/// Pictures of both sides that belong together, in the order of their names.
-fn pairs(predicted: &Path, truth: &Path) -> Result<Vec<(PathBuf, PathBuf)>, JudgeError> {
-    if truth.is_file() {
-        return Ok(vec![(predicted.to_owned(), truth.to_owned())]);
+/// The mean of the classes that have a value, added in their order; `None` where none has.
+fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let (sum, count) = values.flatten().fold((0.0, 0u32), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+/// Pictures of both sides that belong together, in the order of their names, and how many predictions are left over.
+fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf, PathBuf)>, usize), JudgeError> {
+    match (predicted.is_file(), truth.is_file()) {
+        (true, true) => return Ok((vec![(predicted.to_owned(), truth.to_owned())], 0)),
+        (true, false) if truth.is_dir() => {
+            let remedy = "give two files or two folders";
+            return Err(JudgeError::unexpected(truth, "a file, as the prediction is one", "a folder", remedy));
+        }
+        (false, true) if predicted.is_dir() => {
+            let remedy = "give two files or two folders";
+            return Err(JudgeError::unexpected(predicted, "a file, as the truth is one", "a folder", remedy));
+        }
+        _ => {}
     }
-    // Of our own and of Cityscapes' files those with classes.
-    let is_labels = |name: &str| {
-        let others = ["rgb.png", "instance.png", "contact_sheet.png"];
-        let cityscapes = ["_instanceIds.", "_color.", "_leftImg8bit.", "_labelTrainIds."];
-        !others.contains(&name) && !cityscapes.iter().any(|part| name.contains(part))
-    };
-    let truths = pictures(truth, is_labels)?;
-    // A prediction's file may be named after the photograph.
-    let predictions = pictures(predicted, |name| !["rgb.png", "instance.png", "contact_sheet.png"].contains(&name))?;
-    if truths.is_empty() {
-        return Err(JudgeError::unexpected(truth, "label pictures (.png)", "none", "give the folder that holds them"));
-    }
-    let pair = |(key, t): (String, PathBuf)| match predictions.get(&key) {
-        Some(p) => Ok((p.clone(), t)),
+    let truths = by_key(truth, label_files(truth, set)?)?;
+    let mut predictions = by_key(predicted, label_files(predicted, set)?)?;
+    let pair = |(key, t): (String, PathBuf)| match predictions.remove(&key) {
+        Some(p) => Ok((p, t)),
         None => Err(JudgeError::unexpected(
             predicted,
-            format!("a prediction of {key}"),
+            format!("a prediction of {}", t.display()),
             "none of that name",
             "name predictions as the truth's files below their folder",
         )),
     };
-    truths.into_iter().map(pair).collect()
+    let pairs = truths.into_iter().map(pair).collect::<Result<_, _>>()?;
+    Ok((pairs, predictions.len()))
 }
 
-/// One picture's counts.
-struct Judged {
-    confusion: Confusion,
-    boundary: Boundary,
-    panoptic: Panoptic,
-}
-
-fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Judged, JudgeError> {
-    let (p, t) = (read_labels(predicted)?, read_labels(truth)?);
-    if p.width != t.width || p.ids.len() != t.ids.len() {
-        let size = |labels: &crate::pictures::Labels| {
-            format!("{}×{}", labels.width, labels.ids.len() as u32 / labels.width.max(1))
-        };
+fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Counts, JudgeError> {
+    let set = &settings.set;
+    let (p, t) = (read_known(predicted, set)?, read_known(truth, set)?);
+    if (p.width, p.height) != (t.width, t.height) {
         return Err(JudgeError::unexpected(
             predicted,
-            format!("{} pixels as {}", size(&t), truth.display()),
-            size(&p),
+            format!("{}×{} pixels as {}", t.width, t.height, truth.display()),
+            format!("{}×{}", p.width, p.height),
             "scale it by nearest neighbours",
         ));
     }
-    let set = &settings.set;
-    let boundary =
-        if settings.boundary { Boundary::of(set, &p.ids, &t.ids, t.width as usize) } else { Boundary::default() };
-    let panoptic = if settings.panoptic {
-        Panoptic::of(&segments(predicted, &p.ids, set)?, &segments(truth, &t.ids, set)?)
-    } else {
-        Panoptic::default()
-    };
-    Ok(Judged { confusion: Confusion::of(set, &p.ids, &t.ids), boundary, panoptic })
+    let mut counts = Counts { confusion: Confusion::of(set, &p.ids, &t.ids), ..Counts::none(set.classes.len()) };
+    if settings.boundary {
+        counts.boundary = Boundary::of(set, &p.ids, &t.ids, t.width as usize);
+    }
+    if settings.panoptic {
+        counts.panoptic = Panoptic::of(set, &segments(predicted, &p.ids, set)?, &segments(truth, &t.ids, set)?);
+    }
+    Ok(counts)
+}
+
+/// Labels whose numbers the set knows.
+fn read_known(path: &Path, set: &LabelSet) -> Result<Labels, JudgeError> {
+    let labels = read_labels(path)?;
+    match set.unknown(&labels.ids) {
+        None => Ok(labels),
+        Some(i) => {
+            let known: Vec<String> = set.classes.iter().map(|class| class.id.to_string()).collect();
+            let ignored: Vec<String> = set.ignored.iter().map(u8::to_string).collect();
+            let expected = format!("{}'s ids ({}, ignored {})", set.name, known.join(" "), ignored.join(" "));
+            let (x, y) = (i as u32 % labels.width, i as u32 / labels.width);
+            let found = format!("{} at x {x}, y {y}", labels.ids[i]);
+            Err(JudgeError::unexpected(path, expected, found, "name the numbering with --classes"))
+        }
+    }
 }
 
 /// The segments of a picture, from its classes and the numbers of objects beside it.
 fn segments(classes: &Path, ids: &[u8], set: &LabelSet) -> Result<Vec<Segment>, JudgeError> {
     let name = classes.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let beside = classes.with_file_name(match name.contains("_labelIds") {
-        true => name.replace("_labelIds", "_instanceIds"),
+    let cityscapes = name.contains("_labelIds") || name.contains("_labelTrainIds");
+    let beside = classes.with_file_name(match cityscapes {
+        true => name.replace("_labelIds", "_instanceIds").replace("_labelTrainIds", "_instanceIds"),
         false => "instance.png".into(),
     });
+    let bad = |expected: String, found: String| {
+        JudgeError::unexpected(&beside, expected, found, "make the file again, or leave --panoptic out")
+    };
+    let wanted = || format!("16-bit grey numbers of the objects in {name}");
+    if !beside.is_file() {
+        return Err(bad(wanted(), "no file".into()));
+    }
     let objects: Vec<u16> = match read(&beside)? {
         DynamicImage::ImageLuma16(numbers) => numbers.into_raw(),
         DynamicImage::ImageLuma8(numbers) => numbers.into_raw().into_iter().map(u16::from).collect(),
-        other => {
-            let found = format!("{:?}", other.color());
-            return Err(JudgeError::unexpected(
-                &beside,
-                "16-bit grey numbers of objects",
-                found,
-                "make the file again",
-            ));
-        }
+        other => return Err(bad(wanted(), format!("{:?}", other.color()))),
     };
     if objects.len() != ids.len() {
-        let (expected, found) = (format!("{} pixels as {name}", ids.len()), objects.len().to_string());
-        return Err(JudgeError::unexpected(&beside, expected, found, "make the file again"));
+        return Err(bad(format!("{} pixels as {name}", ids.len()), objects.len().to_string()));
     }
     let index = set.index();
-    let segment = |(id, object): (&u8, u16)| Some(u32::from(index[usize::from(*id)]?) << 16 | u32::from(object));
+    let segment = |(id, object): (&u8, u16)| {
+        let class = index[usize::from(*id)]?;
+        let countable = set.classes[usize::from(class)].thing && (!cityscapes || object >= CITYSCAPES_OBJECTS_FROM);
+        Some(u32::from(class) << 16 | if countable { u32::from(object) } else { 0 })
+    };
     Ok(ids.iter().zip(objects).map(segment).collect())
 }
 
-/// Confusions of sets of as many pictures, drawn with replacement.
-fn draws(judged: &[Judged], classes: usize, seed: Seed) -> Vec<Confusion> {
+/// Counts of sets of as many pictures, drawn with replacement.
+fn draws(judged: &[Counts], classes: usize, seed: Seed) -> Vec<Counts> {
     let draw = |i: u64| {
         let mut random = seed.child("bootstrap").nth(i).random();
-        let mut drawn = Confusion::new(classes);
-        (0..judged.len()).for_each(|_| drawn.add(&judged[random.index(judged.len())].confusion));
+        let mut drawn = Counts::none(classes);
+        (0..judged.len()).for_each(|_| drawn.add(&judged[random.index(judged.len())]));
         drawn
     };
     (0..DRAWS).into_par_iter().map(draw).collect()

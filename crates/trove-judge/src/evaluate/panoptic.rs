@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::mean;
+use crate::LabelSet;
+
 /// A segment's number: class in the upper half, object in the lower; `None` for ignored pixels.
 pub(super) type Segment = Option<u32>;
 
@@ -15,16 +18,33 @@ struct Sums {
 }
 
 /// Panoptic quality by class.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Panoptic {
-    classes: BTreeMap<usize, Sums>,
+    classes: Vec<Sums>,
+}
+
+/// What the segments of a class are worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Panoptic quality: the product of the other two.
+    pub pq: f64,
+    /// Segmentation quality: mean IoU of those matched.
+    pub sq: f64,
+    /// Recognition quality: F1 score of the matching.
+    pub rq: f64,
 }
 
 impl Panoptic {
-    /// Matches the segments of one picture: two match where they overlap by more than half of their union. Pixels whose
-    /// truth is ignored belong to no prediction.
-    pub(super) fn of(predicted: &[Segment], truth: &[Segment]) -> Self {
-        let mut shared: BTreeMap<(u32, u32), u64> = BTreeMap::new();
+    /// Nothing counted yet.
+    pub fn new(classes: usize) -> Self {
+        Self { classes: vec![Sums::default(); classes] }
+    }
+
+    /// Matches the segments of one picture: two of a class match where they overlap by more than half of their union,
+    /// ignored pixels left out. True objects without a number are a crowd, which need not be found. Predictions that
+    /// lie for more than half on ignored pixels or a crowd of their class are not counted.
+    pub(super) fn of(set: &LabelSet, predicted: &[Segment], truth: &[Segment]) -> Self {
+        let mut shared: BTreeMap<(Segment, Segment), u64> = BTreeMap::new();
         let (mut of_predicted, mut of_truth) = (BTreeMap::<u32, u64>::new(), BTreeMap::<u32, u64>::new());
         // Neighbouring pixels mostly are of the same pair: runs are counted at once.
         let mut pixels = predicted.iter().zip(truth).peekable();
@@ -33,38 +53,41 @@ impl Panoptic {
             while pixels.next_if_eq(&pair).is_some() {
                 run += 1;
             }
-            let (p, Some(t)) = pair else { continue };
-            *of_truth.entry(*t).or_default() += run;
-            if let Some(p) = p {
-                *of_predicted.entry(*p).or_default() += run;
-                *shared.entry((*p, *t)).or_default() += run;
+            *shared.entry((*pair.1, *pair.0)).or_default() += run;
+            pair.0.iter().for_each(|p| *of_predicted.entry(*p).or_default() += run);
+            pair.1.iter().for_each(|t| *of_truth.entry(*t).or_default() += run);
+        }
+        let overlap = |t: Segment, p: u32| shared.get(&(t, Some(p))).copied().unwrap_or(0);
+        let class = |segment: u32| (segment >> 16) as usize;
+        let crowd = |segment: u32| set.classes[class(segment)].thing && segment & 0xffff == 0;
+        let mut found = Self::new(set.classes.len());
+        for (&pair, &both) in &shared {
+            let (Some(t), Some(p)) = pair else { continue };
+            if class(t) != class(p) || crowd(t) {
+                continue;
+            }
+            let union = of_predicted[&p] + of_truth[&t] - both - overlap(None, p);
+            if 2 * both > union {
+                found.classes[class(t)].iou += both as f64 / union as f64;
+                found.classes[class(t)].matched += 1;
+                of_predicted.remove(&p);
+                of_truth.remove(&t);
             }
         }
-        let mut classes: BTreeMap<usize, Sums> = BTreeMap::new();
-        for (&(p, t), &both) in &shared {
-            let union = of_predicted[&p] + of_truth[&t] - both;
-            if p >> 16 == t >> 16 && 2 * both > union {
-                let sums = classes.entry((t >> 16) as usize).or_default();
-                sums.iou += both as f64 / union as f64;
-                sums.matched += 1;
+        // What is left has no match.
+        of_truth.keys().filter(|t| !crowd(**t)).for_each(|t| found.classes[class(*t)].missed += 1);
+        for (p, area) in of_predicted {
+            let crowded = if set.classes[class(p)].thing { overlap(Some(p >> 16 << 16), p) } else { 0 };
+            if 2 * (overlap(None, p) + crowded) <= area {
+                found.classes[class(p)].invented += 1;
             }
         }
-        let count = |segments: &BTreeMap<u32, u64>, class: usize| {
-            segments.keys().filter(|segment| (**segment >> 16) as usize == class).count() as u64
-        };
-        let there = of_truth.keys().chain(of_predicted.keys()).map(|segment| (segment >> 16) as usize);
-        for class in there.collect::<std::collections::BTreeSet<_>>() {
-            let sums = classes.entry(class).or_default();
-            sums.missed = count(&of_truth, class) - sums.matched;
-            sums.invented = count(&of_predicted, class) - sums.matched;
-        }
-        Self { classes }
+        found
     }
 
     /// Adds another's sums.
     pub fn add(&mut self, other: &Self) {
-        for (class, sums) in &other.classes {
-            let own = self.classes.entry(*class).or_default();
+        for (own, sums) in self.classes.iter_mut().zip(&other.classes) {
             own.iou += sums.iou;
             own.matched += sums.matched;
             own.missed += sums.missed;
@@ -72,18 +95,17 @@ impl Panoptic {
         }
     }
 
-    /// Panoptic, segmentation and recognition quality of a class (by its place in the set); `None` where it is in neither.
-    pub fn quality(&self, class: usize) -> Option<[f64; 3]> {
-        let sums = self.classes.get(&class)?;
-        let recognition = sums.matched as f64 / (sums.matched as f64 + 0.5 * (sums.missed + sums.invented) as f64);
-        let segmentation = if sums.matched > 0 { sums.iou / sums.matched as f64 } else { 0.0 };
-        recognition.is_finite().then_some([segmentation * recognition, segmentation, recognition])
+    /// Quality of a class (by its place in the set); `None` where it is neither there nor predicted.
+    pub fn quality(&self, class: usize) -> Option<Quality> {
+        let Sums { iou, matched, missed, invented } = self.classes[class];
+        let all = matched as f64 + 0.5 * invented as f64 + 0.5 * missed as f64;
+        let sq = if matched > 0 { iou / matched as f64 } else { 0.0 };
+        (all > 0.0).then(|| Quality { pq: iou / all, sq, rq: matched as f64 / all })
     }
 
-    /// Mean panoptic quality of the classes that are there; `None` without any.
+    /// Mean panoptic quality of the classes that are there or predicted; `None` without any.
     pub fn mean(&self) -> Option<f64> {
-        let all: Vec<f64> = self.classes.keys().filter_map(|class| Some(self.quality(*class)?[0])).collect();
-        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+        mean((0..self.classes.len()).map(|class| Some(self.quality(class)?.pq)))
     }
 }
 
@@ -91,18 +113,35 @@ impl Panoptic {
 mod tests {
     use super::*;
 
+    fn segment(class: u32, object: u32) -> Segment {
+        Some(class << 16 | object)
+    }
+
+    fn quality(predicted: &[Segment], truth: &[Segment], class: usize) -> Option<[f64; 3]> {
+        let set = LabelSet::named("camvid").unwrap();
+        Panoptic::of(&set, predicted, truth).quality(class).map(|q| [q.pq, q.sq, q.rq])
+    }
+
     #[test]
     fn segments_match_by_more_than_half_and_others_are_missed_or_invented() {
-        let segment = |class: u32, object: u32| Some(class << 16 | object);
         // Two cars (8): one of four pixels found in three, one of two missed; sky (0) of three with one pixel too many.
         let (first, second, sky) = (segment(8, 1), segment(8, 2), segment(0, 0));
         let truth = [first, first, first, first, second, second, sky, sky, sky, None];
         let predicted = [segment(8, 7), segment(8, 7), segment(8, 7), sky, segment(8, 9), sky, sky, sky, sky, sky];
-        let panoptic = Panoptic::of(&predicted, &truth);
         // Cars: one match with IoU 3/4; car 2 and prediction 9 share 1 of 2, which is not more than half.
-        assert_eq!(panoptic.quality(8), Some([0.75 * 0.5, 0.75, 0.5]));
-        assert_eq!(panoptic.quality(0), Some([0.6, 0.6, 1.0]));
-        assert_eq!(panoptic.quality(3), None);
-        assert_eq!(panoptic.mean(), Some((0.375 + 0.6) / 2.0));
+        assert_eq!(quality(&predicted, &truth, 8), Some([0.75 * 0.5, 0.75, 0.5]));
+        assert_eq!(quality(&predicted, &truth, 0), Some([0.6, 0.6, 1.0]));
+        assert_eq!(quality(&predicted, &truth, 3), None);
+    }
+
+    #[test]
+    fn what_lies_on_ignored_pixels_or_a_crowd_counts_neither_way() {
+        let (car, crowd) = (segment(8, 1), segment(8, 0));
+        // A prediction with two of its three pixels on what is ignored, and one with all on a crowd.
+        let truth = [None, None, segment(0, 0), crowd, crowd, car, car];
+        let predicted = [segment(8, 3), segment(8, 3), segment(8, 3), segment(8, 4), segment(8, 4), car, car];
+        assert_eq!(quality(&predicted, &truth, 8), Some([1.0; 3]));
+        // Half is not more than half.
+        assert_eq!(quality(&predicted[1..], &truth[1..], 8), Some([2.0 / 3.0, 1.0, 2.0 / 3.0]));
     }
 }

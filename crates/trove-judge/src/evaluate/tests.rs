@@ -6,6 +6,10 @@ fn settings(set: &str) -> Settings {
     Settings { set: LabelSet::named(set).unwrap(), boundary: true, panoptic: false, seed: Seed(1) }
 }
 
+fn run(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Evaluation, JudgeError> {
+    evaluate(predicted, truth, settings, &|_, _| ())
+}
+
 fn write(folder: &Path, name: &str, ids: &[u8], width: u32) {
     let path = folder.join(name);
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -17,10 +21,12 @@ fn folders_are_compared_file_by_file_whatever_cityscapes_calls_them() {
     let folder = tempfile::tempdir().unwrap();
     let (p, t) = (folder.path().join("p"), folder.path().join("t"));
     write(&t, "aachen/aachen_000000_000019_gtFine_labelIds.png", &[7, 7, 8, 8], 2);
+    write(&t, "aachen/aachen_000000_000019_gtFine_color.png", &[1; 4], 2);
     write(&p, "aachen_000000_000019_leftImg8bit.png", &[7, 7, 7, 8], 2);
     write(&t, "ulm/ulm_000001_000019_gtFine_labelIds.png", &[0, 0, 23, 23], 2);
     write(&p, "ulm_000001_000019_leftImg8bit.png", &[23, 23, 23, 23], 2);
-    let found = evaluate(&p, &t, &settings("cityscapes")).unwrap();
+    write(&p, "bonn_000001_000019_leftImg8bit.png", &[23], 1);
+    let found = run(&p, &t, &settings("cityscapes")).unwrap();
     let of = |name: &str| {
         let class = found.set.classes.iter().position(|c| c.name == name).unwrap();
         found.iou[class].map(|e| e.value)
@@ -29,27 +35,55 @@ fn folders_are_compared_file_by_file_whatever_cityscapes_calls_them() {
     assert_eq!(found.accuracy.unwrap().value, 5.0 / 6.0);
     let miou = found.miou.unwrap();
     assert!(miou.interval[0] <= miou.value && miou.value <= miou.interval[1], "{miou:?}");
-    assert_eq!(found.pictures, 2);
+    assert_eq!((found.pictures, found.unused), (2, 1));
+}
+
+#[test]
+fn an_interval_is_the_bootstrap_s() {
+    let folder = tempfile::tempdir().unwrap();
+    let (p, t) = (folder.path().join("p"), folder.path().join("t"));
+    // Of 50 pictures of one pixel 40 are right: the share is binomial, with a deviation of √(0.8·0.2/50) = 0.0566.
+    for i in 0..50u8 {
+        write(&t, &format!("{i}.png"), &[1], 1);
+        write(&p, &format!("{i}.png"), &[if i < 40 { 1 } else { 2 }], 1);
+    }
+    let found = run(&p, &t, &settings("trove13")).unwrap();
+    let Estimate { value, interval: [low, high] } = found.accuracy.unwrap();
+    assert_eq!(value, 0.8);
+    assert!((low - 0.68).abs() <= 0.02 && (high - 0.9).abs() <= 0.02, "{low} {high}");
+    assert_eq!(run(&p, &t, &settings("trove13")).unwrap().accuracy, found.accuracy);
 }
 
 #[test]
 fn what_does_not_fit_together_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let (p, t) = (folder.path().join("p"), folder.path().join("t"));
+    let message = || run(&p, &t, &settings("trove13")).unwrap_err().to_string();
+    let check = |found: String, parts: &[&str]| {
+        assert!(parts.iter().all(|part| found.contains(part)), "{parts:?} in {found}");
+    };
     write(&t, "a/class.png", &[1, 1], 2);
     write(&p, "b/class.png", &[1, 1], 2);
-    let message = |e: Result<Evaluation, JudgeError>| e.unwrap_err().to_string();
-    let missing = message(evaluate(&p, &t, &settings("trove13")));
-    assert!(missing.contains("a prediction of a/class"), "{missing}");
+    check(message(), &["a prediction of", "a/class.png", "none of that name"]);
     write(&p, "a/class.png", &[1, 1, 1], 3);
-    let size = message(evaluate(&p, &t, &settings("trove13")));
-    assert!(size.contains("2×1") && size.contains("3×1"), "{size}");
+    check(message(), &["2×1", "3×1", "nearest"]);
     image::RgbImage::new(2, 1).save(p.join("a/class.png")).unwrap();
-    let colour = message(evaluate(&p, &t, &settings("trove13")));
-    assert!(colour.contains("class id a pixel"), "{colour}");
+    check(message(), &["class id a pixel", "rather than colours"]);
+    write(&p, "a/class.png", &[1, 17], 2);
+    check(message(), &["trove13's ids", "17 at x 1, y 0", "--classes"]);
     std::fs::write(p.join("a/class.png"), b"not a picture").unwrap();
-    assert!(evaluate(&p, &t, &settings("trove13")).is_err());
-    assert!(evaluate(&p, &folder.path().join("none"), &settings("trove13")).is_err());
+    check(message(), &["a/class.png", "make the file again"]);
+    write(&t, "x_000000_000001_a.png", &[1], 1);
+    std::fs::remove_dir_all(t.join("a")).unwrap();
+    write(&t, "x_000000_000001_b.png", &[1], 1);
+    check(message(), &["one picture of x_000000_000001", "remove one"]);
+    std::fs::remove_dir_all(&t).unwrap();
+    check(message(), &["check its name"]);
+    std::fs::create_dir(&t).unwrap();
+    check(message(), &["label pictures", "none"]);
+    std::fs::remove_dir(&t).unwrap();
+    std::fs::write(&t, b"").unwrap();
+    check(message(), &["two files or two folders"]);
 }
 
 #[test]
@@ -61,6 +95,11 @@ fn objects_beside_the_classes_give_panoptic_quality() {
         let numbers = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(4, 1, objects.to_vec()).unwrap();
         DynamicImage::ImageLuma16(numbers).save(side.join("k/instance.png")).unwrap();
     }
-    let found = evaluate(&p, &t, &Settings { panoptic: true, ..settings("trove20") }).unwrap();
-    assert_eq!(found.panoptic.unwrap().mean(), Some(1.0));
+    let panoptic = Settings { panoptic: true, ..settings("trove20") };
+    let found = run(&p, &t, &panoptic).unwrap();
+    assert_eq!(found.pq.unwrap().value, 1.0);
+    assert_eq!(run(&p, &t, &settings("trove20")).unwrap().pq, None);
+    std::fs::remove_file(p.join("k/instance.png")).unwrap();
+    let message = run(&p, &t, &panoptic).unwrap_err().to_string();
+    assert!(message.contains("instance.png") && message.contains("leave --panoptic out"), "{message}");
 }

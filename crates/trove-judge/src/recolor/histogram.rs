@@ -17,9 +17,12 @@ pub struct Histograms {
 }
 
 impl Histograms {
+    /// The number of pixels that are of no class; they are not counted and stay as they are.
+    pub const NONE: u8 = 255;
+
     /// Counts a picture's pixels.
     pub fn count(&mut self, pixels: &[[f32; 3]], classes: &[u8]) {
-        for (pixel, class) in pixels.iter().zip(classes) {
+        for (pixel, class) in pixels.iter().zip(classes).filter(|(_, class)| **class != Self::NONE) {
             let bins = self.classes.entry(*class).or_insert_with(|| vec![[0; 3]; BINS]);
             (0..3).for_each(|c| bins[position(pixel[c], c) as usize][c] += 1);
         }
@@ -31,6 +34,11 @@ impl Histograms {
             let own = self.classes.entry(*class).or_insert_with(|| vec![[0; 3]; BINS]);
             own.iter_mut().zip(bins).for_each(|(a, b)| (0..3).for_each(|c| a[c] += b[c]));
         }
+    }
+
+    /// Pixels by class id.
+    pub fn pixels(&self) -> BTreeMap<u8, u64> {
+        self.classes.iter().map(|(class, bins)| (*class, bins.iter().map(|b| b[0]).sum())).collect()
     }
 
     /// For every class that both have enough of, the value that each bin's becomes.

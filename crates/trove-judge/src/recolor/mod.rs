@@ -2,6 +2,7 @@
 //! the paper's blend of both sides' means and deviations, or histograms matched class by class.
 
 mod histogram;
+mod output;
 mod space;
 mod statistics;
 
@@ -9,11 +10,13 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
-use rayon::prelude::*;
+use serde_json::json;
+use trove_model::CLASSES;
 
-use crate::JudgeError;
-use crate::pictures::{pictures, read, read_labels};
+use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
+use crate::{JudgeError, LabelSet};
 pub use histogram::{Histograms, Matching};
+use output::OutputFolder;
 pub use space::Space;
 pub use statistics::Statistics;
 
@@ -37,16 +40,18 @@ pub struct Settings {
     pub space: Space,
     /// How far towards the target, 0 (not at all) to 1 (as in Reinhard et al.).
     pub strength: f32,
-    /// Label pictures of the target, for histograms, in the numbering of the source's `class.png`.
-    pub target_labels: Option<PathBuf>,
+    /// Label pictures of the target, for histograms, and their numbering.
+    pub target_labels: Option<(PathBuf, LabelSet)>,
 }
 
 /// What was done.
 #[derive(Clone, Debug)]
 pub struct Recoloring {
-    /// Pictures written, with those that they come from.
+    /// Pictures that are there now, with those that they come from.
     pub pictures: Vec<(PathBuf, PathBuf)>,
-    /// Of the pictures before, those of the target, and of the pictures after, in the space.
+    /// How many of them were there before.
+    pub kept: usize,
+    /// Of the pictures before, those of the target, and of the pictures as they were written, in the space.
     pub statistics: [Statistics; 3],
 }
 
@@ -54,55 +59,111 @@ pub struct Recoloring {
 const LEAST_DEVIATION: f64 = 1e-3;
 
 /// Recolours the pictures below `source` (of our own output the `rgb.png`s) towards those below `target` and writes them
-/// below `out`, under the same paths, as PNG; what is there already is overwritten.
+/// below `out`, under the same paths, as PNG. What an earlier run of the same pictures and settings has finished stays.
 ///
 /// # Errors
-/// A folder without pictures, a picture that cannot be read or written, labels that are missing for histograms.
-pub fn recolor(source: &Path, target: &Path, out: &Path, settings: &Settings) -> Result<Recoloring, JudgeError> {
+/// A folder without pictures, a picture that cannot be read or written, labels that are missing for histograms, an `out`
+/// that lies within one of the other folders, or that holds something else.
+pub fn recolor(
+    source: &Path,
+    target: &Path,
+    out: &Path,
+    settings: &Settings,
+    progress: OnProgress,
+) -> Result<Recoloring, JudgeError> {
+    refuse_within(out, source)?;
+    refuse_within(out, target)?;
     let (sources, targets) = (photographs(source)?, photographs(target)?);
-    let wanted = set_statistics(&targets, settings.space)?;
-    let before = match settings.method {
-        Method::PerPicture => None,
-        Method::PerSet | Method::HistogramPerClass => Some(set_statistics(&sources, settings.space)?),
-    };
-    let matching = match (settings.method, &settings.target_labels) {
-        (Method::HistogramPerClass, Some(labels)) => {
-            Some(histograms(&with_own_labels(&sources)?)?.towards(&histograms(&with_labels(&targets, labels)?)?))
+    // Targets are read for their statistics, sources too unless each is its own measure, and every source to be moved.
+    let passes = if settings.method == Method::PerPicture { 1 } else { 2 };
+    let steps = targets.len() + passes * sources.len();
+    let wanted = set_statistics(&targets, settings.space, &|done, _| progress(done, steps))?;
+    let after_targets = |done: usize, _: usize| progress(targets.len() + done, steps);
+    let (before, matching) = match (settings.method, &settings.target_labels) {
+        (Method::PerPicture, _) => (None, None),
+        (Method::PerSet, _) => (Some(set_statistics(&sources, settings.space, &after_targets)?), None),
+        (Method::HistogramPerClass, Some((folder, set))) => {
+            let before = set_statistics(&sources, settings.space, &after_targets)?;
+            let own = histograms(&with_own_labels(&sources)?, Some(set))?;
+            (Some(before), Some((own, histograms(&with_labels(target, &targets, folder, set)?, None)?)))
         }
         (Method::HistogramPerClass, None) => {
             return Err(JudgeError::unexpected(target, "labels for histograms by class", "none", "name their folder"));
         }
-        _ => None,
     };
-    let done: Vec<(PathBuf, PathBuf, Statistics, Statistics)> = sources
-        .par_iter()
-        .map(|path| {
-            let picture = read(path)?.into_rgb8();
-            let mut pixels = in_space(&picture, settings.space);
-            let own = Statistics::of(&pixels);
-            match &matching {
-                Some(matching) => {
-                    let labels = read_labels(&path.with_file_name("class.png"))?;
-                    for (pixel, class) in pixels.iter_mut().zip(&labels.ids) {
-                        let matched = matching.apply(*pixel, *class);
+    let identity = json!({
+        "method": format!("{:?}", settings.method),
+        "space": format!("{:?}", settings.space),
+        "strength": settings.strength,
+        "source": before.map(|s| format!("{s:?}")),
+        "target": format!("{wanted:?}"),
+        "classes": matching.as_ref().map(|(own, target)| [own.pixels(), target.pixels()]),
+    });
+    let output = OutputFolder::open(out, &format!("{identity:#}"))?;
+    let matching = matching.map(|(own, target)| own.towards(&target));
+    let recolored = |path: &PathBuf| {
+        let below = path.strip_prefix(source).unwrap_or(path);
+        let kept = output.finished(below, path);
+        if kept && let Some(before) = before {
+            return Ok((
+                kept,
+                before,
+                Statistics::of(&in_space(&read(&output.path(below))?.into_rgb8(), settings.space)),
+            ));
+        }
+        let picture = read(path)?.into_rgb8();
+        let mut pixels = in_space(&picture, settings.space);
+        let own = before.unwrap_or_else(|| Statistics::of(&pixels));
+        let codes = if kept {
+            read(&output.path(below))?.into_rgb8()
+        } else {
+            match (&matching, &settings.target_labels) {
+                (Some(matching), Some((_, set))) => {
+                    let classes = own_classes(path, &picture, set)?;
+                    for (pixel, class) in pixels.iter_mut().zip(classes) {
+                        let matched = matching.apply(*pixel, class);
                         *pixel = std::array::from_fn(|c| pixel[c] + settings.strength * (matched[c] - pixel[c]));
                     }
                 }
-                None => move_towards(&mut pixels, before.as_ref().unwrap_or(&own), &wanted, settings.strength),
+                _ => move_towards(&mut pixels, &own, &wanted, settings.strength),
             }
-            let after = Statistics::of(&pixels);
-            let recolored = out.join(path.strip_prefix(source).unwrap_or(path)).with_extension("png");
-            write(&recolored, picture.width(), &pixels, settings.space)?;
-            Ok((recolored, path.clone(), own, after))
-        })
-        .collect::<Result<_, JudgeError>>()?;
-    let joined = |of: fn(&(PathBuf, PathBuf, Statistics, Statistics)) -> &Statistics| {
+            let (width, height) = picture.dimensions();
+            let codes = RgbImage::from_fn(width, height, |x, y| {
+                image::Rgb(settings.space.to_srgb(pixels[(y * width + x) as usize]))
+            });
+            output.write(below, &encoded(path, &codes)?)?;
+            codes
+        };
+        Ok((kept, own, Statistics::of(&in_space(&codes, settings.space))))
+    };
+    let last = |done: usize, _: usize| progress(steps - sources.len() + done, steps);
+    let done: Vec<(bool, Statistics, Statistics)> = each(&sources, &last, recolored)?;
+    let joined = |of: fn(&(bool, Statistics, Statistics)) -> &Statistics| {
         let mut all = Statistics::default();
         done.iter().for_each(|row| all.join(of(row)));
         all
     };
-    let statistics = [joined(|row| &row.2), wanted, joined(|row| &row.3)];
-    Ok(Recoloring { pictures: done.into_iter().map(|(out, from, _, _)| (out, from)).collect(), statistics })
+    let below = |path: &PathBuf| output.path(path.strip_prefix(source).unwrap_or(path));
+    Ok(Recoloring {
+        kept: done.iter().filter(|row| row.0).count(),
+        statistics: [before.unwrap_or_else(|| joined(|row| &row.1)), wanted, joined(|row| &row.2)],
+        pictures: sources.iter().map(|path| (below(path), path.clone())).collect(),
+    })
+}
+
+/// Pictures that lie among others would be taken for them by the next run.
+fn refuse_within(out: &Path, folder: &Path) -> Result<(), JudgeError> {
+    let absolute = |path: &Path| match path.canonicalize() {
+        Ok(path) => Ok(path),
+        Err(_) => std::path::absolute(path).map_err(JudgeError::io(path)),
+    };
+    match absolute(out)?.starts_with(absolute(folder)?) {
+        true => {
+            let expected = format!("a folder outside {}", folder.display());
+            Err(JudgeError::unexpected(out, expected, "one within", "choose another --out"))
+        }
+        false => Ok(()),
+    }
 }
 
 /// Moves colours so that their statistics become `strength` of the way from `from` to `to`: the paper's scaled blend.
@@ -117,76 +178,107 @@ pub fn move_towards(pixels: &mut [[f32; 3]], from: &Statistics, to: &Statistics,
     }
 }
 
-/// The pictures of a folder that show something rather than label it.
-fn photographs(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
-    let labels = ["class.png", "instance.png", "contact_sheet.png"];
-    let found: Vec<PathBuf> = pictures(folder, |name| !labels.contains(&name))?.into_values().collect();
-    match found.is_empty() {
-        true => Err(JudgeError::unexpected(folder, "PNG or JPEG pictures", "none", "give the folder that holds them")),
-        false => Ok(found),
-    }
-}
-
 fn in_space(picture: &RgbImage, space: Space) -> Vec<[f32; 3]> {
     picture.pixels().map(|pixel| space.from_srgb(pixel.0)).collect()
 }
 
-fn set_statistics(paths: &[PathBuf], space: Space) -> Result<Statistics, JudgeError> {
-    let each: Vec<Statistics> = paths
-        .par_iter()
-        .map(|path| Ok(Statistics::of(&in_space(&read(path)?.into_rgb8(), space))))
-        .collect::<Result<_, JudgeError>>()?;
+fn set_statistics(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Statistics, JudgeError> {
+    let of = |path: &PathBuf| Ok(Statistics::of(&in_space(&read(path)?.into_rgb8(), space)));
     let mut all = Statistics::default();
-    each.iter().for_each(|one| all.join(one));
+    each(paths, progress, of)?.iter().for_each(|one| all.join(one));
     Ok(all)
 }
 
-fn histograms(pairs: &[(PathBuf, PathBuf)]) -> Result<Histograms, JudgeError> {
-    let each: Vec<Histograms> = pairs
-        .par_iter()
-        .map(|(picture, labels)| {
-            let mut counted = Histograms::default();
-            counted.count(&in_space(&read(picture)?.into_rgb8(), Space::Lab), &read_labels(labels)?.ids);
-            Ok(counted)
-        })
-        .collect::<Result<_, JudgeError>>()?;
+/// Histograms by class: of labels in our own classes as numbers of a set, of others as they are.
+fn histograms(pairs: &[(PathBuf, PathBuf)], ours_in: Option<&LabelSet>) -> Result<Histograms, JudgeError> {
+    let of = |(path, labels): &(PathBuf, PathBuf)| {
+        let picture = read(path)?.into_rgb8();
+        let classes = match ours_in {
+            Some(set) => own_classes(path, &picture, set)?,
+            None => ids(labels, &picture)?,
+        };
+        let mut counted = Histograms::default();
+        counted.count(&in_space(&picture, Space::Lab), &classes);
+        Ok(counted)
+    };
     let mut all = Histograms::default();
-    each.iter().for_each(|one| all.join(one));
+    each(pairs, &|_, _| (), of)?.iter().for_each(|one| all.join(one));
     Ok(all)
+}
+
+/// Labels that fit a picture.
+fn ids(labels: &Path, picture: &RgbImage) -> Result<Vec<u8>, JudgeError> {
+    let found = read_labels(labels)?;
+    let (width, height) = picture.dimensions();
+    match (found.width, found.height) == (width, height) {
+        true => Ok(found.ids),
+        false => {
+            let (expected, size) = (format!("{width}×{height} pixels as the picture"), (found.width, found.height));
+            let found = format!("{}×{}", size.0, size.1);
+            Err(JudgeError::unexpected(labels, expected, found, "scale the labels by nearest neighbours"))
+        }
+    }
+}
+
+/// What lies beside one of our pictures.
+fn own_labels(picture: &Path) -> PathBuf {
+    picture.with_file_name("class.png")
+}
+
+/// The classes of one of our own pictures, in the numbers of a set, and [`Histograms::NONE`] where it has none.
+fn own_classes(path: &Path, picture: &RgbImage, set: &LabelSet) -> Result<Vec<u8>, JudgeError> {
+    let labels = own_labels(path);
+    let index = set.index();
+    let number = |id: u8| {
+        let found = || JudgeError::unexpected(&labels, "ids of the 20 classes", id.to_string(), "make the file again");
+        let number = set.number(CLASSES.get(usize::from(id)).ok_or_else(found)?);
+        Ok(index[usize::from(number)].map_or(Histograms::NONE, |_| number))
+    };
+    ids(&labels, picture)?.into_iter().map(number).collect()
 }
 
 fn with_own_labels(pictures: &[PathBuf]) -> Result<Vec<(PathBuf, PathBuf)>, JudgeError> {
-    Ok(pictures.iter().map(|path| (path.clone(), path.with_file_name("class.png"))).collect())
-}
-
-fn with_labels(photographs: &[PathBuf], folder: &Path) -> Result<Vec<(PathBuf, PathBuf)>, JudgeError> {
-    let labels = pictures(folder, |_| true)?;
-    let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let by_stem: std::collections::BTreeMap<String, &PathBuf> =
-        labels.values().map(|path| (stem(path), path)).collect();
-    let pair = |path: &PathBuf| match by_stem.get(&stem(path)) {
-        Some(labels) => Ok((path.clone(), (*labels).clone())),
-        None => {
-            let expected = format!("labels named {}", stem(path));
-            Err(JudgeError::unexpected(folder, expected, "none of that name", "name labels as their pictures"))
+    let pair = |path: &PathBuf| {
+        let labels = own_labels(path);
+        match labels.is_file() {
+            true => Ok((path.clone(), labels)),
+            false => {
+                let remedy = "histograms by class need a folder of trove generate";
+                Err(JudgeError::unexpected(&labels, "the picture's labels", "no file", remedy))
+            }
         }
     };
-    photographs.iter().map(pair).collect()
+    pictures.iter().map(pair).collect()
 }
 
-fn write(path: &Path, width: u32, pixels: &[[f32; 3]], space: Space) -> Result<(), JudgeError> {
-    let codes: Vec<u8> = pixels.iter().flat_map(|pixel| space.to_srgb(*pixel)).collect();
-    let height = pixels.len() as u32 / width.max(1);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    std::fs::create_dir_all(folder).map_err(JudgeError::io(folder))?;
+fn with_labels(
+    target: &Path,
+    photographs: &[PathBuf],
+    folder: &Path,
+    set: &LabelSet,
+) -> Result<Vec<(PathBuf, PathBuf)>, JudgeError> {
+    let mut labels = by_key(folder, label_files(folder, set)?)?;
+    let pair = |(key, path): (String, PathBuf)| match labels.remove(&key) {
+        Some(labels) => Ok((path, labels)),
+        None => {
+            let expected = format!("labels of {}", path.display());
+            Err(JudgeError::unexpected(
+                folder,
+                expected,
+                "none of that name",
+                "name labels as their pictures below their folder",
+            ))
+        }
+    };
+    by_key(target, photographs.to_vec())?.into_iter().map(pair).collect()
+}
+
+fn encoded(path: &Path, picture: &RgbImage) -> Result<Vec<u8>, JudgeError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&codes, width, height, ExtendedColorType::Rgb8)
+        .write_image(picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
         .map_err(|e| JudgeError::unexpected(path, "a picture that can be encoded", e.to_string(), "report it"))?;
-    // Half a picture must not be taken for one.
-    let partial = path.with_extension("png.partial");
-    std::fs::write(&partial, bytes).map_err(JudgeError::io(&partial))?;
-    std::fs::rename(&partial, path).map_err(JudgeError::io(path))
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use trove_judge::curate::{Curation, Rules, Split, curate, report};
 use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
+use super::{Pictures, share};
+
 /// What to choose from, and how.
 #[derive(Args)]
 pub(crate) struct Curate {
@@ -75,7 +77,9 @@ impl Curated {
 impl Curate {
     pub(crate) fn run(&self) -> Result<()> {
         let rules = Rules { count: self.count, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
-        let curation = curate(&self.dir, rules, self.val_share, Seed(self.seed))?;
+        let progress = Pictures::default();
+        let seed = Seed(self.seed);
+        let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;
         let list = Curated::of(&curation);
         let out = self.out.clone().unwrap_or_else(|| self.dir.join("curated.json"));
         let page = self.page.clone().unwrap_or_else(|| self.dir.join("curated.html"));
@@ -122,9 +126,4 @@ impl Curate {
         );
         Ok(())
     }
-}
-
-/// A share of 1.
-pub(super) fn share(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|share| (0.0..=1.0).contains(share)).ok_or("expected a number from 0 to 1".into())
 }

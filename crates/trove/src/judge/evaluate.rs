@@ -9,6 +9,8 @@ use trove_judge::LabelSet;
 use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
 use trove_model::Seed;
 
+use super::{Pictures, label_set};
+
 /// What to compare.
 #[derive(Args)]
 pub(crate) struct Evaluate {
@@ -41,7 +43,8 @@ impl Evaluate {
             panoptic: self.panoptic,
             seed: Seed(self.seed),
         };
-        let found = evaluate(&self.predicted, &self.truth, &settings)?;
+        let progress = Pictures::default();
+        let found = evaluate(&self.predicted, &self.truth, &settings, &|done, total| progress.done(done, total))?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&as_json(&found))?);
         } else {
@@ -57,10 +60,11 @@ fn as_json(found: &Evaluation) -> Value {
     let classes = || found.set.classes.iter().enumerate();
     // Classes that are neither there nor predicted have no IoU.
     let by_class = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
-        classes().filter_map(|(i, class)| Some((class.name.clone(), of(i)?))).collect()
+        classes().filter_map(|(i, class)| Some((class.name.to_owned(), of(i)?))).collect()
     };
     let mut printed = json!({
         "pictures": found.pictures,
+        "unused_predictions": found.unused,
         "classes": found.set.name,
         "miou": value(&found.miou),
         "miou_interval95": interval(&found.miou),
@@ -69,46 +73,55 @@ fn as_json(found: &Evaluation) -> Value {
         "iou": by_class(&|i| found.iou[i].map(|e| json!(e.value))),
         "iou_interval95": by_class(&|i| found.iou[i].map(|e| json!(e.interval))),
     });
-    let confusion: Vec<Vec<u64>> =
-        classes().map(|(t, _)| (0..=found.set.classes.len()).map(|p| found.confusion.count(t, p)).collect()).collect();
+    let confusion: Vec<Vec<u64>> = classes()
+        .map(|(t, _)| (0..=found.set.classes.len()).map(|p| found.counts.confusion.count(t, p)).collect())
+        .collect();
     printed["confusion"] = json!({
         "rows": "truth, columns: prediction, the last one ignored ids",
-        "names": classes().map(|(_, class)| &class.name).collect::<Vec<_>>(),
+        "names": classes().map(|(_, class)| class.name).collect::<Vec<_>>(),
         "pixels": confusion,
     });
-    if let Some(boundary) = &found.boundary {
-        printed["boundary_iou"] = json!(by_class(&|i| boundary.iou(i).map(Value::from)));
+    if found.boundary_miou.is_some() {
+        printed["boundary_miou"] = json!(value(&found.boundary_miou));
+        printed["boundary_miou_interval95"] = json!(interval(&found.boundary_miou));
+        printed["boundary_iou"] = json!(by_class(&|i| found.boundary_iou[i].map(|e| json!(e.value))));
+        printed["boundary_iou_interval95"] = json!(by_class(&|i| found.boundary_iou[i].map(|e| json!(e.interval))));
     }
-    if let Some(panoptic) = &found.panoptic {
-        printed["pq"] = json!(panoptic.mean());
-        printed["panoptic"] =
-            json!(by_class(&|i| { panoptic.quality(i).map(|[pq, sq, rq]| json!({ "pq": pq, "sq": sq, "rq": rq })) }));
+    if found.pq.is_some() {
+        printed["pq"] = json!(value(&found.pq));
+        printed["pq_interval95"] = json!(interval(&found.pq));
+        printed["panoptic"] = json!(by_class(&|i| {
+            let quality = found.counts.panoptic.quality(i)?;
+            let interval = interval(&found.class_pq[i]);
+            Some(json!({ "pq": quality.pq, "sq": quality.sq, "rq": quality.rq, "pq_interval95": interval }))
+        }));
     }
     printed
 }
 
 fn print(found: &Evaluation) {
-    let row = |name: &str, e: &Option<Estimate>, more: String| match e {
-        Some(Estimate { value, interval: [low, high] }) => {
-            println!("{name:16} {:6.2}  {:6.2} to {:6.2}{more}", value * 100.0, low * 100.0, high * 100.0);
-        }
-        None => println!("{name:16}      –"),
+    let row = |name: &str, columns: [&Option<Estimate>; 3]| {
+        let cell = |e: &Option<Estimate>| match e {
+            Some(Estimate { value, interval: [low, high] }) => {
+                format!("{:6.2} {:>15}", value * 100.0, format!("{:.1} to {:.1}", low * 100.0, high * 100.0))
+            }
+            None => String::new(),
+        };
+        println!(
+            "{}",
+            format!("{name:16} {:22}   {:22}   {:22}", cell(columns[0]), cell(columns[1]), cell(columns[2])).trim_end()
+        );
     };
+    let asked = |e: &Option<Estimate>, name| if e.is_some() { name } else { "" };
+    let (boundary, panoptic) = (asked(&found.boundary_miou, "boundary IoU"), asked(&found.pq, "panoptic quality"));
     println!("{} pictures; percent, with 95 % intervals over pictures", found.pictures);
-    row("mean IoU", &found.miou, String::new());
-    row("pixel accuracy", &found.accuracy, String::new());
+    if found.unused > 0 {
+        println!("{} predictions have no truth and were left out", found.unused);
+    }
+    println!("{}", format!("{:16} {:22}   {boundary:22}   {panoptic}", "", "IoU").trim_end());
     for (i, class) in found.set.classes.iter().enumerate() {
-        let boundary = found.boundary.as_ref().and_then(|b| b.iou(i));
-        let quality = found.panoptic.as_ref().and_then(|p| p.quality(i)).map(|q| q[0]);
-        let more =
-            |name: &str, value: Option<f64>| value.map_or(String::new(), |v| format!("  {name} {:.2}", v * 100.0));
-        row(&class.name, &found.iou[i], more("boundary", boundary) + &more("PQ", quality));
+        row(class.name, [&found.iou[i], &found.boundary_iou[i], &found.class_pq[i]]);
     }
-    if let Some(mean) = found.panoptic.as_ref().and_then(|p| p.mean()) {
-        println!("{:16} {:6.2}", "mean PQ", mean * 100.0);
-    }
-}
-
-fn label_set(name: &str) -> Result<LabelSet, String> {
-    LabelSet::named(name).ok_or_else(|| format!("expected one of {}", LabelSet::NAMES.join(", ")))
+    row("mean", [&found.miou, &found.boundary_miou, &found.pq]);
+    row("pixel accuracy", [&found.accuracy, &None, &None]);
 }

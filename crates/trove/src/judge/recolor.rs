@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde_json::json;
+use trove_judge::LabelSet;
 use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor};
 use trove_model::Raster;
 use trove_write::write_sheet;
 
-use super::curate::share;
+use super::{Pictures, label_set, share};
 
 /// Pairs that the page shows.
 const SHOWN: usize = 24;
@@ -24,9 +25,9 @@ pub(crate) struct Recolor {
     /// Pictures in the colours that are wanted.
     #[arg(long, value_name = "IMAGES")]
     to: PathBuf,
-    /// Folder to write to: every picture under the path that it has below DIR.
+    /// Folder to write to, every picture under the path that it has below DIR; without it DIR-recolored beside DIR.
     #[arg(long)]
-    out: PathBuf,
+    out: Option<PathBuf>,
     /// What is moved: means and deviations of each picture or of the whole set, or histograms class by class.
     #[arg(long, value_enum, default_value = "set")]
     method: MethodName,
@@ -36,9 +37,12 @@ pub(crate) struct Recolor {
     /// How far: 0 is not at all, 1 is all the way.
     #[arg(long, default_value_t = 0.75, value_parser = share_f32)]
     strength: f32,
-    /// Labels of IMAGES, in the numbering of DIR's class.png, for histograms by class.
-    #[arg(long, value_name = "LABELS")]
+    /// Labels of IMAGES, named as they are, for histograms by class.
+    #[arg(long, value_name = "LABELS", required_if_eq("method", "classes"))]
     to_labels: Option<PathBuf>,
+    /// Numbering of LABELS; DIR's own classes are taken into it.
+    #[arg(long, default_value = "trove20", value_parser = label_set)]
+    to_classes: LabelSet,
     /// Prints a summary as JSON.
     #[arg(long)]
     json: bool,
@@ -59,12 +63,14 @@ enum SpaceName {
 
 impl Recolor {
     pub(crate) fn run(&self) -> Result<()> {
-        let absolute = |path: &PathBuf| std::path::absolute(path);
-        ensure!(
-            absolute(&self.out)? != absolute(&self.dir)?,
-            "--out: expected another folder than {}, so that its pictures are not lost",
-            self.dir.display()
-        );
+        let out = match &self.out {
+            Some(out) => out.clone(),
+            None => {
+                let whole = std::path::absolute(&self.dir)?;
+                let name = whole.file_name().context("DIR: expected a folder with a name; name another with --out")?;
+                whole.with_file_name(format!("{}-recolored", name.to_string_lossy()))
+            }
+        };
         let settings = Settings {
             method: match self.method {
                 MethodName::Picture => Method::PerPicture,
@@ -76,17 +82,19 @@ impl Recolor {
                 SpaceName::LAlphaBeta => Space::LAlphaBeta,
             },
             strength: self.strength,
-            target_labels: self.to_labels.clone(),
+            target_labels: self.to_labels.clone().map(|labels| (labels, self.to_classes.clone())),
         };
-        let done = recolor(&self.dir, &self.to, &self.out, &settings)?;
-        let page = self.out.join("before_after.png");
+        let progress = Pictures::default();
+        let done = recolor(&self.dir, &self.to, &out, &settings, &|done, total| progress.done(done, total))?;
+        let page = out.join("before_after.png");
         write_sheet(&page, &self.pairs(&done)?)?;
         let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
         let [before, target, after] = &done.statistics;
         if self.json {
             let printed = json!({
-                "out": self.out,
+                "out": out,
                 "pictures": done.pictures.len(),
+                "kept": done.kept,
                 "before": statistics(before),
                 "target": statistics(target),
                 "after": statistics(after),
@@ -95,7 +103,8 @@ impl Recolor {
             println!("{}", serde_json::to_string_pretty(&printed)?);
             return Ok(());
         }
-        println!("{} pictures recoloured; means and deviations of the three channels:", done.pictures.len());
+        let new = done.pictures.len() - done.kept;
+        println!("{} pictures, {new} of them new; means and deviations of the three channels:", done.pictures.len());
         for (name, s) in [("before", before), ("target", target), ("after", after)] {
             println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
         }

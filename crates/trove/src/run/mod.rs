@@ -372,6 +372,10 @@ impl Run<'_> {
     /// Writes what sums the run up.
     fn finish(self, identity: &Value) -> Result<Summary> {
         self.progress.finish();
+        let given: BTreeSet<&str> = self.rows.iter().filter_map(|row| row["path"].as_str()).collect();
+        for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
+            self.report.note(Outcome::Dropped, "frame that the recipe does not give", frame.clone());
+        }
         ensure!(!self.rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
         let root = self.output.root().to_owned();
         let sheet: Vec<contact_sheet::Frame> = self

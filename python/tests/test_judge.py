@@ -1,0 +1,260 @@
+"""`trove evaluate`, `trove recolor` and `trove curate`, as a user meets them."""
+
+import html.parser
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from test_command_line import recipe, trove  # noqa: F401: a fixture
+
+WIDTH, HEIGHT = 2048, 1024
+
+
+def save(path, array):
+    """Writes an array as PNG."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(array).save(path)
+    return path
+
+
+def evaluated(*args):
+    """What `trove evaluate` says of two folders."""
+    done = trove("evaluate", *args, "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def blobs(random, ids):
+    """Labels of Cityscapes' size: patches of random ids with ragged outlines."""
+    patches = np.kron(random.choice(ids, (16, 32)), np.ones((HEIGHT // 16, WIDTH // 32), np.uint8))
+    rows = np.arange(HEIGHT)[:, None] + random.integers(-9, 10, (HEIGHT, WIDTH))
+    columns = np.arange(WIDTH)[None] + random.integers(-9, 10, (HEIGHT, WIDTH))
+    return patches[rows.clip(0, HEIGHT - 1), columns.clip(0, WIDTH - 1)].astype(np.uint8)
+
+
+def cityscapes_pairs(folder, wrong_share=0.2):
+    """Folders of predictions and truths, with instances, in Cityscapes' names; all 34 ids are among them."""
+    random = np.random.default_rng(5)
+    sample = Path(os.environ.get("TROVE_TEST_DATA", "none")) / "cityscapes-sample/tests/data/pseudo_cityscapes_dataset/gtFine"
+    truths = {f"made_{i:06}_000019": blobs(random, np.arange(34)) for i in range(2)}
+    truths |= {path.name.split("_gtFine")[0]: np.array(Image.open(path)) for path in sample.glob("*_labelIds.png")}
+    for name, truth in truths.items():
+        predicted = np.where(random.random(truth.shape) < wrong_share, random.integers(0, 34, truth.shape), truth)
+        for side, ids in [("truth", truth), ("predicted", predicted.astype(np.uint8))]:
+            save(folder / side / f"{name}_gtFine_labelIds.png", ids)
+            # Every column of 256 pixels has its own object; a quarter of them are crowds.
+            column = np.arange(ids.shape[1])[None] // 256 + np.zeros(ids.shape, int)
+            objects = np.where((ids >= 24) & (column % 4 > 0), ids.astype(int) * 1000 + column, ids)
+            save(folder / side / f"{name}_gtFine_instanceIds.png", objects.astype(np.uint16))
+    return folder / "predicted", folder / "truth"
+
+
+def test_ious_are_those_of_cityscapes_scripts_to_the_last_digit(tmp_path):
+    theirs = pytest.importorskip("cityscapesscripts.evaluation.evalPixelLevelSemanticLabeling")
+    predicted, truth = cityscapes_pairs(tmp_path)
+    ours = evaluated(predicted, truth, "--classes", "cityscapes")
+    theirs.args.evalInstLevelScore = theirs.args.JSONOutput = False
+    theirs.args.quiet = True
+    pairs = [[str(path) for path in sorted(side.glob("*_labelIds.png"))] for side in (predicted, truth)]
+    expected = theirs.evaluateImgLists(*pairs, theirs.args)
+    assert ours["iou"] == {name: iou for name, iou in expected["classScores"].items() if not np.isnan(iou)}
+    assert ours["miou"] == expected["averageScoreClasses"]
+    ids = [label.id for label in theirs.labels if label.trainId not in (255, -1)]
+    assert [row[:-1] for row in ours["confusion"]["pixels"]] == np.array(expected["confMatrix"])[np.ix_(ids, ids)].tolist()
+
+
+def test_panoptic_quality_is_that_of_cityscapes_scripts(tmp_path):
+    theirs = pytest.importorskip("cityscapesscripts.evaluation.evalPanopticSemanticLabeling")
+    predicted, truth = cityscapes_pairs(tmp_path, wrong_share=0.05)
+    ours = evaluated(predicted, truth, "--classes", "cityscapes", "--panoptic")
+    categories = {label.id: {"isthing": label.hasInstances} for label in theirs.csLabels if not label.ignoreInEval}
+    sides = {}
+    for side in (predicted, truth):
+        sides[side] = []
+        for path in sorted(side.glob("*_instanceIds.png")):
+            objects = np.array(Image.open(path)).astype(int)
+            ids = np.where(objects >= 1000, objects // 1000, objects)
+            segments = np.where(np.isin(ids, list(categories)), objects, 0)
+            name = path.name.replace("_instanceIds", "_panoptic")
+            save(side / name, np.stack([segments % 256, segments // 256, segments * 0], -1).astype(np.uint8))
+            crowd = lambda s: int(s < 1000 and categories[s]["isthing"])  # noqa: E731
+            rows = [{"id": int(s), "category_id": int(s if s < 1000 else s // 1000), "iscrowd": crowd(s)} for s in np.unique(segments) if s]
+            areas = {row["id"]: int((segments == row["id"]).sum()) for row in rows}
+            sides[side].append({"image_id": name, "file_name": name, "segments_info": [row | {"area": areas[row["id"]]} for row in rows]})
+    stat = theirs.pq_compute_single_core(0, list(zip(sides[truth], sides[predicted])), str(truth), str(predicted), categories)
+    expected = theirs.average_pq(stat, categories)
+    assert ours["pq"] == pytest.approx(expected["All"]["pq"], rel=1e-12)
+    names = {label.id: label.name for label in theirs.csLabels}
+    for category, row in expected["per_class"].items():
+        assert {key: ours["panoptic"][names[category]][key] for key in row} == pytest.approx(row, rel=1e-12)
+
+
+def test_halves_that_are_moved_have_the_values_of_their_areas(tmp_path):
+    # Road to the left of an edge, sky to its right; the prediction's edge lies 256 pixels further right.
+    edge = np.arange(WIDTH)[None] + np.zeros((HEIGHT, 1), int)
+    for side, x in [("truth", 1024), ("predicted", 1280)]:
+        save(tmp_path / side / "aachen_000000_000019_gtFine_labelIds.png", np.where(edge < x, 7, 23).astype(np.uint8))
+    found = evaluated(tmp_path / "predicted", tmp_path / "truth", "--classes", "cityscapes", "--boundary")
+    assert found["iou"] == {"road": 1024 / 1280, "sky": 768 / 1024}
+    assert (found["miou"], found["accuracy"]) == ((1024 / 1280 + 768 / 1024) / 2, 1792 / 2048)
+    # 2 % of the diagonal are 46 pixels; a band is what lies within them of a half's outline.
+    band = 46
+    inner = HEIGHT - 2 * band
+    truth, predicted = (w * HEIGHT - (w - 2 * band) * inner for w in (1024, 1280))
+    both = 1024 * HEIGHT - (1024 - band) * inner
+    assert found["boundary_iou"]["road"] == both / (truth + predicted - both)
+
+
+def test_the_thirteen_classes_are_the_default_and_void_is_left_out(tmp_path):
+    truth = np.array([[0, 1, 1, 6], [6, 6, 12, 0]], np.uint8)
+    predicted = np.array([[5, 1, 6, 6], [6, 0, 12, 3]], np.uint8)
+    found = evaluated(save(tmp_path / "p.png", predicted), save(tmp_path / "t.png", truth))
+    assert found["iou"] == {"car": 1 / 2, "road": 2 / 4, "sky": 1.0}
+    assert found["miou"] == pytest.approx(2 / 3) and found["accuracy"] == 4 / 6
+
+
+@pytest.mark.parametrize(
+    ("spoil", "expected"),
+    [
+        (lambda p: shutil.rmtree(p), ["predicted", "check its name"]),
+        (lambda p: [file.unlink() for file in p.iterdir()], ["label pictures", "none"]),
+        (lambda p: (p / "a.png").rename(p / "b.png"), ["a prediction of", "a.png"]),
+        (lambda p: (p / "a.png").write_text("no picture"), ["a.png", "make the file again"]),
+        (lambda p: save(p / "a.png", np.zeros((3, 3), np.uint8)), ["4×2", "3×3"]),
+        (lambda p: save(p / "a.png", np.full((2, 4), 99, np.uint8)), ["99 at x 0, y 0", "--classes"]),
+        (lambda p: save(p / "a.png", np.zeros((2, 4), np.uint16)), ["16 bits", "8-bit"]),
+        (lambda p: save(p / "a.png", np.zeros((2, 4, 3), np.uint8)), ["Rgb", "rather than colours"]),
+    ],
+)
+def test_wrong_predictions_are_named_with_a_remedy(tmp_path, spoil, expected):
+    for side in ("predicted", "truth"):
+        save(tmp_path / side / "a.png", np.ones((2, 4), np.uint8))
+    spoil(tmp_path / "predicted")
+    done = trove("evaluate", tmp_path / "predicted", tmp_path / "truth")
+    assert done.returncode == 1 and "panicked" not in done.stderr, done.stderr
+    assert all(part in done.stderr for part in expected), done.stderr
+
+
+def photographs(folder, names, mean, deviation):
+    """Noise of some brightness and contrast."""
+    random = np.random.default_rng(len(names))
+    for name in names:
+        save(folder / name, random.normal(mean, deviation, (60, 80, 3)).clip(0, 255).astype(np.uint8))
+    return folder
+
+
+def test_recoloured_pictures_lie_under_the_same_paths_and_a_second_run_keeps_them(tmp_path):
+    source = photographs(tmp_path / "s", ["k0/ego.A/rgb.png", "k1/ego.A/rgb.png"], 90, 12)
+    target = photographs(tmp_path / "t", ["x.png", "y.jpg"], 150, 25)
+    first = json.loads(trove("recolor", source, "--to", target, "--strength", 1, "--json").stdout)
+    out = tmp_path / "s-recolored"
+    assert Path(first["out"]) == out and (first["pictures"], first["kept"]) == (2, 0)
+    assert sorted(path.relative_to(out).as_posix() for path in out.rglob("rgb.png")) == ["k0/ego.A/rgb.png", "k1/ego.A/rgb.png"]
+    assert first["after"]["mean"] == pytest.approx(first["target"]["mean"], abs=0.5)
+    assert first["after"]["deviation"] == pytest.approx(first["target"]["deviation"], abs=0.5)
+    assert Image.open(first["page"]).width > 800
+    again = json.loads(trove("recolor", source, "--to", target, "--strength", 1, "--json").stdout)
+    assert again | {"kept": 0} == first and again["kept"] == 2
+    other = trove("recolor", source, "--to", target, "--strength", 0.5)
+    assert other.returncode == 1 and "strength" in other.stderr and "another --out" in other.stderr
+
+
+@pytest.mark.parametrize(
+    ("args", "status", "expected"),
+    [
+        (["recolor", "empty", "--to", "t"], 1, ["empty", "PNG or JPEG pictures", "none"]),
+        (["recolor", "none", "--to", "t"], 1, ["none", "check its name"]),
+        (["recolor", "text", "--to", "t"], 1, ["a.png", "make the file again"]),
+        (["recolor", "t", "--to", "t", "--out", "t/within"], 1, ["outside", "another --out"]),
+        (["recolor", "t", "--to", "t", "--out", "text"], 1, ["other files", "another --out"]),
+        (["recolor", "t", "--to", "t", "--method", "classes"], 2, ["--to-labels"]),
+        (["recolor", "t", "--to", "t", "--method", "classes", "--to-labels", "t"], 1, ["class.png", "trove generate"]),
+        (["recolor", "t", "--to", "t", "--strength", "2"], 2, ["from 0 to 1"]),
+        (["curate", "empty"], 1, ["frames of trove generate", "none"]),
+        (["curate", "text"], 1, ["frames of trove generate", "none"]),
+        (["curate", "text/a.png"], 1, ["a.png", "check its name"]),
+        (["evaluate", "t", "t", "--classes", "pascal"], 2, ["expected one of trove13"]),
+    ],
+)
+def test_wrong_folders_are_named_with_a_remedy(tmp_path, args, status, expected):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "text").mkdir()
+    (tmp_path / "text" / "a.png").write_text("no picture")
+    photographs(tmp_path / "t", ["x.png"], 150, 25)
+    done = trove(*args, cwd=tmp_path)
+    assert done.returncode == status and "panicked" not in done.stderr, done.stderr
+    assert all(part in done.stderr for part in expected), done.stderr
+
+
+@pytest.fixture(scope="module")
+def labels(recipe):  # noqa: F811
+    """Labels alone of all frames, and what `trove curate` chose of them."""
+    dark = recipe.with_name("labels.toml")
+    dark.write_text(recipe.read_text() + "light = false\n")
+    out = recipe.with_name("labels")
+    done = trove("generate", dark, "--out", out)
+    assert done.returncode == 0, done.stderr
+    # At this size few classes cover enough of a picture; and both places are one.
+    done = trove("curate", out, "--count", 3, "--min-classes", 2, "--val-share", 0, "--json")
+    assert done.returncode == 0, done.stderr
+    return out, json.loads(done.stdout)
+
+
+def test_light_is_rendered_for_the_chosen_frames_alone(recipe, labels, tmp_path):  # noqa: F811
+    folder, found = labels
+    chosen = json.loads(Path(found["list"]).read_text())["train"]
+    assert found["frames"] > found["kept"] == len(chosen) == 3
+    out = tmp_path / "chosen"
+    for new in (3, 0):
+        done = trove("generate", recipe, "--out", out, "--frames", found["list"], "--json")
+        assert done.returncode == 0, done.stderr
+        assert (json.loads(done.stdout)["frames"], json.loads(done.stdout)["rendered"]) == (3, new)
+    assert sorted(path.parent.relative_to(out).as_posix() for path in out.rglob("rgb.png")) == sorted(chosen)
+    for frame in chosen:
+        assert (out / frame / "class.png").read_bytes() == (folder / frame / "class.png").read_bytes()
+        assert not (folder / frame / "rgb.png").exists()
+    # Once light is there the same command takes the pictures' looks into account.
+    assert trove("curate", out, "--count", 3, "--min-classes", 2).returncode == 0
+    strange = tmp_path / "strange.json"
+    strange.write_text(json.dumps({"train": ["scene-9999/v00/k000/ego.CAM_FRONT"], "val": []}))
+    done = trove("generate", recipe, "--out", tmp_path / "none", "--frames", strange)
+    assert done.returncode == 1 and "scene-9999" in done.stderr, done.stderr
+
+
+class Page(html.parser.HTMLParser):
+    """Counts elements and collects what they refer to."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.references = {}, []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags[tag] = self.tags.get(tag, 0) + 1
+        self.references += [value for name, value in attrs if name in ("src", "href", "srcset", "data", "poster")]
+
+
+def test_the_page_needs_nothing_else_and_shows_in_a_browser(labels, tmp_path):
+    _, found = labels
+    text = Path(found["page"]).read_text()
+    page = Page(text)
+    assert page.tags["figure"] == page.tags["img"] == found["kept"] and page.tags["svg"] >= 3
+    assert all(reference.startswith("data:image/jpeg;base64,") for reference in page.references)
+    assert "url(" not in text and "@import" not in text and "<script" not in text and "http" not in text
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        return
+    quiet = "--disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync".split()
+    picture = tmp_path / "page.png"
+    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", *quiet, f"--user-data-dir={tmp_path / 'user'}"]
+    command += ["--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={picture}", Path(found["page"]).as_uri()]
+    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    shown = np.array(Image.open(picture).convert("RGB")).reshape(-1, 3)
+    # The bars of sky and road are in their classes' colours.
+    for color in ([70, 130, 180], [128, 64, 128]):
+        assert (shown == color).all(axis=1).sum() > 200, color
