@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import trove
 from PIL import Image
-from test_command_line import recipe, trove  # noqa: F401: a fixture
 
 WIDTH, HEIGHT = 2048, 1024
 
@@ -192,12 +192,10 @@ def test_wrong_folders_are_named_with_a_remedy(tmp_path, args, status, expected)
 
 
 @pytest.fixture(scope="module")
-def labels(recipe):  # noqa: F811
+def labels(recipe):
     """Labels alone of all frames, and what `trove curate` chose of them."""
-    dark = recipe.with_name("labels.toml")
-    dark.write_text(recipe.read_text() + "light = false\n")
     out = recipe.with_name("labels")
-    done = trove("generate", dark, "--out", out)
+    done = trove("generate", recipe, "--labels-only", "--out", out)
     assert done.returncode == 0, done.stderr
     # At this size few classes cover enough of a picture; and both places are one.
     done = trove("curate", out, "--count", 3, "--min-classes", 2, "--val-share", 0, "--json")
@@ -205,7 +203,7 @@ def labels(recipe):  # noqa: F811
     return out, json.loads(done.stdout)
 
 
-def test_light_is_rendered_for_the_chosen_frames_alone(recipe, labels, tmp_path):  # noqa: F811
+def test_light_is_rendered_for_the_chosen_frames_alone(recipe, labels, tmp_path):
     folder, found = labels
     chosen = json.loads(Path(found["list"]).read_text())["train"]
     assert found["frames"] > found["kept"] == len(chosen) == 3
