@@ -116,15 +116,16 @@ fn dirt(kind: SurfaceKind) -> f32 {
     }
 }
 
-// Asphalt that has greyed over the years reflects 15 to 25 %, after its first year about 12 %.
-const WORN: Wear = Wear { binder: 0.205, stone: 0.3, stone_m: 0.014, worn: 0.6, cracks: 0.2, size_m: 6.0, seed: 2 };
-const NEW: Wear = Wear { binder: 0.115, stone: 0.185, worn: 0.2, cracks: 0.0, seed: 1, ..WORN };
+// Asphalt reflects 4 % when it is new, 12 % on average after five years, and hardly ever more than 16 % (Pomerantz,
+// Akbari et al. 2000).
+const WORN: Wear = Wear { binder: 0.105, stone: 0.17, stone_m: 0.014, worn: 0.6, cracks: 0.2, size_m: 6.0, seed: 2 };
+const NEW: Wear = Wear { binder: 0.055, stone: 0.11, worn: 0.2, cracks: 0.0, seed: 1, ..WORN };
 
 /// Roads, paths and land.
 fn ground_recipes() -> Vec<Recipe> {
     use SurfaceKind::*;
-    let walk = Wear { binder: 0.165, stone: 0.24, stone_m: 0.009, worn: 0.4, cracks: 0.3, size_m: 3.0, seed: 3 };
-    let pale = Wear { binder: 0.215, stone: 0.31, worn: 0.75, cracks: 0.35, size_m: 3.0, seed: 4, ..WORN };
+    let walk = Wear { binder: 0.11, stone: 0.17, stone_m: 0.009, worn: 0.4, cracks: 0.3, size_m: 3.0, seed: 3 };
+    let pale = Wear { binder: 0.13, stone: 0.21, worn: 0.75, cracks: 0.35, size_m: 3.0, seed: 4, ..WORN };
     let green = vec3(0.092, 0.138, 0.04);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![

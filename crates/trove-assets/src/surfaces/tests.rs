@@ -30,7 +30,7 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
     for surface in &surfaces {
         *count.entry(surface.kind).or_default() += 1;
         let range = match surface.kind {
-            SurfaceKind::Asphalt => 0.06..0.27,
+            SurfaceKind::Asphalt => 0.04..0.18,
             SurfaceKind::Thing => 0.015..0.97,
             SurfaceKind::MarkingWhite => 0.45..0.75,
             SurfaceKind::MarkingYellow => 0.15..0.45,

@@ -1,6 +1,6 @@
 //! From radiance to a picture: the sensor's faults, exposure, white balance and tone.
 //!
-//! The metering and the curve are those of a car's camera: it exposes for the road rather than for the sky, lets the
+//! The metering and the curve are those of a car's camera: it keeps the picture's mean brightness, lets the sky and the
 //! brightest things run softly into white, and colours fade on the way there.
 
 mod meter;
@@ -79,13 +79,24 @@ mod tests {
     }
 
     #[test]
-    fn neither_the_sky_nor_a_lamp_darkens_the_road() {
-        let mut street = grey(0.1);
-        let (_, plain_ev) = develop(&street, &auto());
-        street.data[..60 * 10].fill([40.0; 3]);
-        street.data[60 * 20..60 * 20 + 30].fill([1e4; 3]);
-        let (_, ev) = develop(&street, &auto());
-        assert!((ev - plain_ev).abs() < 0.05, "{ev} {plain_ev}");
+    fn a_picture_has_the_mean_of_a_cameras_however_bright_its_sky_is() {
+        for sky in [0.05, 0.4, 40.0] {
+            let mut street = grey(0.1);
+            street.data[..60 * 10].fill([sky; 3]);
+            let (picture, ev) = develop(&street, &auto());
+            let mean = picture.data.iter().map(|rgb| f64::from(rgb[1])).sum::<f64>() / picture.data.len() as f64;
+            assert!((mean / 255.0 - 0.42).abs() < 0.01, "{mean} at {ev}");
+        }
+    }
+
+    #[test]
+    fn nothing_brighter_than_white_darkens_the_road_any_more() {
+        let ev = |lamp: f32| {
+            let mut street = grey(0.1);
+            street.data[..60].fill([lamp; 3]);
+            develop(&street, &auto()).1
+        };
+        assert!((ev(1e4) - ev(10.0)).abs() < 1e-6 && ev(1e4) < ev(0.1));
     }
 
     #[test]

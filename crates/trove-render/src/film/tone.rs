@@ -15,7 +15,12 @@ const FADE: f32 = 0.15;
 /// 8-bit sRGB of an exposed colour.
 pub(super) fn srgb(exposed: [f32; 3]) -> [u8; 3] {
     let faded = FADE * luminance(exposed);
-    exposed.map(|c| (encoded(held_back((1.0 - FADE) * c + faded)) * 255.0 + 0.5) as u8)
+    exposed.map(|c| (shown((1.0 - FADE) * c + faded) * 255.0 + 0.5) as u8)
+}
+
+/// Encoded brightness of an exposed one, 0 to 1 for white.
+pub(super) fn shown(exposed: f32) -> f32 {
+    encoded(held_back(exposed)).min(1.0)
 }
 
 /// Bright light brought below 1, which it reaches at [`WHITE`]; the dark stays as it is (Reinhard et al. 2002, eq. 4).

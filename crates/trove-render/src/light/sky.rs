@@ -180,4 +180,41 @@ mod tests {
         assert!(((sun + sky) / std::f32::consts::PI - 1.0).abs() < 0.05, "sun {sun}, sky {sky}");
         assert!((sky / (sun + sky) - 0.17).abs() < 0.02, "sun {sun}, sky {sky}");
     }
+
+    /// Kilolux in a unit of irradiance: 127.5 klx arrive above the atmosphere.
+    const KLX: f32 = 127.5 / SUN_OUTSIDE;
+
+    #[test]
+    fn sun_and_sky_give_the_light_of_published_clear_days() {
+        // IES 1984, Recommended practice for the calculation of daylight availability: sun 127.5 exp(−0.21 / sin h) klx,
+        // clear sky 0.8 + 15.5 √sin h klx; means of many places.
+        for elevation_deg in [10.0, 15.0, 25.0, 40.0, 60.0, 75.0] {
+            let sky = bake_sky(&clear(elevation_deg));
+            let sin = (elevation_deg.to_radians().sin()) as f32;
+            let (normal, diffuse) = (luminance(sky.sun_irradiance) * KLX, light(&sky).1 * KLX);
+            let (ies_normal, ies_diffuse) = (127.5 * (-0.21 / sin).exp(), 0.8 + 15.5 * sin.sqrt());
+            assert!((normal / ies_normal - 1.0).abs() < 0.1, "sun {elevation_deg}°: {normal} klx, not {ies_normal}");
+            assert!(
+                (0.9..1.35).contains(&(diffuse / ies_diffuse)),
+                "sky {elevation_deg}°: {diffuse}, not {ies_diffuse}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_clear_sky_is_as_bright_as_measured_and_brighter_than_the_road_at_its_horizon() {
+        // Zenith luminance (1.376 T − 1.81) tan h + 0.38 kcd/m² (Karayel et al. 1984, San Francisco).
+        for elevation_deg in [25.0f64, 40.0, 60.0] {
+            let (sky, air) = (clear(elevation_deg), Air::new(&clear(elevation_deg)));
+            let kcd = |direction: Vec3| luminance(air.radiance(direction)) * KLX;
+            let measured = (1.376 * sky.turbidity - 1.81) * elevation_deg.to_radians().tan() + 0.38;
+            let ratio = f64::from(kcd(Vec3::Z)) / measured;
+            assert!((0.7..1.5).contains(&ratio), "zenith {elevation_deg}°: {ratio} of {measured}");
+            let (sun, diffuse) = light(&bake_sky(&sky));
+            // The sun stands in the south.
+            let north = kcd(Vec3::new(0.0, 1.0, 0.17).normalize());
+            let asphalt = 0.12 * (sun + diffuse) / PI * KLX;
+            assert!((6.0..15.0).contains(&north) && north > 1.5 * asphalt, "{north} kcd/m² over {asphalt}");
+        }
+    }
 }

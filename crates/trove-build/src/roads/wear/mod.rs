@@ -174,7 +174,7 @@ impl Surfacing<'_> {
     /// Tints a surface by its own tone, what the country's roads reflect, and some variation from place to place.
     fn tint(&self, mesh: &mut Mesh, look: Look, tone: Tone, own: impl Fn(DVec2) -> f64) {
         let country = match look {
-            Look::Aged | Look::Fresh => self.customs.road_tone,
+            Look::Aged | Look::Fresh => self.customs.road_tone * self.quarry(),
             // Roads are cast in paler concrete than yards.
             Look::Concrete => 1.12,
             _ => 1.0,
@@ -185,6 +185,11 @@ impl Surfacing<'_> {
             Vec3::splat((country * varied * own(p)) as f32)
         };
         mesh.tints = mesh.positions.iter().map(at).collect();
+    }
+
+    /// What a place's stones make of its asphalt: a factor of 0.7 to 1.4, mostly near 1.
+    fn quarry(&self) -> f64 {
+        (0.17 * self.seed.child("quarry").random().normal()).clamp(-0.35, 0.35).exp()
     }
 
     fn painted(&self, tone: Tone) -> Vec<Piece> {
