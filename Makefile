@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -57,7 +57,7 @@ lint:
 	if command -v cargo-deny >/dev/null; then cargo deny check; fi
 
 # Benchmarks on the real data in TROVE_TEST_DATA; see benches/README.md.
-bench-build bench-frame bench-memory bench-city: bench-%: install
+bench-build bench-frame bench-frames bench-memory bench-city: bench-%: install
 	$(BIN)/python benches/bench.py $*
 
 # Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.

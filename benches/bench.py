@@ -1,12 +1,14 @@
 """Measures the installed program on real data (the folder in TROVE_TEST_DATA).
 
 `bench.py build` times the building of scene-0103, `bench.py frame` CAM_FRONT at 1600×900 with all labels at 64 spp,
-denoised, of both scenes, and `bench.py memory` the peak memory over 100 frames. `bench.py city` makes up a city of 20,000
+denoised, of both scenes, `bench.py frames` 48 small frames for training a scene, and `bench.py memory` the peak memory over
+100 frames. `bench.py city` makes up a city of 20,000
 buildings and measures how it is read and built; it needs no data.
 """
 
 import json
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -81,6 +83,26 @@ def frame(folder):
         )
 
 
+def frames(folder):
+    """Rate of small frames for training, denoised, with picture, classes, instances and objects, over whole runs."""
+    render = 'size = [480, 360]\nspp = 4\ndenoise = "fast"\n[output]\nfiles = ["rgb", "class", "instance"]'
+    for scene in PLACES:
+        path = recipe(folder, scene, "{ every = 5 }", "all", render)
+        command = [sys.executable, "-m", "trove", "generate", path, "--out", folder / scene]
+        used, started, first = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic(), None
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+            for line in run.stderr:
+                if first is None and line.startswith(f"{scene}/"):
+                    first = time.monotonic()
+        ended, now = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+        count = sum(1 for _ in (folder / scene).glob("*/*/*/*/frame.json"))
+        cores_s = now.ru_utime + now.ru_stime - used.ru_utime - used.ru_stime
+        print(
+            f"{scene}: {count} frames of 480×360, {count / (ended - first):.2f} a second from the first one on, "
+            f"{count / (ended - started):.2f} with the start; {cores_s / count:.2f} s of a core each"
+        )
+
+
 def memory(folder):
     """Peak memory after 10 frames and after all of more than 100."""
     path = recipe(folder, "scene-0103", "{ every = 2 }", "all", "scale = 0.25\nspp = 4")
@@ -118,4 +140,4 @@ def large(folder):
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
-        {"build": build, "frame": frame, "memory": memory, "city": large}[sys.argv[1]](Path(temporary))
+        {"build": build, "frame": frame, "frames": frames, "memory": memory, "city": large}[sys.argv[1]](Path(temporary))

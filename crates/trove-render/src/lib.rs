@@ -19,6 +19,7 @@ mod shared_library;
 mod texture;
 
 pub use accel::KernelChoice;
+pub use denoise::Denoising;
 pub use error::RenderError;
 pub use light::{BakedSky, SUN_RADIUS_RAD, bake_sky};
 pub use path::{RaySeconds, RayTimes};

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use trove_model::{Capture, CaptureStats, Color, Scene, Shot};
 
 use crate::accel::{Kernel, KernelChoice};
-use crate::denoise::Denoiser;
+use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
 use crate::{PreparedScene, RayTimes, RenderError, film, labels, path};
@@ -16,8 +16,8 @@ use crate::{PreparedScene, RayTimes, RenderError, film, labels, path};
 pub struct RendererOptions {
     /// Which ray-tracing kernel.
     pub kernel: KernelChoice,
-    /// Whether pictures are denoised where a denoiser is installed.
-    pub denoise: bool,
+    /// How pictures are denoised where a denoiser is installed.
+    pub denoise: Denoising,
     /// Threads; 0 is one for every core.
     pub threads: usize,
     /// Files, or folders with them, in which Embree and Open Image Denoise are looked for before the system's folders.
@@ -53,10 +53,9 @@ impl Renderer {
             .build()
             .map_err(|source| RenderError::Threads { threads: options.threads, source })?;
         let kernel = Kernel::new(options.kernel, &options.search)?;
-        let denoiser = if options.denoise {
-            Denoiser::load(&options.search, pool.current_num_threads()).map_err(|problem| problem.to_string())
-        } else {
-            Err("not asked for".into())
+        let denoiser = match options.denoise {
+            Denoising::None => Err("not asked for".into()),
+            how => Denoiser::load(&options.search, pool.current_num_threads(), how).map_err(|e| e.to_string()),
         };
         Ok(Self { kernel, denoiser, textures: Textures::default(), surroundings: LastSurroundings::default(), pool })
     }

@@ -9,7 +9,7 @@ use trove_model::{
     Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Labels, Lens,
     Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
 };
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
 const LENS: Lens = Lens {
     width_px: 80,
@@ -334,13 +334,14 @@ fn by_all_kernels(scene: &Scene, shot: &Shot) -> Vec<Labels> {
 /// `None` where there is no such kernel.
 fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Option<Labels> {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    let renderer = Renderer::new(&RendererOptions { kernel, denoise: false, threads, search }).ok()?;
+    let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).ok()?;
     let prepared = renderer.prepare(scene).unwrap();
     Some(renderer.render(&prepared, shot, false, &|_| false).unwrap().labels)
 }
 
 fn colour(scene: &Scene, shot: &Shot) -> Raster<[f32; 3]> {
-    let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: false, threads: 2, search: Vec::new() };
+    let options =
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
     let renderer = Renderer::new(&options).unwrap();
     let prepared = renderer.prepare(scene).unwrap();
     renderer.render(&prepared, shot, true, &|_| false).unwrap().color.unwrap().radiance

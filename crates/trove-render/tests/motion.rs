@@ -9,7 +9,7 @@ use trove_model::{
     Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose, Scene,
     Seed, Shot, Shutter,
 };
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
 const LENS: Lens = Lens {
     width_px: 80,
@@ -180,7 +180,7 @@ fn kernels() -> Vec<KernelChoice> {
 
 fn options(kernel: KernelChoice, threads: usize) -> RendererOptions {
     let search = std::env::var_os("TROVE_EMBREE").into_iter().map(Into::into).collect();
-    RendererOptions { kernel, denoise: false, threads, search }
+    RendererOptions { kernel, denoise: Denoising::None, threads, search }
 }
 
 fn renderer(kernel: KernelChoice, threads: usize) -> Renderer {

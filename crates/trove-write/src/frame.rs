@@ -1,8 +1,10 @@
 //! One frame's folder.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::{fs, io};
 
+use serde::{Deserialize, Serialize};
 use trove_model::{Capture, Color, Ego, InstanceId, Labels, MapProjection, Pose, Scene, Shot, World};
 
 use crate::files::FolderInTheMaking;
@@ -36,77 +38,109 @@ pub struct FrameMeta {
     pub projection: MapProjection,
 }
 
-/// What a frame's folder holds beside its labels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pictures {
-    /// Nothing.
-    None,
-    /// The picture.
-    Developed,
-    /// The picture and the radiance that it was made from.
-    WithRadiance,
+/// A picture of a frame's folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // docs/output.md says what they hold
+pub enum FrameFile {
+    Radiance,
+    Rgb,
+    Class,
+    Instance,
+    Depth,
+    Normal,
+    FlowForward,
+    FlowBackward,
 }
 
-/// What a frame's folder can hold.
-const FILES: [&str; 9] = [
-    "radiance.exr",
-    "rgb.png",
-    "class.png",
-    "instance.png",
-    "depth.exr",
-    "normal.exr",
-    "flow_forward.exr",
-    "flow_backward.exr",
-    "frame.json",
-];
+/// Camera and objects, which every frame's folder has.
+const TABLE: &str = "frame.json";
 
-/// Names of the files in a finished frame's folder.
-pub fn frame_files(pictures: Pictures) -> &'static [&'static str] {
-    match pictures {
-        Pictures::WithRadiance => &FILES,
-        Pictures::Developed => &FILES[1..],
-        Pictures::None => &FILES[2..],
+impl FrameFile {
+    /// All that there are.
+    pub const ALL: [Self; 8] = [
+        Self::Radiance,
+        Self::Rgb,
+        Self::Class,
+        Self::Instance,
+        Self::Depth,
+        Self::Normal,
+        Self::FlowForward,
+        Self::FlowBackward,
+    ];
+
+    /// The file's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Radiance => "radiance.exr",
+            Self::Rgb => "rgb.png",
+            Self::Class => "class.png",
+            Self::Instance => "instance.png",
+            Self::Depth => "depth.exr",
+            Self::Normal => "normal.exr",
+            Self::FlowForward => "flow_forward.exr",
+            Self::FlowBackward => "flow_backward.exr",
+        }
     }
+
+    /// Whether light has to be followed for it.
+    pub fn shows_light(self) -> bool {
+        matches!(self, Self::Radiance | Self::Rgb)
+    }
+}
+
+/// Names of the files in a finished frame's folder that holds these pictures.
+pub fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
+    pictures.iter().map(|file| file.name()).chain([TABLE]).collect()
 }
 
 /// Writes a frame's folder whole: under a hidden name beside it first, then renamed, so that `dir` is never there in
 /// part. What an interrupted run left under the hidden name, and a `dir` without all its files, is replaced; a finished
-/// frame is not. A capture without a picture is written without `pictures`.
+/// frame is not. `pictures` are those that are wanted; a capture without light has none that show it.
 pub fn write_frame(
     dir: &Path,
     scene: &Scene,
     shot: &Shot,
     capture: &Capture,
     meta: &FrameMeta,
-    pictures: Pictures,
+    pictures: &BTreeSet<FrameFile>,
 ) -> Result<Vec<WrittenFile>, WriteError> {
-    let (labels, width, height) = (&capture.labels, shot.lens.width_px, shot.lens.height_px);
-    check_sizes(capture, width, height)?;
+    check_sizes(capture, shot.lens.width_px, shot.lens.height_px)?;
     let table = frame_table(scene, shot, capture, meta)?;
-    let instances = narrowed(labels)?;
-    let color = capture.color.as_ref().filter(|_| pictures != Pictures::None);
-    clear_unfinished(dir, frame_files(if color.is_some() { pictures } else { Pictures::None }))?;
+    narrowed(&capture.labels)?;
+    let there = |file: &FrameFile| capture.color.is_some() || !file.shows_light();
+    let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
+    clear_unfinished(dir, &frame_files(&pictures))?;
 
     let mut folder = FolderInTheMaking::start(dir)?;
-    if let Some(color) = color {
-        if pictures == Pictures::WithRadiance {
-            folder.add("radiance.exr", &exr_file::encode("radiance.exr", &color.radiance, ["R", "G", "B"])?)?;
-        }
-        let worn = match shot.film.sensor.and_then(|sensor| sensor.jpeg_quality) {
-            Some(quality) => &jpeg::worn("rgb.png", width, height, &color.srgb.data, quality)?,
-            None => &color.srgb.data,
-        };
-        folder.add("rgb.png", &png_file::rgb("rgb.png", width, height, worn)?)?;
+    for file in pictures {
+        folder.add(file.name(), &encode(file, shot, capture)?)?;
     }
-    folder.add("class.png", &png_file::grey("class.png", width, height, &labels.class.data)?)?;
-    folder.add("instance.png", &png_file::grey16("instance.png", width, height, &instances)?)?;
-    folder.add("depth.exr", &exr_file::encode_scalar("depth.exr", &labels.depth_m)?)?;
-    folder.add("normal.exr", &exr_file::encode("normal.exr", &labels.normal, ["R", "G", "B"])?)?;
-    for (name, flow) in [("flow_forward.exr", &labels.flow_forward), ("flow_backward.exr", &labels.flow_backward)] {
-        folder.add(name, &exr_file::encode(name, flow, ["R", "G"])?)?;
-    }
-    folder.add("frame.json", &table)?;
+    folder.add(TABLE, &table)?;
     folder.finish()
+}
+
+/// A picture's bytes.
+fn encode(file: FrameFile, shot: &Shot, capture: &Capture) -> Result<Vec<u8>, WriteError> {
+    let (name, width, height) = (file.name(), shot.lens.width_px, shot.lens.height_px);
+    let labels = &capture.labels;
+    let color = || capture.color.as_ref().ok_or_else(|| WriteError::Mismatch(format!("{name} without light")));
+    match file {
+        FrameFile::Radiance => exr_file::encode(name, &color()?.radiance, ["R", "G", "B"]),
+        FrameFile::Rgb => {
+            let srgb = &color()?.srgb.data;
+            match shot.film.sensor.and_then(|sensor| sensor.jpeg_quality) {
+                Some(quality) => png_file::rgb(name, width, height, &jpeg::worn(name, width, height, srgb, quality)?),
+                None => png_file::rgb(name, width, height, srgb),
+            }
+        }
+        FrameFile::Class => png_file::grey(name, width, height, &labels.class.data),
+        FrameFile::Instance => png_file::grey16(name, width, height, &narrowed(labels)?),
+        FrameFile::Depth => exr_file::encode_scalar(name, &labels.depth_m),
+        FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),
+        FrameFile::FlowForward => exr_file::encode(name, &labels.flow_forward, ["R", "G"]),
+        FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
+    }
 }
 
 /// Every picture has the shot's size.
@@ -149,7 +183,7 @@ fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
     let mut present = Vec::new();
     for entry in entries {
         let name = entry.map_err(WriteError::storage(dir, "look into the folder"))?.file_name();
-        match FILES.iter().find(|file| name == **file) {
+        match FrameFile::ALL.map(FrameFile::name).into_iter().chain([TABLE]).find(|file| name == *file) {
             Some(file) => present.push(file),
             None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
         }

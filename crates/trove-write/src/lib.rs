@@ -18,6 +18,6 @@ mod sheet;
 
 pub use error::WriteError;
 pub use files::{WrittenFile, sha256_file, write_atomically};
-pub use frame::{FrameMeta, Pictures, frame_files, write_frame};
+pub use frame::{FrameFile, FrameMeta, frame_files, write_frame};
 pub use picture::write_picture;
 pub use sheet::write_sheet;

@@ -85,8 +85,20 @@ fn a_damaged_frame_is_named() {
     fs::write(damaged.dir.join("class.png"), b"no picture").unwrap();
     let error = write(&path, std::slice::from_ref(&damaged)).unwrap_err();
     assert!(matches!(error, WriteError::Damaged { .. }) && error.to_string().contains("class.png"), "{error}");
-    fs::remove_file(damaged.dir.join("class.png")).unwrap();
-    let error = write(&path, &[damaged]).unwrap_err();
-    assert!(error.to_string().contains("class.png"), "{error}");
     assert!(!path.exists());
+}
+
+#[test]
+fn a_frame_shows_what_it_has() {
+    let root = tempfile::tempdir().unwrap();
+    let few = frame(root.path(), "a", 9, Some([200, 100, 50]));
+    for name in ["depth.exr", "instance.png", "normal.exr"] {
+        fs::remove_file(few.dir.join(name)).unwrap();
+    }
+    let picture = image::load_from_memory(&sheet(root.path(), &[few])).unwrap().into_rgb8();
+    let tile = |i: u32| picture.get_pixel(6 + i * 322 + 160, 6 + 14 + 80).0;
+    assert_eq!((tile(0), tile(1)[1]), ([200, 100, 50], (128 + 118) / 3));
+    let without = frame(root.path(), "b", 9, None);
+    fs::read_dir(&without.dir).unwrap().for_each(|file| fs::remove_file(file.unwrap().path()).unwrap());
+    assert!(!sheet(root.path(), &[without]).is_empty());
 }

@@ -10,7 +10,7 @@ use trove_model::{
     Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels, Lens,
     Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
-use trove_write::{FrameMeta, Pictures, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
+use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, sha256_file, write_atomically, write_frame};
 
 const W: u32 = 48;
 const H: u32 = 20;
@@ -113,7 +113,7 @@ fn meta() -> FrameMeta {
 }
 
 fn write(dir: &Path, capture: &Capture) -> Result<Vec<WrittenFile>, WriteError> {
-    write_frame(dir, &scene(), &shot(), capture, &meta(), Pictures::WithRadiance)
+    write_frame(dir, &scene(), &shot(), capture, &meta(), &FrameFile::ALL.into())
 }
 
 fn names(dir: &Path) -> Vec<String> {
@@ -202,6 +202,20 @@ fn labels_alone_leave_no_picture() {
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
     assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
     assert_eq!(names(&dir).len(), 7);
+}
+
+#[test]
+fn only_what_is_wanted_is_written() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("frame");
+    let wanted = [FrameFile::Class, FrameFile::Rgb].into();
+    for _ in 0..2 {
+        write_frame(&dir, &scene(), &shot(), &capture(), &meta(), &wanted).unwrap();
+        assert_eq!(names(&dir), ["class.png", "frame.json", "rgb.png"]);
+        // What is whole stays; without the table it is not.
+        assert!(write_frame(&dir, &scene(), &shot(), &capture(), &meta(), &wanted).is_err());
+        fs::remove_file(dir.join("frame.json")).unwrap();
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use trove_build::{BuildSettings, LightChoice, OnDisagreement, PictureSize, SkyChoice, ViewSettings, Weather};
 use trove_model::{Report, Seed};
 use trove_read::{nuscenes::NuScenes, osm};
-use trove_render::{KernelChoice, RaySeconds, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, RaySeconds, Renderer, RendererOptions};
 
 fn main() -> Result<()> {
     let data = PathBuf::from(std::env::var_os("TROVE_TEST_DATA").context("TROVE_TEST_DATA: expected a folder")?);
@@ -17,7 +17,7 @@ fn main() -> Result<()> {
     let dataset = NuScenes::open(&data.join("nuscenes"), "v1.0-mini", None, &report)?;
     let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
     let renderer =
-        Renderer::new(&RendererOptions { kernel: KernelChoice::Embree, denoise: false, threads: 1, search })?;
+        Renderer::new(&RendererOptions { kernel: KernelChoice::Embree, denoise: Denoising::None, threads: 1, search })?;
     let library = trove_assets::library(&trove_assets::Ingredients::default());
     for (name, place) in [("scene-0103", "boston-seaport.osm"), ("scene-0061", "singapore-onenorth.osm")] {
         let drive = dataset.drive(name, &report)?;

@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::Args;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{Camera, Distortion, Lens, Pose, Scene, Seed, Shot, World};
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 use trove_write::write_picture;
 
 /// Side of the picture, pixels.
@@ -59,7 +59,8 @@ fn shot(middle: DVec2, size_m: f64) -> Shot {
 }
 
 fn take(scene: &Scene, shot: &Shot, path: &Path, search: Vec<PathBuf>) -> Result<()> {
-    let renderer = Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
+    let renderer =
+        Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: Denoising::Best, threads: 0, search })?;
     let prepared = renderer.prepare(scene)?;
     let capture = renderer.render(&prepared, shot, true, &|_| false);
     if let Some(color) = capture.and_then(|capture| capture.color) {

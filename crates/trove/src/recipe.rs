@@ -3,6 +3,7 @@
 mod camera;
 mod light;
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,8 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
 use trove_model::Season;
-use trove_write::Pictures;
+use trove_render::Denoising;
+use trove_write::FrameFile;
 
 pub use camera::CameraSection;
 pub use light::LightSection;
@@ -47,6 +49,9 @@ pub struct Recipe {
     /// Pictures.
     #[serde(default)]
     pub render: RenderSection,
+    /// What is written.
+    #[serde(default)]
+    pub output: OutputSection,
     /// How many scenes a keyframe becomes.
     #[serde(default)]
     pub variations: VariationsSection,
@@ -271,7 +276,7 @@ pub struct RenderSection {
     /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
     pub noise: f32,
     /// Whether noise is removed.
-    pub denoise: bool,
+    pub denoise: Denoise,
     /// False: labels only.
     pub light: bool,
     /// Whether the linear radiance behind a picture is written too.
@@ -279,6 +284,32 @@ pub struct RenderSection {
     /// 0: all. It is not kept in the manifest, for it changes nothing.
     #[serde(skip_serializing)]
     pub threads: usize,
+}
+
+/// `true`, `false` or `"fast"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum Denoise {
+    /// As well as it goes, or not at all.
+    Switched(bool),
+    /// `"fast"`
+    Quickly(Quickly),
+}
+
+/// The word `"fast"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quickly {
+    /// For many small pictures.
+    Fast,
+}
+
+/// `[output]`
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OutputSection {
+    /// The pictures in a frame's folder; `None`: all but the radiance, which `render.radiance` adds.
+    pub files: Option<BTreeSet<FrameFile>>,
 }
 
 /// `[variations]`
@@ -310,7 +341,16 @@ impl Default for WeatherSection {
 
 impl Default for RenderSection {
     fn default() -> Self {
-        Self { scale: None, size: None, spp: 64, noise: 0.0, denoise: true, light: true, radiance: false, threads: 0 }
+        Self {
+            scale: None,
+            size: None,
+            spp: 64,
+            noise: 0.0,
+            denoise: Denoise::Switched(true),
+            light: true,
+            radiance: false,
+            threads: 0,
+        }
     }
 }
 
@@ -402,6 +442,11 @@ impl Recipe {
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
+        let files = self.output.files.iter().flatten();
+        ensure!(
+            render.light || files.clone().all(|file| !file.shows_light()),
+            "output.files: without light there is no rgb and no radiance; remove them or render.light = false"
+        );
         self.camera.check()?;
         self.light.check()?;
         for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
@@ -432,12 +477,29 @@ impl Recipe {
         }
     }
 
-    /// What a frame holds beside its labels.
-    pub fn pictures(&self) -> Pictures {
-        match (self.render.light, self.render.radiance) {
-            (false, _) => Pictures::None,
-            (true, false) => Pictures::Developed,
-            (true, true) => Pictures::WithRadiance,
+    /// The pictures in a frame's folder.
+    pub fn pictures(&self) -> BTreeSet<FrameFile> {
+        let all = || FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Radiance).collect();
+        let mut files = self.output.files.clone().unwrap_or_else(all);
+        if self.render.radiance {
+            files.insert(FrameFile::Radiance);
+        }
+        files.retain(|file| self.render.light || !file.shows_light());
+        files
+    }
+
+    /// Whether there is a picture that shows light.
+    pub fn follows_light(&self) -> bool {
+        self.pictures().iter().any(|file| file.shows_light())
+    }
+
+    /// How noise is removed.
+    pub fn denoising(&self) -> Denoising {
+        match self.render.denoise {
+            _ if !self.follows_light() => Denoising::None,
+            Denoise::Switched(false) => Denoising::None,
+            Denoise::Switched(true) => Denoising::Best,
+            Denoise::Quickly(Quickly::Fast) => Denoising::Fast,
         }
     }
 
@@ -542,6 +604,20 @@ mod tests {
     }
 
     #[test]
+    fn only_the_light_that_is_shown_is_followed_and_cleaned() {
+        let recipe = |text: &str| Recipe::parse(&format!("{DRIVE}{text}")).unwrap();
+        let plain = recipe("");
+        assert_eq!((plain.pictures().len(), plain.follows_light(), plain.denoising()), (7, true, Denoising::Best));
+        let labels = recipe("[output]\nfiles = [\"class\", \"instance\"]\n");
+        assert_eq!(labels.pictures(), [FrameFile::Class, FrameFile::Instance].into());
+        assert_eq!((labels.follows_light(), labels.denoising()), (false, Denoising::None));
+        let radiance = recipe("[render]\nradiance = true\ndenoise = \"fast\"\n[output]\nfiles = []\n");
+        assert_eq!((radiance.pictures(), radiance.denoising()), ([FrameFile::Radiance].into(), Denoising::Fast));
+        assert_eq!(recipe("[render]\nlight = false\n").pictures().len(), 6);
+        assert_eq!(recipe("[render]\ndenoise = false\n").denoising(), Denoising::None);
+    }
+
+    #[test]
     fn a_value_out_of_range_says_what_was_expected() {
         for (text, expect) in [
             ("[render]\nscale = 0\n", "render.scale: expected more than 0"),
@@ -549,6 +625,8 @@ mod tests {
             ("[render]\nsize = [0, 360]\n", "render.size: expected two numbers of 1 to 16384, found [0, 360]"),
             ("[render]\nspp = 0\n", "render.spp: expected 1 to 65536, found 0"),
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
+            ("[render]\nlight = false\n[output]\nfiles = [\"rgb\"]\n", "output.files"),
+            ("[output]\nfiles = [\"rbg\"]\n", "rbg"),
             ("[variations]\ncount = 0\n", "variations.count"),
             ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
         ] {

@@ -12,6 +12,18 @@ use trove_model::Raster;
 use crate::RenderError;
 use api::{Api, Handle};
 
+/// Whether noise is removed, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Denoising {
+    /// It stays.
+    #[default]
+    None,
+    /// In a quarter of the best's time, since guides keep their noise: for many small pictures.
+    Fast,
+    /// As well as it goes.
+    Best,
+}
+
 /// Open Image Denoise on the processor.
 pub(crate) struct Denoiser {
     /// The library runs one filter a device at a time; a lock says so here.
@@ -22,6 +34,7 @@ pub(crate) struct Denoiser {
 struct Device {
     api: Api,
     handle: Handle,
+    how: Denoising,
     /// For albedo, normal and colour; made when first used and kept, since making one takes longer than a small picture.
     filters: [Option<Handle>; 3],
 }
@@ -35,12 +48,12 @@ enum Cleans {
 }
 
 impl Cleans {
-    /// The best of the library's three qualities for the picture, whose fine texture shows it; guides are no better for
-    /// it, and take twice as long.
-    fn quality(self) -> c_int {
+    /// One of the library's three qualities. The best is for the picture, whose fine texture shows it; guides are no better
+    /// for it, and take twice as long.
+    fn quality(self, how: Denoising) -> c_int {
         match self {
-            Self::Color => api::QUALITY_HIGH,
-            Self::Albedo | Self::Normal => api::QUALITY_BALANCED,
+            Self::Color if how == Denoising::Best => api::QUALITY_HIGH,
+            _ => api::QUALITY_BALANCED,
         }
     }
 }
@@ -60,7 +73,7 @@ impl Drop for Device {
 
 impl Denoiser {
     /// Loads the library; `search` are folders or files in which to look for it.
-    pub(crate) fn load(search: &[PathBuf], threads: usize) -> Result<Self, RenderError> {
+    pub(crate) fn load(search: &[PathBuf], threads: usize, how: Denoising) -> Result<Self, RenderError> {
         let refuse = |problem: String| RenderError::Library {
             library: "Open Image Denoise 2",
             problem,
@@ -73,7 +86,7 @@ impl Denoiser {
             let problem = api.error(ptr::null_mut()).err();
             return Err(refuse(problem.unwrap_or_else(|| "it has no device for this processor".into())));
         }
-        let device = Device { api, handle, filters: [None; 3] };
+        let device = Device { api, handle, how, filters: [None; 3] };
         let threads = c_int::try_from(threads).unwrap_or(c_int::MAX);
         // SAFETY: the device is alive, and the names are those of its parameters. Threads stay where the system puts
         // them, because others render beside this one.
@@ -106,8 +119,11 @@ impl Denoiser {
         normal: &Raster<[f32; 3]>,
     ) -> Option<Raster<[f32; 3]>> {
         let mut device = self.device.lock().unwrap_or_else(PoisonError::into_inner);
-        // Guides carry noise of their own (cut-outs, edges, glass): cleaned first, they may be trusted to the pixel.
         let mut clean = || {
+            if device.how != Denoising::Best {
+                return device.run(Cleans::Color, &[(c"color", color), (c"albedo", albedo), (c"normal", normal)]);
+            }
+            // Guides carry noise of their own (cut-outs, edges, glass): cleaned first, they may be trusted to the pixel.
             let albedo = device.run(Cleans::Albedo, &[(c"albedo", albedo)])?;
             let normal = device.run(Cleans::Normal, &[(c"normal", normal)])?;
             device.run(Cleans::Color, &[(c"color", color), (c"albedo", &albedo), (c"normal", &normal)])
@@ -165,10 +181,10 @@ impl Device {
         }
         // SAFETY: as above.
         unsafe {
-            (api.set_filter_int)(filter, c"quality".as_ptr(), what.quality());
+            (api.set_filter_int)(filter, c"quality".as_ptr(), what.quality(self.how));
             if let Cleans::Color = what {
                 (api.set_filter_bool)(filter, c"hdr".as_ptr(), true);
-                (api.set_filter_bool)(filter, c"cleanAux".as_ptr(), true);
+                (api.set_filter_bool)(filter, c"cleanAux".as_ptr(), self.how == Denoising::Best);
             }
         }
         self.filters[what as usize] = Some(filter);
@@ -185,21 +201,23 @@ mod tests {
     use super::*;
 
     /// The installed denoiser; tests that need it say so where there is none.
-    fn installed(threads: usize) -> Option<Denoiser> {
+    fn installed(threads: usize, how: Denoising) -> Option<Denoiser> {
         let search: Vec<PathBuf> = std::env::var_os("TROVE_OIDN").map(PathBuf::from).into_iter().collect();
-        let loaded = Denoiser::load(&search, threads);
+        let loaded = Denoiser::load(&search, threads, how);
         loaded.map_err(|problem| eprintln!("skipped: {problem}")).ok()
     }
 
     #[test]
     fn a_missing_library_is_a_reason_and_not_a_crash() {
-        let Err(problem) = Denoiser::load(&[PathBuf::from("/nowhere")], 1) else { return };
+        let nowhere = [PathBuf::from("/nowhere")];
+        let Err(problem) = Denoiser::load(&nowhere, 1, Denoising::Best) else { return };
         assert!(problem.to_string().contains("/nowhere"), "{problem}");
     }
 
     #[test]
     fn a_file_that_is_no_library_is_named_in_the_reason() {
-        let Err(problem) = Denoiser::load(&[PathBuf::from(file!()), PathBuf::from("Cargo.toml")], 1) else { return };
+        let files = [PathBuf::from(file!()), PathBuf::from("Cargo.toml")];
+        let Err(problem) = Denoiser::load(&files, 1, Denoising::Best) else { return };
         assert!(problem.to_string().contains("Cargo.toml"), "{problem}");
     }
 
@@ -218,25 +236,27 @@ mod tests {
 
     #[test]
     fn noise_goes_edges_stay_and_threads_do_not_matter() {
-        let (Some(one), Some(two)) = (installed(1), installed(2)) else { return };
         let mut random = Seed(5).random();
         let side = |x: u32| if x < 100 { 0.2 } else { 0.8 };
         let guide = Raster::from_fn(200, 120, |x, _| [side(x) as f32; 3]);
         let normal = Raster::filled(200, 120, [0.0, 0.0, 1.0f32]);
         let noisy = Raster::from_fn(200, 120, |x, _| [(side(x) * (1.0 + 0.5 * random.normal())).max(0.0) as f32; 3]);
-        let clean = one.denoise(&noisy, &guide, &normal).unwrap();
         let error = |image: &Raster<[f32; 3]>| {
             let squares = (0..120).flat_map(|y| (0..200).map(move |x| (x, y)));
             squares.map(|(x, y)| (f64::from(image.at(x, y)[0]) - side(x)).powi(2)).sum::<f64>()
         };
-        assert!(error(&clean) < 0.02 * error(&noisy), "{} of {}", error(&clean), error(&noisy));
-        assert_eq!(clean, one.denoise(&noisy, &guide, &normal).unwrap());
-        assert_eq!(clean, two.denoise(&noisy, &guide, &normal).unwrap());
+        for how in [Denoising::Fast, Denoising::Best] {
+            let (Some(one), Some(two)) = (installed(1, how), installed(2, how)) else { return };
+            let clean = one.denoise(&noisy, &guide, &normal).unwrap();
+            assert!(error(&clean) < 0.02 * error(&noisy), "{how:?}: {} of {}", error(&clean), error(&noisy));
+            assert_eq!(clean, one.denoise(&noisy, &guide, &normal).unwrap());
+            assert_eq!(clean, two.denoise(&noisy, &guide, &normal).unwrap());
+        }
     }
 
     #[test]
     fn guides_of_another_size_are_refused() {
-        let Some(denoiser) = installed(1) else { return };
+        let Some(denoiser) = installed(1, Denoising::Fast) else { return };
         let (small, large) = (Raster::filled(8, 8, [0.5; 3]), Raster::filled(9, 8, [0.5; 3]));
         assert!(denoiser.denoise(&small, &large, &small).is_none());
         assert!(denoiser.denoise(&small, &small, &small).is_some());

@@ -7,7 +7,7 @@ use trove_model::{
     Camera, Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
     Raster, Scene, Seed, Shot, World,
 };
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
 /// Linear radiance.
 pub(crate) type Picture = Raster<[f32; 3]>;
@@ -27,7 +27,7 @@ pub(crate) fn renderer(kernel: KernelChoice, threads: usize) -> Renderer {
 
 fn options(kernel: KernelChoice, threads: usize) -> RendererOptions {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    RendererOptions { kernel, denoise: false, threads, search }
+    RendererOptions { kernel, denoise: Denoising::None, threads, search }
 }
 
 /// 16×16 pixels from `eye` towards `target`, `half_width_m` of which are seen to each side there.

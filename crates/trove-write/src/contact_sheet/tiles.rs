@@ -10,54 +10,62 @@ use crate::{WriteError, exr_file};
 /// Depth at which the colours end, metres; they fall off with the logarithm.
 const FAR_M: f32 = 120.0;
 
-/// A frame's four pictures, all as large.
+/// A frame's pictures, all as large.
 pub(super) struct Tiles {
     pub(super) height: u32,
-    pub(super) pictures: [Vec<[u8; 3]>; 4],
+    pub(super) pictures: Vec<Vec<[u8; 3]>>,
 }
 
 impl Tiles {
-    /// The picture (normals where only labels were made), classes over it, instances, depth.
+    /// Of what the frame has: the picture (else normals), classes over it, instances, depth.
     pub(super) fn read(dir: &Path, width: u32) -> Result<Self, WriteError> {
-        let class = read_png(&dir.join("class.png"))?.into_luma8();
-        let instance = read_png(&dir.join("instance.png"))?.into_luma16();
-        let depth_m = exr_file::read_scalar(&dir.join("depth.exr"))?;
-        let (full_width, full_height) = class.dimensions();
-        for (name, found) in [("instance.png", instance.dimensions()), ("depth.exr", (depth_m.width, depth_m.height))] {
-            if found != (full_width, full_height) {
-                let found = format!("{}×{} pixels beside {full_width}×{full_height} of class.png", found.0, found.1);
-                return Err(WriteError::Damaged { path: dir.join(name), found });
-            }
+        let png =
+            |name: &str| Some(dir.join(name)).filter(|path| path.exists()).map(|path| read_png(&path)).transpose();
+        let exr = |name: &str| Some(dir.join(name)).filter(|path| path.exists());
+        let class = png("class.png")?.map(DynamicImage::into_luma8);
+        let instance = png("instance.png")?.map(DynamicImage::into_luma16);
+        let depth_m = exr("depth.exr").map(|path| exr_file::read_scalar(&path)).transpose()?;
+        let rgb = png("rgb.png")?.map(DynamicImage::into_rgb8);
+        let normal = exr("normal.exr").filter(|_| rgb.is_none()).map(|path| exr_file::read_rgb(&path)).transpose()?;
+        let sizes = [
+            ("class.png", class.as_ref().map(|p| p.dimensions())),
+            ("instance.png", instance.as_ref().map(|p| p.dimensions())),
+            ("depth.exr", depth_m.as_ref().map(|p| (p.width, p.height))),
+            ("rgb.png", rgb.as_ref().map(|p| p.dimensions())),
+            ("normal.exr", normal.as_ref().map(|p| (p.width, p.height))),
+        ];
+        let mut found = sizes.into_iter().filter_map(|(name, size)| Some((name, size?)));
+        let Some((first, (full_width, full_height))) = found.next() else {
+            return Ok(Self { height: 0, pictures: Vec::new() });
+        };
+        if let Some((name, size)) = found.find(|(_, size)| *size != (full_width, full_height)) {
+            let found = format!("{}×{} pixels beside {full_width}×{full_height} of {first}", size.0, size.1);
+            return Err(WriteError::Damaged { path: dir.join(name), found });
         }
         let height = ((u64::from(full_height) * u64::from(width) / u64::from(full_width)) as u32).max(1);
         let small = Grid { full: [full_width, full_height], small: [width, height] };
 
-        let rgb_path = dir.join("rgb.png");
-        let picture = if rgb_path.exists() {
-            let rgb = read_png(&rgb_path)?.into_rgb8();
-            if rgb.dimensions() != (full_width, full_height) {
-                let found = format!("{}×{} pixels", rgb.width(), rgb.height());
-                return Err(WriteError::Damaged { path: rgb_path, found });
+        let picture = match (&rgb, &normal) {
+            (Some(rgb), _) => Some(small.averaged(|x, y| rgb.get_pixel(x, y).0)),
+            (None, Some(normal)) => Some(small.averaged(|x, y| normal_color(*normal.at(x, y)))),
+            (None, None) => None,
+        };
+        let classes = class.map(|class| {
+            let class_color = |x, y| {
+                let class = Class::from_id(class.get_pixel(x, y).0[0]).unwrap_or(Class::Void);
+                CLASSES[usize::from(class.id())].rgb
+            };
+            let mut classes = small.averaged(class_color);
+            for (color, seen) in classes.iter_mut().zip(picture.iter().flatten()) {
+                // Two thirds class, one third brightness of the picture.
+                let grey = (u32::from(seen[0]) * 2 + u32::from(seen[1]) * 5 + u32::from(seen[2])) / 8;
+                *color = color.map(|c| ((u32::from(c) * 2 + grey) / 3) as u8);
             }
-            small.averaged(|x, y| rgb.get_pixel(x, y).0)
-        } else {
-            let normal = exr_file::read_rgb(&dir.join("normal.exr"))?;
-            let within = |x: u32, y: u32| x < normal.width && y < normal.height;
-            small.averaged(|x, y| if within(x, y) { normal_color(*normal.at(x, y)) } else { [0; 3] })
-        };
-        let class_color = |x, y| {
-            let class = Class::from_id(class.get_pixel(x, y).0[0]).unwrap_or(Class::Void);
-            CLASSES[usize::from(class.id())].rgb
-        };
-        let mut classes = small.averaged(class_color);
-        for (color, seen) in classes.iter_mut().zip(&picture) {
-            // Two thirds class, one third brightness of the picture.
-            let grey = (u32::from(seen[0]) * 2 + u32::from(seen[1]) * 5 + u32::from(seen[2])) / 8;
-            *color = color.map(|c| ((u32::from(c) * 2 + grey) / 3) as u8);
-        }
-        let instances = small.averaged(|x, y| instance_color(instance.get_pixel(x, y).0[0]));
-        let depths = small.averaged(|x, y| depth_color(*depth_m.at(x, y)));
-        Ok(Self { height, pictures: [picture, classes, instances, depths] })
+            classes
+        });
+        let instances = instance.map(|ids| small.averaged(|x, y| instance_color(ids.get_pixel(x, y).0[0])));
+        let depths = depth_m.map(|depth_m| small.averaged(|x, y| depth_color(*depth_m.at(x, y))));
+        Ok(Self { height, pictures: [picture, classes, instances, depths].into_iter().flatten().collect() })
     }
 }
 

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use trove_model::{Asset, AssetLibrary, Environment, Raster};
 use trove_read::environment;
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 use trove_write::{write_picture, write_sheet};
 
 use super::studio::Studio;
@@ -59,8 +59,12 @@ impl Sheet {
         };
         let studio =
             Studio { size_px: self.size, spp: self.spp, seed: self.seed, turn_deg: self.turn_deg, environment };
-        let renderer =
-            Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: true, threads: 0, search })?;
+        let renderer = Renderer::new(&RendererOptions {
+            kernel: KernelChoice::Auto,
+            denoise: Denoising::Best,
+            threads: 0,
+            search,
+        })?;
         if let Some(folder) = &self.each {
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;

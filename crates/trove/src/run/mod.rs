@@ -2,17 +2,19 @@
 
 mod manifest;
 mod output;
+mod worker;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
 use trove_build::{ALL_CAMERAS, BuildSettings, Site, ViewSettings};
-use trove_model::{AssetLibrary, Drive, Outcome, Report, Scene, Seed, Shot};
-use trove_render::{KernelChoice, Renderer, RendererOptions};
-use trove_write::{FrameMeta, WrittenFile, contact_sheet, frame_files, write_frame};
+use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Seed, Shot};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
+use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, contact_sheet, frame_files, write_frame};
 
 use crate::progress::Progress;
 use crate::recipe::Recipe;
@@ -22,6 +24,7 @@ use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_mani
 pub(crate) use manifest::{fits_json, report_json};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, refuse_foreign};
+use worker::Worker;
 
 /// Cameras of a rig before the first drive has been read.
 const CAMERAS_HINT: usize = 6;
@@ -62,13 +65,13 @@ pub struct RenderedFrame {
 pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Summary> {
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
-        denoise: recipe.render.denoise && recipe.render.light,
+        denoise: recipe.denoising(),
         threads: recipe.render.threads,
         search: options.search.clone(),
     })?;
     let identity = identity(recipe, options, &renderer)?;
     let report = Report::default();
-    if let (true, Err(why)) = (recipe.render.denoise && recipe.render.light, renderer.capabilities().denoiser) {
+    if let (true, Err(why)) = (recipe.denoising() != Denoising::None, renderer.capabilities().denoiser) {
         tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
         report.note(Outcome::Warned, "pictures keep their noise: no denoiser", why);
     }
@@ -83,19 +86,22 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         sources,
         library: library::gather(recipe, &options.search, &report)?,
         output,
+        writer: Worker::new(write),
+        pictures: Arc::new(recipe.pictures()),
         progress: Progress::new(planned),
         report,
         frames: options.frames.as_ref(),
-        rows: Vec::new(),
         sites: Vec::new(),
         rendered: Vec::new(),
     };
     for ((scene, _), hint) in scenes.iter().zip(hints) {
         if let Err(stop) = run.scene(scene, hint) {
+            let kept = run.record_rest();
             run.progress.finish();
             return match stop {
                 Stop::Interrupted => {
-                    let frames = planned.max(run.rows.len());
+                    kept?;
+                    let frames = planned.max(run.rendered.len());
                     Ok(Summary { frames, rendered: run.rendered, interrupted: true })
                 }
                 Stop::Failed(error) => Err(error),
@@ -163,12 +169,35 @@ struct Run<'a> {
     sources: Sources<'a>,
     library: AssetLibrary,
     output: OutputFolder,
+    /// Encodes and writes frames while the next ones are rendered.
+    writer: Worker<Frame, Written>,
+    /// What each frame's folder holds.
+    pictures: Arc<BTreeSet<FrameFile>>,
     progress: Progress,
     report: Report,
     frames: Option<&'a BTreeSet<String>>,
-    rows: Vec<Value>,
     sites: Vec<SiteSummary>,
     rendered: Vec<RenderedFrame>,
+}
+
+/// A rendered frame, for the writer.
+struct Frame {
+    /// Below the output folder.
+    path: String,
+    folder: PathBuf,
+    scene: Arc<Scene>,
+    shot: Shot,
+    capture: Capture,
+    meta: FrameMeta,
+    pictures: Arc<BTreeSet<FrameFile>>,
+}
+
+/// A frame's path and files.
+type Written = Result<(String, Vec<WrittenFile>), WriteError>;
+
+fn write(Frame { path, folder, scene, shot, capture, meta, pictures }: Frame) -> Written {
+    let files = write_frame(&folder, &scene, &shot, &capture, &meta, &pictures)?;
+    Ok((path, files))
 }
 
 /// A scene of one variation, ready to be photographed.
@@ -240,7 +269,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), frame_files(self.recipe.pictures()))
+        self.output.finished(&key.path(), &frame_files(&self.pictures))
     }
 
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
@@ -293,54 +322,50 @@ impl Run<'_> {
         })
     }
 
-    /// Renders what is missing of a scene and collects the rows of all its frames.
+    /// Renders what is missing of a scene.
     fn frames(&mut self, scene: &str, variation: u32, file: &SiteFile, built: Option<&Built>) -> Result<(), Stop> {
-        let mut photographed: Option<(usize, Scene, trove_render::PreparedScene)> = None;
+        let mut photographed: Option<(usize, Arc<Scene>, trove_render::PreparedScene)> = None;
         for (keyframe, view) in &file.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
             if !self.wants(&key) {
                 continue;
             }
-            let files = match (self.finished(&key)?, built) {
-                (Some(files), _) => files,
-                (None, Some(built)) => {
-                    let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
-                    let mut prepare_s = 0.0;
-                    if photographed.as_ref().is_none_or(|(k, ..)| k != keyframe) {
-                        let scene = built.site.scene(&built.drive, *keyframe);
-                        let started = Instant::now();
-                        let prepared = self.renderer.prepare(&scene)?;
-                        prepare_s = started.elapsed().as_secs_f64();
-                        photographed = Some((*keyframe, scene, prepared));
-                    }
-                    let (_, scene, prepared) = photographed.as_ref().context("the scene was prepared above")?;
-                    self.frame(&key, &built.drive, scene, prepared, prepare_s, shot)?
+            if self.finished(&key)?.is_none() {
+                let built = built.with_context(|| format!("{}: vanished during the run", key.path()))?;
+                let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
+                let mut prepare_s = 0.0;
+                if photographed.as_ref().is_none_or(|(k, ..)| k != keyframe) {
+                    let scene = Arc::new(built.site.scene(&built.drive, *keyframe));
+                    let started = Instant::now();
+                    let prepared = self.renderer.prepare(&scene)?;
+                    prepare_s = started.elapsed().as_secs_f64();
+                    photographed = Some((*keyframe, scene, prepared));
                 }
-                (None, None) => return Err(anyhow::anyhow!("{}: vanished during the run", key.path()).into()),
-            };
+                let (_, scene, prepared) = photographed.as_ref().context("the scene was prepared above")?;
+                self.frame(&key, &built.drive, scene, prepared, prepare_s, shot)?;
+            }
             self.progress.frame_done();
-            self.rows.push(frame_row(&key.path(), &key, &files));
         }
         Ok(())
     }
 
-    /// Renders and writes one frame.
+    /// Renders one frame and hands it to the writer.
     fn frame(
         &mut self,
         key: &FrameKey,
         drive: &Drive,
-        scene: &Scene,
+        scene: &Arc<Scene>,
         prepared: &trove_render::PreparedScene,
         prepare_s: f64,
         shot: &Shot,
-    ) -> Result<Vec<WrittenFile>, Stop> {
+    ) -> Result<(), Stop> {
         self.progress.say(&key.path());
         let within = |share: f32| {
             self.progress.within(share);
             interrupt::requested()
         };
         let started = Instant::now();
-        let capture = self.renderer.render(prepared, shot, self.recipe.render.light, &within);
+        let capture = self.renderer.render(prepared, shot, self.recipe.follows_light(), &within);
         let Some(capture) = capture else { return Err(Stop::Interrupted) };
         let render_s = started.elapsed().as_secs_f64();
         let moment = &drive.keyframes[key.keyframe];
@@ -359,35 +384,76 @@ impl Run<'_> {
             projection: drive.projection,
         };
         let path = key.path();
-        let folder = self.output.root().join(&path);
-        let files = write_frame(&folder, scene, shot, &capture, &meta, self.recipe.pictures())?;
-        self.output.record(&path, &files)?;
+        self.writer.give(Frame {
+            folder: self.output.root().join(&path),
+            path: path.clone(),
+            scene: scene.clone(),
+            shot: shot.clone(),
+            capture,
+            meta,
+            pictures: self.pictures.clone(),
+        });
+        let written = self.writer.done();
+        self.record(written)?;
         self.rendered.push(RenderedFrame { path, prepare_s, render_s });
         if interrupt::requested() {
             return Err(Stop::Interrupted);
         }
-        Ok(files)
+        Ok(())
+    }
+
+    /// Writes down which frames are finished.
+    fn record(&mut self, written: Vec<Written>) -> Result<()> {
+        for frame in written {
+            let (path, files) = frame?;
+            self.output.record(&path, &files)?;
+        }
+        Ok(())
+    }
+
+    /// Waits for the writer.
+    fn record_rest(&mut self) -> Result<()> {
+        let rest = self.writer.rest();
+        self.record(rest)
+    }
+
+    /// The manifest's rows of all frames.
+    fn rows(&mut self) -> Result<Vec<Value>> {
+        let mut rows = Vec::new();
+        for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
+            for (keyframe, view) in &file.frames {
+                let key = FrameKey { scene: scene.clone(), variation, keyframe: *keyframe, view: view.clone() };
+                if self.wants(&key) {
+                    let files = self.finished(&key)?;
+                    let files = files.with_context(|| format!("{}: vanished during the run", key.path()))?;
+                    rows.push(frame_row(&key.path(), &key, &files));
+                }
+            }
+            self.sites.push(SiteSummary { scene, variation, file });
+        }
+        Ok(rows)
     }
 
     /// Writes what sums the run up.
-    fn finish(self, identity: &Value) -> Result<Summary> {
+    fn finish(mut self, identity: &Value) -> Result<Summary> {
+        self.record_rest()?;
         self.progress.finish();
-        let given: BTreeSet<&str> = self.rows.iter().filter_map(|row| row["path"].as_str()).collect();
+        let rows = self.rows()?;
+        let given: BTreeSet<&str> = rows.iter().filter_map(|row| row["path"].as_str()).collect();
         for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
             self.report.note(Outcome::Dropped, "frame that the recipe does not give", frame.clone());
         }
-        ensure!(!self.rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
+        ensure!(!rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
         let root = self.output.root().to_owned();
-        let sheet: Vec<contact_sheet::Frame> = self
-            .rows
+        let sheet: Vec<contact_sheet::Frame> = rows
             .iter()
             .filter_map(|row| row["path"].as_str())
             .map(|path| contact_sheet::Frame { name: path.to_owned(), dir: root.join(path) })
             .collect();
         contact_sheet::write(&root.join("contact_sheet.png"), &sheet)?;
         write_report(&root.join("report.json"), &self.report, &self.sites)?;
-        let frames = self.rows.len();
-        write_manifest(&root.join("manifest.json"), identity, &self.sites, self.rows)?;
+        let frames = rows.len();
+        write_manifest(&root.join("manifest.json"), identity, &self.sites, rows)?;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false })
     }
 
