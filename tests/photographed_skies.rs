@@ -11,7 +11,7 @@ use trove_model::{
     Class, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
     Scene, Seed, Shot, Shutter,
 };
-use trove_render::{KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
 #[test]
 fn a_white_surface_gets_all_the_light_of_a_photographed_sky() {
@@ -19,7 +19,8 @@ fn a_white_surface_gets_all_the_light_of_a_photographed_sky() {
         eprintln!("skipped: TROVE_TEST_DATA is not set");
         return;
     };
-    let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: false, threads: 2, search: Vec::new() };
+    let options =
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
     let renderer = Renderer::new(&options).unwrap();
     for name in ["venice_sunset_1k.hdr", "kiara_1_dawn_1k.hdr"] {
         let path = Path::new(&data).join("hdri").join(name);

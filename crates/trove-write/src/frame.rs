@@ -188,7 +188,7 @@ fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
             None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
         }
     }
-    if expected.iter().all(|file| present.contains(&file)) {
+    if expected.iter().all(|file| present.contains(file)) {
         return occupied("one".into());
     }
     fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))
