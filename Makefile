@@ -79,7 +79,7 @@ bench-rays: install
 bench-clean: install
 	$(BIN)/python benches/cycles/clean.py --trove $(BIN)/trove $(CLEAN)
 
-# The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/worth.md.
+# The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/experiment.md.
 DATA ?= data
 experiment-camvid: install .venv-train/.installed
 	.venv-train/bin/python experiments/camvid/run.py --data $(DATA) $(EXPERIMENT)

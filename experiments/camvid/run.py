@@ -21,7 +21,7 @@ def main() -> int:
     options = parser.parse_args()
     for name in ("nuscenes", "osm", "camvid"):
         if not (options.data / name).is_dir():
-            print(f"error: {options.data}: expected a folder {name}, found none; see docs/worth.md", file=sys.stderr)
+            print(f"error: {options.data}: expected a folder {name}, found none; see docs/experiment.md", file=sys.stderr)
             return 1
     link = HERE / "data"
     link.unlink(missing_ok=True)
@@ -34,7 +34,7 @@ def main() -> int:
         [*trove, "generate", recipe, "--labels-only", "--out", labels],
         [*trove, "curate", labels, "--count", COUNT, "--val-share", 0, "--out", chosen, "--page", out / "curated.html"],
         [*trove, "generate", recipe, "--frames", chosen, "--out", twin],
-        [*trove, "recolor", twin, "--to", link / "camvid/images/train", "--method", "picture", "--strength", 1, "--out", out / "recolored"],
+        [*trove, "recolor", twin, "--to", link / "camvid/images/train", "--method", "paired", "--strength", 1, "--out", out / "recolored"],
         [sys.executable, "-m", "trove.train", HERE / "experiment.toml", "--out", out / "results", "--threads", options.threads, *rows],
     ]
     for step in steps:

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use serde_json::json;
-use trove_model::CLASSES;
+use trove_model::{CLASSES, Seed};
 
 use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
 use crate::{JudgeError, LabelSet};
@@ -23,8 +23,11 @@ pub use statistics::Statistics;
 /// What is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Means and deviations, of every picture's own.
+    /// Means and deviations, every picture's own towards the whole target's.
     PerPicture,
+    /// Means and deviations, every picture's own towards those of one picture of the target, drawn by its path: as
+    /// different as the target's pictures are.
+    Paired,
     /// Means and deviations, those of the whole set: pictures stay as different as they were.
     PerSet,
     /// Histograms, class by class; both sides need labels.
@@ -75,12 +78,13 @@ pub fn recolor(
     refuse_within(out, target)?;
     let (sources, targets) = (photographs(source)?, photographs(target)?);
     // Targets are read for their statistics, sources too unless each is its own measure, and every source to be moved.
-    let passes = if settings.method == Method::PerPicture { 1 } else { 2 };
+    let passes = if matches!(settings.method, Method::PerPicture | Method::Paired) { 1 } else { 2 };
     let steps = targets.len() + passes * sources.len();
-    let wanted = set_statistics(&targets, settings.space, &|done, _| progress(done, steps))?;
+    let singly = picture_statistics(&targets, settings.space, &|done, _| progress(done, steps))?;
+    let wanted = joined(singly.iter());
     let after_targets = |done: usize, _: usize| progress(targets.len() + done, steps);
     let (before, matching) = match (settings.method, &settings.target_labels) {
-        (Method::PerPicture, _) => (None, None),
+        (Method::PerPicture | Method::Paired, _) => (None, None),
         (Method::PerSet, _) => (Some(set_statistics(&sources, settings.space, &after_targets)?), None),
         (Method::HistogramPerClass, Some((folder, set))) => {
             let before = set_statistics(&sources, settings.space, &after_targets)?;
@@ -125,6 +129,10 @@ pub fn recolor(
                         *pixel = std::array::from_fn(|c| pixel[c] + settings.strength * (matched[c] - pixel[c]));
                     }
                 }
+                _ if settings.method == Method::Paired => {
+                    let drawn = Seed(0).child(&below.to_string_lossy()).random().index(singly.len());
+                    move_towards(&mut pixels, &own, &singly[drawn], settings.strength);
+                }
                 _ => move_towards(&mut pixels, &own, &wanted, settings.strength),
             }
             let (width, height) = picture.dimensions();
@@ -138,15 +146,14 @@ pub fn recolor(
     };
     let last = |done: usize, _: usize| progress(steps - sources.len() + done, steps);
     let done: Vec<(bool, Statistics, Statistics)> = each(&sources, &last, recolored)?;
-    let joined = |of: fn(&(bool, Statistics, Statistics)) -> &Statistics| {
-        let mut all = Statistics::default();
-        done.iter().for_each(|row| all.join(of(row)));
-        all
-    };
     let below = |path: &PathBuf| output.path(path.strip_prefix(source).unwrap_or(path));
     Ok(Recoloring {
         kept: done.iter().filter(|row| row.0).count(),
-        statistics: [before.unwrap_or_else(|| joined(|row| &row.1)), wanted, joined(|row| &row.2)],
+        statistics: [
+            before.unwrap_or_else(|| joined(done.iter().map(|row| &row.1))),
+            wanted,
+            joined(done.iter().map(|row| &row.2)),
+        ],
         pictures: sources.iter().map(|path| (below(path), path.clone())).collect(),
     })
 }
@@ -183,10 +190,18 @@ fn in_space(picture: &RgbImage, space: Space) -> Vec<[f32; 3]> {
 }
 
 fn set_statistics(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Statistics, JudgeError> {
-    let of = |path: &PathBuf| Ok(Statistics::of(&in_space(&read(path)?.into_rgb8(), space)));
-    let mut all = Statistics::default();
-    each(paths, progress, of)?.iter().for_each(|one| all.join(one));
-    Ok(all)
+    Ok(joined(picture_statistics(paths, space, progress)?.iter()))
+}
+
+/// Of every picture alone.
+fn picture_statistics(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Vec<Statistics>, JudgeError> {
+    each(paths, progress, |path| Ok(Statistics::of(&in_space(&read(path)?.into_rgb8(), space))))
+}
+
+fn joined<'a>(all: impl Iterator<Item = &'a Statistics>) -> Statistics {
+    let mut sum = Statistics::default();
+    all.for_each(|one| sum.join(one));
+    sum
 }
 
 /// Histograms by class: of labels in our own classes as numbers of a set, of others as they are.

@@ -30,6 +30,25 @@ fn gaussian(path: &Path, space: Space, mean: [f32; 3], deviation: [f32; 3], seed
 }
 
 #[test]
+fn pairs_are_as_different_as_the_targets_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let [s, t] = ["s", "t"].map(|name| folder.path().join(name));
+    for i in 0..8u64 {
+        gaussian(&s.join(format!("{i}/rgb.png")), Space::Lab, [50.0, 0.0, 0.0], [8.0, 2.0, 2.0], i);
+    }
+    for (i, lightness) in [30.0, 70.0].into_iter().enumerate() {
+        gaussian(&t.join(format!("{i}.png")), Space::Lab, [lightness, 0.0, 0.0], [6.0, 2.0, 2.0], 20 + i as u64);
+    }
+    let out = folder.path().join("out");
+    let done = run(&s, &t, &out, &settings(Method::Paired, 1.0)).unwrap();
+    let lightness = |path: &PathBuf| statistics(path.parent().unwrap(), Space::Lab).mean()[0];
+    let mut found: Vec<f64> = done.pictures.iter().map(|(after, _)| lightness(after)).collect();
+    found.sort_by(f64::total_cmp);
+    assert!(found.iter().all(|l| (l - 30.0).abs() < 0.5 || (l - 70.0).abs() < 0.5), "{found:?}");
+    assert!(found[0] < 40.0 && found[7] > 60.0, "{found:?}");
+}
+
+#[test]
 fn a_gaussian_becomes_the_gaussian_of_the_target_up_to_rounding() {
     let lab = (Space::Lab, [[45.0, 4.0, -6.0], [62.0, -3.0, 8.0]], [[6.0, 2.5, 2.0], [9.0, 3.0, 4.0]], 0.06);
     let opponent =

@@ -28,7 +28,8 @@ pub(crate) struct Recolor {
     /// Folder to write to, every picture under the path that it has below DIR; without it DIR-recolored beside DIR.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// What is moved: means and deviations of each picture or of the whole set, or histograms class by class.
+    /// What is moved: means and deviations of each picture, towards all of IMAGES or one of them, or of the whole set, or
+    /// histograms class by class.
     #[arg(long, value_enum, default_value = "set")]
     method: MethodName,
     /// Where it is moved.
@@ -51,6 +52,7 @@ pub(crate) struct Recolor {
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
     Picture,
+    Paired,
     Set,
     Classes,
 }
@@ -74,6 +76,7 @@ impl Recolor {
         let settings = Settings {
             method: match self.method {
                 MethodName::Picture => Method::PerPicture,
+                MethodName::Paired => Method::Paired,
                 MethodName::Set => Method::PerSet,
                 MethodName::Classes => Method::HistogramPerClass,
             },
