@@ -28,7 +28,7 @@ struct Place {
 
 fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
     let settings = BuildSettings {
-        seed: Seed(7),
+        seeds: Seed(7).into(),
         top_k: 3,
         light: LightChoice::Sky(SkyChoice::default()),
         weather: Weather::default(),

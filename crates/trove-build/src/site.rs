@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 use trove_model::{
     AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Outcome, Polygon, Provenance,
-    Report, Scene, SceneObject, Seed, StreetMap,
+    Report, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed};
@@ -18,6 +18,7 @@ use crate::light::{LightChoice, light, switch_on};
 use crate::moments::{apart_s, next, previous};
 use crate::placement::{Cast, ObjectFit, Stand, cast};
 use crate::scenery::Scenery;
+use crate::seeds::Seeds;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
 use crate::vegetation::{Conditions, driven_path, undergrowth, vegetation};
@@ -39,8 +40,8 @@ const MAX_ID: u32 = u16::MAX as u32;
 /// What decides how a place is built.
 #[derive(Clone, Debug)]
 pub struct BuildSettings {
-    /// Source of all randomness in it.
-    pub seed: Seed,
+    /// Sources of all randomness in it.
+    pub seeds: Seeds,
     /// An object's asset is drawn among the best so many; 1 is the best.
     pub top_k: usize,
     /// Where the light comes from.
@@ -63,6 +64,7 @@ pub struct Site {
     actors: Vec<Option<Actor>>,
     footprints: Vec<Polygon>,
     light: Light,
+    season: Season,
     provenance: Vec<Provenance>,
     fits: Vec<ObjectFit>,
 }
@@ -86,7 +88,7 @@ pub fn build(
     report: &Report,
 ) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
-    let seed = settings.seed;
+    let seeds = settings.seeds;
     let map = map.and_then(|map| agreed(drive, map, bounds, settings.on_disagreement, report));
     let map = map.as_ref();
 
@@ -96,19 +98,19 @@ pub fn build(
 
     // What lies and stands for good.
     let ground = ground::height_field(drive, bounds, report);
-    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, conditions, seed.child("roads"), report);
-    let buildings =
-        buildings::buildings(drive, map, &surfaces, &ground, bounds, library, seed.child("buildings"), report);
+    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, conditions, &seeds, report);
+    let buildings = buildings::buildings(drive, map, &surfaces, &ground, bounds, library, &seeds, report);
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let Cast { roles, fits } = cast(drive, library, &stand, settings.top_k, seed.child("cast"), report);
+    let Cast { roles, fits } = cast(drive, library, &stand, settings.top_k, &seeds, report);
 
     // What is made up keeps clear of everything recorded; poles come before plants.
     let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
     let kerbs = Kerbs::new(drive, map, &surfaces, bounds);
     let around = Surroundings { drive, map, bounds, kerbs: &kerbs, stand };
-    let furniture = furniture(&around, library, &mut clearance, seed.child("furniture"), report);
+    let furniture = furniture(&around, library, &mut clearance, seeds.furniture.child("furniture"), report);
+    let seed = seeds.vegetation;
     let mut plants =
         vegetation(&around, library, &mut clearance, conditions.climate(), seed.child("vegetation"), report);
 
@@ -126,14 +128,16 @@ pub fn build(
         assembly.piece(piece, &mut next_id);
     }
     let path = driven_path(drive);
-    for scenery in plants.iter().chain(&furniture.scenery) {
+    // Plants come last, so that their number changes no other's.
+    for scenery in furniture.scenery.iter().chain(&plants) {
         assembly.scenery(scenery, distance_m(&path, scenery), &mut next_id);
     }
     settings.weather.treat(&mut assembly);
-    let light = light(drive, bounds, &settings.light, seed.child("light"));
+    let light = light(drive, bounds, &settings.light, seeds.light.child("light"));
     switch_on(&light, &mut assembly.stock, actors.iter_mut().flatten());
     Ok(Site {
         light,
+        season: conditions.season(),
         provenance: assembly.provenance(drive, map),
         ground,
         stock: assembly.stock,
@@ -250,6 +254,16 @@ impl Site {
         &self.ground
     }
 
+    /// What plants show.
+    pub fn season(&self) -> Season {
+        self.season
+    }
+
+    /// Sun and sky.
+    pub fn light(&self) -> &Light {
+        &self.light
+    }
+
     /// Where everything came from, with licences.
     pub fn provenance(&self) -> &[Provenance] {
         &self.provenance
@@ -284,12 +298,14 @@ pub(crate) fn track_id(track: usize) -> InstanceId {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trove_model::Seed;
+
     use crate::testing;
     use crate::views::{PictureSize, ViewSettings, shots};
 
     fn settings(seed: u64) -> BuildSettings {
         BuildSettings {
-            seed: Seed(seed),
+            seeds: Seed(seed).into(),
             top_k: 3,
             light: LightChoice::default(),
             weather: Weather::default(),
@@ -314,6 +330,44 @@ mod tests {
         }
         let ids: Vec<u32> = first.instances.iter().map(|i| i.id.0).filter(|&id| id > 0).collect();
         assert!(ids.iter().enumerate().all(|(i, &id)| id == i as u32 + 1), "{ids:?}");
+    }
+
+    #[test]
+    fn a_factor_s_seed_changes_what_it_decides_and_nothing_else() {
+        let drive = testing::drive();
+        let built = |seeds: Seeds| {
+            let settings = BuildSettings { seeds, ..settings(1) };
+            build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
+        };
+        // What an instance looks like, by its number.
+        let looks = |scene: &Scene| -> Vec<(InstanceId, String, [f64; 3], Vec<glam::Vec3>)> {
+            let asset = |i: &Instance| i.object.as_ref().map(|o| o.asset.clone()).unwrap_or_default();
+            let paints = |i: &Instance| i.materials.iter().map(|&m| scene.materials[m].base_color).collect();
+            let place = |i: &Instance| i.world_from_mesh.translation.to_array();
+            scene.instances.iter().map(|i| (i.id, asset(i), place(i), paints(i))).collect()
+        };
+        let base: Seeds = Seed(1).into();
+        let before = looks(&built(base));
+        assert_eq!(looks(&built(base)), before);
+        let is_vehicle = |i: usize| (0..3).contains(&i) || i == 4;
+        let changed = |change: fn(&mut Seeds, Seed)| -> Vec<usize> {
+            let differing = (2..12).flat_map(|s| {
+                let mut seeds = base;
+                change(&mut seeds, Seed(s));
+                let after = looks(&built(seeds));
+                assert_eq!(after.len(), before.len());
+                (0..after.len()).filter(|&i| after[i] != before[i]).collect::<Vec<_>>()
+            });
+            let differing: std::collections::BTreeSet<usize> = differing.collect();
+            differing.into_iter().collect()
+        };
+        let painted = changed(|seeds, seed| seeds.paint = seed);
+        assert!(!painted.is_empty() && painted.iter().all(|&i| is_vehicle(i)), "{painted:?}");
+        let cast = changed(|seeds, seed| seeds.assets = seed);
+        assert!(!cast.is_empty() && cast.iter().all(|&i| is_vehicle(i)), "{cast:?}");
+        assert_eq!(changed(|seeds, seed| seeds.people = seed), [3], "one person walks there");
+        let planted = changed(|seeds, seed| seeds.light = seed);
+        assert!(planted.is_empty(), "{planted:?}");
     }
 
     #[test]
@@ -368,7 +422,7 @@ mod tests {
             format!(
                 "{:?} {:?}",
                 (scene.instances, scene.materials),
-                shots(&drive, &site, 4, &views, Seed(5), &Report::default())
+                shots(&drive, &site, 4, &views, &Seed(5).into(), &Report::default())
             )
         };
         assert_eq!(built(1), built(2));

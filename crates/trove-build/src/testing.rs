@@ -73,7 +73,7 @@ fn street() -> LaneMap {
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
-    roads::surfaces(drive, None, ground, bounds, &library(), conditions(), Seed(0), &Report::default())
+    roads::surfaces(drive, None, ground, bounds, &library(), conditions(), &Seed(0).into(), &Report::default())
 }
 
 /// The climate and season of the made-up drive.

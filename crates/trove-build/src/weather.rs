@@ -54,7 +54,7 @@ mod tests {
 
     fn scene(weather: Weather) -> Scene {
         let settings = BuildSettings {
-            seed: Seed(1),
+            seeds: Seed(1).into(),
             top_k: 1,
             light: LightChoice::default(),
             weather,

@@ -24,7 +24,7 @@ fn main() -> Result<()> {
         let area = trove_build::area(&drive).context("nothing was recorded")?;
         let map = osm::read(&data.join("osm").join(place), &drive.projection, area, &report)?;
         let settings = BuildSettings {
-            seed: Seed(7),
+            seeds: Seed(7).into(),
             top_k: 3,
             light: LightChoice::Sky(SkyChoice::default()),
             weather: Weather::default(),
@@ -33,7 +33,7 @@ fn main() -> Result<()> {
         let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
         let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(0.5));
         let views = ViewSettings { rig, size, spp: 1, ..ViewSettings::default() };
-        let shots = trove_build::shots(&drive, &site, 1, &views, Seed(5), &report);
+        let shots = trove_build::shots(&drive, &site, 1, &views, &Seed(5).into(), &report);
         let prepared = renderer.prepare(&site.scene(&drive, 1))?;
         // The first time warms the caches.
         renderer.ray_times(&prepared, &shots[0]);

@@ -5,8 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
-use trove_build::BuildSettings;
-use trove_model::{Environment, Report, Seed};
+use trove_model::{Environment, Report};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
 
@@ -15,6 +14,7 @@ use crate::overview::Overview;
 use crate::recipe::Recipe;
 use crate::run::{fits_json, report_json, view_settings};
 use crate::sources::Sources;
+use crate::variation::Variation;
 
 /// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
 /// where they are asked for, its sky as OpenEXR and a picture from above; `search` is where Embree and the denoiser are
@@ -42,13 +42,8 @@ pub(crate) fn run(
     let keyframe = keyframe.unwrap_or(first);
     let count = drive.keyframes.len();
     ensure!(keyframe < count, "--keyframe: {name} has keyframes 0 to {}, found {keyframe}", count.saturating_sub(1));
-    let settings = BuildSettings {
-        seed: Seed(recipe.seed).child(name).nth(0),
-        top_k: recipe.assets.top_k,
-        light: sources.light(0)?,
-        weather: recipe.weather(),
-        on_disagreement: recipe.map.on_disagreement.into(),
-    };
+    let variation = Variation::draw(recipe, &drive, 0)?;
+    let settings = variation.build_settings(recipe, &sources)?;
     let started = Instant::now();
     let library = library::gather(recipe, &search, &report)?;
     report.measure("library.seconds", started.elapsed().as_secs_f64());
@@ -56,8 +51,9 @@ pub(crate) fn run(
     let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;
     let scene = site.scene(&drive, keyframe);
     report.measure("build.seconds", started.elapsed().as_secs_f64());
-    let seed = settings.seed.child("views");
-    let shots = trove_build::shots(&drive, &site, keyframe, &view_settings(recipe)?, seed, &report);
+    let mut views = view_settings(recipe)?;
+    variation.change(&mut views);
+    let shots = trove_build::shots(&drive, &site, keyframe, &views, &settings.seeds, &report);
     let sun = match &scene.light.environment {
         Environment::Sky(sky) => {
             let sky = bake_sky(sky);

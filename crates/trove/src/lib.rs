@@ -20,6 +20,7 @@ mod progress;
 pub mod recipe;
 pub mod run;
 mod sources;
+mod variation;
 
 pub use cli::main;
 

@@ -2,6 +2,7 @@
 
 mod camera;
 mod light;
+mod variations;
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -16,6 +17,7 @@ use trove_write::FrameFile;
 
 pub use camera::CameraSection;
 pub use light::LightSection;
+pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -312,14 +314,6 @@ pub struct OutputSection {
     pub files: Option<BTreeSet<FrameFile>>,
 }
 
-/// `[variations]`
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct VariationsSection {
-    /// Scenes per keyframe.
-    pub count: u32,
-}
-
 impl Default for AssetsSection {
     fn default() -> Self {
         Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3, texture_scale: 1 }
@@ -351,12 +345,6 @@ impl Default for RenderSection {
             radiance: false,
             threads: 0,
         }
-    }
-}
-
-impl Default for VariationsSection {
-    fn default() -> Self {
-        Self { count: 1 }
     }
 }
 
@@ -454,8 +442,7 @@ impl Recipe {
         }
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         check("assets.texture_scale", assets.texture_scale, matches!(assets.texture_scale, 1 | 2 | 4), "1, 2 or 4")?;
-        let count = self.variations.count;
-        check("variations.count", count, (1..=100).contains(&count), "1 to 100")?;
+        self.variations.check(&self.light)?;
         ensure!(!assets.libraries.is_empty(), "assets.libraries: expected at least one, found none");
         Ok(())
     }
@@ -471,10 +458,7 @@ impl Recipe {
 
     /// The picture of a sky that is asked for; `None` for a computed one.
     pub fn environment_file(&self) -> Option<PathBuf> {
-        match self.light.environment.as_str() {
-            "capture-time" | "random" => None,
-            file => Some(self.at(Path::new(file))),
-        }
+        self.light.is_file().then(|| self.at(Path::new(&self.light.environment)))
     }
 
     /// The pictures in a frame's folder.
@@ -627,7 +611,6 @@ mod tests {
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[render]\nlight = false\n[output]\nfiles = [\"rgb\"]\n", "output.files"),
             ("[output]\nfiles = [\"rbg\"]\n", "rbg"),
-            ("[variations]\ncount = 0\n", "variations.count"),
             ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
         ] {
             let message = error(&format!("{DRIVE}{text}"));

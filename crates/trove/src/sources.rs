@@ -4,7 +4,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_build::LightChoice;
 use trove_model::{Bounds, Drive, EnvironmentMap, MapProjection, Outcome, Report, StreetMap};
 use trove_read::nuscenes::NuScenes;
 use trove_read::{ReadError, environment, osm};
@@ -29,15 +28,25 @@ impl<'a> Sources<'a> {
         };
         let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?;
         let environment = environment.map(|map| Arc::new(map.turned(recipe.light.rotation_deg)));
+        for file in recipe.variations.light.environments().flatten() {
+            let file = recipe.at(&file);
+            ensure!(
+                file.is_file(),
+                "variations.light.environments: expected the picture of a sky (.hdr or .exr), found no file {}",
+                file.display()
+            );
+        }
         Ok(Self { recipe, dataset, environment })
     }
 
-    /// Where the light of a variation comes from.
-    pub(crate) fn light(&self, variation: u32) -> Result<LightChoice> {
-        match &self.environment {
-            Some(map) => Ok(LightChoice::Map(map.clone())),
-            None => Ok(LightChoice::Sky(self.recipe.light.sky(variation)?)),
-        }
+    /// The recipe's picture of a sky.
+    pub(crate) fn environment(&self) -> Result<Arc<EnvironmentMap>> {
+        self.environment.clone().context("the recipe has no picture of a sky")
+    }
+
+    /// Another picture of a sky by its path in the recipe, turned counter-clockwise seen from above.
+    pub(crate) fn picture(&self, file: &Path, rotation_deg: f64) -> Result<Arc<EnvironmentMap>> {
+        Ok(Arc::new(environment::read(&self.recipe.at(file))?.turned(rotation_deg)))
     }
 
     /// Names of the scenes that the recipe asks for, with the number of their keyframes as far as it is known.

@@ -17,13 +17,14 @@ use std::sync::Arc;
 use glam::DAffine3;
 use rayon::prelude::*;
 use trove_model::{
-    AssetLibrary, Bounds, Building, Class, Drive, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Seed,
-    Slot, StreetMap,
+    AssetLibrary, Bounds, Building, Class, Drive, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Slot,
+    StreetMap,
 };
 
 use crate::palette::Palette;
 use crate::piece::Piece;
 use crate::roads::RoadSurfaces;
+use crate::seeds::Seeds;
 use facade::Sight;
 use volumes::House;
 
@@ -45,11 +46,13 @@ pub(crate) fn buildings(
     ground: &HeightField,
     bounds: Bounds,
     library: &AssetLibrary,
-    seed: Seed,
+    seeds: &Seeds,
     report: &Report,
 ) -> BuiltBuildings {
     let mapped = map.map_or(&[][..], |m| &m.buildings);
-    let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, seed, report);
+    let seed = seeds.facades.child("buildings");
+    let plan_seed = seeds.place.child("buildings");
+    let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, plan_seed, report);
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
     let seen_m = lidar::seen_walls(drive, &all, ground);
     let plot = volumes::Plot { drive, streets: keep_clear, ground, bounds, seen_m: &seen_m };

@@ -40,7 +40,7 @@ fn furnished([origin_lat_deg, origin_lon_deg]: [f64; 2], map: &StreetMap) -> Fur
     let bounds = Bounds::square(DVec2::ZERO, 400.0);
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
     let surfaces =
-        roads::surfaces(&drive, Some(map), &ground, bounds, &library, testing::conditions(), Seed(0), &report);
+        roads::surfaces(&drive, Some(map), &ground, bounds, &library, testing::conditions(), &Seed(0).into(), &report);
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
     let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);

@@ -8,6 +8,7 @@ use super::fit::Fit;
 use super::gait::{Gait, Mode};
 use super::rows::rows;
 use super::stand::{Placement, Stand};
+use crate::seeds::Seeds;
 
 /// A living thing annotated higher than this above the ground stands on something, metres.
 const PLATFORM_M: f64 = 0.6;
@@ -52,7 +53,7 @@ pub(crate) fn cast<'a>(
     library: &'a AssetLibrary,
     stand: &Stand,
     top_k: usize,
-    seed: Seed,
+    seeds: &Seeds,
     report: &Report,
 ) -> Cast<'a> {
     let mut fits = Vec::new();
@@ -66,10 +67,11 @@ pub(crate) fn cast<'a>(
         }
         let size_m = median_size_m(&boxes);
         let role = size_m.and_then(|size_m| {
-            let (root_seed, seed) = (seed, seed.child(&track.token));
+            let of_choice = choice_seed(track.kind, seeds);
+            let seed = individual_seed(track.kind, seeds).child(&track.token);
             // A row is of one make, which fits its middle size.
             let row_size_m = row_size_m(drive, &rows, first).unwrap_or(size_m);
-            let row_seed = root_seed.child(&drive.tracks[first].token);
+            let row_seed = of_choice.child(&drive.tracks[first].token);
             let sits = track.kind == Kind::Adult;
             let gait = Gait::new(drive, &boxes, size_m.z, sits);
             let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
@@ -98,7 +100,7 @@ pub(crate) fn cast<'a>(
         roles.push(role);
     }
     measure(&fits, report);
-    roles.push(ego(drive, library, stand, top_k, seed));
+    roles.push(ego(drive, library, stand, top_k, seeds));
     Cast { roles, fits }
 }
 
@@ -121,10 +123,11 @@ fn stays_up(track: &Track, boxes: &[(usize, Cuboid)], stand: &Stand, report: &Re
 }
 
 /// The recording vehicle at every keyframe, in its own body.
-fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize, seed: Seed) -> Option<Role<'a>> {
+fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize, seeds: &Seeds) -> Option<Role<'a>> {
     let body = drive.ego_body;
-    let seed = seed.child("ego");
-    let Candidate { asset, fit } = draw(&ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car), top_k, seed)?;
+    let ranked = ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car);
+    let Candidate { asset, fit } = draw(&ranked, top_k, choice_seed(Kind::Car, seeds).child("ego"))?;
+    let seed = individual_seed(Kind::Car, seeds).child("ego");
     let place = |(k, keyframe): (usize, &trove_model::Keyframe)| {
         let ego = keyframe.world_from_ego;
         let cuboid =
@@ -134,6 +137,16 @@ fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize
     let placements: Vec<(usize, Placement)> = drive.keyframes.iter().enumerate().map(place).collect();
     let postures = vec![asset; placements.len()];
     Some(Role { asset, fit, seed, is_driven: true, placements, postures })
+}
+
+/// What a model of a kind is drawn from.
+fn choice_seed(kind: Kind, seeds: &Seeds) -> Seed {
+    if kind.class() == Class::Human { seeds.people } else { seeds.assets }.child("cast")
+}
+
+/// What the paints, the wear, the extras and the postures of an individual are drawn from.
+fn individual_seed(kind: Kind, seeds: &Seeds) -> Seed {
+    if kind.is_vehicle() { seeds.paint.child("cast") } else { choice_seed(kind, seeds) }
 }
 
 fn is_sound(cuboid: &Cuboid) -> bool {
@@ -178,7 +191,7 @@ mod tests {
     fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {
         let (ground, surfaces) = (slope(), surfaces());
         let stand = Stand { ground: &ground, surfaces: &surfaces };
-        cast(&testing::drive(), library, &stand, top_k, seed, report).roles
+        cast(&testing::drive(), library, &stand, top_k, &seed.into(), report).roles
     }
 
     #[test]
@@ -239,7 +252,8 @@ mod tests {
                 cuboid.world_from_body.translation.z = z;
             }
         }
-        let roles = cast(&drive, &library, &Stand { ground: &ground, surfaces: &surfaces }, 1, Seed(1), &report).roles;
+        let roles =
+            cast(&drive, &library, &Stand { ground: &ground, surfaces: &surfaces }, 1, &Seed(1).into(), &report).roles;
         let rise_m = |track: usize| {
             let placed = roles[track].as_ref().unwrap().placements[0].1.cuboid.world_from_body.translation;
             drive.tracks[track].boxes[0].1.world_from_body.translation.z - placed.z

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2};
 use trove_model::{
-    AssetLibrary, Bounds, Class, Drive, HeightField, Material, Mesh, Polygon, Report, Seed, StreetMap, SurfaceKind,
+    AssetLibrary, Bounds, Class, Drive, HeightField, Material, Mesh, Polygon, Report, StreetMap, SurfaceKind,
 };
 
 pub(crate) use footings::Footing;
@@ -32,6 +32,7 @@ use crate::ground::{Drape, Ramps};
 use crate::palette::Palette;
 use crate::piece::Piece;
 use crate::plane;
+use crate::seeds::Seeds;
 use crate::vegetation::{Conditions, Lawn};
 
 /// The lowest of kerbs: what stands on the ground beside the road begins here, metres.
@@ -100,9 +101,10 @@ pub(crate) fn surfaces(
     bounds: Bounds,
     library: &AssetLibrary,
     conditions: Conditions,
-    seed: Seed,
+    seeds: &Seeds,
     report: &Report,
 ) -> RoadSurfaces {
+    let seed = seeds.materials.child("roads");
     let kerb_m = kerb_m(drive);
     // Up to the end of the height field, where the apron begins.
     let field = Drape::new(ground).bounds();
@@ -168,7 +170,7 @@ pub(crate) fn surfaces(
     surfacing.align(&mut pavement);
     add(pavement, Class::Sidewalk, SurfaceKind::Paving);
     add(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, SurfaceKind::Asphalt);
-    let lawn = Lawn::new(conditions, seed.child("lawn"));
+    let lawn = Lawn::new(conditions, seeds.vegetation.child("roads").child("lawn"));
     for cover in &covers {
         let is_water = cover.kind == SurfaceKind::Water;
         let lift_m = if is_water { WATER_M } else { kerb_m };

@@ -41,7 +41,7 @@ fn built() -> RoadSurfaces {
         bounds(),
         &AssetLibrary::default(),
         conditions(),
-        Seed(7),
+        &Seed(7).into(),
         &Report::default(),
     )
 }
@@ -129,8 +129,16 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
 fn a_drive_without_any_map_has_a_road_under_it() {
     let drive = trove_model::Drive { lane_map: None, ..drive() };
     let flat = HeightField::flat(bounds(), 0.0);
-    let built =
-        surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), Seed(7), &Report::default());
+    let built = surfaces(
+        &drive,
+        None,
+        &flat,
+        bounds(),
+        &AssetLibrary::default(),
+        conditions(),
+        &Seed(7).into(),
+        &Report::default(),
+    );
     for keyframe in &drive.keyframes {
         assert_eq!(built.footing(keyframe.world_from_ego.translation.truncate()), Footing::Carriageway);
     }
@@ -147,7 +155,8 @@ fn a_patchy_recording_is_closed_where_vehicles_drove() {
     drive.lane_map = Some(LaneMap { drivable, ..LaneMap::default() });
     let flat = HeightField::flat(bounds(), 0.0);
     let report = Report::default();
-    let built = surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), Seed(7), &report);
+    let built =
+        surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), &Seed(7).into(), &report);
     assert_eq!(built.footing(DVec2::new(15.0, 0.0)), Footing::Carriageway);
     assert!(report.entries().iter().any(|e| e.what.contains("gaps")));
 }

@@ -1,10 +1,11 @@
 //! The rig on other vehicles of the scene.
 
 use glam::DVec3;
-use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, Seed, Shot, World};
+use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, World};
 
 use super::{ViewSettings, shot_seed};
 use crate::moments::{next, previous};
+use crate::seeds::Seeds;
 use crate::site::{Site, track_id};
 
 /// Cameras keep this far from everything but their carrier, metres.
@@ -30,7 +31,7 @@ pub(super) fn shots(
     site: &Site,
     keyframe: usize,
     views: &ViewSettings,
-    seed: Seed,
+    seeds: &Seeds,
     report: &Report,
 ) -> Vec<Shot> {
     if views.other_vehicles == 0 {
@@ -40,7 +41,7 @@ pub(super) fn shots(
     let obstacles = Obstacles::at(drive, site, keyframe);
 
     // Every vehicle gets a rank, and a draw among those of its rank.
-    let mut random = seed.child("carriers").nth(keyframe as u64).random();
+    let mut random = seeds.rigs.child("views").child("carriers").nth(keyframe as u64).random();
     let mut candidates: Vec<(u32, u64, &ObjectBox, Cuboid)> = Vec::new();
     for vehicle in moment.boxes.iter().filter(|b| can_carry(b.kind)) {
         let draw = random.bits();
@@ -57,12 +58,12 @@ pub(super) fn shots(
         if carriers == views.other_vehicles {
             break;
         }
-        let Some(lift_m) = obstacles.clear_lift_m(drive, vehicle.track, &cuboid) else {
+        let Some(lift_m) = obstacles.clear_lift_m(drive, views, vehicle.track, &cuboid) else {
             report.note(Outcome::Dropped, "vehicle that cannot carry a rig clear of geometry", &vehicle.token);
             continue;
         };
         carriers += 1;
-        shots.extend(rig_shots(drive, site, keyframe, views, seed, vehicle.track, carriers, lift_m));
+        shots.extend(rig_shots(drive, site, keyframe, views, seeds, vehicle.track, carriers, lift_m));
     }
     if carriers < views.other_vehicles {
         let example = format!("{} keyframe {keyframe}: {carriers} of {}", drive.id, views.other_vehicles);
@@ -77,7 +78,7 @@ fn rig_shots(
     site: &Site,
     keyframe: usize,
     views: &ViewSettings,
-    seed: Seed,
+    seeds: &Seeds,
     track: usize,
     number: usize,
     lift_m: f64,
@@ -89,20 +90,21 @@ fn rig_shots(
     let after = world_from_rig(next(drive, keyframe));
     let times_ns = [previous(drive, keyframe), next(drive, keyframe)].map(|k| Some(drive.keyframes[k?].time_ns));
     let cameras = drive.rig.iter().filter(|c| views.wants(&c.name));
+    let mounted = |camera: &RigCamera| views.mounted(&camera.ego_from_camera);
     cameras
         .map(|camera| {
             let view = format!("v{number}.{}", camera.name);
             Shot {
                 lens: views.lens(&camera.name, &camera.lens),
-                world_from_camera: now * camera.ego_from_camera,
-                world_from_camera_previous: before.map(|rig| rig * camera.ego_from_camera),
-                world_from_camera_next: after.map(|rig| rig * camera.ego_from_camera),
+                world_from_camera: now * mounted(camera),
+                world_from_camera_previous: before.map(|rig| rig * mounted(camera)),
+                world_from_camera_next: after.map(|rig| rig * mounted(camera)),
                 time_ns: moment.time_ns,
                 shutter: views.shutter(moment.time_ns, times_ns),
                 spp: views.spp,
                 noise: views.noise,
                 film: views.film,
-                seed: shot_seed(seed, keyframe, &view),
+                seed: shot_seed(seeds, keyframe, &view),
                 carrier: Some(track_id(track)),
                 view,
             }
@@ -154,10 +156,13 @@ impl<'a> Obstacles<'a> {
     }
 
     /// How far the rig must be lifted for all its cameras to stand clear; `None` where that is too far.
-    fn clear_lift_m(&self, drive: &Drive, track: usize, vehicle: &Cuboid) -> Option<f64> {
+    fn clear_lift_m(&self, drive: &Drive, views: &ViewSettings, track: usize, vehicle: &Cuboid) -> Option<f64> {
         (0..=LIFT_STEPS).map(|step| f64::from(step) * LIFT_STEP_M).find(|&lift_m| {
             let world_from_rig = world_from_rig(drive, vehicle, lift_m);
-            drive.rig.iter().all(|c| self.is_clear(track, world_from_rig.point(c.ego_from_camera.translation)))
+            drive.rig.iter().all(|c| {
+                let eye_ego = views.mounted(&c.ego_from_camera).translation;
+                self.is_clear(track, world_from_rig.point(eye_ego))
+            })
         })
     }
 

@@ -5,11 +5,15 @@ mod place;
 
 use std::collections::BTreeMap;
 
-use trove_model::{Distortion, Drive, Film, Lens, Outcome, Report, Seed, Shot, Shutter};
+use glam::{DQuat, DVec3};
+use trove_model::{
+    Camera, Distortion, Drive, Ego, Exposure, Film, Lens, Outcome, Pose, Report, Seed, Shot, Shutter, World,
+};
 
 pub use place::place_drive;
 
 use crate::moments::{next, previous};
+use crate::seeds::Seeds;
 use crate::site::Site;
 
 /// The dataset's name of a drive that was made up from a map.
@@ -24,6 +28,10 @@ pub struct ViewSettings {
     pub other_vehicles: usize,
     /// How large pictures are.
     pub size: PictureSize,
+    /// How far the rig is above its recorded place, metres.
+    pub lift_m: f64,
+    /// How far up from its recorded view every camera looks, about its own horizontal axis, radians.
+    pub pitch_rad: f64,
     /// Samples a pixel, or the most of them.
     pub spp: u32,
     /// As in [`Shot::noise`].
@@ -70,6 +78,17 @@ impl ViewSettings {
         self.rig.as_ref().is_none_or(|names| names.iter().any(|n| n == camera))
     }
 
+    /// Where a camera sits that is mounted somewhere.
+    fn mounted(&self, ego_from_camera: &Pose<Ego, Camera>) -> Pose<Ego, Camera> {
+        let turned = ego_from_camera.rotation * DQuat::from_rotation_x(self.pitch_rad);
+        Pose::new(turned, ego_from_camera.translation + DVec3::Z * self.lift_m)
+    }
+
+    /// The pose of the camera that took a picture.
+    fn world_from_camera(&self, exposure: &Exposure) -> Pose<World, Camera> {
+        exposure.world_from_ego * self.mounted(&exposure.ego_from_camera)
+    }
+
     fn lens(&self, camera: &str, recorded: &Lens) -> Lens {
         let mut lens = *recorded;
         if let Some(change) = self.lenses.get(camera).or_else(|| self.lenses.get(ALL_CAMERAS)) {
@@ -100,7 +119,7 @@ pub fn shots(
     site: &Site,
     keyframe: usize,
     views: &ViewSettings,
-    seed: Seed,
+    seeds: &Seeds,
     report: &Report,
 ) -> Vec<Shot> {
     let Some(moment) = drive.keyframes.get(keyframe) else {
@@ -111,14 +130,14 @@ pub fn shots(
     let mut shots = Vec::new();
     for exposure in &moment.exposures {
         let Some(camera) = drive.rig.get(exposure.camera).filter(|c| views.wants(&c.name)) else { continue };
-        let world_from_camera = exposure.world_from_camera();
+        let world_from_camera = views.world_from_camera(exposure);
         if !world_from_camera.is_finite() {
             report.note(Outcome::Dropped, "view whose pose is not finite", format!("{keyframe} {}", camera.name));
             continue;
         }
         let at = |k: Option<usize>| {
             let other = drive.keyframes[k?].exposures.iter().find(|e| e.camera == exposure.camera)?;
-            Some((other.world_from_camera(), other.time_ns)).filter(|(pose, _)| pose.is_finite())
+            Some((views.world_from_camera(other), other.time_ns)).filter(|(pose, _)| pose.is_finite())
         };
         let neighbours = [at(previous(drive, keyframe)), at(next(drive, keyframe))];
         let [before, after] = neighbours.map(|n| n.map(|(pose, _)| pose));
@@ -134,17 +153,17 @@ pub fn shots(
             spp: views.spp,
             noise: views.noise,
             film: views.film,
-            seed: shot_seed(seed, keyframe, &view),
+            seed: shot_seed(seeds, keyframe, &view),
             carrier: Some(site.ego_id(drive)),
             view,
         });
     }
-    shots.extend(carriers::shots(drive, site, keyframe, views, seed, report));
+    shots.extend(carriers::shots(drive, site, keyframe, views, seeds, report));
     shots
 }
 
-fn shot_seed(seed: Seed, keyframe: usize, view: &str) -> Seed {
-    seed.child("shot").nth(keyframe as u64).child(view)
+fn shot_seed(seeds: &Seeds, keyframe: usize, view: &str) -> Seed {
+    seeds.noise.child("views").child("shot").nth(keyframe as u64).child(view)
 }
 
 #[cfg(test)]
@@ -156,7 +175,7 @@ mod tests {
     fn site() -> Site {
         let weather = crate::Weather::default();
         let settings = BuildSettings {
-            seed: Seed(1),
+            seeds: Seed(1).into(),
             top_k: 1,
             light: LightChoice::default(),
             weather,
@@ -168,7 +187,7 @@ mod tests {
     fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
         let size = PictureSize::Scaled(0.5);
         let views = ViewSettings { other_vehicles: 2, size, spp: 1, ..ViewSettings::default() };
-        shots(&testing::drive(), site, keyframe, &views, Seed(seed), &Report::default())
+        shots(&testing::drive(), site, keyframe, &views, &Seed(seed).into(), &Report::default())
     }
 
     #[test]

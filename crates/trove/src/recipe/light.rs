@@ -38,11 +38,16 @@ impl Default for LightSection {
 }
 
 impl LightSection {
-    /// The sky of a variation: the recording's own light is one; further variations differ in it.
-    pub fn sky(&self, variation: u32) -> Result<SkyChoice> {
+    /// Whether a photographed sky is asked for.
+    pub fn is_file(&self) -> bool {
+        !matches!(self.environment.as_str(), "capture-time" | "random")
+    }
+
+    /// The computed sky: the recording's own, or one that is drawn.
+    pub fn sky(&self, is_drawn: bool) -> Result<SkyChoice> {
         let moment = match self.time_ns()? {
             Some(time_ns) => Moment::At(time_ns),
-            None if self.environment == "capture-time" && variation == 0 => Moment::Capture,
+            None if self.environment == "capture-time" && !is_drawn => Moment::Capture,
             None => Moment::Drawn,
         };
         let Self { turbidity, ground_albedo, clouds, .. } = *self;
@@ -57,7 +62,7 @@ impl LightSection {
         check("light.turbidity", shown(self.turbidity), is_within(self.turbidity, 1.7, 10.0), "1.7 to 10")?;
         check("light.ground_albedo", shown(self.ground_albedo), is_within(self.ground_albedo, 0.0, 1.0), "0 to 1")?;
         check("light.clouds", shown(self.clouds), is_within(self.clouds, 0.0, 1.0), "0 to 1")?;
-        let is_file = !matches!(self.environment.as_str(), "capture-time" | "random");
+        let is_file = self.is_file();
         let of_sky = self.time.is_some() || self.turbidity.or(self.ground_albedo).or(self.clouds).is_some();
         ensure!(
             !(is_file && of_sky),
@@ -72,8 +77,8 @@ impl LightSection {
         Ok(())
     }
 
-    /// Nanoseconds since 1970 UTC.
-    fn time_ns(&self) -> Result<Option<i64>> {
+    /// The time that is told, nanoseconds since 1970 UTC.
+    pub fn time_ns(&self) -> Result<Option<i64>> {
         let Some(text) = &self.time else { return Ok(None) };
         let wrong = || format!("light.time: expected a time such as \"2018-08-01T15:26:00Z\", found {text:?}");
         let parsed: toml::value::Datetime = text.parse().with_context(wrong)?;

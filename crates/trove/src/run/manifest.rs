@@ -21,6 +21,8 @@ pub(super) struct SiteFile {
     pub(super) report: Value,
     /// What stands for which object, how well it fits, and what else would have.
     pub(super) fits: Value,
+    /// What its variation differs in.
+    pub(super) factors: Value,
     /// Frames as (keyframe, view).
     pub(super) frames: Vec<(usize, String)>,
 }
@@ -86,7 +88,7 @@ pub(crate) fn fits_json(fits: &[ObjectFit]) -> Value {
 }
 
 /// A frame's row in the manifest.
-pub(super) fn frame_row(path: &str, key: &FrameKey, files: &[WrittenFile]) -> Value {
+pub(super) fn frame_row(path: &str, key: &FrameKey, factors: &Value, files: &[WrittenFile]) -> Value {
     let hashes: serde_json::Map<String, Value> =
         files.iter().map(|file| (file.name.clone(), Value::String(file.sha256.clone()))).collect();
     json!({
@@ -95,6 +97,7 @@ pub(super) fn frame_row(path: &str, key: &FrameKey, files: &[WrittenFile]) -> Va
         "variation": key.variation,
         "keyframe": key.keyframe,
         "view": key.view,
+        "factors": factors,
         "files": hashes,
     })
 }

@@ -11,14 +11,15 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
-use trove_build::{ALL_CAMERAS, BuildSettings, Site, ViewSettings};
-use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Seed, Shot};
+use trove_build::{ALL_CAMERAS, Site, ViewSettings};
+use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot};
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, contact_sheet, frame_files, write_frame};
 
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
+use crate::variation::Variation;
 use crate::{interrupt, library, message};
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 pub(crate) use manifest::{fits_json, report_json};
@@ -141,6 +142,8 @@ pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         rig: recipe.camera_names(),
         other_vehicles: recipe.views.other_vehicles,
         size: recipe.render.picture_size(),
+        lift_m: 0.0,
+        pitch_rad: 0.0,
         spp: recipe.render.spp,
         noise: recipe.render.noise,
         lenses: recipe.camera.lenses()?,
@@ -276,22 +279,26 @@ impl Run<'_> {
         let report = Report::default();
         let (drive, map) = self.sources.drive(scene, &report)?;
         self.check_cameras(&drive)?;
-        let settings = self.settings(scene, variation)?;
+        let variation = Variation::draw(self.recipe, &drive, variation)?;
+        let settings = variation.build_settings(self.recipe, &self.sources)?;
         let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
-        let views = view_settings(self.recipe)?;
+        let mut views = view_settings(self.recipe)?;
+        variation.change(&mut views);
         let keyframes = match &self.recipe.drive {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
         };
-        let seed = settings.seed.child("views");
-        let shots: Vec<(usize, Vec<Shot>)> =
-            keyframes.into_iter().map(|k| (k, trove_build::shots(&drive, &site, k, &views, seed, &report))).collect();
+        let shots: Vec<(usize, Vec<Shot>)> = keyframes
+            .into_iter()
+            .map(|k| (k, trove_build::shots(&drive, &site, k, &views, &settings.seeds, &report)))
+            .collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
             drive: drive_row(&drive),
             sources: site.provenance().iter().map(Into::into).collect(),
             report: report_json(&report),
             fits: fits_json(site.fits()),
+            factors: variation.factors(self.recipe, &site),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { drive, site, shots }))
@@ -308,18 +315,6 @@ impl Run<'_> {
             }
         }
         Ok(())
-    }
-
-    fn settings(&self, scene: &str, variation: u32) -> Result<BuildSettings> {
-        let light = self.sources.light(variation)?;
-        let seed = Seed(self.recipe.seed).child(scene).nth(u64::from(variation));
-        Ok(BuildSettings {
-            seed,
-            top_k: self.recipe.assets.top_k,
-            light,
-            weather: self.recipe.weather(),
-            on_disagreement: self.recipe.map.on_disagreement.into(),
-        })
     }
 
     /// Renders what is missing of a scene.
@@ -426,7 +421,7 @@ impl Run<'_> {
                 if self.wants(&key) {
                     let files = self.finished(&key)?;
                     let files = files.with_context(|| format!("{}: vanished during the run", key.path()))?;
-                    rows.push(frame_row(&key.path(), &key, &files));
+                    rows.push(frame_row(&key.path(), &key, &file.factors, &files));
                 }
             }
             self.sites.push(SiteSummary { scene, variation, file });

@@ -1,0 +1,272 @@
+//! `[variations]`: how many scenes a keyframe becomes, and what differs between them.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
+use serde::{Deserialize, Serialize};
+
+use super::{LightSection, SeasonChoice, check};
+
+/// What may differ between variations; each has a seed of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Factor {
+    /// Which models stand for recorded objects, but for people.
+    Assets,
+    /// Colours, wear and extras of vehicles.
+    Paint,
+    /// Who the people on foot are, and how they are dressed.
+    People,
+    /// Styles and colours of buildings, and heights that nobody knows.
+    Facades,
+    /// Surfaces of roads, sidewalks and land, markings that nobody knows, damage.
+    Materials,
+    /// Street furniture.
+    Furniture,
+    /// Species and individuals of plants, lawns and undergrowth.
+    Vegetation,
+    /// What plants, lawns and fallen leaves show.
+    Season,
+    /// Sun and sky.
+    Light,
+    /// Rain that has fallen.
+    Wetness,
+    /// Stops about the recipe's exposure.
+    Exposure,
+    /// Height and pitch of the cameras.
+    Camera,
+    /// Which other vehicles carry the rig, and how many.
+    Rigs,
+}
+
+impl Factor {
+    /// Every factor.
+    #[rustfmt::skip]
+    pub const ALL: [Self; 13] = [
+        Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
+        Self::Season, Self::Light, Self::Wetness, Self::Exposure, Self::Camera, Self::Rigs,
+    ];
+
+    /// Its name in recipes.
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+}
+
+/// The least and the most of what is drawn evenly in between.
+pub type Range = [f64; 2];
+
+/// `[variations]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VariationsSection {
+    /// Scenes per keyframe.
+    pub count: u32,
+    /// What differs; without it all that differs without a range, and all that has one.
+    pub factors: Option<Vec<Factor>>,
+    /// Whether v00 is the scene that the rest of the recipe tells of, with nothing drawn from the ranges.
+    pub first_as_recorded: bool,
+    /// Seasons to draw among.
+    pub seasons: Option<Vec<SeasonChoice>>,
+    /// As `weather.wetness`.
+    pub wetness: Option<Range>,
+    /// Share of the variations that are dry where wetness is drawn.
+    pub dry_share: f64,
+    /// Stops about the metered or fixed exposure.
+    pub exposure_ev: Option<Range>,
+    /// Above the recorded place, metres.
+    pub camera_height_m: Option<Range>,
+    /// Up from the recorded view, degrees.
+    pub camera_pitch_deg: Option<Range>,
+    /// As `views.other_vehicles`.
+    pub other_vehicles: Option<[usize; 2]>,
+    /// Sun and sky.
+    pub light: VariedLight,
+}
+
+/// `[variations.light]`
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VariedLight {
+    /// Hours of the day by the sun, which is highest at 12.
+    pub hours: Option<Range>,
+    /// As `light.clouds`.
+    pub clouds: Option<Range>,
+    /// As `light.turbidity`.
+    pub turbidity: Option<Range>,
+    /// Pictures of skies, and the word `sky` for a computed one.
+    pub environments: Vec<String>,
+}
+
+/// The computed sky among the environments.
+pub const COMPUTED_SKY: &str = "sky";
+
+impl Default for VariationsSection {
+    fn default() -> Self {
+        Self {
+            count: 1,
+            factors: None,
+            first_as_recorded: true,
+            seasons: None,
+            wetness: None,
+            dry_share: 0.5,
+            exposure_ev: None,
+            camera_height_m: None,
+            camera_pitch_deg: None,
+            other_vehicles: None,
+            light: VariedLight::default(),
+        }
+    }
+}
+
+impl VariationsSection {
+    /// Whether a factor differs between variations.
+    pub fn varies(&self, factor: Factor) -> bool {
+        match &self.factors {
+            Some(factors) => factors.contains(&factor),
+            None => !factor.needs_range() || self.ranges().iter().any(|(f, _, given)| *f == factor && *given),
+        }
+    }
+
+    /// The seasons to draw among.
+    pub fn seasons(&self) -> Vec<SeasonChoice> {
+        let all = [SeasonChoice::Spring, SeasonChoice::Summer, SeasonChoice::Autumn, SeasonChoice::Winter];
+        self.seasons.clone().unwrap_or(all.to_vec())
+    }
+
+    /// How wet it may be.
+    pub fn wetness(&self) -> Range {
+        self.wetness.unwrap_or([0.0, 0.8])
+    }
+
+    /// Stops about the exposure.
+    pub fn exposure_ev(&self) -> Range {
+        self.exposure_ev.unwrap_or([-0.7, 0.7])
+    }
+
+    /// Metres above and degrees up from where the cameras were; one that is not given stays where the other is.
+    pub fn camera(&self) -> [Range; 2] {
+        match (self.camera_height_m, self.camera_pitch_deg) {
+            (None, None) => [[-0.3, 0.3], [-3.0, 3.0]],
+            (height_m, pitch_deg) => [height_m.unwrap_or_default(), pitch_deg.unwrap_or_default()],
+        }
+    }
+
+    /// Every key with a range: its factor, its name, and whether it is given.
+    fn ranges(&self) -> [(Factor, &'static str, bool); 10] {
+        let light = &self.light;
+        [
+            (Factor::Season, "seasons", self.seasons.is_some()),
+            (Factor::Wetness, "wetness", self.wetness.is_some()),
+            (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
+            (Factor::Camera, "camera_height_m", self.camera_height_m.is_some()),
+            (Factor::Camera, "camera_pitch_deg", self.camera_pitch_deg.is_some()),
+            (Factor::Rigs, "other_vehicles", self.other_vehicles.is_some()),
+            (Factor::Light, "light.hours", light.hours.is_some()),
+            (Factor::Light, "light.clouds", light.clouds.is_some()),
+            (Factor::Light, "light.turbidity", light.turbidity.is_some()),
+            (Factor::Light, "light.environments", !light.environments.is_empty()),
+        ]
+    }
+
+    pub(super) fn check(&self, light: &LightSection) -> Result<()> {
+        let within = |key: &str, range: Option<Range>, [low, high]: Range| {
+            let [least, most] = range.unwrap_or([low, high]);
+            let expected = format!("two numbers from {low} to {high}, the smaller first");
+            check(
+                &format!("variations.{key}"),
+                format!("[{least}, {most}]"),
+                low <= least && least <= most && most <= high,
+                &expected,
+            )
+        };
+        check("variations.count", self.count, (1..=100).contains(&self.count), "1 to 100")?;
+        let share = self.dry_share;
+        check("variations.dry_share", share, (0.0..=1.0).contains(&share), "0 to 1")?;
+        within("wetness", self.wetness, [0.0, 1.0])?;
+        within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
+        within("camera_height_m", self.camera_height_m, [-1.0, 3.0])?;
+        within("camera_pitch_deg", self.camera_pitch_deg, [-20.0, 20.0])?;
+        within("other_vehicles", self.other_vehicles.map(|r| r.map(|n| n as f64)), [0.0, 100.0])?;
+        within("light.hours", self.light.hours, [0.0, 24.0])?;
+        within("light.clouds", self.light.clouds, [0.0, 1.0])?;
+        within("light.turbidity", self.light.turbidity, [1.7, 10.0])?;
+        let has_seasons = self.seasons.as_ref().is_none_or(|s| !s.is_empty());
+        ensure!(has_seasons, "variations.seasons: expected at least one season, found none; leave it out for all");
+        let of_sky = self.light.hours.or(self.light.clouds).or(self.light.turbidity).is_some();
+        let has_sky = match self.light.environments.as_slice() {
+            [] => !light.is_file(),
+            names => names.iter().any(|name| name == COMPUTED_SKY),
+        };
+        ensure!(
+            !of_sky || has_sky,
+            "variations.light: hours, clouds and turbidity are those of a computed sky, found pictures alone; add \
+             {COMPUTED_SKY:?} to variations.light.environments or remove them"
+        );
+        if let Some(factors) = &self.factors {
+            for (factor, key, given) in self.ranges() {
+                ensure!(
+                    !given || factors.contains(&factor),
+                    "variations.{key}: expected a factor that varies, found \"{0}\" left out of variations.factors; add \
+                     \"{0}\" there or remove the key",
+                    factor.name()
+                );
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Factor {
+    /// Whether it differs only where a range is given, or where it is named.
+    fn needs_range(self) -> bool {
+        matches!(self, Self::Season | Self::Wetness | Self::Exposure | Self::Camera)
+    }
+}
+
+impl VariedLight {
+    /// The environments as paths; `None` for a computed sky.
+    pub fn environments(&self) -> impl Iterator<Item = Option<PathBuf>> {
+        self.environments.iter().map(|name| (name != COMPUTED_SKY).then(|| PathBuf::from(name)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::Recipe;
+
+    fn variations(text: &str) -> Result<VariationsSection> {
+        let text = format!("[drive]\ndataset = \"nuscenes\"\nroot = \"data\"\n[variations]\n{text}");
+        Ok(Recipe::parse(&text)?.variations)
+    }
+
+    #[test]
+    fn what_has_a_range_varies_and_what_is_named_alone_varies_alone() {
+        let plain = variations("").unwrap();
+        assert!(plain.varies(Factor::Paint) && plain.varies(Factor::Light) && !plain.varies(Factor::Wetness));
+        let ranged = variations("wetness = [0, 0.5]\n[variations.light]\nhours = [7, 19]\n").unwrap();
+        assert!(ranged.varies(Factor::Wetness) && !ranged.varies(Factor::Season));
+        let named = variations("factors = [\"season\"]\n").unwrap();
+        let varying: Vec<Factor> = Factor::ALL.into_iter().filter(|f| named.varies(*f)).collect();
+        assert_eq!((varying, named.seasons().len()), (vec![Factor::Season], 4));
+    }
+
+    #[test]
+    fn a_range_out_of_sense_names_key_expectation_and_remedy() {
+        for (text, expect) in [
+            ("count = 0\n", "variations.count: expected 1 to 100, found 0"),
+            ("wetness = [0.5, 0.2]\n", "variations.wetness: expected two numbers from 0 to 1, the smaller first"),
+            ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),
+            ("[variations.light]\nhours = [7, 25]\n", "variations.light.hours"),
+            ("seasons = []\n", "leave it out for all"),
+            ("seasons = [\"monsoon\"]\n", "monsoon"),
+            ("factors = [\"paint\"]\nwetness = [0, 1]\n", "add \"wetness\" there or remove the key"),
+            ("factors = [\"colour\"]\n", "colour"),
+            ("exposre_ev = [0, 1]\n", "did you mean `exposure_ev`?"),
+        ] {
+            let message = format!("{:#}", variations(text).unwrap_err());
+            assert!(message.contains(expect), "{message}");
+        }
+    }
+}

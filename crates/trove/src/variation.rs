@@ -1,0 +1,200 @@
+//! One variation of a scene: its seeds, and what was drawn for it.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use serde_json::{Value, json};
+use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, ViewSettings};
+use trove_model::{Drive, Environment, ExposureRule, Random, Season, Seed};
+
+use crate::recipe::{Factor, Range, Recipe};
+use crate::sources::Sources;
+
+const HOUR_NS: f64 = 3.6e12;
+const DAY_NS: i64 = 86_400_000_000_000;
+
+/// What one variation of a scene differs in.
+pub(crate) struct Variation {
+    number: u32,
+    seeds: Seeds,
+    season: Option<Season>,
+    wetness: f64,
+    light: Light,
+    /// Added to the recipe's exposure, stops.
+    exposure_ev: f64,
+    lift_m: f64,
+    pitch_deg: f64,
+    other_vehicles: usize,
+}
+
+/// Where the light comes from.
+enum Light {
+    /// The recipe's picture of a sky.
+    Recipe,
+    /// Another one, turned counter-clockwise by so many degrees.
+    Picture(PathBuf, f64),
+    Sky(SkyChoice),
+}
+
+impl Variation {
+    /// Draws a variation of a scene; each factor that differs has a seed of its own, by its name and the variation's
+    /// number, and one that does not has that of variation 0.
+    pub(crate) fn draw(recipe: &Recipe, drive: &Drive, number: u32) -> Result<Self> {
+        let section = &recipe.variations;
+        let base = Seed(recipe.seed).child(&drive.id);
+        let seed = |factor: Factor| base.nth(if section.varies(factor) { number.into() } else { 0 });
+        let is_drawn = |factor: Factor| section.varies(factor) && (number > 0 || !section.first_as_recorded);
+        let random = |factor: Factor| is_drawn(factor).then(|| seed(factor).child(&factor.name()).random());
+
+        let weather = recipe.weather();
+        let season = random(Factor::Season).and_then(|mut random| random.pick(&section.seasons()).copied());
+        let wetness = random(Factor::Wetness).map(|mut random| {
+            let is_dry = random.chance(section.dry_share);
+            if is_dry { 0.0 } else { within(section.wetness(), &mut random) }
+        });
+        let exposure_ev = random(Factor::Exposure).map(|mut random| within(section.exposure_ev(), &mut random));
+        let [lift_m, pitch_deg] =
+            random(Factor::Camera).map_or([0.0; 2], |mut random| section.camera().map(|r| within(r, &mut random)));
+        let other_vehicles = random(Factor::Rigs).zip(section.other_vehicles);
+        Ok(Self {
+            number,
+            seeds: Seeds {
+                place: base.nth(0),
+                assets: seed(Factor::Assets),
+                paint: seed(Factor::Paint),
+                people: seed(Factor::People),
+                facades: seed(Factor::Facades),
+                materials: seed(Factor::Materials),
+                furniture: seed(Factor::Furniture),
+                vegetation: seed(Factor::Vegetation),
+                light: seed(Factor::Light),
+                rigs: seed(Factor::Rigs),
+                noise: base.nth(number.into()),
+            },
+            season: season.map_or(weather.season, Into::into),
+            wetness: wetness.unwrap_or(weather.wetness),
+            light: light(recipe, drive, random(Factor::Light))?,
+            exposure_ev: exposure_ev.unwrap_or(0.0),
+            lift_m,
+            pitch_deg,
+            other_vehicles: other_vehicles
+                .map_or(recipe.views.other_vehicles, |(mut random, [few, many])| few + random.index(many - few + 1)),
+        })
+    }
+
+    /// How its place is built.
+    pub(crate) fn build_settings(&self, recipe: &Recipe, sources: &Sources) -> Result<BuildSettings> {
+        let light = match &self.light {
+            Light::Recipe => LightChoice::Map(sources.environment()?),
+            Light::Picture(file, rotation_deg) => LightChoice::Map(sources.picture(file, *rotation_deg)?),
+            Light::Sky(sky) => LightChoice::Sky(*sky),
+        };
+        Ok(BuildSettings {
+            seeds: self.seeds,
+            top_k: recipe.assets.top_k,
+            light,
+            weather: trove_build::Weather { season: self.season, wetness: self.wetness, ..recipe.weather() },
+            on_disagreement: recipe.map.on_disagreement.into(),
+        })
+    }
+
+    /// Changes the recipe's views into its own.
+    pub(crate) fn change(&self, views: &mut ViewSettings) {
+        views.other_vehicles = self.other_vehicles;
+        views.lift_m = self.lift_m;
+        views.pitch_rad = self.pitch_deg.to_radians();
+        match &mut views.film.exposure {
+            ExposureRule::Auto { compensation_ev: ev } | ExposureRule::Fixed { ev } => *ev += self.exposure_ev,
+        }
+    }
+
+    /// Its row in the manifest: of a factor without a quantity the variation that its seed is of, of others what was
+    /// drawn, or what stands in the recipe or the recording.
+    pub(crate) fn factors(&self, recipe: &Recipe, site: &Site) -> Value {
+        let mut row = serde_json::Map::new();
+        let drawn_alone = [
+            Factor::Assets,
+            Factor::Paint,
+            Factor::People,
+            Factor::Facades,
+            Factor::Materials,
+            Factor::Furniture,
+            Factor::Vegetation,
+        ];
+        for factor in drawn_alone {
+            let number = if recipe.variations.varies(factor) { self.number } else { 0 };
+            row.insert(factor.name(), json!(number));
+        }
+        row.insert("season".into(), json!(format!("{:?}", site.season()).to_lowercase()));
+        row.insert("light".into(), self.light_row(recipe, site));
+        row.insert("wetness".into(), json!(self.wetness));
+        row.insert("exposure_ev".into(), json!(self.exposure_ev));
+        row.insert("camera_height_m".into(), json!(self.lift_m));
+        row.insert("camera_pitch_deg".into(), json!(self.pitch_deg));
+        row.insert("other_vehicles".into(), json!(self.other_vehicles));
+        Value::Object(row)
+    }
+
+    fn light_row(&self, recipe: &Recipe, site: &Site) -> Value {
+        let picture = |file: &Path, rotation_deg: f64| json!({ "environment": file, "rotation_deg": rotation_deg });
+        match (&self.light, &site.light().environment) {
+            (_, Environment::Sky(sky)) => {
+                let azimuth_deg = sky.to_sun.x.atan2(sky.to_sun.y).to_degrees().rem_euclid(360.0);
+                json!({
+                    "environment": crate::recipe::COMPUTED_SKY,
+                    "sun_elevation_deg": sky.to_sun.z.clamp(-1.0, 1.0).asin().to_degrees(),
+                    "sun_azimuth_deg": azimuth_deg,
+                    "turbidity": sky.turbidity,
+                    "clouds": sky.cloud_cover,
+                })
+            }
+            (Light::Picture(file, rotation_deg), _) => picture(file, *rotation_deg),
+            _ => picture(Path::new(&recipe.light.environment), recipe.light.rotation_deg),
+        }
+    }
+}
+
+/// The light of a variation; without a `random` it is the recipe's own.
+fn light(recipe: &Recipe, drive: &Drive, random: Option<Random>) -> Result<Light> {
+    let of_recipe = |is_drawn: bool| match recipe.environment_file() {
+        Some(_) => Ok(Light::Recipe),
+        None => Ok(Light::Sky(recipe.light.sky(is_drawn)?)),
+    };
+    let Some(mut random) = random else { return of_recipe(false) };
+    let varied = &recipe.variations.light;
+    let environments: Vec<Option<PathBuf>> = varied.environments().collect();
+    let mut sky = match random.pick(&environments) {
+        Some(Some(file)) => return Ok(Light::Picture(file.clone(), random.range(0.0, 360.0))),
+        Some(None) => recipe.light.sky(true)?,
+        None => match of_recipe(true)? {
+            Light::Sky(sky) => sky,
+            other => return Ok(other),
+        },
+    };
+    // All are drawn, so that a range that is given or left out changes nothing else.
+    let [hour, clouds, turbidity] = [varied.hours, varied.clouds, varied.turbidity]
+        .map(|range| (range.is_some(), within(range.unwrap_or([0.0, 1.0]), &mut random)));
+    if hour.0 {
+        let base_ns = recipe.light.time_ns()?.or(drive.keyframes.first().map(|k| k.time_ns)).unwrap_or_default();
+        sky.moment = Moment::At(at_hour(base_ns, drive.projection.origin_lon_deg, hour.1));
+    }
+    // At a time that is told the weather would be fair.
+    if clouds.0 || (hour.0 && sky.clouds.is_none()) {
+        sky.clouds = Some(clouds.1);
+    }
+    if turbidity.0 {
+        sky.turbidity = Some(turbidity.1);
+    }
+    Ok(Light::Sky(sky))
+}
+
+/// The time on the same day by the sun at which it is some hour by the sun, nanoseconds since 1970 UTC.
+fn at_hour(time_ns: i64, lon_deg: f64, hour: f64) -> i64 {
+    let ahead_ns = (lon_deg / 15.0 * HOUR_NS) as i64;
+    let midnight_ns = (time_ns + ahead_ns).div_euclid(DAY_NS) * DAY_NS - ahead_ns;
+    midnight_ns + (hour * HOUR_NS) as i64
+}
+
+fn within([low, high]: Range, random: &mut Random) -> f64 {
+    low + (high - low) * random.unit()
+}
