@@ -33,7 +33,7 @@ pub(crate) fn run(
     let scenes = sources.scenes()?;
     let (name, _) = scenes.first().context("the recipe has no scene")?;
     let started = std::time::Instant::now();
-    let (drive, map) = sources.drive(name, &report)?;
+    let (mut drive, map) = sources.drive(name, &report)?;
     report.measure("read.seconds", started.elapsed().as_secs_f64());
     let first = match &recipe.drive {
         Some(section) => section.keyframes.of(drive.keyframes.len())?[0],
@@ -43,6 +43,7 @@ pub(crate) fn run(
     let count = drive.keyframes.len();
     ensure!(keyframe < count, "--keyframe: {name} has keyframes 0 to {}, found {keyframe}", count.saturating_sub(1));
     let variation = Variation::draw(recipe, &drive, 0)?;
+    drive.projection = variation.projection(drive.projection);
     let settings = variation.build_settings(recipe, &sources)?;
     let started = Instant::now();
     let library = library::gather(recipe, &search, &report)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde_json::{Value, json};
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, ViewSettings};
-use trove_model::{Drive, Environment, ExposureRule, Random, Season, Seed};
+use trove_model::{Drive, Environment, ExposureRule, MapProjection, Random, Season, Seed, drives_on_left};
 
 use crate::recipe::{Factor, Range, Recipe};
 use crate::sources::Sources;
@@ -17,6 +17,8 @@ const DAY_NS: i64 = 86_400_000_000_000;
 pub(crate) struct Variation {
     number: u32,
     seeds: Seeds,
+    /// Latitude and longitude of the place whose customs, climate and sun it has, degrees.
+    place: [f64; 2],
     season: Option<Season>,
     wetness: f64,
     light: Light,
@@ -46,6 +48,12 @@ impl Variation {
         let is_drawn = |factor: Factor| section.varies(factor) && (number > 0 || !section.first_as_recorded);
         let random = |factor: Factor| is_drawn(factor).then(|| seed(factor).child(&factor.name()).random());
 
+        let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
+        let on_left = drives_on_left(origin_lat_deg, origin_lon_deg);
+        let mut places = section.places.clone().unwrap_or_default();
+        places.retain(|[lat_deg, lon_deg]| drives_on_left(*lat_deg, *lon_deg) == on_left);
+        let place = random(Factor::Place).and_then(|mut random| random.pick(&places).copied());
+        let place = place.unwrap_or([origin_lat_deg, origin_lon_deg]);
         let weather = recipe.weather();
         let season = random(Factor::Season).and_then(|mut random| random.pick(&section.seasons()).copied());
         let wetness = random(Factor::Wetness).map(|mut random| {
@@ -71,15 +79,22 @@ impl Variation {
                 rigs: seed(Factor::Rigs),
                 noise: base.nth(number.into()),
             },
+            place,
             season: season.map_or(weather.season, Into::into),
             wetness: wetness.unwrap_or(weather.wetness),
-            light: light(recipe, drive, random(Factor::Light))?,
+            light: light(recipe, drive, place[1], random(Factor::Light))?,
             exposure_ev: exposure_ev.unwrap_or(0.0),
             lift_m,
             pitch_deg,
             other_vehicles: other_vehicles
                 .map_or(recipe.views.other_vehicles, |(mut random, [few, many])| few + random.index(many - few + 1)),
         })
+    }
+
+    /// Where it is built as if it were there; distances stay.
+    pub(crate) fn projection(&self, recorded: MapProjection) -> MapProjection {
+        let [origin_lat_deg, origin_lon_deg] = self.place;
+        MapProjection { origin_lat_deg, origin_lon_deg, ..recorded }
     }
 
     /// How its place is built.
@@ -125,6 +140,7 @@ impl Variation {
             let number = if recipe.variations.varies(factor) { self.number } else { 0 };
             row.insert(factor.name(), json!(number));
         }
+        row.insert("place".into(), json!(self.place));
         row.insert("season".into(), json!(format!("{:?}", site.season()).to_lowercase()));
         row.insert("light".into(), self.light_row(recipe, site));
         row.insert("wetness".into(), json!(self.wetness));
@@ -154,8 +170,8 @@ impl Variation {
     }
 }
 
-/// The light of a variation; without a `random` it is the recipe's own.
-fn light(recipe: &Recipe, drive: &Drive, random: Option<Random>) -> Result<Light> {
+/// The light of a variation at a longitude; without a `random` it is the recipe's own.
+fn light(recipe: &Recipe, drive: &Drive, lon_deg: f64, random: Option<Random>) -> Result<Light> {
     let of_recipe = |is_drawn: bool| match recipe.environment_file() {
         Some(_) => Ok(Light::Recipe),
         None => Ok(Light::Sky(recipe.light.sky(is_drawn)?)),
@@ -176,7 +192,7 @@ fn light(recipe: &Recipe, drive: &Drive, random: Option<Random>) -> Result<Light
         .map(|range| (range.is_some(), within(range.unwrap_or([0.0, 1.0]), &mut random)));
     if hour.0 {
         let base_ns = recipe.light.time_ns()?.or(drive.keyframes.first().map(|k| k.time_ns)).unwrap_or_default();
-        sky.moment = Moment::At(at_hour(base_ns, drive.projection.origin_lon_deg, hour.1));
+        sky.moment = Moment::At(at_hour(base_ns, lon_deg, hour.1));
     }
     // At a time that is told the weather would be fair.
     if clouds.0 || (hour.0 && sky.clouds.is_none()) {

@@ -11,6 +11,8 @@ use super::{LightSection, SeasonChoice, check};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Factor {
+    /// Whose customs, climate and sun the place has.
+    Place,
     /// Which models stand for recorded objects, but for people.
     Assets,
     /// Colours, wear and extras of vehicles.
@@ -42,8 +44,8 @@ pub enum Factor {
 impl Factor {
     /// Every factor.
     #[rustfmt::skip]
-    pub const ALL: [Self; 13] = [
-        Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
+    pub const ALL: [Self; 14] = [
+        Self::Place, Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
         Self::Season, Self::Light, Self::Wetness, Self::Exposure, Self::Camera, Self::Rigs,
     ];
 
@@ -66,6 +68,8 @@ pub struct VariationsSection {
     pub factors: Option<Vec<Factor>>,
     /// Whether v00 is the scene that the rest of the recipe tells of, with nothing drawn from the ranges.
     pub first_as_recorded: bool,
+    /// Latitudes and longitudes of other places, in degrees; those that drive on the recording's side are drawn among.
+    pub places: Option<Vec<[f64; 2]>>,
     /// Seasons to draw among.
     pub seasons: Option<Vec<SeasonChoice>>,
     /// As `weather.wetness`.
@@ -107,6 +111,7 @@ impl Default for VariationsSection {
             count: 1,
             factors: None,
             first_as_recorded: true,
+            places: None,
             seasons: None,
             wetness: None,
             dry_share: 0.5,
@@ -153,9 +158,10 @@ impl VariationsSection {
     }
 
     /// Every key with a range: its factor, its name, and whether it is given.
-    fn ranges(&self) -> [(Factor, &'static str, bool); 10] {
+    fn ranges(&self) -> [(Factor, &'static str, bool); 11] {
         let light = &self.light;
         [
+            (Factor::Place, "places", self.places.is_some()),
             (Factor::Season, "seasons", self.seasons.is_some()),
             (Factor::Wetness, "wetness", self.wetness.is_some()),
             (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
@@ -191,6 +197,14 @@ impl VariationsSection {
         within("light.hours", self.light.hours, [0.0, 24.0])?;
         within("light.clouds", self.light.clouds, [0.0, 1.0])?;
         within("light.turbidity", self.light.turbidity, [1.7, 10.0])?;
+        for [lat_deg, lon_deg] in self.places.iter().flatten() {
+            check(
+                "variations.places",
+                format!("[{lat_deg}, {lon_deg}]"),
+                (-85.0..=85.0).contains(lat_deg) && (-180.0..=180.0).contains(lon_deg),
+                "a latitude of -85 to 85 and a longitude of -180 to 180",
+            )?;
+        }
         let has_seasons = self.seasons.as_ref().is_none_or(|s| !s.is_empty());
         ensure!(has_seasons, "variations.seasons: expected at least one season, found none; leave it out for all");
         let of_sky = self.light.hours.or(self.light.clouds).or(self.light.turbidity).is_some();
@@ -220,7 +234,7 @@ impl VariationsSection {
 impl Factor {
     /// Whether it differs only where a range is given, or where it is named.
     fn needs_range(self) -> bool {
-        matches!(self, Self::Season | Self::Wetness | Self::Exposure | Self::Camera)
+        matches!(self, Self::Place | Self::Season | Self::Wetness | Self::Exposure | Self::Camera)
     }
 }
 
@@ -259,6 +273,7 @@ mod tests {
             ("wetness = [0.5, 0.2]\n", "variations.wetness: expected two numbers from 0 to 1, the smaller first"),
             ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),
             ("[variations.light]\nhours = [7, 25]\n", "variations.light.hours"),
+            ("places = [[100, 0]]\n", "variations.places: expected a latitude"),
             ("seasons = []\n", "leave it out for all"),
             ("seasons = [\"monsoon\"]\n", "monsoon"),
             ("factors = [\"paint\"]\nwetness = [0, 1]\n", "add \"wetness\" there or remove the key"),

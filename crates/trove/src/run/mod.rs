@@ -277,11 +277,14 @@ impl Run<'_> {
 
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
         let report = Report::default();
-        let (drive, map) = self.sources.drive(scene, &report)?;
+        let (mut drive, map) = self.sources.drive(scene, &report)?;
         self.check_cameras(&drive)?;
         let variation = Variation::draw(self.recipe, &drive, variation)?;
         let settings = variation.build_settings(self.recipe, &self.sources)?;
+        let recorded = drive.projection;
+        drive.projection = variation.projection(recorded);
         let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
+        drive.projection = recorded;
         let mut views = view_settings(self.recipe)?;
         variation.change(&mut views);
         let keyframes = match &self.recipe.drive {
