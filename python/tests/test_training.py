@@ -1,6 +1,7 @@
 """`python -m trove.train`: what goes in, what comes out, and a small run on generated frames."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -88,7 +89,7 @@ def test_other_data_or_settings_have_another_folder(experiment, tmp_path):
 )
 def test_a_wrong_experiment_names_the_place(experiment, change, expected):
     experiment.write_text(experiment.read_text().replace(*change))
-    with pytest.raises(ExperimentError, match=expected.replace("[", r"\[")) as caught:
+    with pytest.raises(ExperimentError, match=re.escape(expected)) as caught:
         read(experiment)
     assert str(experiment) in str(caught.value)
 
@@ -129,11 +130,10 @@ def test_the_table_agrees_with_trove_evaluate(finished, tmp_path):
         b = np.where(random.random(a.shape) < 0.2, random.integers(1, 20, a.shape), a).astype(np.uint8)
         Image.fromarray(a).save(truth / f"{i}.png"), Image.fromarray(b).save(predicted / f"{i}.png")
         confusion += np.bincount(a.ravel().astype(int) * 20 + b.ravel(), minlength=400).reshape(20, 20)
-    done = trove("evaluate", predicted, truth, "--labels", "trove20", "--json")
+    done = trove("evaluate", predicted, truth, "--classes", "trove20", "--json")
     assert done.returncode == 0, done.stderr
     confusion[0] = 0
-    ours = {name: value for name, value in zip(range(20), iou(confusion)) if name and confusion[name].any()}
-    assert json.loads(done.stdout)["miou"] == pytest.approx(np.mean(list(ours.values())), abs=1e-12)
+    assert json.loads(done.stdout)["miou"] == pytest.approx(np.nanmean(iou(confusion)[1:]), abs=1e-12)
 
 
 def test_the_table_has_the_papers_form():
