@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, Cuboid, Drive, Polygon};
+use trove_model::{Bounds, Cuboid, Drive, Keyframe, Polygon};
 
 use crate::distance_field::DistanceField;
+use crate::placement::ego_cuboid;
 use crate::plane_raster::bucket;
 use crate::roads::{Footing, RoadSurfaces};
 
@@ -118,13 +119,7 @@ fn is_apart(taken: &Taken, p: DVec2, radius_m: f64) -> bool {
 /// Outlines of every box at every keyframe and of the recording vehicle on its way.
 pub(crate) fn recorded(drive: &Drive) -> impl Iterator<Item = Polygon> {
     let boxes = drive.keyframes.iter().flat_map(|k| &k.boxes).map(|b| outline(&b.cuboid));
-    let ego = |k: &trove_model::Keyframe| Cuboid {
-        world_from_body: trove_model::Pose::new(
-            k.world_from_ego.rotation,
-            k.world_from_ego.point(drive.ego_body.centre_ego),
-        ),
-        size_m: drive.ego_body.size_m,
-    };
+    let ego = move |k: &Keyframe| ego_cuboid(drive, k);
     // Between keyframes the vehicle is where it is in the middle of them, too: a lane's width is swept.
     let path = drive.keyframes.windows(2).filter_map(move |pair| {
         let (a, b) = (ego(&pair[0]), ego(&pair[1]));

@@ -28,6 +28,7 @@ mod stock;
 mod surroundings;
 #[cfg(test)]
 mod testing;
+mod traffic;
 mod vegetation;
 mod views;
 mod weather;

@@ -22,6 +22,8 @@ pub struct Seeds {
     pub furniture: Seed,
     /// Species and individuals of plants, lawns and undergrowth.
     pub vegetation: Seed,
+    /// Which recorded road users are left out, and who comes besides.
+    pub traffic: Seed,
     /// What is not known of the sky.
     pub light: Seed,
     /// Which vehicles carry the rig.
@@ -42,6 +44,7 @@ impl From<Seed> for Seeds {
             materials: seed,
             furniture: seed,
             vegetation: seed,
+            traffic: seed,
             light: seed,
             rigs: seed,
             noise: seed,

@@ -16,14 +16,14 @@ use crate::furniture::furniture;
 use crate::kerbs::Kerbs;
 use crate::light::{LightChoice, light, switch_on};
 use crate::moments::{apart_s, next, previous};
-use crate::placement::{Cast, ObjectFit, Stand, cast};
+use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::scenery::Scenery;
 use crate::seeds::Seeds;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
 use crate::vegetation::{Conditions, driven_path, undergrowth, vegetation};
 use crate::weather::Weather;
-use crate::{buildings, ground, roads};
+use crate::{buildings, ground, roads, traffic};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
 const MIN_SIDE_M: f64 = 600.0;
@@ -44,6 +44,8 @@ pub struct BuildSettings {
     pub seeds: Seeds,
     /// An object's asset is drawn among the best so many; 1 is the best.
     pub top_k: usize,
+    /// How many road users there are against the recorded number; 1 leaves them as they are.
+    pub traffic: f64,
     /// Where the light comes from.
     pub light: LightChoice,
     /// What weather has done to its surfaces.
@@ -62,11 +64,22 @@ pub struct Site {
     fixed: Vec<Instance>,
     /// The drive's tracks in their order, then the recording vehicle; `None` where no asset stands for it.
     actors: Vec<Option<Actor>>,
+    /// Road users whom nobody recorded.
+    added: Vec<Added>,
     footprints: Vec<Polygon>,
     light: Light,
     season: Season,
     provenance: Vec<Provenance>,
     fits: Vec<ObjectFit>,
+}
+
+/// A road user whom nobody recorded.
+#[derive(Clone, Debug)]
+struct Added {
+    id: InstanceId,
+    kind: Kind,
+    speed_mps: f64,
+    actor: Actor,
 }
 
 /// The square that is built around a drive: around the driven path, the annotated objects and the LiDAR points within
@@ -103,7 +116,9 @@ pub fn build(
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let Cast { roles, fits } = cast(drive, library, &stand, settings.top_k, &seeds, report);
+    let absent = traffic::absent(drive, settings.traffic, seeds.traffic.child("absent"), report);
+    let casting = Casting { drive, library, stand, top_k: settings.top_k, seeds: &seeds, report };
+    let Cast { roles, fits } = casting.recorded(&absent);
 
     // What is made up keeps clear of everything recorded; poles come before plants.
     let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
@@ -122,19 +137,31 @@ pub fn build(
         assembly.piece(piece, &mut next_id);
     }
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
-    drop_farthest(&mut plants, drive, left.saturating_sub(furniture.scenery.len()), report);
+    let others = furniture.scenery.len() + traffic::wanted(drive, settings.traffic);
+    drop_farthest(&mut plants, drive, left.saturating_sub(others), report);
     let undergrowth = undergrowth(&around, library, &clearance, &plants, conditions, seed.child("undergrowth"), report);
     for piece in &undergrowth {
         assembly.piece(piece, &mut next_id);
     }
     let path = driven_path(drive);
-    // Plants come last, so that their number changes no other's.
+    // Plants come late, so that their number changes no other's.
     for scenery in furniture.scenery.iter().chain(&plants) {
         assembly.scenery(scenery, distance_m(&path, scenery), &mut next_id);
     }
+    // Road users whom nobody recorded come last: they take the room that is left.
+    let seed = seeds.traffic.child("added");
+    let users = traffic::added(&around, &absent, &clearance, &assembly.fixed, library, settings.traffic, seed, report);
+    let mut added = Vec::new();
+    for user in &users {
+        let Some(role) = casting.added(&user.track, user.speed_mps) else { continue };
+        let actor = assembly.actor(&role);
+        added.push(Added { id: InstanceId(next_id), kind: user.track.kind, speed_mps: user.speed_mps, actor });
+        next_id += 1;
+    }
     settings.weather.treat(&mut assembly);
     let light = light(drive, bounds, &settings.light, seeds.light.child("light"));
-    switch_on(&light, &mut assembly.stock, actors.iter_mut().flatten());
+    let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
+    switch_on(&light, &mut assembly.stock, lit);
     Ok(Site {
         light,
         season: conditions.season(),
@@ -143,6 +170,7 @@ pub fn build(
         stock: assembly.stock,
         fixed: assembly.fixed,
         actors,
+        added,
         footprints: buildings.footprints,
         fits,
     })
@@ -219,6 +247,7 @@ impl Site {
         instances.extend(self.ego_instance(drive, keyframe, neighbours));
         instances.sort_by_key(|i| i.id);
         instances.extend(self.fixed.iter().cloned());
+        instances.extend(self.added.iter().filter_map(|added| added.instance(keyframe, neighbours)));
         Scene {
             meshes: self.stock.meshes.clone(),
             materials: self.stock.materials.clone(),
@@ -290,6 +319,22 @@ impl Site {
     }
 }
 
+impl Added {
+    fn instance(&self, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
+        let pose = self.actor.at(keyframe)?;
+        let object = SceneObject {
+            kind: self.kind,
+            track_token: String::new(),
+            annotation_token: String::new(),
+            category: String::new(),
+            asset: self.actor.asset(pose),
+            cuboid: pose.cuboid,
+            velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
+        };
+        self.actor.instance(self.id, keyframe, neighbours, object)
+    }
+}
+
 /// The number of a track: 1 for the first.
 pub(crate) fn track_id(track: usize) -> InstanceId {
     InstanceId(track as u32 + 1)
@@ -307,6 +352,7 @@ mod tests {
         BuildSettings {
             seeds: Seed(seed).into(),
             top_k: 3,
+            traffic: 1.0,
             light: LightChoice::default(),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),

@@ -26,6 +26,7 @@ use crate::piece::Piece;
 use crate::roads::RoadSurfaces;
 use crate::seeds::Seeds;
 use facade::Sight;
+pub(crate) use region::Region;
 use volumes::House;
 
 /// The buildings of a place.

@@ -4,7 +4,7 @@ use trove_model::MapProjection;
 
 /// Parts of the world with habits of building in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Region {
+pub(crate) enum Region {
     NorthAmerica,
     /// North of the Alps.
     NorthernEurope,
@@ -18,7 +18,7 @@ pub(super) enum Region {
 
 impl Region {
     /// By latitude and longitude, in boxes.
-    pub(super) fn of(projection: &MapProjection) -> Self {
+    pub(crate) fn of(projection: &MapProjection) -> Self {
         let (lat_deg, lon_deg) = (projection.origin_lat_deg, projection.origin_lon_deg);
         let within =
             |lat: [f64; 2], lon: [f64; 2]| (lat[0]..lat[1]).contains(&lat_deg) && (lon[0]..lon[1]).contains(&lon_deg);

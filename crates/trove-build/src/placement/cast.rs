@@ -1,7 +1,9 @@
 //! Which asset stands for which object.
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DVec3};
-use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Pose, Report, Seed, Track};
+use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Keyframe, Kind, Outcome, Pose, Report, Seed, Track};
 
 use super::choice::{self, Candidate, ObjectFit, draw, measure, object_fit, ranked};
 use super::fit::Fit;
@@ -47,61 +49,127 @@ pub(crate) struct Cast<'a> {
     pub fits: Vec<ObjectFit>,
 }
 
-/// Chooses an asset for every track, and for the recording vehicle.
-pub(crate) fn cast<'a>(
-    drive: &Drive,
-    library: &'a AssetLibrary,
-    stand: &Stand,
-    top_k: usize,
-    seeds: &Seeds,
-    report: &Report,
-) -> Cast<'a> {
-    let mut fits = Vec::new();
-    let mut roles = Vec::with_capacity(drive.tracks.len() + 1);
-    let rows = rows(&drive.tracks);
-    for (track, &first) in drive.tracks.iter().zip(&rows) {
-        let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
-        let unsound = track.boxes.len() - boxes.len();
-        for _ in 0..unsound {
-            report.note(Outcome::Dropped, "box without size or with numbers that are not finite", &track.token);
-        }
-        let size_m = median_size_m(&boxes);
-        let role = size_m.and_then(|size_m| {
-            let of_choice = choice_seed(track.kind, seeds);
-            let seed = individual_seed(track.kind, seeds).child(&track.token);
-            // A row is of one make, which fits its middle size.
-            let row_size_m = row_size_m(drive, &rows, first).unwrap_or(size_m);
-            let row_seed = of_choice.child(&drive.tracks[first].token);
-            let sits = track.kind == Kind::Adult;
-            let gait = Gait::new(drive, &boxes, size_m.z, sits);
-            let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
-            let mut ranked = ranked(of_kind(gait.main_mode()), row_size_m, track.kind);
-            if ranked.is_empty() {
-                ranked = choice::ranked(library.of_kind(track.kind), row_size_m, track.kind);
+/// What assets are chosen with.
+pub(crate) struct Casting<'a, 'b> {
+    /// Its keyframes tell the times, its recording vehicle is cast too.
+    pub drive: &'b Drive,
+    /// Who there is.
+    pub library: &'a AssetLibrary,
+    /// The ground.
+    pub stand: Stand<'b>,
+    /// An asset is drawn among the best so many.
+    pub top_k: usize,
+    /// Where draws come from.
+    pub seeds: &'b Seeds,
+    /// What could not be cast.
+    pub report: &'b Report,
+}
+
+/// What a track is cast by beside its boxes.
+struct Part<'a> {
+    /// The token of the first of its row, and the row's middle size.
+    row: (&'a str, DVec3),
+    /// Its speed, for whom a single box shows none.
+    alone_mps: f64,
+}
+
+impl<'a> Casting<'a, '_> {
+    /// Chooses an asset for every track but for those that are `absent`, and for the recording vehicle.
+    pub(crate) fn recorded(&self, absent: &BTreeSet<usize>) -> Cast<'a> {
+        let tracks = &self.drive.tracks;
+        let mut fits = Vec::new();
+        let mut roles = Vec::with_capacity(tracks.len() + 1);
+        let rows = rows(tracks);
+        for (i, (track, &first)) in tracks.iter().zip(&rows).enumerate() {
+            if absent.contains(&i) {
+                roles.push(None);
+                continue;
             }
-            let Some(Candidate { asset, .. }) = draw(&ranked, top_k, row_seed) else {
-                report.note(
-                    Outcome::Dropped,
-                    &format!("object without an asset of kind {:?}", track.kind),
-                    &track.token,
-                );
-                return None;
-            };
-            let fit = Fit::new(asset.size_m, size_m, track.kind);
-            let stays_up = stays_up(track, &boxes, stand, report);
-            let place = |(k, cuboid): &(usize, Cuboid)| {
-                (*k, if stays_up { stand.keep(cuboid) } else { stand.place(cuboid, track.kind) })
-            };
-            fits.push(object_fit(track, size_m, &Candidate { asset, fit }, &ranked));
-            let placements = boxes.iter().map(place).collect();
-            let postures = gait.postures(asset, library.of_kind(track.kind), fit.scale.z, seed);
-            Some(Role { asset, fit, seed, is_driven: gait.moves(), placements, postures })
-        });
-        roles.push(role);
+            let boxes = self.sound_boxes(track);
+            let cast = median_size_m(&boxes).and_then(|size_m| {
+                // A row is of one make, which fits its middle size.
+                let row_size_m = row_size_m(self.drive, &rows, first).unwrap_or(size_m);
+                let part = Part { row: (&tracks[first].token, row_size_m), alone_mps: 0.0 };
+                self.role(track, &boxes, size_m, &part)
+            });
+            roles.push(cast.map(|(role, fit)| {
+                fits.push(fit);
+                role
+            }));
+        }
+        measure(&fits, self.report);
+        roles.push(self.ego());
+        Cast { roles, fits }
     }
-    measure(&fits, report);
-    roles.push(ego(drive, library, stand, top_k, seeds));
-    Cast { roles, fits }
+
+    /// Chooses an asset for someone whom nobody recorded.
+    pub(crate) fn added(&self, track: &Track, speed_mps: f64) -> Option<Role<'a>> {
+        let boxes = self.sound_boxes(track);
+        let size_m = median_size_m(&boxes)?;
+        let part = Part { row: (&track.token, size_m), alone_mps: speed_mps };
+        Some(self.role(track, &boxes, size_m, &part)?.0)
+    }
+
+    fn sound_boxes(&self, track: &Track) -> Vec<(usize, Cuboid)> {
+        let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
+        for _ in boxes.len()..track.boxes.len() {
+            let what = "box without size or with numbers that are not finite";
+            self.report.note(Outcome::Dropped, what, &track.token);
+        }
+        boxes
+    }
+
+    fn role(
+        &self,
+        track: &Track,
+        boxes: &[(usize, Cuboid)],
+        size_m: DVec3,
+        part: &Part,
+    ) -> Option<(Role<'a>, ObjectFit)> {
+        let Self { drive, library, stand, top_k, seeds, report } = *self;
+        let (first, row_size_m) = part.row;
+        let seed = individual_seed(track.kind, seeds).child(&track.token);
+        let row_seed = choice_seed(track.kind, seeds).child(first);
+        let sits = track.kind == Kind::Adult;
+        let gait = Gait::new(drive, boxes, size_m.z, sits, part.alone_mps);
+        let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
+        let mut ranked = ranked(of_kind(gait.main_mode()), row_size_m, track.kind);
+        if ranked.is_empty() {
+            ranked = choice::ranked(library.of_kind(track.kind), row_size_m, track.kind);
+        }
+        let Some(Candidate { asset, .. }) = draw(&ranked, top_k, row_seed) else {
+            report.note(Outcome::Dropped, &format!("object without an asset of kind {:?}", track.kind), &track.token);
+            return None;
+        };
+        let fit = Fit::new(asset.size_m, size_m, track.kind);
+        let stays_up = stays_up(track, boxes, &stand, report);
+        let place = |(k, cuboid): &(usize, Cuboid)| {
+            (*k, if stays_up { stand.keep(cuboid) } else { stand.place(cuboid, track.kind) })
+        };
+        let placements = boxes.iter().map(place).collect();
+        let postures = gait.postures(asset, library.of_kind(track.kind), fit.scale.z, seed);
+        let role = Role { asset, fit, seed, is_driven: gait.moves(), placements, postures };
+        Some((role, object_fit(track, size_m, &Candidate { asset, fit }, &ranked)))
+    }
+
+    /// The recording vehicle at every keyframe, in its own body.
+    fn ego(&self) -> Option<Role<'a>> {
+        let Self { drive, library, stand, top_k, seeds, .. } = *self;
+        let body = drive.ego_body;
+        let ranked = ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car);
+        let Candidate { asset, fit } = draw(&ranked, top_k, choice_seed(Kind::Car, seeds).child("ego"))?;
+        let seed = individual_seed(Kind::Car, seeds).child("ego");
+        let place = |(k, keyframe): (usize, &Keyframe)| (k, stand.place(&ego_cuboid(drive, keyframe), Kind::Car));
+        let placements: Vec<(usize, Placement)> = drive.keyframes.iter().enumerate().map(place).collect();
+        let postures = vec![asset; placements.len()];
+        Some(Role { asset, fit, seed, is_driven: true, placements, postures })
+    }
+}
+
+/// The recording vehicle's own box at a keyframe.
+pub(crate) fn ego_cuboid(drive: &Drive, keyframe: &Keyframe) -> Cuboid {
+    let (ego, body) = (keyframe.world_from_ego, drive.ego_body);
+    Cuboid { world_from_body: Pose::new(ego.rotation, ego.point(body.centre_ego)), size_m: body.size_m }
 }
 
 /// Whether a track's annotated height is believed rather than the ground: over the whole drive its boxes are well above
@@ -120,23 +188,6 @@ fn stays_up(track: &Track, boxes: &[(usize, Cuboid)], stand: &Stand, report: &Re
         report.note(Outcome::Substituted, "ground for an annotated height that is far from it", example());
     }
     stays_up
-}
-
-/// The recording vehicle at every keyframe, in its own body.
-fn ego<'a>(drive: &Drive, library: &'a AssetLibrary, stand: &Stand, top_k: usize, seeds: &Seeds) -> Option<Role<'a>> {
-    let body = drive.ego_body;
-    let ranked = ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car);
-    let Candidate { asset, fit } = draw(&ranked, top_k, choice_seed(Kind::Car, seeds).child("ego"))?;
-    let seed = individual_seed(Kind::Car, seeds).child("ego");
-    let place = |(k, keyframe): (usize, &trove_model::Keyframe)| {
-        let ego = keyframe.world_from_ego;
-        let cuboid =
-            Cuboid { world_from_body: Pose::new(ego.rotation, ego.point(body.centre_ego)), size_m: body.size_m };
-        (k, stand.place(&cuboid, Kind::Car))
-    };
-    let placements: Vec<(usize, Placement)> = drive.keyframes.iter().enumerate().map(place).collect();
-    let postures = vec![asset; placements.len()];
-    Some(Role { asset, fit, seed, is_driven: true, placements, postures })
 }
 
 /// What a model of a kind is drawn from.
@@ -188,10 +239,22 @@ mod tests {
         testing::surfaces(&testing::drive(), &slope())
     }
 
+    fn cast<'a>(
+        drive: &Drive,
+        library: &'a AssetLibrary,
+        stand: Stand,
+        top_k: usize,
+        seed: Seed,
+        report: &Report,
+    ) -> Vec<Option<Role<'a>>> {
+        let seeds = seed.into();
+        Casting { drive, library, stand, top_k, seeds: &seeds, report }.recorded(&BTreeSet::new()).roles
+    }
+
     fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {
         let (ground, surfaces) = (slope(), surfaces());
         let stand = Stand { ground: &ground, surfaces: &surfaces };
-        cast(&testing::drive(), library, &stand, top_k, &seed.into(), report).roles
+        cast(&testing::drive(), library, stand, top_k, seed, report)
     }
 
     #[test]
@@ -252,8 +315,8 @@ mod tests {
                 cuboid.world_from_body.translation.z = z;
             }
         }
-        let roles =
-            cast(&drive, &library, &Stand { ground: &ground, surfaces: &surfaces }, 1, &Seed(1).into(), &report).roles;
+        let stand = Stand { ground: &ground, surfaces: &surfaces };
+        let roles = cast(&drive, &library, stand, 1, Seed(1), &report);
         let rise_m = |track: usize| {
             let placed = roles[track].as_ref().unwrap().placements[0].1.cuboid.world_from_body.translation;
             drive.tracks[track].boxes[0].1.world_from_body.translation.z - placed.z

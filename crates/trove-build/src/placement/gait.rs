@@ -43,7 +43,8 @@ pub(super) struct Gait {
 }
 
 impl Gait {
-    pub(super) fn new(drive: &Drive, boxes: &[(usize, Cuboid)], height_m: f64, sits: bool) -> Self {
+    /// `alone_mps` is the speed of someone of whom there is one box alone.
+    pub(super) fn new(drive: &Drive, boxes: &[(usize, Cuboid)], height_m: f64, sits: bool, alone_mps: f64) -> Self {
         let time_s = |k: usize| drive.keyframes.get(k).map_or(0.0, |k| k.time_ns as f64 * 1e-9);
         let step_m = |a: &Cuboid, b: &Cuboid| {
             let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
@@ -51,7 +52,7 @@ impl Gait {
             (moved.x * cos + moved.y * sin, moved.truncate().length())
         };
         let mut way_m = vec![0.0; boxes.len()];
-        let mut speeds_mps: Vec<f64> = vec![0.0; boxes.len()];
+        let mut speeds_mps: Vec<f64> = vec![alone_mps; boxes.len()];
         for i in 1..boxes.len() {
             let ((k, before), (l, now)) = (&boxes[i - 1], &boxes[i]);
             let (ahead_m, far_m) = step_m(before, now);
@@ -169,14 +170,14 @@ mod tests {
         let (drive, people) = (testing::drive(), people());
         let apart_s = (drive.keyframes[1].time_ns - drive.keyframes[0].time_ns) as f64 * 1e-9;
         // An eighth of a cycle a keyframe, at a walking speed for half-second keyframes.
-        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), 1.75, true);
+        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), 1.75, true, 0.0);
         assert_eq!(gait.main_mode(), Mode::Walking, "{apart_s}");
         let postures = gait.postures(&people[0], people.iter(), 1.0, Seed(1));
         let phases: Vec<f32> = postures.iter().map(|a| phase(a).unwrap()).collect();
         for pair in phases.windows(2) {
             assert!(((pair[1] - pair[0]).rem_euclid(1.0) - 0.625).abs() < 1e-6, "{phases:?}");
         }
-        let still = Gait::new(&drive, &boxes(0.01), 1.75, true);
+        let still = Gait::new(&drive, &boxes(0.01), 1.75, true, 0.0);
         assert_eq!(still.main_mode(), Mode::Standing);
         assert!(still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == people[8].id));
     }
@@ -184,7 +185,7 @@ mod tests {
     #[test]
     fn a_low_box_is_of_someone_who_sits_and_other_assets_have_no_posture() {
         let (drive, people) = (testing::drive(), people());
-        let gait = Gait::new(&drive, &boxes(0.0), 1.2, true);
+        let gait = Gait::new(&drive, &boxes(0.0), 1.2, true, 0.0);
         assert_eq!(gait.main_mode(), Mode::Sitting);
         assert!(Mode::Sitting.allows(&people[9]) && !Mode::Sitting.allows(&people[0]));
         let car = testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5]);

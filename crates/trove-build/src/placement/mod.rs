@@ -7,6 +7,6 @@ mod gait;
 mod rows;
 mod stand;
 
-pub(crate) use cast::{Cast, Role, cast};
+pub(crate) use cast::{Cast, Casting, Role, ego_cuboid};
 pub use choice::{AssetFit, ObjectFit};
 pub(crate) use stand::Stand;

@@ -50,6 +50,52 @@ impl Band {
     }
 }
 
+/// A lane of a road as it is built.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lane {
+    /// Its middle, in the direction in which it is driven, or in which what is parked looks; at least two vertices.
+    pub line: Vec<DVec2>,
+    /// From edge to edge.
+    pub width_m: f64,
+    /// What it is for.
+    pub usage: LaneUse,
+}
+
+/// What a lane is for, whichever way it runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LaneUse {
+    /// Cars, and whoever rides among them.
+    Driving,
+    /// Bicycles alone.
+    Cycling,
+    /// Vehicles stand here.
+    Parking(ParkingOrientation),
+}
+
+/// The lanes of all courses; those for bicycles and for parking run as the nearest lane beside them that is driven.
+pub(super) fn lanes(courses: &[Course]) -> Vec<Lane> {
+    let lanes_of = |course: &Course| -> Vec<Lane> {
+        let middle_m = |band: &Band| (band.left_m + band.right_m) / 2.0;
+        let driven = course.bands.iter().filter(|b| matches!(b.usage, Use::Forward | Use::Backward));
+        let lane = |band: &Band| {
+            let apart_m = |other: &&Band| (middle_m(other) - middle_m(band)).abs();
+            let nearest = driven.clone().min_by(|a, b| apart_m(a).total_cmp(&apart_m(b)));
+            let mut line = shifted(&course.line, middle_m(band));
+            if nearest.is_some_and(|n| n.usage == Use::Backward) {
+                line.reverse();
+            }
+            let usage = match band.usage {
+                Use::Forward | Use::Backward => LaneUse::Driving,
+                Use::Cycle => LaneUse::Cycling,
+                Use::Parking(orientation) => LaneUse::Parking(orientation),
+            };
+            Lane { line, width_m: band.width_m(), usage }
+        };
+        course.bands.iter().map(lane).collect()
+    };
+    courses.iter().filter(|c| c.line.len() > 1).flat_map(lanes_of).collect()
+}
+
 /// A road cut across.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CrossSection {

@@ -23,8 +23,10 @@ use trove_model::{
     AssetLibrary, Bounds, Class, Drive, HeightField, Material, Mesh, Polygon, Report, StreetMap, SurfaceKind,
 };
 
+pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
 pub(crate) use kerb::kerb_m;
+pub(crate) use path::Path;
 
 use footings::Footings;
 
@@ -49,6 +51,8 @@ pub(crate) struct RoadSurfaces {
     pub pieces: Vec<Piece>,
     /// Where vehicles drive; polygons do not overlap.
     pub carriageway: Vec<Polygon>,
+    /// What each part of it is for, but for junctions.
+    pub lanes: Vec<Lane>,
     /// Where grass grows; polygons do not overlap.
     pub lawns: Vec<Polygon>,
     /// How that grass looks.
@@ -199,7 +203,8 @@ pub(crate) fn surfaces(
     add(apron, Class::Ground, SurfaceKind::Grass);
 
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
-    RoadSurfaces { pieces, carriageway: layout.carriageway, lawns, lawn, kerb_m, ramps, footings, below }
+    let lanes = course::lanes(&layout.courses);
+    RoadSurfaces { pieces, carriageway: layout.carriageway, lanes, lawns, lawn, kerb_m, ramps, footings, below }
 }
 
 fn stuff(mesh: Mesh, class: Class, material: Material) -> Piece {

@@ -5,14 +5,14 @@ use glam::DVec2;
 use super::layout::shifted;
 
 /// A line with the length up to each vertex.
-pub(super) struct Path<'a> {
+pub(crate) struct Path<'a> {
     line: &'a [DVec2],
     along_m: Vec<f64>,
 }
 
 impl<'a> Path<'a> {
     /// Of a line of at least two vertices.
-    pub(super) fn new(line: &'a [DVec2]) -> Self {
+    pub(crate) fn new(line: &'a [DVec2]) -> Self {
         let mut sum_m = 0.0;
         let lengths = line.windows(2).map(|w| {
             sum_m += w[0].distance(w[1]);
@@ -22,7 +22,7 @@ impl<'a> Path<'a> {
         Self { line, along_m }
     }
 
-    pub(super) fn length_m(&self) -> f64 {
+    pub(crate) fn length_m(&self) -> f64 {
         self.along_m.last().copied().unwrap_or(0.0)
     }
 
@@ -40,7 +40,7 @@ impl<'a> Path<'a> {
     }
 
     /// Point and unit direction at a length; the ends' beyond them.
-    pub(super) fn at(&self, s_m: f64) -> (DVec2, DVec2) {
+    pub(crate) fn at(&self, s_m: f64) -> (DVec2, DVec2) {
         let (i, t) = self.segment(s_m);
         (self.line[i].lerp(self.line[i + 1], t), (self.line[i + 1] - self.line[i]).normalize_or(DVec2::X))
     }
@@ -52,7 +52,7 @@ impl<'a> Path<'a> {
     }
 
     /// The line between two lengths, moved to its left; empty where nothing lies between.
-    pub(super) fn part(&self, from_m: f64, to_m: f64, offset_m: f64) -> Vec<DVec2> {
+    pub(crate) fn part(&self, from_m: f64, to_m: f64, offset_m: f64) -> Vec<DVec2> {
         let (from_m, to_m) = (from_m.max(0.0), to_m.min(self.length_m()));
         if to_m - from_m < 0.05 {
             return Vec::new();

@@ -1,0 +1,141 @@
+//! Fewer road users than were recorded, or more: made up, they are cast, placed and labelled as recorded ones are.
+
+mod motion;
+mod room;
+mod shares;
+#[cfg(test)]
+mod tests;
+mod ways;
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Instance, Kind, Outcome, Report, Seed, Track};
+
+use crate::clearance::Clearance;
+use crate::moments::{next, previous};
+use crate::surroundings::Surroundings;
+use motion::Motion;
+use room::Room;
+use shares::Shares;
+use ways::Ways;
+
+/// A place where nobody was recorded counts as if so many had been at each standpoint.
+const USUAL: usize = 20;
+/// Places that are looked at for someone before the place counts as full.
+const TRIES: usize = 40;
+/// Fewer keyframes than this are no visit, where there are more.
+const FEWEST_KEYFRAMES: usize = 3;
+
+/// Someone whom nobody recorded.
+pub(crate) struct RoadUser {
+    /// Whose token is of no dataset: it tells road users of one place apart.
+    pub track: Track,
+    /// Along its own heading, always the same.
+    pub speed_mps: f64,
+}
+
+/// Whether traffic is made of it: vehicles, people, animals.
+fn is_road_user(kind: Kind) -> bool {
+    kind.is_vehicle() || kind.class() == Class::Human || kind == Kind::Animal
+}
+
+/// The recorded tracks that are left out where `density` is below 1: each road user by a draw of its own, so that a lower
+/// density leaves out the same ones and more.
+pub(crate) fn absent(drive: &Drive, density: f64, seed: Seed, report: &Report) -> BTreeSet<usize> {
+    let leaves = |track: &Track| is_road_user(track.kind) && !seed.child(&track.token).random().chance(density);
+    let tracks = drive.tracks.iter().enumerate().filter(|(_, track)| density < 1.0 && leaves(track));
+    tracks
+        .map(|(i, track)| {
+            let example = format!("{} ({:?})", track.token, track.kind);
+            report.note(Outcome::Dropped, "recorded road user, for less traffic", example);
+            i
+        })
+        .collect()
+}
+
+/// How many road users are added.
+pub(crate) fn wanted(drive: &Drive, density: f64) -> usize {
+    let recorded = drive.tracks.iter().filter(|track| is_road_user(track.kind)).count();
+    let standpoints = || (0..drive.keyframes.len()).filter(|&k| previous(drive, k).is_none()).count();
+    let usual = if recorded > 0 { recorded } else { USUAL * standpoints() };
+    ((density - 1.0).max(0.0) * usual as f64).round() as usize
+}
+
+/// Makes road users up, who meet nobody at any keyframe nor halfway between two; `fixed` is all that stands still.
+#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
+pub(crate) fn added(
+    around: &Surroundings,
+    absent: &BTreeSet<usize>,
+    clearance: &Clearance,
+    fixed: &[Instance],
+    library: &AssetLibrary,
+    density: f64,
+    seed: Seed,
+    report: &Report,
+) -> Vec<RoadUser> {
+    let drive = around.drive;
+    let wanted = wanted(drive, density);
+    let mut users: Vec<RoadUser> = Vec::new();
+    if wanted == 0 {
+        return users;
+    }
+    let shares = Shares::of(&drive.projection, library);
+    let ways = Ways::new(around);
+    let mut room = Room::new(around, absent, clearance, fixed);
+    for i in 0..wanted as u64 {
+        let mut random = seed.nth(i).random();
+        let keyframe = random.index(drive.keyframes.len());
+        let Some(doing) = shares.draw(&mut random) else { break };
+        let run = run(drive, keyframe);
+        for _ in 0..TRIES {
+            let group = ways.group(doing, keyframe, &shares, &mut random);
+            let visits: Option<Vec<_>> = group.iter().map(|motion| room.visit(motion, keyframe, &run)).collect();
+            let Some(visits) = visits.filter(|visits| !visits.is_empty()) else { continue };
+            for (motion, visit) in group.iter().zip(visits) {
+                if users.len() < wanted {
+                    room.take(&visit);
+                    users.push(user(around, motion, &visit, users.len()));
+                    report.note(Outcome::Guessed, "road user whom nobody recorded, for more traffic", doing);
+                }
+            }
+            break;
+        }
+        if users.len() == wanted {
+            break;
+        }
+    }
+    if users.len() < wanted {
+        let example = format!("{}: {} of {wanted}", drive.id, users.len());
+        report.note(Outcome::Warned, "fewer road users than asked for find room", example);
+    }
+    users
+}
+
+/// Keyframes that lie so near in time to one another that who is seen in one is seen in all.
+fn run(drive: &Drive, keyframe: usize) -> Range<usize> {
+    let (mut first, mut last) = (keyframe, keyframe);
+    while let Some(k) = previous(drive, first) {
+        first = k;
+    }
+    while let Some(k) = next(drive, last) {
+        last = k;
+    }
+    first..last + 1
+}
+
+/// The track of a visit, on the ground.
+fn user(around: &Surroundings, motion: &Motion, visit: &room::Visit, number: usize) -> RoadUser {
+    let cuboid = |outline: &room::Outline| Cuboid {
+        world_from_body: outline.world_from_body(around.stand.surface_m(outline.centre) + motion.size_m.z / 2.0),
+        size_m: motion.size_m,
+    };
+    let boxes = visit.at_keyframes().map(|(k, outline)| (k, cuboid(outline))).collect();
+    let token = format!("added {number}");
+    RoadUser { track: Track { token, kind: motion.kind, boxes }, speed_mps: motion.speed_mps }
+}
+
+/// Lots of an asset.
+fn commonness(asset: &Asset) -> f64 {
+    f64::from(asset.commonness.max(0.0))
+}

@@ -1,0 +1,114 @@
+//! Who is on the road in which part of the world.
+
+use std::fmt;
+
+use glam::DVec3;
+use trove_model::{AssetLibrary, Kind, MapProjection, Posture, Random};
+
+use super::commonness;
+use crate::buildings::Region;
+
+/// What a made-up road user does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Doing {
+    /// Along the sidewalk.
+    Walking,
+    /// On the sidewalk.
+    Standing,
+    /// At a crossing, for a gap.
+    Waiting,
+    Cycling,
+    Motorcycling,
+    Driving,
+    Parked,
+}
+
+impl fmt::Display for Doing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self, f)
+    }
+}
+
+/// How often each is met, in the order of [`Doing`]. Guesses: cyclists follow the shares of trips in Pucher and Buehler
+/// (2008, Transport Reviews), motorcycles what is registered; people on foot are half, since pictures are to show them.
+#[rustfmt::skip]
+const SHARES: [(Region, [(Doing, f64); 7]); 6] = [
+    (Region::NorthAmerica,   shares([0.34, 0.12, 0.06, 0.08, 0.02, 0.18, 0.20])),
+    (Region::NorthernEurope, shares([0.34, 0.11, 0.05, 0.20, 0.02, 0.12, 0.16])),
+    (Region::Mediterranean,  shares([0.34, 0.12, 0.06, 0.09, 0.11, 0.12, 0.16])),
+    (Region::EastAsia,       shares([0.34, 0.11, 0.06, 0.11, 0.14, 0.12, 0.12])),
+    (Region::TropicalAsia,   shares([0.32, 0.12, 0.06, 0.08, 0.18, 0.14, 0.10])),
+    (Region::Elsewhere,      shares([0.34, 0.12, 0.06, 0.10, 0.10, 0.13, 0.15])),
+];
+
+const fn shares([walk, stand, wait, cycle, motorcycle, drive, park]: [f64; 7]) -> [(Doing, f64); 7] {
+    [
+        (Doing::Walking, walk),
+        (Doing::Standing, stand),
+        (Doing::Waiting, wait),
+        (Doing::Cycling, cycle),
+        (Doing::Motorcycling, motorcycle),
+        (Doing::Driving, drive),
+        (Doing::Parked, park),
+    ]
+}
+
+/// Kinds of those who do something, with how many of a hundred they are.
+fn kinds(doing: Doing) -> &'static [(Kind, f64)] {
+    match doing {
+        Doing::Walking => &[(Kind::Adult, 88.0), (Kind::Child, 9.0), (Kind::Stroller, 3.0)],
+        Doing::Standing | Doing::Waiting => &[(Kind::Adult, 92.0), (Kind::Child, 8.0)],
+        Doing::Cycling => &[(Kind::BicycleWithRider, 100.0)],
+        Doing::Motorcycling => &[(Kind::MotorcycleWithRider, 100.0)],
+        Doing::Driving => &[(Kind::Car, 86.0), (Kind::Truck, 9.0), (Kind::Bus, 5.0)],
+        Doing::Parked => &[(Kind::Car, 95.0), (Kind::Truck, 5.0)],
+    }
+}
+
+/// Who there may be at a place, as far as the library has them.
+pub(super) struct Shares<'a> {
+    library: &'a AssetLibrary,
+    doings: Vec<(Doing, f64)>,
+}
+
+impl<'a> Shares<'a> {
+    pub(super) fn of(projection: &MapProjection, library: &'a AssetLibrary) -> Self {
+        let region = Region::of(projection);
+        let row = SHARES.iter().find(|(of, _)| *of == region).map_or(&[][..], |(_, row)| row);
+        let has = |doing: Doing| kinds(doing).iter().any(|(kind, _)| library.of_kind(*kind).next().is_some());
+        Self { library, doings: row.iter().filter(|(doing, _)| has(*doing)).copied().collect() }
+    }
+
+    /// What the next one does; `None` where the library has nobody.
+    pub(super) fn draw(&self, random: &mut Random) -> Option<Doing> {
+        drawn(&self.doings, random)
+    }
+
+    /// Who does it, and how large they are: as one of the library's models is.
+    pub(super) fn someone(&self, doing: Doing, random: &mut Random) -> Option<(Kind, DVec3)> {
+        let known: Vec<(Kind, f64)> =
+            kinds(doing).iter().filter(|(kind, _)| self.library.of_kind(*kind).next().is_some()).copied().collect();
+        let kind = drawn(&known, random)?;
+        let fits = |posture: Posture| match doing {
+            Doing::Walking => matches!(posture, Posture::Walking { .. }),
+            _ => posture == Posture::Standing,
+        };
+        let sizes: Vec<(DVec3, f64)> = self
+            .library
+            .of_kind(kind)
+            .filter(|asset| asset.figure.as_ref().is_none_or(|figure| fits(figure.posture)))
+            .map(|asset| (asset.size_m, commonness(asset)))
+            .collect();
+        Some((kind, drawn(&sizes, random)?))
+    }
+}
+
+/// One of some, by their lots; `None` where there are none.
+fn drawn<T: Copy>(lots: &[(T, f64)], random: &mut Random) -> Option<T> {
+    let mut left = random.unit() * lots.iter().map(|(_, lots)| lots).sum::<f64>();
+    let found = lots.iter().find(|(_, lots)| {
+        left -= lots;
+        left < 0.0
+    });
+    found.or(lots.last()).map(|(item, _)| *item)
+}

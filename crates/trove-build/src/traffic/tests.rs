@@ -1,0 +1,129 @@
+use super::*;
+use crate::placement::ego_cuboid;
+use crate::site::{BuildSettings, Site};
+use crate::{LightChoice, OnDisagreement, Weather, testing};
+use room::Outline;
+use trove_model::Scene;
+
+const RIDER: &str = "bicycle/rider";
+
+fn library() -> AssetLibrary {
+    let mut library = testing::library();
+    library.assets.push(testing::asset(RIDER, Kind::BicycleWithRider, [1.75, 0.6, 1.75]));
+    library.assets.sort_by(|a, b| a.id.cmp(&b.id));
+    library
+}
+
+fn site(traffic: f64, seed: u64, report: &Report) -> Site {
+    let settings = BuildSettings {
+        seeds: crate::Seeds { traffic: Seed(seed), ..Seed(1).into() },
+        top_k: 3,
+        traffic,
+        light: LightChoice::default(),
+        weather: Weather::default(),
+        on_disagreement: OnDisagreement::default(),
+    };
+    crate::build(&testing::drive(), None, &library(), &settings, report).unwrap()
+}
+
+/// Boxes of who was recorded, with their tracks' tokens, and of who was added.
+fn road_users(scene: &Scene) -> [Vec<(String, Cuboid)>; 2] {
+    let objects = || scene.instances.iter().filter_map(|i| i.object.as_deref());
+    let row = |o: &trove_model::SceneObject| (o.track_token.clone(), o.cuboid);
+    [
+        objects().filter(|o| !o.track_token.is_empty()).map(row).collect(),
+        objects().filter(|o| o.track_token.is_empty() && o.velocity_mps.is_some()).map(row).collect(),
+    ]
+}
+
+#[test]
+fn whole_tracks_are_left_out_by_the_seed_and_fewer_at_a_higher_density() {
+    let drive = testing::drive();
+    let absent = |density, seed| absent(&drive, density, Seed(seed), &Report::default());
+    assert!(absent(1.0, 3).is_empty() && absent(2.0, 3).is_empty());
+    assert_eq!(absent(0.0, 3).len(), drive.tracks.len());
+    assert!((0..20).all(|seed| absent(0.7, seed).is_subset(&absent(0.3, seed))));
+    let counts: usize = (0..200).map(|seed| absent(0.5, seed).len()).sum();
+    assert!((counts as f64 / 200.0 - 2.0).abs() < 0.3, "{counts}");
+    assert!((0..20).any(|seed| absent(0.5, seed) != absent(0.5, seed + 100)));
+}
+
+#[test]
+fn who_is_left_out_is_so_at_every_keyframe_and_all_else_stays() {
+    let (drive, report) = (testing::drive(), Report::default());
+    let seed = (0..50).find(|&s| absent(&drive, 0.5, Seed(s).child("absent"), &Report::default()).len() == 2).unwrap();
+    let (all, fewer) = (site(1.0, seed, &Report::default()), site(0.5, seed, &report));
+    let gone = absent(&drive, 0.5, Seed(seed).child("absent"), &Report::default());
+    for k in 0..10 {
+        let (before, after) = (all.scene(&drive, k), fewer.scene(&drive, k));
+        let is_gone = |i: &Instance| gone.iter().any(|&track| i.id.0 == track as u32 + 1);
+        let left: Vec<&Instance> = before.instances.iter().filter(|i| !is_gone(i)).collect();
+        let ids = |instances: &mut dyn Iterator<Item = &Instance>| -> Vec<_> {
+            instances.map(|i| (i.id, i.class, i.world_from_mesh)).collect()
+        };
+        assert_eq!(ids(&mut left.into_iter()), ids(&mut after.instances.iter()));
+    }
+    let dropped = report.entries().into_iter().find(|e| e.what.contains("less traffic")).unwrap();
+    assert_eq!((dropped.outcome, dropped.count), (Outcome::Dropped, 2));
+}
+
+#[test]
+fn who_is_added_meets_nobody_keeps_a_steady_course_and_changes_nothing_else() {
+    let (drive, report) = (testing::drive(), Report::default());
+    let (base, more) = (site(1.0, 5, &Report::default()), site(6.0, 5, &report));
+    let mut seen = std::collections::BTreeMap::new();
+    for (k, keyframe) in drive.keyframes.iter().enumerate() {
+        let (before, after) = (base.scene(&drive, k), more.scene(&drive, k));
+        for (a, b) in before.instances.iter().zip(&after.instances) {
+            assert_eq!((a.id, a.class, a.world_from_mesh), (b.id, b.class, b.world_from_mesh));
+        }
+        let [recorded, added] = road_users(&after);
+        let ego = (String::new(), ego_cuboid(&drive, keyframe));
+        let bodies: Vec<Outline> = recorded.iter().chain(&added).chain([&ego]).map(|(_, c)| Outline::of(c)).collect();
+        for i in 0..bodies.len() {
+            let meets = (0..i).find(|&j| bodies[i].meets(&bodies[j]) && i >= recorded.len());
+            assert_eq!(meets, None, "{i} at {k}: {:?}", bodies[i]);
+        }
+        for instance in &after.instances[before.instances.len()..] {
+            let object = instance.object.as_ref().unwrap();
+            let now = object.cuboid.world_from_body.translation;
+            let (place, speed) = (now, object.velocity_mps.unwrap().length());
+            let found = seen.entry(instance.id).or_insert((k, place, object.asset.clone()));
+            let ten = (k - found.0) as f64 * 0.5 * speed;
+            assert!((found.1.distance(place) - ten).abs() < 0.5, "{} at {k}", object.asset);
+            if let Some(next) = instance.world_from_mesh_next {
+                let moved = next.translation.distance(instance.world_from_mesh.translation);
+                assert!((moved - 0.5 * speed).abs() < 0.3, "{moved} {speed}");
+            }
+        }
+    }
+    let guessed: u64 = report.entries().iter().filter(|e| e.what.contains("more traffic")).map(|e| e.count).sum();
+    assert_eq!(guessed, seen.len() as u64);
+    assert!(seen.len() >= 15, "{} of 20", seen.len());
+    let assets: BTreeSet<String> = seen.into_values().map(|(.., asset)| asset).collect();
+    assert!(assets.contains(RIDER) && assets.contains("person/a"), "{assets:?}");
+}
+
+#[test]
+fn a_place_without_a_recording_gets_the_usual_number_at_each_standpoint() {
+    let mut drive = testing::drive();
+    assert_eq!((wanted(&drive, 1.0), wanted(&drive, 2.5), wanted(&drive, 0.2)), (0, 6, 0));
+    drive.tracks.clear();
+    assert_eq!(wanted(&drive, 2.0), USUAL);
+    for (k, keyframe) in drive.keyframes.iter_mut().enumerate() {
+        keyframe.time_ns += k as i64 * 60_000_000_000;
+    }
+    assert_eq!(wanted(&drive, 1.5), USUAL / 2 * 10);
+}
+
+#[test]
+fn outlines_that_are_turned_meet_where_their_corners_do() {
+    let square = |x: f64, turn: f64| Outline {
+        centre: glam::DVec2::new(x, 0.0),
+        along: glam::DVec2::from_angle(turn),
+        half_m: glam::DVec2::ONE,
+    };
+    let eighth = std::f64::consts::FRAC_PI_4;
+    assert!(square(0.0, 0.0).meets(&square(1.9, 0.0)) && !square(0.0, 0.0).meets(&square(2.1, 0.0)));
+    assert!(square(0.0, 0.0).meets(&square(2.3, eighth)) && !square(0.0, 0.0).meets(&square(2.5, eighth)));
+}
