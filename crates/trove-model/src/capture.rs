@@ -9,6 +9,8 @@ pub struct Capture {
     pub color: Option<Color>,
     /// The labels.
     pub labels: Labels,
+    /// Where what is met first differs from another scene's in the same view; `None` where there is no other.
+    pub change: Option<Raster<bool>>,
     /// What it cost.
     pub stats: CaptureStats,
 }
@@ -39,7 +41,7 @@ pub struct Labels {
     pub flow_forward: Raster<[f32; 2]>,
     /// Pixels to the previous keyframe; NaN = not defined.
     pub flow_backward: Raster<[f32; 2]>,
-    /// Every recorded object of which a pixel would be seen if nothing else were there, and all scenery of which one is
+    /// Every recorded object, and every road user like them, of which a pixel would be seen if nothing else were there, and all scenery of which one is
     /// seen, in the order of ids; without the object that carries the camera.
     pub objects: Vec<ObjectLabel>,
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, Scene, Shot};
+use trove_model::{Capture, CaptureStats, Color, Raster, Scene, Shot};
 
 use crate::accel::{Kernel, KernelChoice};
 use crate::denoise::{Denoiser, Denoising};
@@ -79,6 +79,17 @@ impl Renderer {
         self.pool.install(|| path::ray_times(scene, shot))
     }
 
+    /// The pixels through whose centres two scenes, each with itself made ready, differ in what is met first: in class,
+    /// place or look. Shadows, reflections and light alone are no difference.
+    pub fn changes(
+        &self,
+        before: (&Scene, &PreparedScene),
+        after: (&Scene, &PreparedScene),
+        shot: &Shot,
+    ) -> Raster<bool> {
+        self.pool.install(|| labels::changes([before, after], shot))
+    }
+
     /// Takes a picture with its labels, or with `light` false the labels alone.
     ///
     /// `stop` is told the share of the work that is done, from any thread; once it answers true, nothing is returned.
@@ -117,7 +128,7 @@ impl Renderer {
             } else {
                 None
             };
-            Some(Capture { color, labels, stats })
+            Some(Capture { color, labels, change: None, stats })
         })
     }
 }

@@ -85,6 +85,41 @@ fn a_ball_has_the_depth_normals_and_flow_of_a_ball() {
 }
 
 #[test]
+fn a_change_is_where_what_is_met_first_looks_or_stands_otherwise_and_not_where_light_is() {
+    let things = || vec![stuff(GROUND, PLACE - DVec3::Z * 1.6), object(1, PLACE + DVec3::Y * 8.0, 1.0)];
+    let before = scene(things());
+    let shot = shot(PLACE);
+    let options =
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
+    let renderer = Renderer::new(&options).unwrap();
+    let prepared = renderer.prepare(&before).unwrap();
+    let changes = |after: &Scene| {
+        let changed = renderer.changes((&before, &prepared), (after, &renderer.prepare(after).unwrap()), &shot);
+        (0..changed.data.len()).filter(|&i| changed.data[i]).collect::<Vec<usize>>()
+    };
+    assert!(changes(&scene(things())).is_empty());
+    let labels = look(&before, &shot);
+    let of_object: Vec<usize> = (0..labels.instance.data.len()).filter(|&i| labels.instance.data[i] == 1).collect();
+
+    // Paint alone: its pixels, and not its shadow's.
+    let mut painted = scene(things());
+    let paint = Material { base_color: Vec3::X, ..painted.materials[painted.instances[1].materials[0]].clone() };
+    painted.materials.push(paint);
+    painted.instances[1].materials.fill(painted.materials.len() - 1);
+    assert!(of_object.len() > 50);
+    assert_eq!(changes(&painted), of_object);
+
+    let mut shining = scene(things());
+    shining.materials.iter_mut().for_each(|m| m.emission = Vec3::ONE);
+    assert!(changes(&shining).is_empty(), "light alone");
+
+    // Gone: where it was, and nowhere else.
+    let mut without = scene(things());
+    without.instances.pop();
+    assert_eq!(changes(&without), of_object);
+}
+
+#[test]
 fn a_moving_box_flows_with_its_tracks_and_the_sky_with_the_cameras_turn() {
     let mut shot = shot(PLACE);
     let turned = shot.world_from_camera * Pose::<Camera, Camera>::new(DQuat::from_rotation_y(0.05), DVec3::ZERO);

@@ -51,6 +51,7 @@ pub enum FrameFile {
     Normal,
     FlowForward,
     FlowBackward,
+    Change,
 }
 
 /// Camera and objects, which every frame's folder has.
@@ -58,7 +59,7 @@ const TABLE: &str = "frame.json";
 
 impl FrameFile {
     /// All that there are.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Radiance,
         Self::Rgb,
         Self::Class,
@@ -67,6 +68,7 @@ impl FrameFile {
         Self::Normal,
         Self::FlowForward,
         Self::FlowBackward,
+        Self::Change,
     ];
 
     /// The file's name.
@@ -80,6 +82,7 @@ impl FrameFile {
             Self::Normal => "normal.exr",
             Self::FlowForward => "flow_forward.exr",
             Self::FlowBackward => "flow_backward.exr",
+            Self::Change => "change.png",
         }
     }
 
@@ -96,7 +99,8 @@ pub fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
 
 /// Writes a frame's folder whole: under a hidden name beside it first, then renamed, so that `dir` is never there in
 /// part. What an interrupted run left under the hidden name, and a `dir` without all its files, is replaced; a finished
-/// frame is not. `pictures` are those that are wanted; a capture without light has none that show it.
+/// frame is not. `pictures` are those that are wanted; a capture without light has none that show it, and one that was
+/// compared with none shows no change.
 pub fn write_frame(
     dir: &Path,
     scene: &Scene,
@@ -108,7 +112,10 @@ pub fn write_frame(
     check_sizes(capture, shot.lens.width_px, shot.lens.height_px)?;
     let table = frame_table(scene, shot, capture, meta)?;
     narrowed(&capture.labels)?;
-    let there = |file: &FrameFile| capture.color.is_some() || !file.shows_light();
+    let there = |file: &FrameFile| match file {
+        FrameFile::Change => capture.change.is_some(),
+        _ => capture.color.is_some() || !file.shows_light(),
+    };
     let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
     clear_unfinished(dir, &frame_files(&pictures))?;
 
@@ -140,6 +147,11 @@ fn encode(file: FrameFile, shot: &Shot, capture: &Capture) -> Result<Vec<u8>, Wr
         FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),
         FrameFile::FlowForward => exr_file::encode(name, &labels.flow_forward, ["R", "G"]),
         FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
+        FrameFile::Change => {
+            let change = capture.change.as_ref();
+            let change = change.ok_or_else(|| WriteError::Mismatch(format!("{name} without another scene")))?;
+            png_file::grey(name, width, height, &change.map(|&differs| if differs { u8::MAX } else { 0 }).data)
+        }
     }
 }
 
@@ -157,6 +169,9 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
     if let Some(Color { radiance, srgb, .. }) = &capture.color {
         found.push(("radiance", radiance.width, radiance.height, radiance.data.len()));
         found.push(("rgb", srgb.width, srgb.height, srgb.data.len()));
+    }
+    if let Some(change) = &capture.change {
+        found.push(("change", change.width, change.height, change.data.len()));
     }
     match found.iter().find(|(_, w, h, len)| (*w, *h) != (width, height) || *len != width as usize * height as usize) {
         None if width > 0 && height > 0 => Ok(()),

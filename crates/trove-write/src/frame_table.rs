@@ -25,7 +25,7 @@
 //! |---|---|
 //! | `id` | its value in `instance.png`, the same in all views and keyframes of a scene |
 //! | `class`, `class_id`, `kind` | name and id in the class table; what it is, finer |
-//! | `category`, `token`, `track_token` | the dataset's category, annotation and track; empty for scenery |
+//! | `category`, `token`, `track_token` | the dataset's category, annotation and track; empty for scenery and added road users |
 //! | `asset` | the model that stands for it; empty for what was built for this place |
 //! | `world_from_body`, `size_m` | its box: 4×4 from Body (x forward, y left, z up, origin in the centre) to World; length, width, height |
 //! | `velocity_mps` | in World; null where unknown |

@@ -435,6 +435,10 @@ impl Recipe {
             render.light || files.clone().all(|file| !file.shows_light()),
             "output.files: without light there is no rgb and no radiance; remove them or render.light = false"
         );
+        ensure!(
+            self.variations.counterfactual.is_some() || files.clone().all(|file| *file != FrameFile::Change),
+            "output.files: change.png is of counterfactual sets; remove change or set variations.counterfactual"
+        );
         self.camera.check()?;
         self.light.check()?;
         for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
@@ -461,20 +465,23 @@ impl Recipe {
         self.light.is_file().then(|| self.at(Path::new(&self.light.environment)))
     }
 
-    /// The pictures in a frame's folder.
-    pub fn pictures(&self) -> BTreeSet<FrameFile> {
+    /// The pictures in the folder of a variation's frame.
+    pub fn pictures(&self, variation: u32) -> BTreeSet<FrameFile> {
         let all = || FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Radiance).collect();
         let mut files = self.output.files.clone().unwrap_or_else(all);
         if self.render.radiance {
             files.insert(FrameFile::Radiance);
         }
         files.retain(|file| self.render.light || !file.shows_light());
+        if variation == 0 || self.variations.counterfactual.is_none() {
+            files.remove(&FrameFile::Change);
+        }
         files
     }
 
     /// Whether there is a picture that shows light.
     pub fn follows_light(&self) -> bool {
-        self.pictures().iter().any(|file| file.shows_light())
+        self.pictures(0).iter().any(|file| file.shows_light())
     }
 
     /// How noise is removed.
@@ -591,13 +598,13 @@ mod tests {
     fn only_the_light_that_is_shown_is_followed_and_cleaned() {
         let recipe = |text: &str| Recipe::parse(&format!("{DRIVE}{text}")).unwrap();
         let plain = recipe("");
-        assert_eq!((plain.pictures().len(), plain.follows_light(), plain.denoising()), (7, true, Denoising::Best));
+        assert_eq!((plain.pictures(0).len(), plain.follows_light(), plain.denoising()), (7, true, Denoising::Best));
         let labels = recipe("[output]\nfiles = [\"class\", \"instance\"]\n");
-        assert_eq!(labels.pictures(), [FrameFile::Class, FrameFile::Instance].into());
+        assert_eq!(labels.pictures(0), [FrameFile::Class, FrameFile::Instance].into());
         assert_eq!((labels.follows_light(), labels.denoising()), (false, Denoising::None));
         let radiance = recipe("[render]\nradiance = true\ndenoise = \"fast\"\n[output]\nfiles = []\n");
-        assert_eq!((radiance.pictures(), radiance.denoising()), ([FrameFile::Radiance].into(), Denoising::Fast));
-        assert_eq!(recipe("[render]\nlight = false\n").pictures().len(), 6);
+        assert_eq!((radiance.pictures(0), radiance.denoising()), ([FrameFile::Radiance].into(), Denoising::Fast));
+        assert_eq!(recipe("[render]\nlight = false\n").pictures(0).len(), 6);
         assert_eq!(recipe("[render]\ndenoise = false\n").denoising(), Denoising::None);
     }
 

@@ -21,6 +21,8 @@ pub(crate) struct Variation {
     place: [f64; 2],
     season: Option<Season>,
     wetness: f64,
+    /// Road users against the recorded number.
+    traffic: f64,
     light: Light,
     /// Added to the recipe's exposure, stops.
     exposure_ev: f64,
@@ -60,6 +62,7 @@ impl Variation {
             let is_dry = random.chance(section.dry_share);
             if is_dry { 0.0 } else { within(section.wetness(), &mut random) }
         });
+        let traffic = random(Factor::Traffic).map(|mut random| within(section.traffic(), &mut random));
         let exposure_ev = random(Factor::Exposure).map(|mut random| within(section.exposure_ev(), &mut random));
         let [lift_m, pitch_deg] =
             random(Factor::Camera).map_or([0.0; 2], |mut random| section.camera().map(|r| within(r, &mut random)));
@@ -75,13 +78,15 @@ impl Variation {
                 materials: seed(Factor::Materials),
                 furniture: seed(Factor::Furniture),
                 vegetation: seed(Factor::Vegetation),
+                traffic: seed(Factor::Traffic),
                 light: seed(Factor::Light),
                 rigs: seed(Factor::Rigs),
-                noise: base.nth(number.into()),
+                noise: base.nth(if section.counterfactual.is_some() { 0 } else { number.into() }),
             },
             place,
             season: season.map_or(weather.season, Into::into),
             wetness: wetness.unwrap_or(weather.wetness),
+            traffic: traffic.unwrap_or(1.0),
             light: light(recipe, drive, place[1], random(Factor::Light))?,
             exposure_ev: exposure_ev.unwrap_or(0.0),
             lift_m,
@@ -107,6 +112,7 @@ impl Variation {
         Ok(BuildSettings {
             seeds: self.seeds,
             top_k: recipe.assets.top_k,
+            traffic: self.traffic,
             light,
             weather: trove_build::Weather { season: self.season, wetness: self.wetness, ..recipe.weather() },
             on_disagreement: recipe.map.on_disagreement.into(),
@@ -143,6 +149,7 @@ impl Variation {
         row.insert("place".into(), json!(self.place));
         row.insert("season".into(), json!(format!("{:?}", site.season()).to_lowercase()));
         row.insert("light".into(), self.light_row(recipe, site));
+        row.insert("traffic".into(), json!(self.traffic));
         row.insert("wetness".into(), json!(self.wetness));
         row.insert("exposure_ev".into(), json!(self.exposure_ev));
         row.insert("camera_height_m".into(), json!(self.lift_m));

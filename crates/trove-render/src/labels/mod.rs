@@ -4,6 +4,7 @@
 //! the triangle's own corners. Holes of cut-outs are not there. A pane of glass is: its pixels are the pane's, not
 //! those of what is seen through it.
 
+mod change;
 mod flow;
 mod geometry;
 mod objects;
@@ -12,6 +13,8 @@ mod outline;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Class, Labels, Raster, Shot};
+
+pub(crate) use change::changes;
 
 use crate::PreparedScene;
 use crate::accel::Ray;

@@ -32,7 +32,7 @@ impl Extent {
     }
 }
 
-/// All recorded objects of which a pixel would be seen if nothing else were there, and the scenery of which one is seen,
+/// All recorded objects, and road users like them, of which a pixel would be seen if nothing else were there, and the scenery of which one is seen,
 /// in the order of ids; `None` once `stop` answers true.
 pub(super) fn list(
     scene: &PreparedScene,
@@ -56,8 +56,8 @@ pub(super) fn list(
             let object =
                 instance.object.as_deref().filter(|_| instance.id.0 != 0 && Some(instance.id) != shot.carrier)?;
             // Scenery is plentiful, and nobody asks for the thousand trees behind the houses.
-            let is_recorded = !object.annotation_token.is_empty();
-            (is_recorded || visible[i].count > 0).then(|| label(scene, shot, shown, i, object, visible[i])).flatten()
+            let is_road_user = !object.annotation_token.is_empty() || object.velocity_mps.is_some();
+            (is_road_user || visible[i].count > 0).then(|| label(scene, shot, shown, i, object, visible[i])).flatten()
         })
         .collect();
     objects.sort_by_key(|object| object.id);

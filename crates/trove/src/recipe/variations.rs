@@ -31,6 +31,8 @@ pub enum Factor {
     Season,
     /// Sun and sky.
     Light,
+    /// How many road users there are.
+    Traffic,
     /// Rain that has fallen.
     Wetness,
     /// Stops about the recipe's exposure.
@@ -44,9 +46,9 @@ pub enum Factor {
 impl Factor {
     /// Every factor.
     #[rustfmt::skip]
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Place, Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
-        Self::Season, Self::Light, Self::Wetness, Self::Exposure, Self::Camera, Self::Rigs,
+        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Exposure, Self::Camera, Self::Rigs,
     ];
 
     /// Its name in recipes.
@@ -68,6 +70,8 @@ pub struct VariationsSection {
     pub factors: Option<Vec<Factor>>,
     /// Whether v00 is the scene that the rest of the recipe tells of, with nothing drawn from the ranges.
     pub first_as_recorded: bool,
+    /// The one factor that differs, all else being v00's, noise too; frames get a mask of what changed.
+    pub counterfactual: Option<Factor>,
     /// Latitudes and longitudes of other places, in degrees; those that drive on the recording's side are drawn among.
     pub places: Option<Vec<[f64; 2]>>,
     /// Seasons to draw among.
@@ -76,6 +80,8 @@ pub struct VariationsSection {
     pub wetness: Option<Range>,
     /// Share of the variations that are dry where wetness is drawn.
     pub dry_share: f64,
+    /// Road users against the recorded number.
+    pub traffic: Option<Range>,
     /// Stops about the metered or fixed exposure.
     pub exposure_ev: Option<Range>,
     /// Above the recorded place, metres.
@@ -111,10 +117,12 @@ impl Default for VariationsSection {
             count: 1,
             factors: None,
             first_as_recorded: true,
+            counterfactual: None,
             places: None,
             seasons: None,
             wetness: None,
             dry_share: 0.5,
+            traffic: None,
             exposure_ev: None,
             camera_height_m: None,
             camera_pitch_deg: None,
@@ -127,9 +135,10 @@ impl Default for VariationsSection {
 impl VariationsSection {
     /// Whether a factor differs between variations.
     pub fn varies(&self, factor: Factor) -> bool {
-        match &self.factors {
-            Some(factors) => factors.contains(&factor),
-            None => !factor.needs_range() || self.ranges().iter().any(|(f, _, given)| *f == factor && *given),
+        match (self.counterfactual, &self.factors) {
+            (Some(only), _) => factor == only,
+            (None, Some(factors)) => factors.contains(&factor),
+            (None, None) => !factor.needs_range() || self.ranges().iter().any(|(f, _, given)| *f == factor && *given),
         }
     }
 
@@ -142,6 +151,11 @@ impl VariationsSection {
     /// How wet it may be.
     pub fn wetness(&self) -> Range {
         self.wetness.unwrap_or([0.0, 0.8])
+    }
+
+    /// How many road users there may be against the recorded number.
+    pub fn traffic(&self) -> Range {
+        self.traffic.unwrap_or([0.5, 2.0])
     }
 
     /// Stops about the exposure.
@@ -158,12 +172,13 @@ impl VariationsSection {
     }
 
     /// Every key with a range: its factor, its name, and whether it is given.
-    fn ranges(&self) -> [(Factor, &'static str, bool); 11] {
+    fn ranges(&self) -> [(Factor, &'static str, bool); 12] {
         let light = &self.light;
         [
             (Factor::Place, "places", self.places.is_some()),
             (Factor::Season, "seasons", self.seasons.is_some()),
             (Factor::Wetness, "wetness", self.wetness.is_some()),
+            (Factor::Traffic, "traffic", self.traffic.is_some()),
             (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
             (Factor::Camera, "camera_height_m", self.camera_height_m.is_some()),
             (Factor::Camera, "camera_pitch_deg", self.camera_pitch_deg.is_some()),
@@ -190,6 +205,7 @@ impl VariationsSection {
         let share = self.dry_share;
         check("variations.dry_share", share, (0.0..=1.0).contains(&share), "0 to 1")?;
         within("wetness", self.wetness, [0.0, 1.0])?;
+        within("traffic", self.traffic, [0.0, 10.0])?;
         within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
         within("camera_height_m", self.camera_height_m, [-1.0, 3.0])?;
         within("camera_pitch_deg", self.camera_pitch_deg, [-20.0, 20.0])?;
@@ -217,6 +233,7 @@ impl VariationsSection {
             "variations.light: hours, clouds and turbidity are those of a computed sky, found pictures alone; add \
              {COMPUTED_SKY:?} to variations.light.environments or remove them"
         );
+        self.check_counterfactual()?;
         if let Some(factors) = &self.factors {
             for (factor, key, given) in self.ranges() {
                 ensure!(
@@ -231,10 +248,39 @@ impl VariationsSection {
     }
 }
 
+impl VariationsSection {
+    fn check_counterfactual(&self) -> Result<()> {
+        let Some(only) = self.counterfactual else { return Ok(()) };
+        let key = "variations.counterfactual";
+        ensure!(
+            self.count > 1,
+            "{key}: expected variations.count of 2 or more, found 1; v00 is what others differ from"
+        );
+        ensure!(self.first_as_recorded, "{key}: v00 is the recipe's own scene; remove variations.first_as_recorded");
+        ensure!(
+            self.factors.is_none(),
+            "{key}: expected one factor alone, found variations.factors too; remove one of them"
+        );
+        ensure!(
+            !matches!(only, Factor::Camera | Factor::Rigs),
+            "{key}: expected a factor that leaves the views where they are, found \"{}\"",
+            only.name()
+        );
+        for (factor, range, given) in self.ranges() {
+            ensure!(
+                !given || factor == only,
+                "variations.{range}: expected ranges of \"{}\", which alone varies ({key}); remove the key",
+                only.name()
+            );
+        }
+        Ok(())
+    }
+}
+
 impl Factor {
     /// Whether it differs only where a range is given, or where it is named.
     fn needs_range(self) -> bool {
-        matches!(self, Self::Place | Self::Season | Self::Wetness | Self::Exposure | Self::Camera)
+        matches!(self, Self::Place | Self::Season | Self::Traffic | Self::Wetness | Self::Exposure | Self::Camera)
     }
 }
 
@@ -264,6 +310,9 @@ mod tests {
         let named = variations("factors = [\"season\"]\n").unwrap();
         let varying: Vec<Factor> = Factor::ALL.into_iter().filter(|f| named.varies(*f)).collect();
         assert_eq!((varying, named.seasons().len()), (vec![Factor::Season], 4));
+        let single = variations("count = 3\ncounterfactual = \"traffic\"\ntraffic = [0.5, 3]\n").unwrap();
+        let varying: Vec<Factor> = Factor::ALL.into_iter().filter(|f| single.varies(*f)).collect();
+        assert_eq!((varying, single.traffic()), (vec![Factor::Traffic], [0.5, 3.0]));
     }
 
     #[test]
@@ -278,6 +327,12 @@ mod tests {
             ("seasons = [\"monsoon\"]\n", "monsoon"),
             ("factors = [\"paint\"]\nwetness = [0, 1]\n", "add \"wetness\" there or remove the key"),
             ("factors = [\"colour\"]\n", "colour"),
+            ("traffic = [-1, 1]\n", "variations.traffic: expected two numbers from 0 to 10"),
+            ("counterfactual = \"paint\"\n", "expected variations.count of 2 or more, found 1"),
+            ("count = 2\ncounterfactual = \"camera\"\n", "leaves the views where they are, found \"camera\""),
+            ("count = 2\ncounterfactual = \"paint\"\nfactors = [\"paint\"]\n", "remove one of them"),
+            ("count = 2\ncounterfactual = \"paint\"\nfirst_as_recorded = false\n", "v00 is the recipe's own scene"),
+            ("count = 2\ncounterfactual = \"paint\"\ntraffic = [0, 2]\n", "expected ranges of \"paint\""),
             ("exposre_ev = [0, 1]\n", "did you mean `exposure_ev`?"),
         ] {
             let message = format!("{:#}", variations(text).unwrap_err());

@@ -13,7 +13,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
 use trove_build::{ALL_CAMERAS, Site, ViewSettings};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot};
-use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, contact_sheet, frame_files, write_frame};
 
 use crate::progress::Progress;
@@ -88,7 +88,6 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         library: library::gather(recipe, &options.search, &report)?,
         output,
         writer: Worker::new(write),
-        pictures: Arc::new(recipe.pictures()),
         progress: Progress::new(planned),
         report,
         frames: options.frames.as_ref(),
@@ -174,8 +173,6 @@ struct Run<'a> {
     output: OutputFolder,
     /// Encodes and writes frames while the next ones are rendered.
     writer: Worker<Frame, Written>,
-    /// What each frame's folder holds.
-    pictures: Arc<BTreeSet<FrameFile>>,
     progress: Progress,
     report: Report,
     frames: Option<&'a BTreeSet<String>>,
@@ -192,7 +189,7 @@ struct Frame {
     shot: Shot,
     capture: Capture,
     meta: FrameMeta,
-    pictures: Arc<BTreeSet<FrameFile>>,
+    pictures: BTreeSet<FrameFile>,
 }
 
 /// A frame's path and files.
@@ -211,9 +208,18 @@ struct Built {
     shots: Vec<(usize, Vec<Shot>)>,
 }
 
+/// A keyframe's scene, made ready.
+struct Photographed {
+    keyframe: usize,
+    scene: Arc<Scene>,
+    prepared: PreparedScene,
+}
+
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
     fn scene(&mut self, scene: &str, frames_hint: usize) -> Result<(), Stop> {
+        // Of a counterfactual set v00, which the others are compared with.
+        let mut base: Option<Built> = None;
         for variation in 0..self.recipe.variations.count {
             let folder = self.output.root().join(scene).join(format!("v{variation:02}"));
             let known = SiteFile::read(&folder);
@@ -249,8 +255,15 @@ impl Run<'_> {
                 self.wants(&FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() })
             });
             self.progress.correct(frames_hint, wanted.count());
-            self.frames(scene, variation, &file, built.as_ref())?;
+            let compares = built.is_some() && self.recipe.pictures(variation).contains(&FrameFile::Change);
+            if compares && base.is_none() {
+                base = Some(self.build(scene, 0)?.1);
+            }
+            self.frames(scene, variation, &file, built.as_ref(), base.as_ref().filter(|_| compares))?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
+            if variation == 0 && self.recipe.variations.counterfactual.is_some() {
+                base = built;
+            }
         }
         Ok(())
     }
@@ -272,7 +285,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), &frame_files(&self.pictures))
+        self.output.finished(&key.path(), &frame_files(&self.recipe.pictures(key.variation)))
     }
 
     fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
@@ -320,9 +333,17 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Renders what is missing of a scene.
-    fn frames(&mut self, scene: &str, variation: u32, file: &SiteFile, built: Option<&Built>) -> Result<(), Stop> {
-        let mut photographed: Option<(usize, Arc<Scene>, trove_render::PreparedScene)> = None;
+    /// Renders what is missing of a scene; `base` is what its pictures are compared with.
+    fn frames(
+        &mut self,
+        scene: &str,
+        variation: u32,
+        file: &SiteFile,
+        built: Option<&Built>,
+        base: Option<&Built>,
+    ) -> Result<(), Stop> {
+        let mut photographed: Option<Photographed> = None;
+        let mut before: Option<Photographed> = None;
         for (keyframe, view) in &file.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
             if !self.wants(&key) {
@@ -332,15 +353,14 @@ impl Run<'_> {
                 let built = built.with_context(|| format!("{}: vanished during the run", key.path()))?;
                 let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
                 let mut prepare_s = 0.0;
-                if photographed.as_ref().is_none_or(|(k, ..)| k != keyframe) {
-                    let scene = Arc::new(built.site.scene(&built.drive, *keyframe));
+                if photographed.as_ref().is_none_or(|p| p.keyframe != *keyframe) {
                     let started = Instant::now();
-                    let prepared = self.renderer.prepare(&scene)?;
+                    photographed = Some(built.photographed(&self.renderer, *keyframe)?);
+                    before = base.map(|base| base.photographed(&self.renderer, *keyframe)).transpose()?;
                     prepare_s = started.elapsed().as_secs_f64();
-                    photographed = Some((*keyframe, scene, prepared));
                 }
-                let (_, scene, prepared) = photographed.as_ref().context("the scene was prepared above")?;
-                self.frame(&key, &built.drive, scene, prepared, prepare_s, shot)?;
+                let photographed = photographed.as_ref().context("the scene was prepared above")?;
+                self.frame(&key, &built.drive, photographed, before.as_ref(), prepare_s, shot)?;
             }
             self.progress.frame_done();
         }
@@ -352,8 +372,8 @@ impl Run<'_> {
         &mut self,
         key: &FrameKey,
         drive: &Drive,
-        scene: &Arc<Scene>,
-        prepared: &trove_render::PreparedScene,
+        photographed: &Photographed,
+        before: Option<&Photographed>,
         prepare_s: f64,
         shot: &Shot,
     ) -> Result<(), Stop> {
@@ -363,8 +383,11 @@ impl Run<'_> {
             interrupt::requested()
         };
         let started = Instant::now();
+        let Photographed { scene, prepared, .. } = photographed;
         let capture = self.renderer.render(prepared, shot, self.recipe.follows_light(), &within);
-        let Some(capture) = capture else { return Err(Stop::Interrupted) };
+        let Some(mut capture) = capture else { return Err(Stop::Interrupted) };
+        let after = (&**scene, prepared);
+        capture.change = before.map(|b| self.renderer.changes((&b.scene, &b.prepared), after, shot));
         let render_s = started.elapsed().as_secs_f64();
         let moment = &drive.keyframes[key.keyframe];
         let exposure = moment.exposures.iter().find(|e| shot.view == format!("ego.{}", drive.rig[e.camera].name));
@@ -389,7 +412,7 @@ impl Run<'_> {
             shot: shot.clone(),
             capture,
             meta,
-            pictures: self.pictures.clone(),
+            pictures: self.recipe.pictures(key.variation),
         });
         let written = self.writer.done();
         self.record(written)?;
@@ -424,7 +447,12 @@ impl Run<'_> {
                 if self.wants(&key) {
                     let files = self.finished(&key)?;
                     let files = files.with_context(|| format!("{}: vanished during the run", key.path()))?;
-                    rows.push(frame_row(&key.path(), &key, &file.factors, &files));
+                    let mut row = frame_row(&key.path(), &key, &file.factors, &files);
+                    if let Some(factor) = self.recipe.variations.counterfactual.filter(|_| variation > 0) {
+                        let base = FrameKey { variation: 0, ..key }.path();
+                        row["counterfactual"] = json!({ "factor": factor.name(), "base": base });
+                    }
+                    rows.push(row);
                 }
             }
             self.sites.push(SiteSummary { scene, variation, file });
@@ -463,6 +491,12 @@ impl Run<'_> {
 }
 
 impl Built {
+    fn photographed(&self, renderer: &Renderer, keyframe: usize) -> Result<Photographed> {
+        let scene = Arc::new(self.site.scene(&self.drive, keyframe));
+        let prepared = renderer.prepare(&scene)?;
+        Ok(Photographed { keyframe, scene, prepared })
+    }
+
     fn shot(&self, keyframe: usize, view: &str) -> Option<&Shot> {
         let (_, shots) = self.shots.iter().find(|(k, _)| *k == keyframe)?;
         shots.iter().find(|shot| shot.view == view)
