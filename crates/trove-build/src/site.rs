@@ -150,7 +150,7 @@ pub fn build(
     }
     // Road users whom nobody recorded come last: they take the room that is left.
     let seed = seeds.traffic.child("added");
-    let users = traffic::added(&around, &absent, &clearance, &assembly.fixed, library, settings.traffic, seed, report);
+    let users = traffic::added(&around, &absent, &clearance, &assembly, library, settings.traffic, seed, report);
     let mut added = Vec::new();
     for user in &users {
         let Some(role) = casting.added(&user.track, user.speed_mps) else { continue };

@@ -10,8 +10,9 @@ mod ways;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Instance, Kind, Outcome, Report, Seed, Track};
+use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
 
+use crate::assembly::Assembly;
 use crate::clearance::Clearance;
 use crate::moments::{next, previous};
 use crate::surroundings::Surroundings;
@@ -62,13 +63,13 @@ pub(crate) fn wanted(drive: &Drive, density: f64) -> usize {
     ((density - 1.0).max(0.0) * usual as f64).round() as usize
 }
 
-/// Makes road users up, who meet nobody at any keyframe nor halfway between two; `fixed` is all that stands still.
+/// Makes road users up, who meet nobody at any keyframe nor halfway between two; `assembly` has all that stands still.
 #[allow(clippy::too_many_arguments)] // one call, from the builder of the place
 pub(crate) fn added(
     around: &Surroundings,
     absent: &BTreeSet<usize>,
     clearance: &Clearance,
-    fixed: &[Instance],
+    assembly: &Assembly,
     library: &AssetLibrary,
     density: f64,
     seed: Seed,
@@ -82,8 +83,9 @@ pub(crate) fn added(
     }
     let shares = Shares::of(&drive.projection, library);
     let ways = Ways::new(around);
-    let mut room = Room::new(around, absent, clearance, fixed);
-    for i in 0..wanted as u64 {
+    let mut room = Room::new(around, absent, clearance, assembly);
+    // Some find no place, and some come together.
+    for i in 0..2 * wanted as u64 {
         let mut random = seed.nth(i).random();
         let keyframe = random.index(drive.keyframes.len());
         let Some(doing) = shares.draw(&mut random) else { break };

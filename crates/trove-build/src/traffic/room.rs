@@ -2,12 +2,14 @@
 
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Body, Cuboid, Drive, Instance, Kind, Pose, World};
+use trove_model::{Body, Cuboid, Drive, Instance, Kind, Mesh, Pose, World};
 
 use super::FEWEST_KEYFRAMES;
 use super::motion::{Motion, On};
+use crate::assembly::Assembly;
 use crate::clearance::Clearance;
 use crate::moments::next;
 use crate::placement::ego_cuboid;
@@ -19,6 +21,8 @@ use crate::surroundings::Surroundings;
 const BUCKET_M: f64 = 8.0;
 /// What begins higher than this is walked and driven under, metres.
 const OVERHEAD_M: f64 = 2.3;
+/// Half the distance of what holds a fence.
+const FENCE_M: f64 = 0.6;
 /// Half the width of trunks and poles, metres.
 const POLE_M: f64 = 0.25;
 /// People keep so far from walls, vehicles from everything, and all from the recording vehicle, metres.
@@ -103,10 +107,10 @@ impl<'a> Room<'a> {
         around: &Surroundings<'a>,
         absent: &BTreeSet<usize>,
         clearance: &'a Clearance<'a>,
-        fixed: &[Instance],
+        assembly: &Assembly,
     ) -> Self {
         let mut standing: HashMap<[i64; 2], Vec<Outline>> = HashMap::new();
-        for outline in fixed.iter().filter_map(|instance| obstacle(around, instance)) {
+        for outline in assembly.fixed.iter().flat_map(|fixed| obstacles(around, fixed, &assembly.stock.meshes)) {
             for key in outline.buckets() {
                 standing.entry(key).or_default().push(outline);
             }
@@ -176,14 +180,25 @@ impl<'a> Room<'a> {
 }
 
 /// What of a thing that stands still is in the way; buildings are asked by their distance.
-fn obstacle(around: &Surroundings, instance: &Instance) -> Option<Outline> {
-    let object = instance.object.as_ref().filter(|object| object.kind != Kind::Building)?;
+fn obstacles(around: &Surroundings, instance: &Instance, meshes: &[Arc<Mesh>]) -> Vec<Outline> {
+    let Some(object) = instance.object.as_ref().filter(|object| object.kind != Kind::Building) else {
+        return Vec::new();
+    };
+    let around_point =
+        |point: DVec3, half_m: f64| Outline { centre: point.truncate(), along: DVec2::X, half_m: DVec2::splat(half_m) };
+    let from_mesh = &instance.world_from_mesh;
     if object.kind.is_on_pole() {
-        let centre = instance.world_from_mesh.transform_point3(DVec3::ZERO).truncate();
-        return Some(Outline { centre, along: DVec2::X, half_m: DVec2::splat(POLE_M) });
+        return vec![around_point(from_mesh.transform_point3(DVec3::ZERO), POLE_M)];
+    }
+    // A long fence is in no box of its own, but all along its line.
+    if matches!(object.kind, Kind::Fence | Kind::Wall | Kind::GuardRail) {
+        let points = meshes[instance.mesh].positions.iter().map(|p| from_mesh.transform_point3(p.as_dvec3()));
+        let cells: BTreeSet<[i64; 2]> = points.map(|p| bucket(p.truncate(), FENCE_M)).collect();
+        let middle = |[x, y]: [i64; 2]| (DVec2::new(x as f64, y as f64) + 0.5) * FENCE_M;
+        return cells.into_iter().map(|cell| around_point(middle(cell).extend(0.0), FENCE_M)).collect();
     }
     let cuboid = &object.cuboid;
     let centre_world = cuboid.world_from_body.translation;
     let bottom_m = centre_world.z - cuboid.size_m.z / 2.0 - around.stand.surface_m(centre_world.truncate());
-    (bottom_m < OVERHEAD_M).then(|| Outline::of(cuboid))
+    if bottom_m < OVERHEAD_M { vec![Outline::of(cuboid)] } else { Vec::new() }
 }

@@ -3,7 +3,7 @@ use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
 use crate::{LightChoice, OnDisagreement, Weather, testing};
 use room::Outline;
-use trove_model::Scene;
+use trove_model::{Instance, Scene};
 
 const RIDER: &str = "bicycle/rider";
 

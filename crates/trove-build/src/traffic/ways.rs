@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
-use trove_model::{Kind, ParkingOrientation, Polygon, Random, RoadKind, drives_on_left};
+use trove_model::{Kind, ParkingOrientation, Polygon, Random, RoadKind};
 
 use super::motion::{Motion, On, Place};
 use super::shares::{Doing, Shares};
@@ -25,6 +25,9 @@ const ASIDE_M: f64 = 1.5;
 const TURNED_RAD: f64 = 0.35;
 /// A lane is followed so far, metres.
 const FOLLOWED_M: f64 = 400.0;
+/// A kerb so far beside a lane is that lane's, and cyclists ride so far within its edge, metres.
+const BESIDE_LANE_M: f64 = 2.2;
+const FROM_EDGE_M: f64 = 0.6;
 /// Between those who ride behind each other, metres.
 const BEHIND_M: f64 = 3.2;
 /// Between the middles of people side by side, metres.
@@ -44,8 +47,6 @@ pub(super) struct Ways<'a> {
     /// Those of them that are at crossings.
     at_crossings: Vec<(DVec2, usize, usize)>,
     driven: SegmentIndex,
-    /// The kerb is on the left of who drives.
-    on_left: bool,
 }
 
 impl<'a> Ways<'a> {
@@ -71,7 +72,6 @@ impl<'a> Ways<'a> {
                 || areas.iter().filter(|area| near(area)).any(|a| a.contains(p) || a.edge_distance_m(p) < CROSSING_M)
         };
         let of_use = |usage: LaneUse| lanes.iter().filter(move |lane| lane.usage == usage);
-        let projection = around.drive.projection;
         Self {
             around,
             lanes,
@@ -79,7 +79,6 @@ impl<'a> Ways<'a> {
             at_crossings: on_kerbs.iter().filter(|(p, ..)| crosses(*p)).copied().collect(),
             on_kerbs,
             driven: SegmentIndex::new(of_use(LaneUse::Driving).map(|lane| lane.line.as_slice())),
-            on_left: drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg),
         }
     }
 
@@ -159,9 +158,9 @@ impl<'a> Ways<'a> {
         };
         let Lane { width_m, usage, .. } = self.lanes[lane];
         let aside_m = if cycles && usage == LaneUse::Driving {
-            let side = if self.on_left { 1.0 } else { -1.0 };
-            let _ = self.around.kerbs.near(at, width_m / 2.0 + 1.0).first()?;
-            side * (width_m / 2.0 - 0.6).max(0.0)
+            let kerb = *self.around.kerbs.near(at, width_m / 2.0 + BESIDE_LANE_M).first()?;
+            let (_, along) = Path::new(&self.lanes[lane].line).at(s_m);
+            along.perp_dot(kerb.position - at).signum() * (width_m / 2.0 - FROM_EDGE_M).max(0.0)
         } else {
             random.range(-0.2, 0.2)
         };
