@@ -82,7 +82,7 @@ def test_the_radiance_behind_a_picture_is_written_where_it_is_asked_for(recipe, 
     assert {row["path"] for row in timings} == set(frames) and all(row["render_seconds"] > 0 for row in timings)
 
 
-def test_a_counterfactual_of_paint_differs_in_vehicles_alone_and_another_run_goes_on_with_it(recipe, finished, tmp_path):
+def test_a_counterfactual_of_paint_differs_in_vehicles_alone_and_a_run_goes_on_with_it(recipe, tmp_path):
     repainted = tmp_path / "repainted.toml"
     text = recipe.read_text().replace("other_vehicles = 1\n", "") + "light = false\n"
     repainted.write_text(text + '[variations]\ncount = 2\ncounterfactual = "paint"\n')

@@ -266,6 +266,8 @@ impl VariationsSection {
             "{key}: expected a factor that leaves the views where they are, found \"{}\"",
             only.name()
         );
+        let is_somewhere = only != Factor::Place || self.places.is_some();
+        ensure!(is_somewhere, "{key}: expected other places for \"place\", found none; add variations.places");
         for (factor, range, given) in self.ranges() {
             ensure!(
                 !given || factor == only,
