@@ -150,7 +150,7 @@ impl<'a> Ways<'a> {
         };
         let reach_m = if cycles { PEOPLE_M } else { VEHICLES_M };
         let own = cycles && random.chance(0.7);
-        let own = own.then(|| of_use(LaneUse::Cycling)).unwrap_or_default();
+        let own = if own { of_use(LaneUse::Cycling) } else { Vec::new() };
         let own = self.in_view(&own, keyframe, reach_m, random, |spot| spot.0).copied();
         let (at, lane, s_m) = match own {
             Some(own) => own,
