@@ -142,7 +142,8 @@ impl<'a> Room<'a> {
         let seconds =
             |k: usize| (self.drive.keyframes[k].time_ns - self.drive.keyframes[keyframe].time_ns) as f64 * 1e-9;
         let moments = || 2 * run.start..2 * run.end - 1;
-        let time_s = |m: usize| if m.is_multiple_of(2) { seconds(m / 2) } else { (seconds(m / 2) + seconds(m / 2 + 1)) / 2.0 };
+        let time_s =
+            |m: usize| if m.is_multiple_of(2) { seconds(m / 2) } else { (seconds(m / 2) + seconds(m / 2 + 1)) / 2.0 };
         let poses = motion.poses(moments().map(time_s));
         let outline = |[centre, along]: [DVec2; 2]| Outline { centre, along, half_m: motion.size_m.truncate() / 2.0 };
         let visit: Vec<(usize, Outline)> =
