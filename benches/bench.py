@@ -85,7 +85,7 @@ def frame(folder):
 
 def frames(folder):
     """Rate of small frames for training, denoised, with picture, classes, instances and objects, over whole runs."""
-    render = 'size = [480, 360]\nspp = 4\ndenoise = "fast"\n[output]\nfiles = ["rgb", "class", "instance"]'
+    render = 'size = [480, 360]\nspp = 2\ndenoise = "fast"\n[output]\nfiles = ["rgb", "class", "instance"]'
     for scene in PLACES:
         path = recipe(folder, scene, "{ every = 5 }", "all", render)
         command = [sys.executable, "-m", "trove", "generate", path, "--out", folder / scene]

@@ -108,8 +108,8 @@ pub const CLASSES: [ClassRow; 20] = [
     row(Class::Construction,    "construction",     true,  [230, 150, 0],   Class13::Truck,       27, 14,  8,   8),
     row(Class::Bush,            "bush",             true,  [107, 142, 35],  Class13::Vegetation,  21, 8,   184, 5),
     row(Class::Tree,            "tree",             true,  [50, 105, 30],   Class13::Vegetation,  21, 8,   184, 5),
-    row(Class::MotorcycleRider, "motorcycle_rider", true,  [200, 40, 110],  Class13::Rider,       25, 12,  4,   10),
-    row(Class::TrafficCone,     "traffic_cone",     true,  [250, 110, 20],  Class13::TrafficPole, 17, 5,   0,   2),
+    row(Class::MotorcycleRider, "motorcycle_rider", true,  [200, 40, 110],  Class13::Rider,       25, 12,  4,   11),
+    row(Class::TrafficCone,     "traffic_cone",     true,  [250, 110, 20],  Class13::TrafficPole, 17, 5,   0,   11),
     row(Class::TrafficSign,     "traffic_sign",     true,  [220, 220, 0],   Class13::TrafficPole, 20, 7,   13,  6),
     row(Class::Sidewalk,        "sidewalk",         false, [244, 35, 232],  Class13::Sidewalk,    8,  1,   191, 4),
 ];

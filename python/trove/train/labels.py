@@ -15,13 +15,18 @@ PAPER = [
 ]  # fmt: skip
 
 TARGETS = {"camvid": CAMVID, "paper": PAPER}
+# The classes of trees, and of what is seen between their twigs.
+CROWNS = {
+    "camvid": tuple(CAMVID.index(name) for name in ("tree", "sky", "building")),
+    "paper": tuple(PAPER.index(name) for name in ("vegetation", "sky", "building")),
+}
 
 # Native class id -> (CamVid class, paper's class); "" is ignored. The same rows as `CLASSES` in trove-model.
 _NATIVE = {
     1: ("sky", "sky"), 2: ("car", "car"), 3: ("car", "bus"), 4: ("car", "car"), 5: ("car", "truck"), 6: ("car", "car"),
     7: ("pedestrian", "person"), 8: ("building", "building"), 9: ("road", "road"), 10: ("fence", ""),
     11: ("tree", "terrain"), 12: ("bicyclist", "rider"), 13: ("car", "truck"), 14: ("tree", "vegetation"),
-    15: ("tree", "vegetation"), 16: ("bicyclist", "rider"), 17: ("pole", "traffic_pole"),
+    15: ("tree", "vegetation"), 16: ("", "rider"), 17: ("", "traffic_pole"),
     18: ("pole", "traffic_pole"), 19: ("pavement", "sidewalk"),
 }  # fmt: skip
 
