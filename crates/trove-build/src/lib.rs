@@ -39,5 +39,6 @@ pub use light::{LightChoice, Moment, SkyChoice};
 pub use placement::{AssetFit, ObjectFit};
 pub use seeds::Seeds;
 pub use site::{BuildSettings, Site, area, build};
+pub use traffic::Traffic;
 pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings, place_drive, shots};
 pub use weather::Weather;

@@ -21,6 +21,7 @@ use crate::scenery::Scenery;
 use crate::seeds::Seeds;
 use crate::stock::Stock;
 use crate::surroundings::Surroundings;
+use crate::traffic::Traffic;
 use crate::vegetation::{Conditions, driven_path, undergrowth, vegetation};
 use crate::weather::Weather;
 use crate::{buildings, ground, roads, traffic};
@@ -44,8 +45,8 @@ pub struct BuildSettings {
     pub seeds: Seeds,
     /// An object's asset is drawn among the best so many; 1 is the best.
     pub top_k: usize,
-    /// How many road users there are against the recorded number; 1 leaves them as they are.
-    pub traffic: f64,
+    /// How many road users there are.
+    pub traffic: Traffic,
     /// Where the light comes from.
     pub light: LightChoice,
     /// What weather has done to its surfaces.
@@ -116,7 +117,7 @@ pub fn build(
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let absent = traffic::absent(drive, settings.traffic, seeds.traffic.child("absent"), report);
+    let absent = traffic::absent(drive, settings.traffic.density, seeds.traffic.child("absent"), report);
     let casting = Casting { drive, library, stand, top_k: settings.top_k, seeds: &seeds, report };
     let Cast { roles, fits } = casting.recorded(&absent);
 
@@ -137,7 +138,7 @@ pub fn build(
         assembly.piece(piece, &mut next_id);
     }
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
-    let others = furniture.scenery.len() + traffic::wanted(drive, settings.traffic);
+    let others = furniture.scenery.len() + traffic::wanted(drive, settings.traffic.density);
     drop_farthest(&mut plants, drive, left.saturating_sub(others), report);
     let undergrowth = undergrowth(&around, library, &clearance, &plants, conditions, seed.child("undergrowth"), report);
     for piece in &undergrowth {
@@ -352,7 +353,7 @@ mod tests {
         BuildSettings {
             seeds: Seed(seed).into(),
             top_k: 3,
-            traffic: 1.0,
+            traffic: Traffic::default(),
             light: LightChoice::default(),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),

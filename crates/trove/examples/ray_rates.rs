@@ -26,7 +26,7 @@ fn main() -> Result<()> {
         let settings = BuildSettings {
             seeds: Seed(7).into(),
             top_k: 3,
-            traffic: 1.0,
+            traffic: trove_build::Traffic::default(),
             light: LightChoice::Sky(SkyChoice::default()),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),

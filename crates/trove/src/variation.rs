@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use serde_json::{Value, json};
-use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, ViewSettings};
+use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings};
 use trove_model::{Drive, Environment, ExposureRule, MapProjection, Random, Season, Seed, drives_on_left};
 
 use crate::recipe::{Factor, Range, Recipe};
@@ -21,8 +21,7 @@ pub(crate) struct Variation {
     place: [f64; 2],
     season: Option<Season>,
     wetness: f64,
-    /// Road users against the recorded number.
-    traffic: f64,
+    traffic: Traffic,
     light: Light,
     /// Added to the recipe's exposure, stops.
     exposure_ev: f64,
@@ -62,7 +61,8 @@ impl Variation {
             let is_dry = random.chance(section.dry_share);
             if is_dry { 0.0 } else { within(section.wetness(), &mut random) }
         });
-        let traffic = random(Factor::Traffic).map(|mut random| within(section.traffic(), &mut random));
+        let traffic = random(Factor::Traffic)
+            .map(|mut random| Traffic { density: within(section.traffic(), &mut random), cyclists: section.cyclists });
         let exposure_ev = random(Factor::Exposure).map(|mut random| within(section.exposure_ev(), &mut random));
         let [lift_m, pitch_deg] =
             random(Factor::Camera).map_or([0.0; 2], |mut random| section.camera().map(|r| within(r, &mut random)));
@@ -86,7 +86,7 @@ impl Variation {
             place,
             season: season.map_or(weather.season, Into::into),
             wetness: wetness.unwrap_or(weather.wetness),
-            traffic: traffic.unwrap_or(1.0),
+            traffic: traffic.unwrap_or_default(),
             light: light(recipe, drive, place[1], random(Factor::Light))?,
             exposure_ev: exposure_ev.unwrap_or(0.0),
             lift_m,
@@ -149,7 +149,7 @@ impl Variation {
         row.insert("place".into(), json!(self.place));
         row.insert("season".into(), json!(format!("{:?}", site.season()).to_lowercase()));
         row.insert("light".into(), self.light_row(recipe, site));
-        row.insert("traffic".into(), json!(self.traffic));
+        row.insert("traffic".into(), json!(self.traffic.density));
         row.insert("wetness".into(), json!(self.wetness));
         row.insert("exposure_ev".into(), json!(self.exposure_ev));
         row.insert("camera_height_m".into(), json!(self.lift_m));

@@ -21,6 +21,21 @@ use room::Room;
 use shares::Shares;
 use ways::Ways;
 
+/// How many road users there are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traffic {
+    /// Road users against the recorded number; 1 leaves them as they are.
+    pub density: f64,
+    /// Cyclists among those who are added, against what is usual at the place.
+    pub cyclists: f64,
+}
+
+impl Default for Traffic {
+    fn default() -> Self {
+        Self { density: 1.0, cyclists: 1.0 }
+    }
+}
+
 /// A place where nobody was recorded counts as if so many had been at each standpoint.
 const USUAL: usize = 20;
 /// Places that are looked at for someone before the place counts as full.
@@ -71,17 +86,17 @@ pub(crate) fn added(
     clearance: &Clearance,
     assembly: &Assembly,
     library: &AssetLibrary,
-    density: f64,
+    traffic: Traffic,
     seed: Seed,
     report: &Report,
 ) -> Vec<RoadUser> {
     let drive = around.drive;
-    let wanted = wanted(drive, density);
+    let wanted = wanted(drive, traffic.density);
     let mut users: Vec<RoadUser> = Vec::new();
     if wanted == 0 {
         return users;
     }
-    let shares = Shares::of(&drive.projection, library);
+    let shares = Shares::of(&drive.projection, library, traffic.cyclists);
     let ways = Ways::new(around);
     let mut room = Room::new(around, absent, clearance, assembly);
     // Some find no place, and some come together.

@@ -72,11 +72,13 @@ pub(super) struct Shares<'a> {
 }
 
 impl<'a> Shares<'a> {
-    pub(super) fn of(projection: &MapProjection, library: &'a AssetLibrary) -> Self {
+    pub(super) fn of(projection: &MapProjection, library: &'a AssetLibrary, cyclists: f64) -> Self {
         let region = Region::of(projection);
         let row = SHARES.iter().find(|(of, _)| *of == region).map_or(&[][..], |(_, row)| row);
         let has = |doing: Doing| kinds(doing).iter().any(|(kind, _)| library.of_kind(*kind).next().is_some());
-        Self { library, doings: row.iter().filter(|(doing, _)| has(*doing)).copied().collect() }
+        let lots = |doing, share| if doing == Doing::Cycling { share * cyclists } else { share };
+        let doings = row.iter().filter(|(doing, _)| has(*doing));
+        Self { library, doings: doings.map(|&(doing, share)| (doing, lots(doing, share))).collect() }
     }
 
     /// What the next one does; `None` where the library has nobody.

@@ -14,7 +14,11 @@ fn library() -> AssetLibrary {
     library
 }
 
-fn site(traffic: f64, seed: u64, report: &Report) -> Site {
+fn site(density: f64, seed: u64, report: &Report) -> Site {
+    site_with(Traffic { density, ..Traffic::default() }, seed, report)
+}
+
+fn site_with(traffic: Traffic, seed: u64, report: &Report) -> Site {
     let settings = BuildSettings {
         seeds: crate::Seeds { traffic: Seed(seed), ..Seed(1).into() },
         top_k: 3,
@@ -126,4 +130,18 @@ fn outlines_that_are_turned_meet_where_their_corners_do() {
     let eighth = std::f64::consts::FRAC_PI_4;
     assert!(square(0.0, 0.0).meets(&square(1.9, 0.0)) && !square(0.0, 0.0).meets(&square(2.1, 0.0)));
     assert!(square(0.0, 0.0).meets(&square(2.3, eighth)) && !square(0.0, 0.0).meets(&square(2.5, eighth)));
+}
+
+#[test]
+fn cyclists_are_as_common_as_asked_for() {
+    let drive = testing::drive();
+    let riders = |cyclists: f64| {
+        let site = site_with(Traffic { density: 4.0, cyclists }, 1, &Report::default());
+        let [_, added] = road_users(&site.scene(&drive, 5));
+        let is_rider = |b: &&(String, Cuboid)| b.1.size_m.x > 1.7 && b.1.size_m.x < 1.8;
+        (added.iter().filter(is_rider).count(), added.len())
+    };
+    assert_eq!(riders(0.0).0, 0);
+    let (some, many) = (riders(1.0), riders(100.0));
+    assert!(many.0 > some.0 && many.0 * 2 > many.1, "{some:?} {many:?}");
 }

@@ -177,7 +177,7 @@ mod tests {
         let settings = BuildSettings {
             seeds: Seed(1).into(),
             top_k: 1,
-            traffic: 1.0,
+            traffic: crate::Traffic::default(),
             light: LightChoice::default(),
             weather,
             on_disagreement: OnDisagreement::default(),

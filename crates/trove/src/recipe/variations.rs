@@ -82,6 +82,8 @@ pub struct VariationsSection {
     pub dry_share: f64,
     /// Road users against the recorded number.
     pub traffic: Option<Range>,
+    /// Cyclists among added road users, against what is usual at the place.
+    pub cyclists: f64,
     /// Stops about the metered or fixed exposure.
     pub exposure_ev: Option<Range>,
     /// Above the recorded place, metres.
@@ -123,6 +125,7 @@ impl Default for VariationsSection {
             wetness: None,
             dry_share: 0.5,
             traffic: None,
+            cyclists: 1.0,
             exposure_ev: None,
             camera_height_m: None,
             camera_pitch_deg: None,
@@ -206,6 +209,7 @@ impl VariationsSection {
         check("variations.dry_share", share, (0.0..=1.0).contains(&share), "0 to 1")?;
         within("wetness", self.wetness, [0.0, 1.0])?;
         within("traffic", self.traffic, [0.0, 10.0])?;
+        check("variations.cyclists", self.cyclists, (0.0..=100.0).contains(&self.cyclists), "0 to 100")?;
         within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
         within("camera_height_m", self.camera_height_m, [-1.0, 3.0])?;
         within("camera_pitch_deg", self.camera_pitch_deg, [-20.0, 20.0])?;
@@ -329,6 +333,7 @@ mod tests {
             ("seasons = [\"monsoon\"]\n", "monsoon"),
             ("factors = [\"paint\"]\nwetness = [0, 1]\n", "add \"wetness\" there or remove the key"),
             ("factors = [\"colour\"]\n", "colour"),
+            ("cyclists = -1\n", "variations.cyclists: expected 0 to 100"),
             ("traffic = [-1, 1]\n", "variations.traffic: expected two numbers from 0 to 10"),
             ("counterfactual = \"paint\"\n", "expected variations.count of 2 or more, found 1"),
             ("count = 2\ncounterfactual = \"camera\"\n", "leaves the views where they are, found \"camera\""),
