@@ -2,6 +2,9 @@
 
 import argparse
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 
 
@@ -10,32 +13,32 @@ def main() -> int:
     parser.add_argument("experiment", type=Path, help="the experiment, TOML")
     parser.add_argument("--out", type=Path, required=True, help="folder for runs and table; what is finished there is kept")
     parser.add_argument("--rows", nargs="*", help="only these rows of the experiment")
-    parser.add_argument("--threads", type=int, default=0, help="threads on the CPU; 0 is all")
+    parser.add_argument("--threads", type=int, default=0, help="threads on the CPU for a job; 0 is all")
+    parser.add_argument("--jobs", type=int, default=1, help="seeds that are trained at the same time, each in a process of its own")
     options = parser.parse_args()
     try:
-        import torch
+        import torch  # noqa: F401
     except ModuleNotFoundError:
         print("error: PyTorch is missing; pip install 'trove-scenes[train]'", file=sys.stderr)
         return 1
     from trove.train import table
     from trove.train.experiment import ExperimentError, read
     from trove.train.labels import TARGETS
-    from trove.train.training import run
+    from trove.train.training import rows_of_seed
 
-    if options.threads:
-        torch.set_num_threads(options.threads)
     try:
         experiment = read(options.experiment)
-        summaries, everything = {}, []
-        for row in options.rows or experiment.rows:
-            results = [run(experiment, row, seed, options.out, lambda text: print(text, flush=True)) for seed in experiment.training.seeds]
-            everything += results
-            summaries[row] = table.summary(results)
-            classes = TARGETS[experiment.classes]
-            # After every row, so that an interrupted experiment has a table too.
-            (options.out / "table.md").write_text(table.markdown(classes, summaries, experiment.compare))
-            (options.out / "table.tex").write_text(table.latex(classes, summaries))
-            (options.out / "curves.svg").write_text(table.curves(everything))
+        rows, classes, everything = options.rows or experiment.rows, TARGETS[experiment.classes], []
+        train = partial(rows_of_seed, options.experiment, rows, options.out, options.threads)
+        with ProcessPoolExecutor(options.jobs, get_context("spawn")) as jobs:
+            of_seeds = (jobs.map if options.jobs > 1 else map)(train, experiment.training.seeds)
+            # After every seed, so that an interrupted experiment has a table too.
+            for results in of_seeds:
+                everything += results
+                summaries = {row: table.summary([r for r in everything if r["row"] == row]) for row in rows}
+                (options.out / "table.md").write_text(table.markdown(classes, summaries, experiment.compare))
+                (options.out / "table.tex").write_text(table.latex(classes, summaries))
+                (options.out / "curves.svg").write_text(table.curves(everything))
     except (ExperimentError, ValueError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -11,7 +11,7 @@ from torch.nn import functional as F
 
 from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
-from trove.train.experiment import Experiment
+from trove.train.experiment import Experiment, read
 from trove.train.labels import IGNORED, TARGETS
 from trove.train.models import network
 
@@ -34,6 +34,14 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
             pairs = truth[counted] * classes + predicted[counted]
             confusion += np.bincount(pairs, minlength=classes * classes).reshape(classes, classes)
     return confusion
+
+
+def rows_of_seed(path: Path, rows: list[str], out: Path, threads: int, seed: int) -> list[dict]:
+    """Trains and measures rows of the experiment in the file `path` with one seed, on so many threads; 0 is all."""
+    if threads:
+        torch.set_num_threads(threads)
+    experiment = read(path)
+    return [run(experiment, row, seed, out, lambda text: print(text, flush=True)) for row in rows]
 
 
 def run(experiment: Experiment, row: str, seed: int, out: Path, say) -> dict:
