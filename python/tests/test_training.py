@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -47,7 +49,7 @@ def experiment(finished, tmp_path):
 def test_every_class_of_ours_has_a_place_or_is_left_out_on_purpose():
     paper, camvid = labels.lookup("native", "paper"), labels.lookup("native", "camvid")
     left_out = {name: [i for i in range(20) if table[i] == labels.IGNORED] for name, table in [("paper", paper), ("camvid", camvid)]}
-    assert left_out == {"paper": [0, 10], "camvid": [0]}
+    assert left_out == {"paper": [0, 10], "camvid": [0, 16, 17]}
     assert labels.CAMVID[camvid[18]] == "pole" and labels.PAPER[paper[13]] == "truck"
     with pytest.raises(ValueError, match="numbered as camvid"):
         labels.lookup("camvid", "paper")
@@ -103,6 +105,20 @@ def test_cuts_keep_picture_and_labels_together(experiment):
     assert np.array_equal(rgb, again[0]) and np.array_equal(ids, again[1])
     pictures.epoch = 1
     assert not np.array_equal(rgb, pictures[1][0])
+
+
+def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
+    from trove.train.data import Sample
+
+    ids = np.full((240, 320), 1, np.uint8)  # sky
+    ids[100:200, 100:200:3] = 15  # twigs
+    ids[150:200, 140:150] = 7  # someone before them
+    Image.new("RGB", (320, 240)).save(tmp_path / "a.png"), Image.fromarray(ids).save(tmp_path / "b.png")
+    sample = [Sample(tmp_path / "a.png", tmp_path / "b.png")]
+    found = Pictures(sample, "native", "camvid", (320, 240), False, 0).labels(0)
+    tree, someone, sky = (labels.CAMVID.index(name) for name in ("tree", "pedestrian", "sky"))
+    assert (found[100:150, 100:200] == tree).all() and (found[150:200, 140:150] == someone).all()
+    assert (found[:95] == sky).all() and (found[:, :90] == sky).all()
 
 
 def test_picture_and_labels_of_other_sizes_are_refused(tmp_path):
@@ -174,3 +190,14 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
     accuracy = np.trace(whole["confusion"]) / np.sum(whole["confusion"])
     assert accuracy > 0.85, f"{accuracy}, {whole['curve']}"
     assert not list((tmp_path / "whole").rglob("checkpoint.pt"))
+
+
+def test_seeds_trained_at_the_same_time_find_what_they_find_alone(finished, experiment, tmp_path):
+    pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    experiment.write_text(experiment.read_text().replace("epochs = 1", "steps = 3").replace("seeds = [1]", "seeds = [1, 2]"))
+    command = [sys.executable, "-m", "trove.train", experiment, "--rows", "S", "--threads", "1", "--out"]
+    for out, jobs in ((tmp_path / "a", 1), (tmp_path / "b", 2)):
+        done = subprocess.run([*map(str, command), str(out), "--jobs", str(jobs)], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    assert (tmp_path / "a/table.md").read_text() == (tmp_path / "b/table.md").read_text()
+    assert len(list((tmp_path / "b/runs").iterdir())) == 2
