@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::osm::GeoExtent;
+
 /// Why something could not be read, grouped by who must act.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
@@ -24,6 +26,22 @@ pub enum ReadError {
         found: String,
         /// What to do.
         remedy: String,
+    },
+    /// A street map is of another place; another extract of the same list may be the right one.
+    #[error(
+        "{path}: expected an extract that covers the place at {wanted}, found one of {extent}, {apart_km:.0} km away; \
+         give the extract of the drive's own city",
+        path = .path.display()
+    )]
+    Elsewhere {
+        /// The extract.
+        path: PathBuf,
+        /// Where the wanted place is.
+        wanted: GeoExtent,
+        /// Where the extract's nodes are.
+        extent: GeoExtent,
+        /// Between the middles of both, kilometres.
+        apart_km: f64,
     },
     /// The file's content is not what it should be; whoever supplied the file must act.
     #[error("{path}: {place}: expected {expected}, found {found}; {remedy}", path = .path.display())]

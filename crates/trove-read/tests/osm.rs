@@ -296,7 +296,9 @@ fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let path = file(&dir, "map.osm", format!("<osm>{}</osm>", squares()).as_bytes());
     let boston = MapProjection { origin_lat_deg: 42.3368, origin_lon_deg: -71.0579, anchor_m: DVec2::ZERO };
-    let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), &report).unwrap_err().to_string();
+    let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), &report).unwrap_err();
+    assert!(matches!(error, ReadError::Elsewhere { .. }), "{error:?}");
+    let error = error.to_string();
     assert!(error.contains("42.33") && error.contains("latitude 0.0000°") && error.contains("km away"), "{error}");
     let extent = osm::extent(&path).unwrap();
     assert!((extent.bounds(&ORIGIN).size_m() - DVec2::splat(10.0)).length() < 1e-6);

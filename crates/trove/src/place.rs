@@ -20,11 +20,48 @@ pub(crate) fn drive(recipe: &Recipe, report: &Report) -> Result<(Drive, Option<S
     let projection =
         MapProjection { origin_lat_deg: place.lat_deg, origin_lon_deg: place.lon_deg, anchor_m: DVec2::ZERO };
     let map = street_map(recipe, &projection, Bounds::square(DVec2::ZERO, place.size_m), report)?;
-    let map = map.context("the recipe has no map.osm")?;
+    let (extract, map) = map.context("the recipe has no map.osm")?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;
     let time_ns = SOLSTICE_NS + (solar_hours * 3600e9) as i64;
     let seed = Seed(recipe.seed).child("place");
     let drive = trove_build::place_drive(&map, projection, NAME, place.size_m, time_ns, seed, report)
-        .with_context(|| format!("around {}, {}", place.lat_deg, place.lon_deg))?;
+        .with_context(|| format!("{}: around {}, {}", extract.display(), place.lat_deg, place.lon_deg))?;
     Ok((drive, Some(map)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An extract whose nodes are the corners of a square of half a degree, without a way.
+    fn square(lat_deg: f64, lon_deg: f64) -> String {
+        let node = |id: u32, north: f64, east: f64| {
+            format!("<node id='{id}' lat='{}' lon='{}'/>", lat_deg + 0.25 * north, lon_deg + 0.25 * east)
+        };
+        let corners = [node(1, -1.0, -1.0), node(2, -1.0, 1.0), node(3, 1.0, -1.0), node(4, 1.0, 1.0)];
+        format!("<osm>{}</osm>", corners.concat())
+    }
+
+    #[test]
+    fn a_place_without_roads_names_the_extract_that_it_was_looked_for_in() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, content) in
+            [("far.osm", square(48.0, 2.0)), ("here.osm", square(1.3, 103.8)), ("empty.osm", "<osm></osm>".into())]
+        {
+            std::fs::write(folder.path().join(name), content).unwrap();
+        }
+        let error = |extracts: [&str; 2]| {
+            let path = folder.path().join("recipe.toml");
+            let place = "[place]\nlat_deg = 1.3\nlon_deg = 103.8\nsize_m = 200\n";
+            std::fs::write(&path, format!("{place}[map]\nosm = {extracts:?}\n")).unwrap();
+            format!("{:#}", drive(&Recipe::read(&path).unwrap(), &Report::default()).unwrap_err())
+        };
+        let found = error(["far.osm", "here.osm"]);
+        assert!(found.starts_with("here.osm: around 1.3, 103.8: ") && found.contains("road"), "{found}");
+        // Only an extract of another place is passed over.
+        let found = error(["empty.osm", "here.osm"]);
+        assert!(found.contains("empty.osm") && found.contains("nodes that have coordinates"), "{found}");
+        let found = error(["far.osm", "far.osm"]);
+        assert!(found.contains("far.osm") && found.contains("km away"), "{found}");
+    }
 }

@@ -84,22 +84,23 @@ impl<'a> Sources<'a> {
         if map.is_none() {
             report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
         }
-        Ok((drive, map))
+        Ok((drive, map.map(|(_, map)| map)))
     }
 }
 
-/// The map around a place from the first of the recipe's extracts that covers it; `None` if the recipe has none.
-pub(crate) fn street_map(
-    recipe: &Recipe,
+/// The map around a place from the first of the recipe's extracts that covers it, and that extract's path as the recipe
+/// has it; `None` if the recipe has none.
+pub(crate) fn street_map<'r>(
+    recipe: &'r Recipe,
     projection: &MapProjection,
     area: Bounds,
     report: &Report,
-) -> Result<Option<StreetMap>> {
+) -> Result<Option<(&'r Path, StreetMap)>> {
     let mut elsewhere = None;
     for path in recipe.map.osm.paths() {
         match osm::read(&recipe.at(path), projection, area, report) {
-            Ok(map) => return Ok(Some(map)),
-            Err(error @ ReadError::Missing { .. }) => elsewhere = Some(error),
+            Ok(map) => return Ok(Some((path, map))),
+            Err(error @ ReadError::Elsewhere { .. }) => elsewhere = Some(error),
             Err(error) => return Err(error.into()),
         }
     }

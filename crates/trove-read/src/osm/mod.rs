@@ -32,8 +32,8 @@ use raw::{Raw, RawNode};
 
 const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
 
-/// Reads what lies in `area` or crosses it; ways are kept whole. An extract of another place is an error that says
-/// where both are.
+/// Reads what lies in `area` or crosses it; ways are kept whole. An extract of another place is
+/// [`ReadError::Elsewhere`].
 pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Report) -> Result<StreetMap, ReadError> {
     let raw = parse_file(path, report)?;
     let extent = GeoExtent::around(&raw.nodes).ok_or_else(|| without_nodes(path))?;
@@ -214,12 +214,6 @@ fn elsewhere(path: &Path, extent: &GeoExtent, projection: &MapProjection, area: 
     let (south, west) = projection.geo_from_world(area.min);
     let (north, east) = projection.geo_from_world(area.max);
     let apart_km = extent.bounds(projection).centre().distance(area.centre()) / 1000.0;
-    ReadError::Missing {
-        path: path.to_owned(),
-        expected: format!(
-            "an extract that covers the place at latitude {south:.4}° to {north:.4}°, longitude {west:.4}° to {east:.4}°"
-        ),
-        found: format!("one of {extent}, {apart_km:.0} km away"),
-        remedy: "give the extract of the drive's own city".into(),
-    }
+    let wanted = GeoExtent { min_lat_deg: south, max_lat_deg: north, min_lon_deg: west, max_lon_deg: east };
+    ReadError::Elsewhere { path: path.to_owned(), wanted, extent: *extent, apart_km }
 }
