@@ -49,7 +49,13 @@ pub struct Report {
     inner: Mutex<Inner>,
 }
 
-#[derive(Debug, Default)]
+impl Clone for Report {
+    fn clone(&self) -> Self {
+        Self { inner: Mutex::new(self.lock().clone()) }
+    }
+}
+
+#[derive(Clone, Debug, Default)]
 struct Inner {
     entries: BTreeMap<(Outcome, String), (u64, BTreeSet<String>)>,
     measurements: BTreeMap<String, f64>,
@@ -108,5 +114,8 @@ mod tests {
         assert_eq!(a.entries(), b.entries());
         assert_eq!(a.entries()[0].count, 20);
         assert_eq!(a.entries()[0].examples.len(), EXAMPLES);
+        // What happens to a copy does not happen to the other.
+        a.clone().note(Outcome::Dropped, "way", 20);
+        assert_eq!(a.entries(), b.entries());
     }
 }

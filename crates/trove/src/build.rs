@@ -12,9 +12,9 @@ use trove_write::gltf::{SunLight, write_environment, write_glb};
 use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
-use crate::run::{fits_json, report_json, view_settings};
+use crate::run::{fits_json, report_json};
 use crate::sources::Sources;
-use crate::variation::Variation;
+use crate::virtual_scene::VirtualScene;
 
 /// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
 /// where they are asked for, its sky as OpenEXR and a picture from above; `search` is where Embree and the denoiser are
@@ -33,7 +33,7 @@ pub(crate) fn run(
     let scenes = sources.scenes()?;
     let (name, _) = scenes.first().context("the recipe has no scene")?;
     let started = std::time::Instant::now();
-    let (mut drive, map) = sources.drive(name, &report)?;
+    let (drive, map) = sources.drive(name, &report)?;
     report.measure("read.seconds", started.elapsed().as_secs_f64());
     let first = match &recipe.drive {
         Some(section) => section.keyframes.of(drive.keyframes.len())?[0],
@@ -42,19 +42,14 @@ pub(crate) fn run(
     let keyframe = keyframe.unwrap_or(first);
     let count = drive.keyframes.len();
     ensure!(keyframe < count, "--keyframe: {name} has keyframes 0 to {}, found {keyframe}", count.saturating_sub(1));
-    let variation = Variation::draw(recipe, &drive, 0)?;
-    drive.projection = variation.projection(drive.projection);
-    let settings = variation.build_settings(recipe, &sources)?;
     let started = Instant::now();
     let library = library::gather(recipe, &search, &report)?;
     report.measure("library.seconds", started.elapsed().as_secs_f64());
     let started = Instant::now();
-    let site = trove_build::build(&drive, map.as_ref(), &library, &settings, &report)?;
-    let scene = site.scene(&drive, keyframe);
+    let built = VirtualScene::build(&sources, (&drive, map.as_ref()), &library, 0, &report)?;
+    let scene = built.at(keyframe);
     report.measure("build.seconds", started.elapsed().as_secs_f64());
-    let mut views = view_settings(recipe)?;
-    variation.change(&mut views);
-    let shots = trove_build::shots(&drive, &site, keyframe, &views, &settings.seeds, &report);
+    let shots = built.shots(keyframe, &report);
     let sun = match &scene.light.environment {
         Environment::Sky(sky) => {
             let sky = bake_sky(sky);
@@ -82,7 +77,7 @@ pub(crate) fn run(
             "instances": stats.instances,
             "triangles": stats.triangles,
             "report": report,
-            "fits": fits_json(site.fits()),
+            "fits": fits_json(built.site.fits()),
         });
         println!("{}", serde_json::to_string_pretty(&printed)?);
         return Ok(());

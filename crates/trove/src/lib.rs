@@ -21,6 +21,7 @@ pub mod recipe;
 pub mod run;
 mod sources;
 mod variation;
+mod virtual_scene;
 
 pub use cli::main;
 

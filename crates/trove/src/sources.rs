@@ -39,6 +39,10 @@ impl<'a> Sources<'a> {
         Ok(Self { recipe, dataset, environment })
     }
 
+    pub(crate) fn recipe(&self) -> &'a Recipe {
+        self.recipe
+    }
+
     /// The recipe's picture of a sky.
     pub(crate) fn environment(&self) -> Result<Arc<EnvironmentMap>> {
         self.environment.clone().context("the recipe has no picture of a sky")

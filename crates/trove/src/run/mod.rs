@@ -4,6 +4,7 @@ mod manifest;
 mod output;
 mod worker;
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,15 +12,15 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
-use trove_build::{ALL_CAMERAS, Site, ViewSettings};
-use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot};
+use trove_build::ALL_CAMERAS;
+use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, contact_sheet, frame_files, write_frame};
 
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
-use crate::variation::Variation;
+use crate::virtual_scene::VirtualScene;
 use crate::{interrupt, library, message};
 use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
 pub(crate) use manifest::{fits_json, report_json};
@@ -135,23 +136,6 @@ fn frames_hint(recipe: &Recipe, keyframes: usize) -> usize {
     chosen * cameras * (1 + recipe.views.other_vehicles)
 }
 
-/// The views that a recipe asks for.
-pub(crate) fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
-    Ok(ViewSettings {
-        rig: recipe.camera_names(),
-        other_vehicles: recipe.views.other_vehicles,
-        size: recipe.render.picture_size(),
-        lift_m: 0.0,
-        pitch_rad: 0.0,
-        spp: recipe.render.spp,
-        noise: recipe.render.noise,
-        lenses: recipe.camera.lenses()?,
-        exposure_s: recipe.camera.exposure_s,
-        readout_s: recipe.camera.readout_s,
-        film: recipe.camera.film(),
-    })
-}
-
 /// Why a run ends early.
 enum Stop {
     Interrupted,
@@ -200,10 +184,16 @@ fn write(Frame { path, folder, scene, shot, capture, meta, pictures }: Frame) ->
     Ok((path, files))
 }
 
-/// A scene of one variation, ready to be photographed.
-struct Built {
+/// A scene as it was read: the same for all its variations.
+struct Read {
     drive: Drive,
-    site: Site,
+    map: Option<StreetMap>,
+    report: Report,
+}
+
+/// A scene of one variation, ready to be photographed.
+struct Built<'a> {
+    scene: VirtualScene<'a>,
     /// Shots of each chosen keyframe.
     shots: Vec<(usize, Vec<Shot>)>,
 }
@@ -218,6 +208,18 @@ struct Photographed {
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
     fn scene(&mut self, scene: &str, frames_hint: usize) -> Result<(), Stop> {
+        let read = OnceCell::new();
+        // Read for the first variation of which something is missing.
+        let build = |run: &Self, variation: u32| {
+            let read = match read.get() {
+                Some(read) => read,
+                None => {
+                    let found = run.read(scene)?;
+                    read.get_or_init(|| found)
+                }
+            };
+            run.build(read, variation)
+        };
         // Of a counterfactual set v00, which the others are compared with.
         let mut base: Option<Built> = None;
         for variation in 0..self.recipe.variations.count {
@@ -236,7 +238,7 @@ impl Run<'_> {
                 (Some(file), false) => (file, None),
                 _ => {
                     self.progress.say(&format!("building {scene} v{variation:02}"));
-                    match self.build(scene, variation) {
+                    match build(self, variation) {
                         Ok((file, built)) => {
                             file.write(&folder)?;
                             (file, Some(built))
@@ -257,7 +259,7 @@ impl Run<'_> {
             self.progress.correct(frames_hint, wanted.count());
             let compares = built.is_some() && self.recipe.pictures(variation).contains(&FrameFile::Change);
             if compares && base.is_none() {
-                base = Some(self.build(scene, 0)?.1);
+                base = Some(build(self, 0)?.1);
             }
             self.frames(scene, variation, &file, built.as_ref(), base.as_ref().filter(|_| compares))?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
@@ -288,36 +290,31 @@ impl Run<'_> {
         self.output.finished(&key.path(), &frame_files(&self.recipe.pictures(key.variation)))
     }
 
-    fn build(&self, scene: &str, variation: u32) -> Result<(SiteFile, Built)> {
+    fn read(&self, scene: &str) -> Result<Read> {
         let report = Report::default();
-        let (mut drive, map) = self.sources.drive(scene, &report)?;
+        let (drive, map) = self.sources.drive(scene, &report)?;
         self.check_cameras(&drive)?;
-        let variation = Variation::draw(self.recipe, &drive, variation)?;
-        let settings = variation.build_settings(self.recipe, &self.sources)?;
-        let recorded = drive.projection;
-        drive.projection = variation.projection(recorded);
-        let site = trove_build::build(&drive, map.as_ref(), &self.library, &settings, &report)?;
-        drive.projection = recorded;
-        let mut views = view_settings(self.recipe)?;
-        variation.change(&mut views);
+        Ok(Read { drive, map, report })
+    }
+
+    fn build<'r>(&self, Read { drive, map, report }: &'r Read, variation: u32) -> Result<(SiteFile, Built<'r>)> {
+        let report = report.clone();
+        let built = VirtualScene::build(&self.sources, (drive, map.as_ref()), &self.library, variation, &report)?;
         let keyframes = match &self.recipe.drive {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
         };
-        let shots: Vec<(usize, Vec<Shot>)> = keyframes
-            .into_iter()
-            .map(|k| (k, trove_build::shots(&drive, &site, k, &views, &settings.seeds, &report)))
-            .collect();
+        let shots: Vec<(usize, Vec<Shot>)> = keyframes.into_iter().map(|k| (k, built.shots(k, &report))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
-            drive: drive_row(&drive),
-            sources: site.provenance().iter().map(Into::into).collect(),
+            drive: drive_row(drive),
+            sources: built.site.provenance().iter().map(Into::into).collect(),
             report: report_json(&report),
-            fits: fits_json(site.fits()),
-            factors: variation.factors(self.recipe, &site),
+            fits: fits_json(built.site.fits()),
+            factors: built.factors.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
-        Ok((file, Built { drive, site, shots }))
+        Ok((file, Built { scene: built, shots }))
     }
 
     /// The cameras that the recipe names are cameras of the drive.
@@ -339,8 +336,8 @@ impl Run<'_> {
         scene: &str,
         variation: u32,
         file: &SiteFile,
-        built: Option<&Built>,
-        base: Option<&Built>,
+        built: Option<&Built<'_>>,
+        base: Option<&Built<'_>>,
     ) -> Result<(), Stop> {
         let mut photographed: Option<Photographed> = None;
         let mut before: Option<Photographed> = None;
@@ -360,7 +357,7 @@ impl Run<'_> {
                     prepare_s = started.elapsed().as_secs_f64();
                 }
                 let photographed = photographed.as_ref().context("the scene was prepared above")?;
-                self.frame(&key, &built.drive, photographed, before.as_ref(), prepare_s, shot)?;
+                self.frame(&key, built.scene.drive, photographed, before.as_ref(), prepare_s, shot)?;
             }
             self.progress.frame_done();
         }
@@ -490,9 +487,9 @@ impl Run<'_> {
     }
 }
 
-impl Built {
+impl Built<'_> {
     fn photographed(&self, renderer: &Renderer, keyframe: usize) -> Result<Photographed> {
-        let scene = Arc::new(self.site.scene(&self.drive, keyframe));
+        let scene = Arc::new(self.scene.at(keyframe));
         let prepared = renderer.prepare(&scene)?;
         Ok(Photographed { keyframe, scene, prepared })
     }
