@@ -83,13 +83,16 @@ pub fn recolor(
     let singly = picture_statistics(&targets, settings.space, &|done, _| progress(done, steps))?;
     let wanted = joined(singly.iter());
     let after_targets = |done: usize, _: usize| progress(targets.len() + done, steps);
-    let (before, matching) = match (settings.method, &settings.target_labels) {
-        (Method::PerPicture | Method::Paired, _) => (None, None),
-        (Method::PerSet, _) => (Some(set_statistics(&sources, settings.space, &after_targets)?), None),
+    let whole = || set_statistics(&sources, settings.space, &after_targets);
+    let (before, towards, counted) = match (settings.method, &settings.target_labels) {
+        (Method::PerPicture, _) => (None, Towards::All(wanted), None),
+        (Method::Paired, _) => (None, Towards::Drawn(singly), None),
+        (Method::PerSet, _) => (Some(whole()?), Towards::All(wanted), None),
         (Method::HistogramPerClass, Some((folder, set))) => {
-            let before = set_statistics(&sources, settings.space, &after_targets)?;
+            let before = whole()?;
             let own = histograms(&with_own_labels(&sources)?, Some(set))?;
-            (Some(before), Some((own, histograms(&with_labels(target, &targets, folder, set)?, None)?)))
+            let target = histograms(&with_labels(target, &targets, folder, set)?, None)?;
+            (Some(before), Towards::Classes(own.towards(&target), set), Some([own.pixels(), target.pixels()]))
         }
         (Method::HistogramPerClass, None) => {
             return Err(JudgeError::unexpected(target, "labels for histograms by class", "none", "name their folder"));
@@ -101,40 +104,23 @@ pub fn recolor(
         "strength": settings.strength,
         "source": before.map(|s| format!("{s:?}")),
         "target": format!("{wanted:?}"),
-        "classes": matching.as_ref().map(|(own, target)| [own.pixels(), target.pixels()]),
+        "classes": counted,
     });
     let output = OutputFolder::open(out, &format!("{identity:#}"))?;
-    let matching = matching.map(|(own, target)| own.towards(&target));
     let recolored = |path: &PathBuf| {
         let below = path.strip_prefix(source).unwrap_or(path);
+        let written = || Ok(read(&output.path(below))?.into_rgb8());
         let kept = output.finished(below, path);
         if kept && let Some(before) = before {
-            return Ok((
-                kept,
-                before,
-                Statistics::of(&in_space(&read(&output.path(below))?.into_rgb8(), settings.space)),
-            ));
+            return Ok((kept, before, Statistics::of(&in_space(&written()?, settings.space))));
         }
         let picture = read(path)?.into_rgb8();
         let mut pixels = in_space(&picture, settings.space);
         let own = before.unwrap_or_else(|| Statistics::of(&pixels));
-        let codes = if kept {
-            read(&output.path(below))?.into_rgb8()
+        let after = if kept {
+            written()?
         } else {
-            match (&matching, &settings.target_labels) {
-                (Some(matching), Some((_, set))) => {
-                    let classes = own_classes(path, &picture, set)?;
-                    for (pixel, class) in pixels.iter_mut().zip(classes) {
-                        let matched = matching.apply(*pixel, class);
-                        *pixel = std::array::from_fn(|c| pixel[c] + settings.strength * (matched[c] - pixel[c]));
-                    }
-                }
-                _ if settings.method == Method::Paired => {
-                    let drawn = Seed(0).child(&below.to_string_lossy()).random().index(singly.len());
-                    move_towards(&mut pixels, &own, &singly[drawn], settings.strength);
-                }
-                _ => move_towards(&mut pixels, &own, &wanted, settings.strength),
-            }
+            towards.apply(&mut pixels, &own, settings.strength, (path, below, &picture))?;
             let (width, height) = picture.dimensions();
             let codes = RgbImage::from_fn(width, height, |x, y| {
                 image::Rgb(settings.space.to_srgb(pixels[(y * width + x) as usize]))
@@ -142,7 +128,7 @@ pub fn recolor(
             output.write(below, &encoded(path, &codes)?)?;
             codes
         };
-        Ok((kept, own, Statistics::of(&in_space(&codes, settings.space))))
+        Ok((kept, own, Statistics::of(&in_space(&after, settings.space))))
     };
     let last = |done: usize, _: usize| progress(steps - sources.len() + done, steps);
     let done: Vec<(bool, Statistics, Statistics)> = each(&sources, &last, recolored)?;
@@ -156,6 +142,42 @@ pub fn recolor(
         ],
         pictures: sources.iter().map(|path| (below(path), path.clone())).collect(),
     })
+}
+
+/// What colours are moved towards.
+enum Towards<'a> {
+    /// The statistics of all of the target.
+    All(Statistics),
+    /// Those of one of its pictures.
+    Drawn(Vec<Statistics>),
+    /// Histograms by class, in the numbers of a set.
+    Classes(Matching, &'a LabelSet),
+}
+
+impl Towards<'_> {
+    /// Moves a picture's pixels, whose statistics to move from are `own`; it lies at a path, and `below` the source.
+    fn apply(
+        &self,
+        pixels: &mut [[f32; 3]],
+        own: &Statistics,
+        strength: f32,
+        (path, below, picture): (&Path, &Path, &RgbImage),
+    ) -> Result<(), JudgeError> {
+        match self {
+            Self::All(wanted) => move_towards(pixels, own, wanted, strength),
+            Self::Drawn(singly) => {
+                let drawn = Seed(0).child(&below.to_string_lossy()).random().index(singly.len());
+                move_towards(pixels, own, &singly[drawn], strength);
+            }
+            Self::Classes(matching, set) => {
+                for (pixel, class) in pixels.iter_mut().zip(own_classes(path, picture, set)?) {
+                    let matched = matching.apply(*pixel, class);
+                    *pixel = std::array::from_fn(|c| pixel[c] + strength * (matched[c] - pixel[c]));
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Pictures that lie among others would be taken for them by the next run.
