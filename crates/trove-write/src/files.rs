@@ -1,11 +1,11 @@
 //! Files and folders that are whole or not there.
 
-use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
+use trove_files::{hidden_beside, sync_folder, write_synced};
 
 use crate::WriteError;
 
@@ -33,19 +33,9 @@ pub fn sha256_file(path: &Path) -> Result<String, WriteError> {
     }
 }
 
-/// Writes a file under a hidden name beside `path` and then renames it, so that `path` holds the old bytes or the new
-/// ones, never some.
+/// Writes a file so that `path` holds the old bytes or the new ones, never some.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let partial = partial_path(path);
-    let written = write_synced(&partial, bytes)
-        .and_then(|()| fs::rename(&partial, path).map_err(WriteError::storage(path, "put the file in its place")));
-    if written.is_err() {
-        // The first error is the one to tell of.
-        let _ = fs::remove_file(&partial);
-    }
-    written?;
-    sync_folder(path.parent());
-    Ok(())
+    trove_files::write_atomically(path, bytes).map_err(WriteError::storage(path, "write the file"))
 }
 
 /// A folder in the making: files are collected under a hidden name beside its path, and it appears there at once.
@@ -59,7 +49,7 @@ pub(crate) struct FolderInTheMaking {
 impl FolderInTheMaking {
     /// Starts it, and clears away what an interrupted run has left of it.
     pub(crate) fn start(path: &Path) -> Result<Self, WriteError> {
-        let partial = partial_path(path);
+        let partial = hidden_beside(path, "partial");
         match fs::remove_dir_all(&partial) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => {
                 return Err(WriteError::storage(&partial, "remove what an interrupted run left")(e));
@@ -72,7 +62,8 @@ impl FolderInTheMaking {
 
     /// Adds a file.
     pub(crate) fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
-        write_synced(&self.partial.join(name), bytes)?;
+        let path = self.partial.join(name);
+        write_synced(&path, bytes).map_err(WriteError::storage(&path, "write the file"))?;
         let sha256 = hexadecimal(&Sha256::digest(bytes));
         self.files.push(WrittenFile { name: name.to_owned(), sha256, bytes: bytes.len() as u64 });
         Ok(())
@@ -95,31 +86,6 @@ impl Drop for FolderInTheMaking {
             // Whoever drops it unfinished already has an error to tell of.
             let _ = fs::remove_dir_all(&self.partial);
         }
-    }
-}
-
-/// The hidden sibling that a path is made under.
-fn partial_path(path: &Path) -> PathBuf {
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(".partial");
-    path.with_file_name(name)
-}
-
-fn write_synced(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let write = || {
-        let mut file = File::create(path)?;
-        file.write_all(bytes)?;
-        file.sync_all()
-    };
-    write().map_err(WriteError::storage(path, "write the file"))
-}
-
-/// Makes what a folder lists last through a power cut where the system can do that; where it cannot, a rename is still
-/// whole.
-fn sync_folder(folder: Option<&Path>) {
-    if let Some(folder) = folder.and_then(|folder| File::open(folder).ok()) {
-        let _ = folder.sync_all();
     }
 }
 

@@ -265,7 +265,8 @@ fn a_full_disk_is_told_and_the_old_file_stays() {
     let path = root.path().join("manifest.json");
     write_atomically(&path, b"old").unwrap();
     // Whatever is written to /dev/full finds no space left.
-    symlink("/dev/full", root.path().join(".manifest.json.partial")).unwrap();
+    let hidden = format!(".manifest.json.{}.partial", std::process::id());
+    symlink("/dev/full", root.path().join(hidden)).unwrap();
     let message = write_atomically(&path, b"new").unwrap_err().to_string();
     assert!(message.contains("free some space"), "{message}");
     assert_eq!(fs::read(&path).unwrap(), b"old");

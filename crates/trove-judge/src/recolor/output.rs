@@ -1,7 +1,6 @@
 //! The folder that pictures are written to: of one source, one target and one method.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::JudgeError;
@@ -68,9 +67,5 @@ impl OutputFolder {
 fn write(path: &Path, bytes: &[u8]) -> Result<(), JudgeError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     fs::create_dir_all(folder).map_err(JudgeError::io(folder))?;
-    let hidden = format!(".{}.partial", path.file_name().unwrap_or_default().to_string_lossy());
-    let partial = path.with_file_name(hidden);
-    let written = File::create(&partial).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
-    written.map_err(JudgeError::io(&partial))?;
-    fs::rename(&partial, path).map_err(JudgeError::io(path))
+    trove_files::write_atomically(path, bytes).map_err(JudgeError::io(path))
 }

@@ -1,6 +1,5 @@
 //! A `library.toml` completed: what its users wrote stays as it is, letter by letter.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -123,18 +122,7 @@ fn environment(out: &mut String, e: &EnvironmentEntry) {
 /// Writes the file whole or not at all.
 pub(super) fn write(folder: &Path, text: &str) -> Result<(), ReadError> {
     let path = folder.join(FILE_NAME);
-    let io = |source| ReadError::io(&path, source);
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(io)?;
-    file.write_all(text.as_bytes()).map_err(io)?;
-    file.as_file().sync_all().map_err(io)?;
-    // Readable by everyone who may read the folder, as an ordinary new file is.
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644)).map_err(io)?;
-    }
-    file.persist(&path).map_err(|e| io(e.error))?;
-    Ok(())
+    trove_files::write_atomically(&path, text.as_bytes()).map_err(|source| ReadError::io(&path, source))
 }
 
 #[cfg(test)]

@@ -53,10 +53,7 @@ impl IndexFile {
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         let folder = self.path.parent().unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)?;
-        let half_written = self.path.with_extension(format!("index-{}", std::process::id()));
-        std::fs::write(&half_written, bytes)
-            .and_then(|()| std::fs::rename(&half_written, &self.path))
-            .inspect_err(|_| drop(std::fs::remove_file(&half_written)))
+        trove_files::write_atomically(&self.path, &bytes)
     }
 
     /// Where it lies.

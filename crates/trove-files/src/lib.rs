@@ -1,0 +1,83 @@
+//! Files that are whole or not there.
+//!
+//! What goes in: a path and bytes. What comes out: a file. This crate must not know what the bytes mean.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes a file under a hidden name beside `path` and then renames it, so that `path` holds the old bytes or the new
+/// ones, never some, also after a power cut and where several processes write the same file.
+///
+/// # Errors
+/// What the system says; nothing is left of the hidden file then.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // Two processes that fill the same cache must not write into each other's file.
+    let partial = hidden_beside(path, &format!("{}.partial", std::process::id()));
+    let written = write_synced(&partial, bytes).and_then(|()| fs::rename(&partial, path));
+    if written.is_err() {
+        // The first error is the one to tell of.
+        let _ = fs::remove_file(&partial);
+    }
+    written?;
+    sync_folder(path.parent());
+    Ok(())
+}
+
+/// Writes a file that a power cut leaves whole once this has returned.
+///
+/// # Errors
+/// What the system says.
+pub fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// Makes what a folder lists last through a power cut where the system can do that; where it cannot, a rename is still
+/// whole.
+pub fn sync_folder(folder: Option<&Path>) {
+    if let Some(folder) = folder.and_then(|folder| File::open(folder).ok()) {
+        let _ = folder.sync_all();
+    }
+}
+
+/// The sibling `.name.ending` of a path, which is listed by nobody.
+pub fn hidden_beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(".");
+    name.push(ending);
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        for bytes in [&b"long before"[..], b"after"] {
+            write_atomically(&path, bytes).unwrap();
+            assert_eq!((fs::read(&path).unwrap(), names(folder.path())), (bytes.to_vec(), vec!["a.json".into()]));
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_put_in_its_place_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::create_dir_all(path.join("within")).unwrap();
+        assert!(write_atomically(&path, b"x").is_err());
+        assert_eq!(names(folder.path()), ["a"]);
+        assert!(write_atomically(&folder.path().join("missing/a"), b"x").is_err());
+    }
+}
