@@ -4,7 +4,7 @@
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material};
 
-use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plastic, rubber};
+use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plastic, rubber, swept};
 use crate::shape::{Model, Shape};
 use crate::surfaces::{self, Canvas, Texel, hash};
 
@@ -18,9 +18,14 @@ pub(super) fn assets() -> Vec<Asset> {
         panels(),
         hoarding(),
         site_fence(),
+        picket(),
         wall("wall/concrete", surfaces::set("concrete/board-marked"), 2.0, 0.2),
         wall("wall/brick", surfaces::set("brick/flemish"), 2.4, 0.24),
+        wall("wall/garden", surfaces::set("brick/flemish"), 1.15, 0.24),
+        wall("wall/dwarf", surfaces::set("brick/flemish"), 0.6, 0.24),
         wall("wall/stone", surfaces::set("stone/rubble"), 2.2, 0.35),
+        railed(true),
+        railed(false),
         w_beam(),
         railing("guard-rail/railing", galvanised(), &[]),
         railing("guard-rail/railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]),
@@ -122,6 +127,24 @@ fn wood() -> Asset {
     fence(model, "fence/wood")
 }
 
+/// Pointed boards apart from each other.
+fn picket() -> Asset {
+    let mut model = Model::default();
+    let white = vec3(0.66, 0.65, 0.62);
+    let paint = model.slot(painted(white), &[white, white, vec3(0.16, 0.11, 0.075), vec3(0.05, 0.075, 0.055)]);
+    let (length_m, count) = (2.0, 16);
+    model.add(paint, standing(0.0, -0.055, 0.0, 0.95, Vec2::splat(0.08)));
+    for z in [0.25, 0.75] {
+        model.add(paint, rail(length_m, -0.025, z, vec2(0.03, 0.07)));
+    }
+    for i in 0..count {
+        let x = length_m * (i as f32 + 0.5) / count as f32;
+        let corners = [vec2(-0.035, 0.06), vec2(0.035, 0.06), vec2(0.035, 0.93), vec2(0.0, 1.0), vec2(-0.035, 0.93)];
+        model.add(paint, swept(&corners, 0.02).moved(vec3(x, 0.0, 0.0)));
+    }
+    fence(model, "fence/picket")
+}
+
 /// Closed panels between posts.
 fn panels() -> Asset {
     let mut model = Model::default();
@@ -187,6 +210,39 @@ fn wall(id: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
     let profile = [vec2(-half, 0.0), vec2(half, 0.0), vec2(half, 0.05), vec2(0.0, 0.08), vec2(-half, 0.05)];
     model.add(coping, along_x(&profile, length_m).moved(Vec3::Z * (height_m - 0.08)));
     model.asset(id, Kind::Wall, Class::Barrier)
+}
+
+/// Pointed iron bars in the coping of a dwarf wall, every eighth a stronger one; from afar a stripe for three of them.
+fn railed(near: bool) -> Asset {
+    let mut model = Model::default();
+    let body = model.slot(Material { dirt: 0.8, ..surfaces::set("brick/flemish") }, &[]);
+    let coping = model.slot(concrete(), &[]);
+    let black = Vec3::splat(0.02);
+    let paint = model.slot(painted(black), &[black, black, black, vec3(0.015, 0.04, 0.025)]);
+    let (length_m, wall_m, top_m) = (2.4, 0.5, 1.62);
+    model.add(body, rail(length_m, 0.0, wall_m / 2.0, vec2(0.24, wall_m)));
+    let profile =
+        [vec2(-0.16, 0.0), vec2(0.16, 0.0), vec2(0.16, 0.06), vec2(0.1, 0.1), vec2(-0.1, 0.1), vec2(-0.16, 0.06)];
+    model.add(coping, along_x(&profile, length_m).moved(Vec3::Z * wall_m));
+    for z in [wall_m + 0.2, top_m - 0.2] {
+        model.add(paint, rail(length_m, 0.0, z, vec2(0.012, 0.045)));
+    }
+    let (count, half_m) = if near { (20, 0.01) } else { (7, 0.026) };
+    for i in 0..count {
+        let strong = near && i % 8 == 0;
+        let half_m = if strong { 0.016 } else { half_m };
+        let x = length_m * (i as f32 + 0.5) / count as f32;
+        let low_m = wall_m + 0.09;
+        let bar = [vec2(-half_m, low_m), vec2(half_m, low_m), vec2(half_m, top_m), vec2(-half_m, top_m)];
+        model.add(paint, swept(&bar, 2.0 * half_m).moved(Vec3::X * x));
+        if near {
+            let wide_m = half_m * 2.0;
+            let point =
+                [vec2(0.0, top_m), vec2(wide_m, top_m + 0.035), vec2(0.0, top_m + 0.13), vec2(-wide_m, top_m + 0.035)];
+            model.add(paint, swept(&point, 1.2 * half_m).moved(Vec3::X * x));
+        }
+    }
+    model.asset(if near { "wall/railed" } else { "wall/railed-far" }, Kind::Wall, Class::Barrier)
 }
 
 /// A (y, z) profile, counter-clockwise seen from +x, swept from x = 0.

@@ -42,6 +42,9 @@ pub(super) struct Habits {
     pub mailbox: &'static str,
     /// Sidewalks of main roads have railings here and there.
     pub railings: bool,
+    /// What bounds the open land behind sidewalks, as often as it is named, and on which share of their length.
+    pub boundaries: &'static [&'static str],
+    pub boundary_share: f64,
     /// Wires from pole to pole along side streets.
     pub overhead_wires: bool,
     pub bus_stop: &'static str,
@@ -77,6 +80,8 @@ const AMERICA: Habits = Habits {
     ],
     mailbox: "mailbox/blue",
     railings: false,
+    boundaries: &["fence/picket", "fence/chain-link", "fence/bars"],
+    boundary_share: 0.15,
     overhead_wires: true,
     bus_stop: "sign/us/bus-stop",
     name_plate: [GREEN, WHITE],
@@ -107,6 +112,8 @@ const EUROPE: Habits = Habits {
     ],
     mailbox: "mailbox/yellow",
     railings: false,
+    boundaries: &["fence/bars", "fence/bars", "wall/dwarf", "wall/dwarf", "wall/garden", "wall/railed"],
+    boundary_share: 0.3,
     overhead_wires: false,
     bus_stop: "sign/bus-stop",
     name_plate: [BLUE, WHITE],
@@ -120,6 +127,19 @@ const BRITAIN: Habits = Habits {
     railings: true,
     name_plate: [WHITE, BLACK],
     lamps: [&["lamp/straight"], &["lamp/straight", "lamp/historic"]],
+    boundaries: &[
+        "wall/railed",
+        "wall/railed",
+        "wall/railed",
+        "fence/bars",
+        "fence/bars",
+        "wall/garden",
+        "wall/garden",
+        "wall/brick",
+        "fence/wood",
+        "fence/picket",
+    ],
+    boundary_share: 0.75,
     ..EUROPE
 };
 
@@ -143,6 +163,7 @@ const EAST_ASIA: Habits = Habits {
     mailbox: "mailbox/green",
     railings: true,
     name_plate: [GREEN, WHITE],
+    boundaries: &["wall/concrete", "wall/garden", "fence/bars"],
     ..EUROPE
 };
 
@@ -166,6 +187,7 @@ const TROPICAL_ASIA: Habits = Habits {
     mailbox: "mailbox/red",
     railings: true,
     name_plate: [GREEN, WHITE],
+    boundaries: &["fence/bars", "fence/bars", "wall/railed", "fence/chain-link"],
     ..EUROPE
 };
 

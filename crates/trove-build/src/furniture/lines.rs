@@ -8,7 +8,8 @@ use trove_model::{
     Asset, Kind, LandKind, LineKind, MapLine, Material, Mesh, Outcome, Random, Report, Road, RoadKind, Seed,
 };
 
-use super::yard::{Source, Yard};
+use super::boundaries;
+use super::yard::Yard;
 use crate::clearance::Room;
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::piece::Piece;
@@ -28,8 +29,10 @@ const RAILING_OFF_KERB_M: f64 = 0.4;
 /// Railings run this far with gaps of as much, on this share of the kerbs of main roads, metres.
 const RAILING_RUN_M: [f64; 2] = [14.0, 40.0];
 const RAILING_SHARE: f64 = 0.4;
+/// Cameras stay as far from railings and hoardings as from what is so wide to each side, metres.
+const WIDE_M: f64 = 0.5;
 /// A kerb's road is at most this far from it, metres.
-const ROAD_REACH_M: f64 = 16.0;
+pub(super) const ROAD_REACH_M: f64 = 16.0;
 /// Pieces are let into the ground, which is not as straight as they are, metres.
 const SUNK_M: f64 = 0.04;
 /// Walls and fences whose height the map lacks are this share of their model's.
@@ -45,13 +48,14 @@ const SAMPLE_M: f64 = 0.4;
 const BUCKET_M: f64 = 8.0;
 
 /// What is to stand along a line.
-struct Run<'l> {
-    kind: Kind,
-    model: &'static str,
-    line: &'l [DVec2],
+pub(super) struct Run<'l> {
+    pub kind: Kind,
+    pub model: &'static str,
+    pub line: &'l [DVec2],
     /// Height over the model's own.
-    scale: f64,
-    source: Source,
+    pub scale: f64,
+    /// How wide it looks to a camera, metres: what is made up keeps away from those. None where the map has it.
+    pub in_sight_m: Option<f64>,
 }
 
 /// Everything along lines: mapped, then by rule along the kerbs and around building sites.
@@ -67,23 +71,25 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
         path: SegmentIndex::new([path.as_slice()]),
         pieces: Vec::new(),
         laid: BTreeMap::new(),
+        runs: 0,
         seed,
     };
     for line in &map.lines {
         let mut random = seed.child("line").nth(line.id as u64).random();
         if let Some((kind, model, height)) = model(line, &mut random) {
             let facing_road = layer.traffic_on_the_right(line.line.clone());
-            layer.lay(&Run { kind, model, line: &facing_road, scale: height, source: Source::Mapped }, report);
+            layer.lay(&Run { kind, model, line: &facing_road, scale: height, in_sight_m: None }, report);
         }
     }
     for site in map.land.iter().filter(|l| l.kind == LandKind::Construction) {
         let mut ring = site.polygon.exterior.clone();
         ring.extend(site.polygon.exterior.first());
         let model = if seed.nth(site.id as u64).random().chance(0.5) { "fence/hoarding" } else { "fence/site" };
-        layer.lay(&Run { kind: Kind::Fence, model, line: &ring, scale: 1.0, source: Source::MadeUp }, report);
+        layer.lay(&Run { kind: Kind::Fence, model, line: &ring, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
         report.note(Outcome::Guessed, "fence around a building site", format_args!("osm {}", site.id));
     }
     along_kerbs(&mut layer, seed, report);
+    boundaries::along_sidewalks(&mut layer, seed.child("boundary"), report);
     layer.take()
 }
 
@@ -111,7 +117,7 @@ fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
             };
             let line: Vec<DVec2> = stretch.iter().map(|k: &KerbPoint| k.position + k.outward * off_m).collect();
             let line = layer.traffic_on_the_right(line);
-            layer.lay(&Run { kind: Kind::GuardRail, model, line: &line, scale: 1.0, source: Source::MadeUp }, report);
+            layer.lay(&Run { kind: Kind::GuardRail, model, line: &line, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
         }
     }
 }
@@ -149,20 +155,22 @@ fn model(line: &MapLine, random: &mut Random) -> Option<(Kind, &'static str, f64
     Some((kind, model, scale))
 }
 
-struct Layer<'y, 'a, 'b, 'c> {
-    yard: &'y mut Yard<'a, 'b, 'c>,
+pub(super) struct Layer<'y, 'a, 'b, 'c> {
+    pub yard: &'y mut Yard<'a, 'b, 'c>,
     /// Everything that is driven or walked on.
     ways: SegmentIndex,
     path: SegmentIndex,
     pieces: Vec<Piece>,
     /// Pieces of lines by place.
     laid: BTreeMap<[i64; 2], Vec<[DVec2; 2]>>,
+    /// How many lines came so far: each is painted alike from end to end.
+    runs: u64,
     seed: Seed,
 }
 
 impl<'a> Layer<'_, 'a, '_, '_> {
     /// The line the way round that has the nearest carriageway on its right.
-    fn traffic_on_the_right(&self, mut line: Vec<DVec2>) -> Vec<DVec2> {
+    pub(super) fn traffic_on_the_right(&self, mut line: Vec<DVec2>) -> Vec<DVec2> {
         let middle = line[line.len() / 2];
         let before = line[(line.len() / 2).saturating_sub(1)];
         let kerb = self.yard.around.kerbs.near(middle, ROAD_REACH_M).first().copied();
@@ -173,7 +181,8 @@ impl<'a> Layer<'_, 'a, '_, '_> {
     }
 
     /// One object a straight stretch.
-    fn lay(&mut self, run: &Run<'_>, report: &Report) {
+    pub(super) fn lay(&mut self, run: &Run<'_>, report: &Report) {
+        self.runs += 1;
         let library = self.yard.library;
         let named = |id: &str| library.of_kind(run.kind).find(|a| a.id == id);
         let Some(near) = named(run.model) else {
@@ -189,7 +198,7 @@ impl<'a> Layer<'_, 'a, '_, '_> {
                 let [a, b] = [i, i + 1].map(|k| from.lerp(to, k as f64 / count));
                 let asset = if self.path.nearest(a, NEAR_M).is_some() { near } else { far };
                 let goes_on = object_m < OBJECT_M && object.asset.is_none_or(|o: &Asset| o.id == asset.id);
-                let free = self.is_free(a, b, run.source);
+                let free = self.is_free(a, b, run.in_sight_m);
                 if !free || !goes_on {
                     self.finish(&mut object, run.kind);
                     object_m = 0.0;
@@ -210,18 +219,24 @@ impl<'a> Layer<'_, 'a, '_, '_> {
 
     /// Off the carriageway, out of buildings, clear of what was recorded, of ways that cross, of cameras and of what has
     /// been laid.
-    fn is_free(&self, a: DVec2, b: DVec2, source: Source) -> bool {
+    fn is_free(&self, a: DVec2, b: DVec2, in_sight_m: Option<f64>) -> bool {
         let room = Room { road_m: 0.0, buildings_m: 0.0, recorded_m: 0.35, radius_m: 0.1 };
         let along = (b - a).normalize_or_zero();
         let crossed = |p: DVec2| self.ways.nearest(p, GAP_M).is_some_and(|n| n.along.dot(along).abs() < 0.8);
-        let made_up = source == Source::MadeUp;
+        let out_of_sight =
+            |p: DVec2| in_sight_m.is_none_or(|width_m| !self.yard.in_sight(p, width_m) && self.is_seen(p));
         let free = |p: DVec2| {
             self.yard.around.bounds.contains(p)
                 && self.yard.clearance.is_free(p, &room)
                 && !crossed(p)
-                && !(made_up && (self.yard.in_sight(p, 0.5) || self.path.nearest(p, SEEN_M).is_none()))
+                && out_of_sight(p)
         };
         samples(a, b).all(free) && !self.is_laid((a + b) / 2.0)
+    }
+
+    /// Whether a position is near enough to the driven path to make something up there.
+    pub(super) fn is_seen(&self, p: DVec2) -> bool {
+        self.path.nearest(p, SEEN_M).is_some()
     }
 
     /// Whether a piece lies at a position already: maps draw a fence on a wall with the same nodes.
@@ -245,7 +260,7 @@ impl<'a> Layer<'_, 'a, '_, '_> {
 
     fn finish(&mut self, object: &mut Object<'a>, kind: Kind) {
         let Object { asset: Some(asset), origin: Some(origin), mesh } = std::mem::take(object) else { return };
-        let mut random = self.seed.child("paint").nth(self.pieces.len() as u64 / 4).random();
+        let mut random = self.seed.child("paint").nth(self.runs).random();
         let mut paint: Option<Vec3> = None;
         let materials = asset.slots.iter().map(|slot| {
             // All parts of a fence that are painted are painted alike.

@@ -2,6 +2,7 @@
 //! region has them, where it does not.
 
 mod along;
+mod boundaries;
 mod cafes;
 mod habits;
 mod junctions;

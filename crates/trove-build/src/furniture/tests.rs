@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use trove_model::{
     Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, MapLine, MapProjection, Mesh, Polygon,
-    Report, Road, RoadKind, Seed, Slot, StreetMap,
+    Report, Road, RoadKind, Seed, SidewalkSides, Slot, StreetMap,
 };
 
 use super::furniture;
@@ -17,6 +17,7 @@ use crate::roads::{self, Footing};
 use crate::surroundings::Surroundings;
 use crate::testing;
 
+const CAMBRIDGE: [f64; 2] = [52.2, 0.12];
 const BERLIN: [f64; 2] = [52.5, 13.4];
 const SINGAPORE: [f64; 2] = [1.3, 103.8];
 const BOSTON: [f64; 2] = [42.35, -71.05];
@@ -92,6 +93,10 @@ fn library() -> AssetLibrary {
     assets.push(testing::asset("fence/bars", Kind::Fence, [2.4, 0.06, 1.3]));
     assets.push(testing::asset("fence/wood", Kind::Fence, [2.0, 0.1, 1.7]));
     assets.push(testing::asset("fence/chain-link", Kind::Fence, [2.5, 0.06, 1.8]));
+    for id in ["wall/railed", "wall/garden", "wall/brick"] {
+        assets.push(testing::asset(id, Kind::Wall, [2.0, 0.24, 1.6]));
+    }
+    assets.push(testing::asset("fence/picket", Kind::Fence, [2.0, 0.1, 1.0]));
     assets.sort_by(|a, b| a.id.cmp(&b.id));
     AssetLibrary { assets, ..AssetLibrary::default() }
 }
@@ -204,5 +209,33 @@ fn a_fence_stands_along_its_line_and_is_open_where_a_path_crosses_it() {
     for p in points {
         let beside_m = (p.y - 40.0).abs().min((p.x - 60.0).abs());
         assert!(beside_m < 0.1 && (p.x - 10.0).abs() > 0.9, "{p}");
+    }
+}
+
+#[test]
+fn open_land_behind_a_sidewalk_is_bounded_but_not_before_houses_nor_across_paths() {
+    let house = [[-80.0, 6.5], [-30.0, 6.5], [-30.0, 20.0], [-80.0, 20.0]].map(DVec2::from_array);
+    let sidewalk = SidewalkSides { left: Some(true), right: Some(true) };
+    let street = testing::road(1, RoadKind::Tertiary, &[[-190.0, 0.0], [190.0, 0.0]]);
+    let map = StreetMap {
+        roads: vec![Road { sidewalk, ..street }, testing::road(2, RoadKind::Footway, &[[10.0, 3.0], [10.0, 90.0]])],
+        buildings: vec![Building::new(9, Polygon::simple(house.to_vec()), "house")],
+        ..StreetMap::default()
+    };
+    let found = furnished(CAMBRIDGE, &map);
+    let lines = found.pieces.iter().filter(|p| matches!(p.kind, Some(Kind::Fence | Kind::Wall)));
+    let points: Vec<DVec3> = lines
+        .flat_map(|f| f.mesh.positions.iter().map(|p| f.world_from_mesh.transform_point3(p.as_dvec3())))
+        .filter(|p| p.x.abs() < 150.0)
+        .collect();
+    for north in [false, true] {
+        let metres: std::collections::BTreeSet<i64> =
+            points.iter().filter(|p| (p.y > 0.0) == north).map(|p| (p.x / 3.0).floor() as i64).collect();
+        assert!(metres.len() > 25, "{north}: {metres:?}");
+    }
+    let nearest_m = points.iter().map(|p| p.y.abs()).fold(f64::INFINITY, f64::min);
+    for p in points {
+        assert!(nearest_m > 4.0 && p.y.abs() < nearest_m + 0.4, "{p}");
+        assert!(p.y < 0.0 || !(-80.0..-30.0).contains(&p.x) && (p.x - 10.0).abs() > 0.9, "{p}");
     }
 }
