@@ -206,7 +206,8 @@ fn a_fence_stands_along_its_line_and_is_open_where_a_path_crosses_it() {
     assert!(fences.len() >= 3);
     let points =
         fences.iter().flat_map(|f| f.mesh.positions.iter().map(|p| f.world_from_mesh.transform_point3(p.as_dvec3())));
-    for p in points {
+    // Not what bounds the street's own land.
+    for p in points.filter(|p| p.y > 20.0) {
         let beside_m = (p.y - 40.0).abs().min((p.x - 60.0).abs());
         assert!(beside_m < 0.1 && (p.x - 10.0).abs() > 0.9, "{p}");
     }
