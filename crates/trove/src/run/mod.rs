@@ -80,8 +80,10 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
     let output = OutputFolder::open(out, &identity)?;
-    let hints: Vec<usize> = scenes.iter().map(|(_, keyframes)| frames_hint(recipe, *keyframes)).collect();
-    let planned = hints.iter().sum::<usize>() * recipe.variations.count as usize;
+    let frames = options.frames.as_ref();
+    let hints: Vec<Vec<usize>> =
+        scenes.iter().map(|(scene, keyframes)| frames_hints(recipe, scene, *keyframes, frames)).collect();
+    let planned = hints.iter().flatten().sum();
     let mut run = Run {
         recipe,
         renderer,
@@ -91,12 +93,12 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         writer: Worker::new(write),
         progress: Progress::new(planned),
         report,
-        frames: options.frames.as_ref(),
+        frames,
         sites: Vec::new(),
         rendered: Vec::new(),
     };
-    for ((scene, _), hint) in scenes.iter().zip(hints) {
-        if let Err(stop) = run.scene(scene, hint) {
+    for ((scene, _), hints) in scenes.iter().zip(hints) {
+        if let Err(stop) = run.scene(scene, &hints) {
             let kept = run.record_rest();
             run.progress.finish();
             return match stop {
@@ -126,7 +128,20 @@ fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Resul
     }))
 }
 
-/// Frames of one variation of a scene with so many keyframes, before its drive has been read.
+/// Where the frames of a variation are.
+fn folder_of(scene: &str, variation: u32) -> String {
+    format!("{scene}/v{variation:02}")
+}
+
+/// Frames of each variation of a scene with so many keyframes, before its drive has been read.
+fn frames_hints(recipe: &Recipe, scene: &str, keyframes: usize, frames: Option<&BTreeSet<String>>) -> Vec<usize> {
+    let of = |variation| match frames {
+        Some(frames) => frames.iter().filter(|frame| Path::new(frame).starts_with(folder_of(scene, variation))).count(),
+        None => frames_hint(recipe, keyframes),
+    };
+    (0..recipe.variations.count).map(of).collect()
+}
+
 fn frames_hint(recipe: &Recipe, keyframes: usize) -> usize {
     let cameras = recipe.camera_names().map_or(CAMERAS_HINT, |names| names.len());
     let chosen = match &recipe.drive {
@@ -207,7 +222,7 @@ struct Photographed {
 
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
-    fn scene(&mut self, scene: &str, frames_hint: usize) -> Result<(), Stop> {
+    fn scene(&mut self, scene: &str, frames_hints: &[usize]) -> Result<(), Stop> {
         let read = OnceCell::new();
         // Read for the first variation of which something is missing.
         let build = |run: &Self, variation: u32| {
@@ -222,14 +237,12 @@ impl Run<'_> {
         };
         // Of a counterfactual set v00, which the others are compared with.
         let mut base: Option<Built> = None;
-        for variation in 0..self.recipe.variations.count {
-            let folder = self.output.root().join(scene).join(format!("v{variation:02}"));
-            let known = SiteFile::read(&folder);
-            let prefix = format!("{scene}/v{variation:02}/");
-            if self.frames.is_some_and(|frames| !frames.iter().any(|frame| frame.starts_with(&prefix))) {
-                self.progress.correct(frames_hint, 0);
+        for (variation, &frames_hint) in (0..).zip(frames_hints) {
+            if frames_hint == 0 && self.frames.is_some() {
                 continue;
             }
+            let folder = self.output.root().join(folder_of(scene, variation));
+            let known = SiteFile::read(&folder);
             let missing = match &known {
                 Some(site) => self.missing(scene, variation, site)?,
                 None => true,
