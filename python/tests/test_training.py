@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -67,9 +68,10 @@ def test_a_row_is_trained_in_the_stages_of_its_name(experiment):
     assert found.stages("R") == [["R"]]
 
 
-def test_other_data_or_settings_have_another_folder(experiment, tmp_path):
+def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkeypatch):
     before = read(experiment).folders("S+R[F]", 1, tmp_path)
-    assert before == read(experiment).folders("S+R[F]", 1, tmp_path)
+    monkeypatch.chdir(experiment.parent)
+    assert before == read(Path(experiment.name)).folders("S+R[F]", 1, tmp_path)
     assert before[0] == read(experiment).folders("S", 1, tmp_path)[0]
     experiment.write_text(experiment.read_text().replace("count = 2", "count = 1"))
     after = read(experiment).folders("S+R[F]", 1, tmp_path)

@@ -39,6 +39,7 @@
 """
 
 import hashlib
+import os
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -74,7 +75,8 @@ class Training:
 
     def settings(self) -> list:
         """All that changes what a run finds, but for its seed."""
-        return [self.model, self.steps, self.epochs, self.batch, self.rate, str(self.weights), self.balanced]
+        weights = self.weights and [self.weights.name, self.weights.stat().st_size]
+        return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced]
 
 
 @dataclass(frozen=True)
@@ -84,9 +86,9 @@ class Pool:
     samples: list[Sample]
     numbering: str
 
-    def digest(self) -> str:
-        """A hash of the numbering and of the names and sizes of all files."""
-        files = [(str(f), f.stat().st_size) for sample in self.samples for f in (sample.picture, sample.labels)]
+    def digest(self, base: Path) -> str:
+        """A hash of the numbering and of the sizes of all files and their paths from `base`, wherever that lies."""
+        files = [(os.path.relpath(f, base), f.stat().st_size) for sample in self.samples for f in (sample.picture, sample.labels)]
         return _digest(self.numbering, files)
 
 
@@ -94,6 +96,7 @@ class Pool:
 class Experiment:
     """An experiment, with its sets found."""
 
+    folder: Path
     classes: str
     size: tuple[int, int]
     rows: list[str]
@@ -115,7 +118,7 @@ class Experiment:
 
     def folders(self, row: str, seed: int, out: Path) -> list[tuple[Path, list[str]]]:
         """The folder and the sets of each stage of a row."""
-        folders, name, key = [], "", _digest(self.classes, self.size, self.training.settings(), self.val.digest())
+        folders, name, key = [], "", _digest(self.classes, self.size, self.training.settings(), self.val.digest(self.folder))
         for names in self.stages(row):
             key = _digest(key, seed, [self.digests[n] for n in names])
             name += (" then " if name else "") + "+".join(names)
@@ -125,7 +128,7 @@ class Experiment:
     @cached_property
     def digests(self) -> dict[str, str]:
         """Of every set."""
-        return {name: pool.digest() for name, pool in self.pools.items()}
+        return {name: pool.digest(self.folder) for name, pool in self.pools.items()}
 
 
 def read(path: Path) -> Experiment:
@@ -160,7 +163,7 @@ def read(path: Path) -> Experiment:
         entry["weights"] = path.parent / entry["weights"]
     size = table.get("size", [512, 256])
     experiment = Experiment(
-        classes, (size[0], size[1]), table.get("rows", []), table.get("compare", {}), pools, _pool(path, "val", table["val"]), Training(**entry)
+        path.parent, classes, (size[0], size[1]), table.get("rows", []), table.get("compare", {}), pools, _pool(path, "val", table["val"]), Training(**entry)
     )
     for row in experiment.rows:
         for name in sum(experiment.stages(row), []):
