@@ -35,7 +35,7 @@ def main() -> int:
     rows = ["--rows", *options.rows] if options.rows else []
     steps = [
         [*trove, "generate", recipe, "--labels-only", "--out", labels],
-        [*trove, "curate", labels, "--count", COUNT, "--val-share", 0, "--out", chosen, "--page", out / "curated.html"],
+        [*trove, "curate", labels, "--count", COUNT, "--classes", "camvid", "--val-share", 0, "--out", chosen, "--page", out / "curated.html"],
         [*trove, "generate", recipe, "--frames", chosen, "--out", twin],
         [*trove, "recolor", twin, "--to", link / "camvid/images/train", "--method", "paired", "--strength", 1, "--out", out / "recolored"],
         [*train, HERE / "experiment.toml", "--out", out / "results", *rows],

@@ -92,6 +92,12 @@ impl LabelSet {
         }
     }
 
+    /// For each of our 20 classes its place among the set's; `None` for those that the set ignores.
+    pub fn of_ours(&self) -> [Option<u8>; 20] {
+        let index = self.index();
+        std::array::from_fn(|i| index[usize::from(self.number(&CLASSES[i]))])
+    }
+
     /// The place of the first number that is neither a class nor ignored.
     pub(crate) fn unknown(&self, ids: &[u8]) -> Option<usize> {
         let mut known = [false; 256];

@@ -400,7 +400,7 @@ pub(super) const SPECIES: [Species; 12] = [
             (Tropical, 0.05),
             (Subtropical, 0.3),
             (Arid, 0.3),
-            (Temperate, 0.35),
+            (Temperate, 0.12),
             (Cold, 0.9),
             (Mediterranean, 1.0),
         ],

@@ -97,7 +97,7 @@ fn spruce(id: &str, [height_m, reach_m]: [f32; 2], wood: Material, leaves: Mater
     });
     let leaf = model.slot(leaves, &EVERGREEN.summer());
     model.add(leaf, |level| foliage.mesh(level));
-    let habitat = [(Tropical, 0.0), (Arid, 0.0), (Subtropical, 0.05), (Mediterranean, 0.1), (Temperate, 0.3)];
+    let habitat = [(Tropical, 0.0), (Arid, 0.0), (Subtropical, 0.05), (Mediterranean, 0.1), (Temperate, 0.12)];
     let genera = ["picea", "spruce", "abies", "larix", "pseudotsuga"];
     model.asset(id, Kind::Tree, plant("spruce", LeafType::Needle, &genera, &habitat, &EVERGREEN, leaf))
 }

@@ -177,7 +177,6 @@ const BRITAIN: Customs = Customs {
     words: true,
     boxes: true,
     cycle_coat: [0.35, 0.85, 0.45],
-    sidewalk: &["slabs", "asphalt-walk"],
     ..VIENNA
 };
 

@@ -111,13 +111,18 @@ impl CandidateFrame {
 
     /// How many classes but void are seen.
     pub fn classes(&self) -> usize {
-        self.shares().iter().skip(1).filter(|share| **share >= SEEN).count()
+        seen(&self.shares()[1..])
     }
 
     /// Entropy of its classes, bits.
     pub fn entropy(&self) -> f64 {
         entropy(&self.shares())
     }
+}
+
+/// How many shares of a picture are large enough to be seen.
+pub(super) fn seen(shares: &[f64]) -> usize {
+    shares.iter().filter(|share| **share >= SEEN).count()
 }
 
 /// Entropy of shares, bits.

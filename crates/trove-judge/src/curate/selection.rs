@@ -3,17 +3,32 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::frame::CandidateFrame;
+use super::frame::{CandidateFrame, seen};
 
 /// What a choice has to hold to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
     /// Frames to keep; fewer where fewer pass.
     pub count: usize,
+    /// For each of our classes the one that it counts as, from 0 on; `None` is worth nothing.
+    pub classes: [Option<u8>; 20],
     /// Classes that a frame has to show at least: the paper's 6 to 8.
     pub min_classes: usize,
     /// Frames whose hashes differ in at most so many of 64 bits are near-duplicates.
     pub duplicate_bits: u32,
+}
+
+impl Rules {
+    /// Shares of a frame's pixels by the class that they count as.
+    fn shares(&self, frame: &CandidateFrame) -> [f64; 20] {
+        let mut shares = [0.0; 20];
+        for (class, share) in self.classes.iter().zip(frame.shares()) {
+            if let Some(class) = class {
+                shares[usize::from(*class)] += share;
+            }
+        }
+        shares
+    }
 }
 
 /// What became of the frames.
@@ -55,20 +70,20 @@ pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
     let mut selection = Selection::default();
     let mut sums = [0.0f64; 20];
     let gain = |sums: &[f64; 20], shares: &[f64; 20]| -> f64 {
-        // Void is worth nothing.
-        (1..20).map(|c| (sums[c] + shares[c]).sqrt() - sums[c].sqrt()).sum()
+        (0..20).map(|c| (sums[c] + shares[c]).sqrt() - sums[c].sqrt()).sum()
     };
     let mut queue = BinaryHeap::new();
     for (i, frame) in frames.iter().enumerate() {
-        if frame.classes() < rules.min_classes {
+        let shares = rules.shares(frame);
+        if seen(&shares) < rules.min_classes {
             selection.poor += 1;
         } else {
-            queue.push(Gain(gain(&sums, &frame.shares()), i));
+            queue.push(Gain(gain(&sums, &shares), i));
         }
     }
     while selection.kept.len() < rules.count {
         let Some(Gain(_, i)) = queue.pop() else { break };
-        let shares = frames[i].shares();
+        let shares = rules.shares(&frames[i]);
         let now = gain(&sums, &shares);
         if queue.peek().is_some_and(|best| best.0 > now) {
             queue.push(Gain(now, i));
@@ -94,6 +109,7 @@ pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LabelSet;
     use glam::DVec2;
 
     fn frame(i: u64, pixels: &[(usize, u64)]) -> CandidateFrame {
@@ -117,11 +133,16 @@ mod tests {
         frames.push(frame(40, &[(1, 450), (9, 450), (16, 100)]));
         frames.push(frame(41, &[(1, 1000)]));
         frames.push(CandidateFrame { hash: frames[29].hash ^ 3, ..frame(42, &[(1, 460), (9, 450), (16, 90)]) });
-        let rules = Rules { count: 31, min_classes: 2, duplicate_bits: 3 };
+        let classes = LabelSet::named("trove20").unwrap().of_ours();
+        let rules = Rules { count: 31, classes, min_classes: 2, duplicate_bits: 3 };
         let found = select(&frames, &rules);
         assert_eq!(found.kept[0], 29);
         assert_eq!((found.kept.len(), found.poor, found.duplicates), (30, 1, 1));
         assert_eq!(select(&frames, &Rules { count: 5, ..rules }).kept, found.kept[..5]);
+        // CamVid does not know motorcyclists.
+        let classes = LabelSet::named("camvid").unwrap().of_ours();
+        let camvid = select(&frames, &Rules { classes, ..rules });
+        assert_ne!(camvid.kept[0], 29);
         // Labels alone of another variation are no duplicate.
         frames.iter_mut().for_each(|frame| frame.has_picture = false);
         frames[31].variation = 1;

@@ -1,5 +1,10 @@
 use super::*;
+use crate::LabelSet;
 use image::GrayImage;
+
+fn classes() -> [Option<u8>; 20] {
+    LabelSet::named("trove20").unwrap().of_ours()
+}
 
 /// A dataset of frames along a street, some of them poor, two alike.
 fn dataset(root: &Path) {
@@ -24,7 +29,7 @@ fn dataset(root: &Path) {
 fn labels_alone_are_enough_to_choose_and_to_report() {
     let folder = tempfile::tempdir().unwrap();
     dataset(folder.path());
-    let rules = Rules { count: 20, min_classes: 6, duplicate_bits: 0 };
+    let rules = Rules { count: 20, classes: classes(), min_classes: 6, duplicate_bits: 0 };
     let found = curate(folder.path(), rules, 0.3, Seed(1), &|_, _| ()).unwrap();
     assert_eq!((found.frames.len(), found.selection.poor, found.selection.duplicates), (12, 1, 1));
     assert_eq!(found.selection.kept.len(), 10);
@@ -38,7 +43,7 @@ fn labels_alone_are_enough_to_choose_and_to_report() {
 #[test]
 fn what_is_no_dataset_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    let rules = Rules { count: 1, min_classes: 1, duplicate_bits: 0 };
+    let rules = Rules { count: 1, classes: classes(), min_classes: 1, duplicate_bits: 0 };
     let message = |root: &Path| curate(root, rules, 0.0, Seed(1), &|_, _| ()).unwrap_err().to_string();
     assert!(message(folder.path()).contains("frames of trove generate"));
     dataset(folder.path());

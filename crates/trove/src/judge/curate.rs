@@ -7,11 +7,12 @@ use anyhow::{Context, Result};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use trove_judge::LabelSet;
 use trove_judge::curate::{Curation, Rules, Split, curate, report};
 use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
-use super::{Pictures, share};
+use super::{Pictures, label_set, share};
 
 /// What to choose from, and how.
 #[derive(Args)]
@@ -21,6 +22,9 @@ pub(crate) struct Curate {
     /// Frames to keep.
     #[arg(long, default_value_t = 5000)]
     count: usize,
+    /// The numbering in whose classes frames are judged; what it ignores is worth nothing.
+    #[arg(long, default_value = "trove20", value_parser = label_set)]
+    classes: LabelSet,
     /// Classes that a frame has to show at least.
     #[arg(long, default_value_t = 6)]
     min_classes: usize,
@@ -76,7 +80,9 @@ impl Curated {
 
 impl Curate {
     pub(crate) fn run(&self) -> Result<()> {
-        let rules = Rules { count: self.count, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
+        let classes = self.classes.of_ours();
+        let rules =
+            Rules { count: self.count, classes, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
         let progress = Pictures::default();
         let seed = Seed(self.seed);
         let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;
