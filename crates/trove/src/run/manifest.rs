@@ -114,8 +114,14 @@ pub(super) struct FrameKey {
 impl FrameKey {
     /// Path of the frame's folder below the output folder.
     pub(super) fn path(&self) -> String {
-        format!("{}/v{:02}/k{:03}/{}", self.scene, self.variation, self.keyframe, self.view)
+        let folder = variation_folder(&self.scene, self.variation);
+        format!("{folder}/k{:03}/{}", self.keyframe, self.view)
     }
+}
+
+/// Path of the folder of a scene's variation below the output folder.
+pub(super) fn variation_folder(scene: &str, variation: u32) -> String {
+    format!("{scene}/v{variation:02}")
 }
 
 /// Writes the manifest.

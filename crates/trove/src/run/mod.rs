@@ -22,7 +22,7 @@ use crate::recipe::Recipe;
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::{interrupt, library, message};
-use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, write_manifest, write_report};
+use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, variation_folder, write_manifest, write_report};
 pub(crate) use manifest::{fits_json, report_json};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, refuse_foreign};
@@ -128,27 +128,19 @@ fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Resul
     }))
 }
 
-/// Where the frames of a variation are.
-fn folder_of(scene: &str, variation: u32) -> String {
-    format!("{scene}/v{variation:02}")
-}
-
 /// Frames of each variation of a scene with so many keyframes, before its drive has been read.
 fn frames_hints(recipe: &Recipe, scene: &str, keyframes: usize, frames: Option<&BTreeSet<String>>) -> Vec<usize> {
-    let of = |variation| match frames {
-        Some(frames) => frames.iter().filter(|frame| Path::new(frame).starts_with(folder_of(scene, variation))).count(),
-        None => frames_hint(recipe, keyframes),
-    };
-    (0..recipe.variations.count).map(of).collect()
-}
-
-fn frames_hint(recipe: &Recipe, keyframes: usize) -> usize {
     let cameras = recipe.camera_names().map_or(CAMERAS_HINT, |names| names.len());
     let chosen = match &recipe.drive {
         Some(drive) => drive.keyframes.of(keyframes).map_or(0, |chosen| chosen.len()),
         None => keyframes,
     };
-    chosen * cameras * (1 + recipe.views.other_vehicles)
+    let all = chosen * cameras * (1 + recipe.views.other_vehicles);
+    let listed = |frames: &BTreeSet<String>, variation| {
+        let folder = variation_folder(scene, variation);
+        frames.iter().filter(|frame| Path::new(frame).starts_with(&folder)).count()
+    };
+    (0..recipe.variations.count).map(|variation| frames.map_or(all, |frames| listed(frames, variation))).collect()
 }
 
 /// Why a run ends early.
@@ -241,7 +233,7 @@ impl Run<'_> {
             if frames_hint == 0 && self.frames.is_some() {
                 continue;
             }
-            let folder = self.output.root().join(folder_of(scene, variation));
+            let folder = self.output.root().join(variation_folder(scene, variation));
             let known = SiteFile::read(&folder);
             let missing = match &known {
                 Some(site) => self.missing(scene, variation, site)?,
