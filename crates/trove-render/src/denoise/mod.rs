@@ -18,7 +18,7 @@ pub enum Denoising {
     /// It stays.
     #[default]
     None,
-    /// In a quarter of the best's time, since guides keep their noise: for many small pictures.
+    /// In a sixth of the best's time, since guides keep their noise: for many small pictures.
     Fast,
     /// As well as it goes.
     Best,
@@ -51,9 +51,10 @@ impl Cleans {
     /// One of the library's three qualities. The best is for the picture, whose fine texture shows it; guides are no better
     /// for it, and take twice as long.
     fn quality(self, how: Denoising) -> c_int {
-        match self {
-            Self::Color if how == Denoising::Best => api::QUALITY_HIGH,
-            _ => api::QUALITY_BALANCED,
+        match (how, self) {
+            (Denoising::Best, Self::Color) => api::QUALITY_HIGH,
+            (Denoising::Best, _) => api::QUALITY_BALANCED,
+            _ => api::QUALITY_FAST,
         }
     }
 }
