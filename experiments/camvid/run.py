@@ -19,7 +19,7 @@ def main() -> int:
     parser.add_argument("--data", type=Path, required=True, help="folder with nuscenes, osm and camvid in it")
     parser.add_argument("--rows", nargs="*", default=[], help="only these rows of the table")
     parser.add_argument("--threads", type=int, default=1, help="threads on the CPU for each network; 0 is all")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="seeds that are trained at the same time; 1 for a GPU")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="seeds and rows that are trained at the same time; 1 for a GPU")
     options = parser.parse_args()
     for name in ("nuscenes", "osm", "camvid"):
         if not (options.data / name).is_dir():

@@ -14,7 +14,7 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True, help="folder for runs and table; what is finished there is kept")
     parser.add_argument("--rows", nargs="*", help="only these rows of the experiment")
     parser.add_argument("--threads", type=int, default=0, help="threads on the CPU for a job; 0 is all")
-    parser.add_argument("--jobs", type=int, default=1, help="seeds that are trained at the same time, each in a process of its own")
+    parser.add_argument("--jobs", type=int, default=1, help="seeds and rows that are trained at the same time, each in a process of its own")
     options = parser.parse_args()
     try:
         import torch  # noqa: F401
@@ -24,18 +24,19 @@ def main() -> int:
     from trove.train import table
     from trove.train.experiment import ExperimentError, read
     from trove.train.labels import TARGETS
-    from trove.train.training import rows_of_seed
+    from trove.train.training import run_rows
 
     try:
         experiment = read(options.experiment)
         rows, classes, everything = options.rows or experiment.rows, TARGETS[experiment.classes], []
-        train = partial(rows_of_seed, options.experiment, rows, options.out, options.threads)
+        train = partial(run_rows, options.experiment, options.out, options.threads)
+        groups = [(seed, group) for seed in experiment.training.seeds for group in experiment.alike(rows)]
         with ProcessPoolExecutor(options.jobs, get_context("spawn")) as jobs:
-            of_seeds = (jobs.map if options.jobs > 1 else map)(train, experiment.training.seeds)
-            # After every seed, so that an interrupted experiment has a table too.
-            for results in of_seeds:
+            # After every group, so that an interrupted experiment has a table too.
+            for results in (jobs.map if options.jobs > 1 else map)(train, *zip(*groups)):
                 everything += results
-                summaries = {row: table.summary([r for r in everything if r["row"] == row]) for row in rows}
+                finished = [row for row in rows if any(r["row"] == row for r in everything)]
+                summaries = {row: table.summary([r for r in everything if r["row"] == row]) for row in finished}
                 (options.out / "table.md").write_text(table.markdown(classes, summaries, experiment.compare))
                 (options.out / "table.tex").write_text(table.latex(classes, summaries))
                 (options.out / "curves.svg").write_text(table.curves(everything))

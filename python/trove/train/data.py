@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageFilter
+from PIL import Image
 
 from trove.train.labels import CROWNS, lookup
 
@@ -133,11 +133,21 @@ def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) ->
     Trees are closed by a hundredth of the width on each side.
     """
     ids = np.asarray(labels)
-    crowns = Image.fromarray(np.where(ids == tree, 255, 0).astype(np.uint8))
-    size = labels.width // 100 * 2 + 1
-    closed = np.asarray(crowns.filter(ImageFilter.MaxFilter(size)).filter(ImageFilter.MinFilter(size)))
+    radius = labels.width // 100
+    closed = ~_spread(~_spread(ids == tree, radius), radius)
     behind = (ids == sky) | (ids == building)
-    return Image.fromarray(np.where((closed > 0) & behind, np.uint8(tree), ids))
+    return Image.fromarray(np.where(closed & behind, np.uint8(tree), ids))
+
+
+def _spread(mask: np.ndarray, radius: int) -> np.ndarray:
+    """Where the mask (H, W) is true within so many pixels along both axes."""
+    for _ in range(2):
+        wide = mask.copy()
+        for shift in range(1, radius + 1):
+            wide[shift:] |= mask[:-shift]
+            wide[:-shift] |= mask[shift:]
+        mask = wide.T
+    return mask
 
 
 def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list[list[tuple[int, int]]]:

@@ -116,6 +116,13 @@ class Experiment:
             return [names[:-1], names[-1:]]
         return [names]
 
+    def alike(self, rows: list[str]) -> list[list[str]]:
+        """Rows in groups that share their first stage: groups may be trained at the same time, rows of one in turn."""
+        groups: dict[tuple[str, ...], list[str]] = {}
+        for row in rows:
+            groups.setdefault(tuple(self.stages(row)[0]), []).append(row)
+        return list(groups.values())
+
     def folders(self, row: str, seed: int, out: Path) -> list[tuple[Path, list[str]]]:
         """The folder and the sets of each stage of a row."""
         folders, name, key = [], "", _digest(self.classes, self.size, self.training.settings(), self.val.digest(self.folder))

@@ -36,7 +36,7 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
     return confusion
 
 
-def rows_of_seed(path: Path, rows: list[str], out: Path, threads: int, seed: int) -> list[dict]:
+def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) -> list[dict]:
     """Trains and measures rows of the experiment in the file `path` with one seed, on so many threads; 0 is all."""
     if threads:
         torch.set_num_threads(threads)
@@ -151,8 +151,8 @@ def _tensor(items, device: torch.device) -> torch.Tensor:
 
 
 def _fast_bfloat16() -> bool:
-    """Whether the processor multiplies bfloat16 by itself; elsewhere it is slower than float32."""
-    return torch.backends.mkldnn.is_available() and torch.ops.mkldnn._is_mkldnn_bf16_supported()
+    """Whether the processor has matrix units for bfloat16 (AMX); without them training in it is slower than in float32."""
+    return getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
 
 
 def _save(path: Path, state) -> None:
