@@ -68,6 +68,11 @@ def test_a_row_is_trained_in_the_stages_of_its_name(experiment):
     assert found.stages("R") == [["R"]]
 
 
+def test_rows_that_begin_alike_are_trained_in_turn(experiment):
+    rows = ["R", "S", "S+R[F]", "S+R[M]", "S+C", "S+C+R[F]"]
+    assert read(experiment).alike(rows) == [["R"], ["S", "S+R[F]"], ["S+R[M]"], ["S+C", "S+C+R[F]"]]
+
+
 def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkeypatch):
     before = read(experiment).folders("S+R[F]", 1, tmp_path)
     monkeypatch.chdir(experiment.parent)
@@ -194,7 +199,7 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
     assert not list((tmp_path / "whole").rglob("checkpoint.pt"))
 
 
-def test_seeds_trained_at_the_same_time_find_what_they_find_alone(finished, experiment, tmp_path):
+def test_rows_trained_at_the_same_time_find_what_they_find_alone(finished, experiment, tmp_path):
     pytest.importorskip("torch", reason="the optional extra [train] is not installed")
     experiment.write_text(experiment.read_text().replace("epochs = 1", "steps = 3").replace("seeds = [1]", "seeds = [1, 2]"))
     command = [sys.executable, "-m", "trove.train", experiment, "--rows", "S", "--threads", "1", "--out"]
