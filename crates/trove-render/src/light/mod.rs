@@ -137,11 +137,6 @@ impl Lights {
         (pdf > 0.0).then(|| LightSample { wi, distance: f32::INFINITY, radiance: sun.radiance(wi), pdf })
     }
 
-    /// Whether the sun shines.
-    pub(crate) fn have_sun(&self) -> bool {
-        self.around.sun.is_some()
-    }
-
     /// Density over solid angle with which [`Self::sample_sun`] draws a direction.
     pub(crate) fn sun_pdf(&self, direction: Vec3) -> f32 {
         self.around.sun.as_ref().map_or(0.0, |sun| sun.pdf(direction))

@@ -169,23 +169,13 @@ impl Vertex<'_> {
         }
 
         let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
-        // After the first surface one of the two stands for both: half of the shadow rays, little more noise.
-        let ([sun, rest], u_light) = match (path.bounce > 0 && lights.have_sun(), u_light < 0.5) {
-            (false, _) => ([1.0, 1.0], u_light),
-            (true, true) => ([2.0, 0.0], 2.0 * u_light),
-            (true, false) => ([0.0, 2.0], 2.0 * u_light - 1.0),
-        };
         let on_sun = path.sampler.next2();
+        let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
+        self.shadows.to_sun.extend(shadow);
         let [u0, u1] = path.sampler.next2();
-        if sun > 0.0 {
-            let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun), sun);
-            self.shadows.to_sun.extend(shadow);
-        }
-        if rest > 0.0 {
-            let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
-            let shadow = self.ask(path, &surface, &bsdf, light, rest);
-            self.shadows.to_rest.extend(shadow);
-        }
+        let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
+        let shadow = self.ask(path, &surface, &bsdf, light);
+        self.shadows.to_rest.extend(shadow);
 
         let [u_lobe, u_roulette] = path.sampler.next2();
         let [u0, u1] = path.sampler.next2();
@@ -214,15 +204,8 @@ impl Vertex<'_> {
         path.bounce <= MAX_BOUNCES
     }
 
-    /// The ray that asks for light which a surface sends on straight from where a light sample lies, `times` as much.
-    fn ask(
-        &self,
-        path: &Path,
-        surface: &Surface,
-        bsdf: &Bsdf,
-        light: Option<LightSample>,
-        times: f32,
-    ) -> Option<Shadow> {
+    /// The ray that asks for light which a surface sends on straight from where a light sample lies.
+    fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) -> Option<Shadow> {
         let light = light?;
         let (f, pdf_bsdf) = bsdf.eval(light.wi);
         if f == Vec3::ZERO {
@@ -230,7 +213,7 @@ impl Vertex<'_> {
         }
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
         let ray = Ray { t_max, ..path.ray.then(surface.leave(light.wi), light.wi) };
-        let weight = times * power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
+        let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
         Some(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 })
     }
