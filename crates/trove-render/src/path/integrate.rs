@@ -13,8 +13,8 @@ use crate::sampling::{Sampler, power_heuristic};
 const MAX_BOUNCES: u32 = 6;
 /// Panes and cut-outs that a path may pass straight.
 const MAX_PASSAGES: u32 = 16;
-/// Paths that carry less than one over this end by chance, the likelier the less they carry; between 2 and 3 streets
-/// have the same error in a given time, and with few samples paths cost more than noise that is removed after.
+/// Paths that carry less than one over this end by chance, the likelier the less they carry. On streets
+/// at 2 spp, 2 instead of 3 saves a tenth of the time for 2 to 4 % more error after denoising.
 const ROULETTE: f32 = 2.0;
 /// Largest radiance that one sample may bring at the first bounce and after it, in units of what a white surface
 /// has: rare paths that carry more would be speckles long before they are an average.
