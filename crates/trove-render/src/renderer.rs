@@ -42,22 +42,34 @@ pub struct Renderer {
     textures: Textures,
     surroundings: LastSurroundings,
     pool: rayon::ThreadPool,
+    /// For the next scene while a picture is taken: of a shared pool a thread that waits for tiles would start on it.
+    preparing: rayon::ThreadPool,
 }
 
 impl Renderer {
     /// Loads the kernel and the denoiser and starts the threads.
     pub fn new(options: &RendererOptions) -> Result<Self, RenderError> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(options.threads)
-            .thread_name(|i| format!("render-{i}"))
-            .build()
-            .map_err(|source| RenderError::Threads { threads: options.threads, source })?;
+        let pool = |name: &'static str| {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(options.threads)
+                .thread_name(move |i| format!("{name}-{i}"))
+                .build()
+                .map_err(|source| RenderError::Threads { threads: options.threads, source })
+        };
+        let (pool, preparing) = (pool("render")?, pool("prepare")?);
         let kernel = Kernel::new(options.kernel, &options.search)?;
         let denoiser = match options.denoise {
             Denoising::None => Err("not asked for".into()),
             how => Denoiser::load(&options.search, pool.current_num_threads(), how).map_err(|e| e.to_string()),
         };
-        Ok(Self { kernel, denoiser, textures: Textures::default(), surroundings: LastSurroundings::default(), pool })
+        Ok(Self {
+            kernel,
+            denoiser,
+            textures: Textures::default(),
+            surroundings: LastSurroundings::default(),
+            pool,
+            preparing,
+        })
     }
 
     /// What this renderer works with.
@@ -69,9 +81,10 @@ impl Renderer {
         }
     }
 
-    /// Checks a scene and makes it ready; what it shares with earlier scenes (by `Arc`) is not made again.
+    /// Checks a scene and makes it ready, also while a picture of another one is taken; what it shares with earlier
+    /// scenes (by `Arc`) is not made again.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
-        self.pool.install(|| PreparedScene::new(scene, &self.kernel, &self.textures, &self.surroundings))
+        self.preparing.install(|| PreparedScene::new(scene, &self.kernel, &self.textures, &self.surroundings))
     }
 
     /// Measures how long the rays of one sample a pixel take one thread, and the bare kernel.

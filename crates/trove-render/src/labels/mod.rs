@@ -17,7 +17,7 @@ use trove_model::{Class, Labels, Raster, Shot};
 pub(crate) use change::changes;
 
 use crate::PreparedScene;
-use crate::accel::Ray;
+use crate::accel::{Hit, PACKET, Ray};
 use crate::prepare::Carrier;
 use flow::Neighbour;
 
@@ -37,6 +37,16 @@ struct Pixel {
     flow_backward: [f32; 2],
 }
 
+/// A pixel that no ray belongs to.
+const OUTSIDE_LENS: Pixel = Pixel {
+    instance: OUTSIDE,
+    range_m: f64::INFINITY,
+    depth_m: f32::INFINITY,
+    normal: [0.0; 3],
+    flow_forward: flow::NONE,
+    flow_backward: flow::NONE,
+};
+
 /// All labels of a picture, computed with the current thread pool; `None` once `stop` answers true, which it then does
 /// for good.
 pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> bool + Sync)) -> Option<Labels> {
@@ -46,8 +56,10 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
         Neighbour::new(scene, shot, shot.world_from_camera_previous, |i| i.world_from_mesh_previous),
     ];
     let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
-    let centre = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let row = |y: u32| (0..width).map(|x| pixel(scene, shot, &carrier, &neighbours, centre(x, y))).collect::<Vec<_>>();
+    let row = |y: u32| {
+        let centres = (0..width).map(|x| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)).collect::<Vec<_>>();
+        centres.chunks(PACKET).flat_map(|centres| pixels(scene, shot, &carrier, &neighbours, centres)).collect()
+    };
     let rows: Option<Vec<Vec<Pixel>>> = (0..height).into_par_iter().map(|y| (!stop()).then(|| row(y))).collect();
     let pixels = rows?.into_iter().flatten().collect();
 
@@ -67,20 +79,38 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
     })
 }
 
-fn pixel(scene: &PreparedScene, shot: &Shot, carrier: &Carrier, neighbours: &[Neighbour; 2], centre: DVec2) -> Pixel {
-    let empty = Pixel {
-        instance: OUTSIDE,
-        range_m: f64::INFINITY,
-        depth_m: f32::INFINITY,
-        normal: [0.0; 3],
-        flow_forward: flow::NONE,
-        flow_backward: flow::NONE,
+/// What up to [`PACKET`] neighbouring pixels show.
+fn pixels(
+    scene: &PreparedScene,
+    shot: &Shot,
+    carrier: &Carrier,
+    neighbours: &[Neighbour; 2],
+    centres: &[DVec2],
+) -> Vec<Pixel> {
+    let directions: Vec<Option<DVec3>> = centres.iter().map(|centre| shot.lens.unproject(*centre)).collect();
+    let rays = directions.iter().flatten().map(|d| carrier.past(ray(shot, shot.world_from_camera.vector(*d))));
+    let mut hits = [None; PACKET];
+    scene.intersect_packet(&rays.collect::<Vec<_>>(), carrier, &mut hits);
+    let mut hits = hits.into_iter();
+    let pixel = |(centre, direction): (&DVec2, &Option<DVec3>)| {
+        direction.map_or(OUTSIDE_LENS, |d| pixel(scene, shot, neighbours, *centre, d, hits.next().flatten()))
     };
-    let Some(direction_camera) = shot.lens.unproject(centre) else { return empty };
+    centres.iter().zip(&directions).map(pixel).collect()
+}
+
+/// What the pixel around a point shows, whose ray has met something or not.
+fn pixel(
+    scene: &PreparedScene,
+    shot: &Shot,
+    neighbours: &[Neighbour; 2],
+    centre: DVec2,
+    direction_camera: DVec3,
+    hit: Option<Hit>,
+) -> Pixel {
     let direction = shot.world_from_camera.vector(direction_camera);
-    let Some(hit) = scene.intersect_past(&carrier.past(ray(shot, direction)), carrier) else {
+    let Some(hit) = hit else {
         let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));
-        return Pixel { instance: SKY, flow_forward, flow_backward, ..empty };
+        return Pixel { instance: SKY, flow_forward, flow_backward, ..OUTSIDE_LENS };
     };
     let origin = shot.world_from_camera.translation;
     let seen = geometry::seen(scene, &hit, origin, direction);

@@ -6,8 +6,10 @@ mod worker;
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -57,7 +59,7 @@ pub struct Summary {
 pub struct RenderedFrame {
     /// Its folder below the output folder.
     pub path: String,
-    /// Making the scene ready, seconds; 0 where an earlier frame's scene was still there.
+    /// Waiting until the scene was ready, seconds; 0 where an earlier frame's scene was still there.
     pub prepare_s: f64,
     /// Picture and labels, seconds, without writing them.
     pub render_s: f64,
@@ -86,7 +88,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let planned = hints.iter().flatten().sum();
     let mut run = Run {
         recipe,
-        renderer,
+        renderer: &renderer,
         sources,
         library: library::gather(recipe, &options.search, &report)?,
         output,
@@ -158,7 +160,7 @@ impl<E: Into<anyhow::Error>> From<E> for Stop {
 /// A run under way.
 struct Run<'a> {
     recipe: &'a Recipe,
-    renderer: Renderer,
+    renderer: &'a Renderer,
     sources: Sources<'a>,
     library: AssetLibrary,
     output: OutputFolder,
@@ -207,7 +209,6 @@ struct Built<'a> {
 
 /// A keyframe's scene, made ready.
 struct Photographed {
-    keyframe: usize,
     scene: Arc<Scene>,
     prepared: PreparedScene,
 }
@@ -344,29 +345,47 @@ impl Run<'_> {
         built: Option<&Built<'_>>,
         base: Option<&Built<'_>>,
     ) -> Result<(), Stop> {
-        let mut photographed: Option<Photographed> = None;
-        let mut before: Option<Photographed> = None;
+        let mut missing: Vec<(usize, Vec<FrameKey>)> = Vec::new();
         for (keyframe, view) in &file.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
             if !self.wants(&key) {
                 continue;
             }
-            if self.finished(&key)?.is_none() {
-                let built = built.with_context(|| format!("{}: vanished during the run", key.path()))?;
-                let shot = built.shot(*keyframe, view).context("a planned view has no shot")?;
-                let mut prepare_s = 0.0;
-                if photographed.as_ref().is_none_or(|p| p.keyframe != *keyframe) {
-                    let started = Instant::now();
-                    photographed = Some(built.photographed(&self.renderer, *keyframe)?);
-                    before = base.map(|base| base.photographed(&self.renderer, *keyframe)).transpose()?;
-                    prepare_s = started.elapsed().as_secs_f64();
-                }
-                let photographed = photographed.as_ref().context("the scene was prepared above")?;
-                self.frame(&key, built.scene.drive, photographed, before.as_ref(), prepare_s, shot)?;
+            if self.finished(&key)?.is_some() {
+                self.progress.frame_done();
+                continue;
             }
-            self.progress.frame_done();
+            match missing.last_mut() {
+                Some((last, keys)) if last == keyframe => keys.push(key),
+                _ => missing.push((*keyframe, vec![key])),
+            }
         }
-        Ok(())
+        let Some((_, keys)) = missing.first() else { return Ok(()) };
+        let built = built.with_context(|| format!("{}: vanished during the run", keys[0].path()))?;
+        let renderer = self.renderer;
+        let ready = &|keyframe| -> Result<_> {
+            let before = base.map(|base| base.photographed(renderer, keyframe)).transpose()?;
+            Ok((built.photographed(renderer, keyframe)?, before))
+        };
+        // A keyframe is made ready, mostly by one core, while the pictures of the one before it are taken.
+        thread::scope(|threads| {
+            let mut ahead = missing.iter().map(|(keyframe, _)| threads.spawn(move || ready(*keyframe)));
+            let mut next = ahead.next();
+            for (_, keys) in &missing {
+                let started = Instant::now();
+                let made = next.take().context("every keyframe is made ready")?.join();
+                let (photographed, before) = made.unwrap_or_else(|panic| resume_unwind(panic))?;
+                next = ahead.next();
+                let mut prepare_s = started.elapsed().as_secs_f64();
+                for key in keys {
+                    let shot = built.shot(key.keyframe, &key.view).context("a planned view has no shot")?;
+                    let drive = built.scene.drive;
+                    self.frame(key, drive, &photographed, before.as_ref(), std::mem::take(&mut prepare_s), shot)?;
+                    self.progress.frame_done();
+                }
+            }
+            Ok(())
+        })
     }
 
     /// Renders one frame and hands it to the writer.
@@ -385,7 +404,7 @@ impl Run<'_> {
             interrupt::requested()
         };
         let started = Instant::now();
-        let Photographed { scene, prepared, .. } = photographed;
+        let Photographed { scene, prepared } = photographed;
         let capture = self.renderer.render(prepared, shot, self.recipe.follows_light(), &within);
         let Some(mut capture) = capture else { return Err(Stop::Interrupted) };
         let after = (&**scene, prepared);
@@ -496,7 +515,7 @@ impl Built<'_> {
     fn photographed(&self, renderer: &Renderer, keyframe: usize) -> Result<Photographed> {
         let scene = Arc::new(self.scene.at(keyframe));
         let prepared = renderer.prepare(&scene)?;
-        Ok(Photographed { keyframe, scene, prepared })
+        Ok(Photographed { scene, prepared })
     }
 
     fn shot(&self, keyframe: usize, view: &str) -> Option<&Shot> {
