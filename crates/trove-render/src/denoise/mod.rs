@@ -18,7 +18,7 @@ pub enum Denoising {
     /// It stays.
     #[default]
     None,
-    /// In a sixth of the best's time, since guides keep their noise: for many small pictures.
+    /// In an eighth of the best's time, since guides keep their noise: for many small pictures.
     Fast,
     /// As well as it goes.
     Best,
