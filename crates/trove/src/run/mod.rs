@@ -369,12 +369,11 @@ impl Run<'_> {
         };
         // A keyframe is made ready, mostly by one core, while the pictures of the one before it are taken.
         thread::scope(|threads| {
-            let mut ahead = missing.iter().map(|(keyframe, _)| threads.spawn(move || ready(*keyframe)));
+            let mut ahead = missing.iter().map(|(keyframe, keys)| (keys, threads.spawn(move || ready(*keyframe))));
             let mut next = ahead.next();
-            for (_, keys) in &missing {
+            while let Some((keys, thread)) = next {
                 let started = Instant::now();
-                let made = next.take().context("every keyframe is made ready")?.join();
-                let (photographed, before) = made.unwrap_or_else(|panic| resume_unwind(panic))?;
+                let (photographed, before) = thread.join().unwrap_or_else(|panic| resume_unwind(panic))?;
                 next = ahead.next();
                 let mut prepare_s = started.elapsed().as_secs_f64();
                 for key in keys {
