@@ -1,7 +1,7 @@
 //! Which of the library's surfaces a place is made of.
 
 use glam::Vec3;
-use trove_model::{AssetLibrary, Material, Outcome, Random, Report, Surface, SurfaceKind};
+use trove_model::{AssetLibrary, Material, Outcome, Random, Report, Surface, SurfaceKind, Tags};
 
 /// The library's surfaces, with plain colours where it lacks a kind.
 pub(crate) struct Palette<'a> {
@@ -57,6 +57,7 @@ fn plain(kind: SurfaceKind) -> Surface {
     Surface {
         id: name.replace(' ', "-"),
         kind,
+        tags: Tags::default(),
         material: Material::plain(name, Vec3::from_array(rgb), roughness),
         size_m,
         cells: [1, 1],

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant};
+use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, Tags};
 
 /// A model.
 ///
@@ -19,6 +19,8 @@ pub struct Asset {
     pub kind: Kind,
     /// What its pixels are.
     pub class: Class,
+    /// What tells it from others of its kind.
+    pub tags: Tags,
     /// Length (x), width (y), height (z) of its bounding box.
     pub size_m: DVec3,
     /// Shape.
@@ -47,6 +49,7 @@ impl Asset {
             id: id.into(),
             kind,
             class,
+            tags: Tags::default(),
             size_m: high.as_dvec3() - low.as_dvec3(),
             mesh: Arc::new(mesh),
             slots,
@@ -57,6 +60,11 @@ impl Asset {
             plant: None,
             licence: licence.into(),
         }
+    }
+
+    /// The same with these tags.
+    pub fn tagged<W: AsRef<str>>(self, words: impl IntoIterator<Item = W>) -> Self {
+        Self { tags: Tags::new(words), ..self }
     }
 
     /// The mesh for a distance from the camera's path.
@@ -172,6 +180,8 @@ pub struct Surface {
     pub id: String,
     /// What it is made of.
     pub kind: SurfaceKind,
+    /// What tells it from others of its kind.
+    pub tags: Tags,
     /// The material; meshes that carry it have uvs in metres, and `uv_scale` is 1 / `size_m`.
     pub material: Material,
     /// What the texture covers, metres (u, v).
@@ -233,9 +243,19 @@ impl AssetLibrary {
         self.assets.iter().filter(move |a| a.kind == kind)
     }
 
+    /// The models of a kind that have all of the tags, in the order of their ids.
+    pub fn tagged<W: AsRef<str>>(&self, kind: Kind, words: &[W]) -> impl Iterator<Item = &Asset> {
+        self.of_kind(kind).filter(move |a| a.tags.has_all(words))
+    }
+
     /// The surfaces of a kind, in the order of their ids.
     pub fn surfaces_of(&self, kind: SurfaceKind) -> impl Iterator<Item = &Surface> {
         self.surfaces.iter().filter(move |s| s.kind == kind)
+    }
+
+    /// The surfaces of a kind that have all of the tags, in the order of their ids.
+    pub fn surfaces_tagged<W: AsRef<str>>(&self, kind: SurfaceKind, words: &[W]) -> impl Iterator<Item = &Surface> {
+        self.surfaces_of(kind).filter(move |s| s.tags.has_all(words))
     }
 
     /// The covers of a kind, in the order of their ids.

@@ -29,6 +29,7 @@ mod scene;
 mod seed;
 mod shot;
 mod street_map;
+mod tags;
 mod variation;
 
 pub use asset::{
@@ -62,3 +63,4 @@ pub use street_map::{
     Building, Cycleway, Furniture, FurnitureKind, Land, LandKind, LineKind, MapLine, Parking, ParkingOrientation, Road,
     RoadKind, RoofShape, Sides, SidewalkSides, StreetMap, Turns,
 };
+pub use tags::Tags;

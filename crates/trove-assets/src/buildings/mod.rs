@@ -27,7 +27,7 @@ pub(crate) fn assets(surfaces: &[Surface]) -> Vec<Asset> {
 #[cfg(test)]
 mod tests {
     use glam::Vec2;
-    use trove_model::{Material, Surface, SurfaceKind};
+    use trove_model::{Material, Surface, SurfaceKind, Tags};
 
     use super::assets;
 
@@ -45,8 +45,15 @@ mod tests {
     fn walls_show_whole_bays_and_storeys() {
         let material = Material { name: "facade/brick-row".into(), uv_scale: Vec2::ONE / 12.0, ..Material::default() };
         let id = material.name.clone();
-        let surface =
-            Surface { id, kind: SurfaceKind::Facade, material, size_m: [11.6, 12.4], cells: [4, 4], design: None };
+        let surface = Surface {
+            id,
+            kind: SurfaceKind::Facade,
+            tags: Tags::default(),
+            material,
+            size_m: [11.6, 12.4],
+            cells: [4, 4],
+            design: None,
+        };
         let assets = assets(std::slice::from_ref(&surface));
         let row = assets.iter().find(|a| a.id == "building/row-houses").unwrap();
         let slot = row.slots.iter().position(|s| s.material.name == surface.id).unwrap();

@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 use glam::{Vec3, vec2, vec3};
 use rayon::prelude::*;
-use trove_model::{Surface, SurfaceKind, Tiling};
+use trove_model::{Surface, SurfaceKind, Tags, Tiling};
 
 pub(crate) use canvas::{Canvas, Texel};
 pub(crate) use noise::{Noise, hash, step};
@@ -101,7 +101,15 @@ fn surface((id, kind, paint): &Recipe, detail: u32) -> Surface {
         "paint/lacquer" => material.coat = 1.0,
         _ => {}
     }
-    Surface { id: (*id).into(), kind: *kind, material, size_m: canvas.size_m.to_array(), cells, design }
+    Surface {
+        id: (*id).into(),
+        kind: *kind,
+        tags: Tags::default(),
+        material,
+        size_m: canvas.size_m.to_array(),
+        cells,
+        design,
+    }
 }
 
 /// How much of what weather and wheels bring stays on a surface.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::{Vec3, vec2};
-use trove_model::{ColorSpace, Material, Outcome, Report, Surface, SurfaceKind, Tiling};
+use trove_model::{ColorSpace, Material, Outcome, Report, Surface, SurfaceKind, Tags, Tiling};
 
 use super::fault::Fault;
 use super::library_file::SurfaceEntry;
@@ -90,7 +90,7 @@ pub(super) fn surface(
     }
     let size_m = entry.size_m.unwrap_or([2.0; 2]).map(|s| if s.is_finite() && s > 0.0 { s } else { 2.0 });
     material.uv_scale = vec2(1.0 / size_m[0], 1.0 / size_m[1]);
-    Ok(Some(Surface { id: id.to_owned(), kind, material, size_m, cells, design: None }))
+    Ok(Some(Surface { id: id.to_owned(), kind, tags: Tags::default(), material, size_m, cells, design: None }))
 }
 
 /// Kinds whose pictures hold whole things have to say how many.

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec2, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Class, Climate, Coarser, ColorSpace, Course, CoverKind, Extra, FacadeDesign, Figure, Filling,
     Fixtures, Foliage, GroundCover, Interior, Kind, LeafType, Mapping, Material, Mesh, Opening, Plant, PlantForm,
-    Posture, Season, Slot, Surface, SurfaceKind, Texture, Tiling,
+    Posture, Season, Slot, Surface, SurfaceKind, Tags, Texture, Tiling,
 };
 
 /// Bytes in the making; meshes and textures, which are shared, lie apart and are referred to by number.
@@ -98,14 +98,14 @@ macro_rules! choices {
 
 fields! {
     AssetLibrary { assets, surfaces, covers }
-    Asset { id, kind, class, size_m, mesh, slots, extras, coarser, commonness, figure, plant, licence }
+    Asset { id, kind, class, tags, size_m, mesh, slots, extras, coarser, commonness, figure, plant, licence }
     Plant { species, form, leaves, genera, habitat, seasons }
     Foliage { season, slot, paints, alpha_cutoff }
     Slot { material, paints }
     Extra { group, share, when_driven, mesh }
     Coarser { from_m, mesh }
     Figure { person, posture }
-    Surface { id, kind, material, size_m, cells, design }
+    Surface { id, kind, tags, material, size_m, cells, design }
     GroundCover { id, kind, side_m, mesh, slots }
     Material {
         name, base_color, base_color_map, alpha_cutoff, roughness, metalness, orm_map, normal_map, height_map, height_m,
@@ -290,6 +290,18 @@ impl Packed for String {
         let (text, left) = from.bytes.split_at_checked(length)?;
         from.bytes = left;
         Self::from_utf8(text.to_vec()).ok()
+    }
+}
+
+impl Packed for Tags {
+    const LEAST: usize = 8;
+
+    fn pack(&self, out: &mut Packer) {
+        self.iter().map(str::to_owned).collect::<Vec<String>>().pack(out);
+    }
+
+    fn unpack(from: &mut Unpacker) -> Option<Self> {
+        Vec::<String>::unpack(from).map(Self::new)
     }
 }
 
