@@ -60,7 +60,8 @@ pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed};
 pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
 pub use street_map::{
-    Building, Cycleway, Furniture, FurnitureKind, Land, LandKind, LineKind, MapLine, Parking, ParkingOrientation, Road,
-    RoadKind, RoofShape, Sides, SidewalkSides, StreetMap, Turns,
+    BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind, LampMount,
+    Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind, RoadSurface,
+    RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
 };
 pub use tags::Tags;

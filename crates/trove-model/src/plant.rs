@@ -131,7 +131,7 @@ pub struct Plant {
     pub form: PlantForm,
     /// What leaves it has.
     pub leaves: LeafType,
-    /// What a map may call it: lower-case parts of `species`, `taxon` or `genus` (`tilia`, `linden`).
+    /// What a map may call it: lower-case words of `species`, `taxon` or `genus` (`tilia`, `linden`).
     pub genera: Vec<String>,
     /// How common it is where; 1 in a climate that is not named, and where 0 it does not live.
     pub habitat: Vec<(Climate, f32)>,
@@ -159,9 +159,10 @@ impl Plant {
         self.habitat.iter().find(|(c, _)| *c == climate).map_or(1.0, |(_, share)| *share)
     }
 
-    /// Whether a map's description (lower case) names it.
-    pub fn is_called(&self, description: &str) -> bool {
-        self.genera.iter().any(|genus| description.contains(genus.as_str()))
+    /// Whether a word of a map's name of a species or genus (lower case) names it.
+    pub fn is_called(&self, species: &str) -> bool {
+        let mut words = species.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| self.genera.iter().any(|genus| genus == word))
     }
 }
 

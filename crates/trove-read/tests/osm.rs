@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 use proptest::prelude::*;
 use trove_model::{
-    Bounds, Cycleway, FurnitureKind, LandKind, LineKind, MapProjection, Outcome, Parking, ParkingOrientation, Report,
-    RoadKind, RoofShape, StreetMap, Turns,
+    BarrierStyle, Bounds, BuildingKind, CrossingMarking, Cycleway, FurnitureDetail, FurnitureKind, LampMount, LandKind,
+    LeafType, LineKind, MapProjection, MappedPlant, MappedSign, Outcome, Parking, ParkingOrientation, Report, RoadKind,
+    RoadSurface, RoofMaterial, RoofShape, StreetMap, Turns, WallMaterial,
 };
 use trove_read::{ReadError, osm};
 
@@ -75,13 +76,13 @@ fn a_building_has_what_its_tags_say() {
                 |building:colour=#FFFFFF|roof:colour=Grey|building:material=brick|min_height=3|name=A &amp; B";
     let (map, report) = read(&(squares() + &way(9, &[4, 3, 2, 1, 4], tags)));
     let building = &map.buildings[0];
-    assert_eq!((building.id, building.kind.as_str(), building.part), (9, "apartments", false));
+    assert_eq!((building.id, building.kind, building.part), (9, Some(BuildingKind::Apartments), false));
     assert!((building.height_m.unwrap() - 12.192).abs() < 1e-9);
     assert_eq!((building.levels, building.roof_height_m, building.min_height_m), (Some(3.5), Some(2.0), 3.0));
     assert_eq!(building.roof, Some(RoofShape::HalfHipped));
     assert_eq!(building.color, Some(glam::Vec3::ONE));
     assert!((building.roof_color.unwrap().x - 0.2159).abs() < 1e-3);
-    assert_eq!((building.material.as_str(), building.name.as_str()), ("brick", "A & B"));
+    assert_eq!((building.material, building.name.as_str()), (Some(WallMaterial::Brick), "A & B"));
     assert!((building.footprint.area_m2() - 100.0).abs() < 1e-6);
     assert_eq!(report.entries(), []);
     assert_eq!(map.licence, "© OpenStreetMap contributors, ODbL 1.0");
@@ -96,7 +97,7 @@ fn a_road_has_what_its_tags_say() {
     let (map, report) = read(&content);
     let road = &map.roads[0];
     assert_eq!((road.kind, road.lanes, road.width_m), (RoadKind::Primary, Some(4), Some(12.5)));
-    assert!(road.oneway && road.bridge && road.layer == 1 && road.surface == "asphalt");
+    assert!(road.oneway && road.bridge && road.layer == 1 && road.surface == Some(RoadSurface::Asphalt));
     assert!((road.centreline[0] - DVec2::splat(10.0)).length() < 1e-6, "oneway=-1 runs the other way");
     assert_eq!((road.sidewalk.left, road.sidewalk.right), (Some(false), Some(true)));
     assert!(map.roads[1].oneway && map.roads[1].centreline.len() == 5);
@@ -147,10 +148,78 @@ fn roofs_dates_and_shops_are_read() {
     };
     let (map, _) = read(&(squares() + &way(1, &[1, 2, 3, 4, 1], tags)));
     let building = &map.buildings[0];
-    assert_eq!((building.roof_material.as_str(), building.roof_levels), ("roof_tiles", Some(2.0)));
+    assert_eq!((building.roof_material, building.roof_levels), (Some(RoofMaterial::Tiles), Some(2.0)));
     assert!((building.roof_direction_rad.unwrap().to_degrees() - 270.0).abs() < 1e-9);
     assert_eq!((building.ridge_across, building.year, building.shop), (true, Some(1850), false));
     assert!(shop("shop=bakery") && shop("amenity=cafe") && !shop("shop=bakery|level=3") && !shop("amenity=bench"));
+}
+
+#[test]
+fn a_word_that_no_table_has_is_reported_with_its_place() {
+    let content = squares()
+        + &way(1, &[1, 2, 3, 4, 1], "building=pagoda|building:material=jelly|roof:material=marzipan|roof:shape=twisted")
+        + &way(2, &[1, 2], "highway=residential|surface=lava")
+        + &way(3, &[1, 2], "barrier=fence|fence_type=moat")
+        + &way(4, &[1, 3], "highway=footway|footway=crossing|crossing=leap")
+        + &way(5, &[5, 6, 7, 8, 5], "building=yes");
+    let (map, report) = read(&content);
+    let [pagoda, plain] = &map.buildings[..] else { panic!("{:?}", map.buildings) };
+    assert_eq!((pagoda.kind, pagoda.material, pagoda.roof_material), (Some(BuildingKind::Other), None, None));
+    assert_eq!((plain.kind, map.roads[0].surface, map.lines[0].style, map.roads[1].crossing), (None, None, None, None));
+    let entries = report.entries();
+    let examples = entries.iter().filter(|e| e.what.contains("not known")).flat_map(|e| e.examples.clone());
+    let mut examples: Vec<String> = examples.collect();
+    examples.sort();
+    let expected = [
+        "way 1: jelly",
+        "way 1: marzipan",
+        "way 1: pagoda",
+        "way 1: twisted",
+        "way 2: lava",
+        "way 3: moat",
+        "way 4: leap",
+    ];
+    assert_eq!(examples, expected);
+}
+
+#[test]
+fn a_crossing_is_marked_as_the_word_that_says_most() {
+    let marking = |tags: &str| {
+        let (map, _) = read(&(squares() + &way(1, &[1, 3], &format!("highway=footway|footway=crossing|{tags}"))));
+        map.roads[0].crossing
+    };
+    assert_eq!(marking(""), None);
+    assert_eq!(marking("crossing=marked"), Some(CrossingMarking::Usual));
+    assert_eq!(marking("crossing:markings=yes|crossing=traffic_signals"), Some(CrossingMarking::Signals));
+    assert_eq!(marking("crossing:markings=no|crossing=traffic_signals"), Some(CrossingMarking::Unmarked));
+    assert_eq!(marking("crossing_ref=pelican|crossing=uncontrolled"), Some(CrossingMarking::Signals));
+    assert_eq!(marking("crossing:markings=dots;surface"), Some(CrossingMarking::Dashes));
+}
+
+#[test]
+fn single_things_have_what_their_words_say() {
+    let detail = |tags: &str| {
+        let (map, _) = read(&element("node id='1' lat='0' lon='0'", "", tags));
+        map.furniture[0].detail.clone()
+    };
+    let plant = |species: Option<&str>, leaves| {
+        Some(FurnitureDetail::Plant(MappedPlant { species: species.map(str::to_owned), leaves }))
+    };
+    assert_eq!(detail("natural=tree"), None);
+    assert_eq!(
+        detail("natural=tree|species=Tilia cordata|leaf_type=broadleaved"),
+        plant(Some("tilia cordata"), Some(LeafType::Broad))
+    );
+    assert_eq!(detail("natural=tree|leaf_type=needleleaved"), plant(None, Some(LeafType::Needle)));
+    assert_eq!(detail("natural=tree|taxon=Royal palm"), plant(Some("royal palm"), Some(LeafType::Frond)));
+    assert_eq!(detail("natural=tree|leaf_type=mixed"), None);
+    assert_eq!(detail("traffic_sign=DE:298,DE:206"), Some(FurnitureDetail::Sign(MappedSign::Stop)));
+    assert_eq!(detail("traffic_sign=DE:298"), Some(FurnitureDetail::Sign(MappedSign::Other)));
+    assert_eq!(detail("traffic_sign=yes"), None);
+    let limit = MappedSign::SpeedLimit { limit_kmh: 30.0 };
+    assert_eq!(detail("traffic_sign=maxspeed|maxspeed=30"), Some(FurnitureDetail::Sign(limit)));
+    assert_eq!(detail("highway=street_lamp|lamp_mount=bent_mast"), Some(FurnitureDetail::Lamp(LampMount::BentMast)));
+    assert_eq!(detail("highway=crossing|crossing=zebra"), Some(FurnitureDetail::Crossing(CrossingMarking::Zebra)));
 }
 
 #[test]
@@ -160,8 +229,8 @@ fn fences_and_rows_are_drawn_along_their_ways() {
         + &way(2, &[1, 2], "barrier=bollard")
         + &way(3, &[1, 2], "railway=tram|highway=residential");
     let (map, _) = read(&content);
-    let lines: Vec<_> = map.lines.iter().map(|l| (l.kind, l.line.len(), l.height_m, l.detail.as_str())).collect();
-    assert_eq!(lines, [(LineKind::Fence, 5, Some(1.2), "railing"), (LineKind::Tram, 2, None, "")]);
+    let lines: Vec<_> = map.lines.iter().map(|l| (l.kind, l.line.len(), l.height_m, l.style)).collect();
+    assert_eq!(lines, [(LineKind::Fence, 5, Some(1.2), Some(BarrierStyle::Bars)), (LineKind::Tram, 2, None, None)]);
     assert_eq!((map.land.len(), map.roads.len(), map.furniture.len()), (1, 1, 7));
 }
 
@@ -430,6 +499,25 @@ proptest! {
             bytes.truncate(cut.index(bytes.len()));
         }
         let _ = read_bytes(&bytes);
+    }
+
+    #[test]
+    fn any_words_never_panic(words in prop::collection::vec("[^<>&'\u{0}-\u{1f}|=\u{fffe}\u{ffff}]{0,12}", 12)) {
+        const KEYS: [&str; 12] = [
+            "building:material", "roof:material", "roof:shape", "surface", "crossing", "fence_type", "species",
+            "leaf_type", "traffic_sign", "maxspeed", "lamp_mount", "crossing:markings",
+        ];
+        let tags: String = KEYS.iter().zip(&words).map(|(key, word)| format!("|{key}={word}")).collect();
+        let things = ["highway=crossing", "highway=street_lamp", "natural=tree", "highway=traffic_sign"];
+        let nodes: String = (20..).zip(things).map(|(id, thing)| {
+            element(&format!("node id='{id}' lat='0' lon='0'"), "", &format!("{thing}{tags}"))
+        }).collect();
+        let content = squares() + &nodes
+            + &way(1, &[1, 2, 3, 4, 1], &format!("building={}{tags}", words[0]))
+            + &way(2, &[1, 2], &format!("highway=residential{tags}"))
+            + &way(3, &[1, 2], &format!("barrier=fence{tags}"));
+        let (map, _) = read(&content);
+        prop_assert_eq!((map.furniture.len(), map.lines.len()), (4, 1));
     }
 
     #[test]

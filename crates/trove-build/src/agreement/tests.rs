@@ -131,7 +131,7 @@ fn a_map_is_laid_on_the_walls_that_the_lidar_saw() {
     drive.keyframes[2].lidar = Some(LidarSweep { origin_world, points_world: points, classes: Vec::new() });
     let house = |id: i64, low: [f64; 2], high: [f64; 2]| {
         let ring = [low, [high[0], low[1]], high, [low[0], high[1]]].map(DVec2::from_array).to_vec();
-        Building::new(id, Polygon::simple(ring), "yes")
+        Building::new(id, Polygon::simple(ring), None)
     };
     let buildings = vec![house(1, [0.0, 12.0], [30.0, 30.0]), house(2, [-10.0, -30.0], [40.0, -14.0])];
     let right = StreetMap { buildings, ..map(&STREETS[..1], 0.0) };
@@ -148,7 +148,7 @@ fn what_becomes_of_a_map_that_does_not_agree_is_the_users_choice() {
     map.buildings.push(Building::new(
         1,
         Polygon::simple([[0.0, 30.0], [9.0, 30.0], [9.0, 40.0]].map(DVec2::from_array).to_vec()),
-        "yes",
+        None,
     ));
     let bounds = crate::area(&drive).unwrap();
     let check = |on_disagreement| {

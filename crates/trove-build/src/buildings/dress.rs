@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use glam::{Vec3, vec3};
-use trove_model::{Building, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind};
+use trove_model::{
+    Building, BuildingKind, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind, WallMaterial,
+};
 
 use super::region::Region;
-use super::volumes::{House, is_house};
+use super::volumes::House;
 use super::walls::Grid;
 use crate::palette::Palette;
 
@@ -56,14 +58,13 @@ impl Dress {
 /// Draws what a building wears by its tags, its kind, its height and its part of the world.
 pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, random: &mut Random) -> Dress {
     let building = house.building;
-    let kind = building.kind.as_str();
     // A garage is a ground floor and nothing else.
-    let facade = if matches!(kind, "garage" | "garages" | "carport") {
+    let facade = if matches!(building.kind, Some(BuildingKind::Garage | BuildingKind::Carport)) {
         palette.fitting(SurfaceKind::FacadeGroundFloor, &["garage"], random)
     } else {
-        palette.fitting(SurfaceKind::Facade, facade_words(house, kind, height_m, random), random)
+        palette.fitting(SurfaceKind::Facade, facade_words(house, height_m, random), random)
     };
-    let words = ground_floor_words(house, kind, height_m, &facade.id, random);
+    let words = ground_floor_words(house, height_m, &facade.id, random);
     let ground_floor = words.map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
     let paints = facade.design.as_ref().map_or(&[][..], |d| &d.paints);
     let paint = random.pick(paints).copied().unwrap_or(Vec3::ONE) * shade(random);
@@ -76,7 +77,7 @@ pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, ran
     let ground_paint = if ground_floor.as_ref().is_none_or(alike) { paint } else { shade(random) };
     flat_ground.base_color *= ground_paint;
     let trim = palette.fitting(SurfaceKind::Concrete, &[], random).material;
-    let mut roof = super::roof::materials(building, kind, house.region, &facade.id, flat.base_color, palette, random);
+    let mut roof = super::roof::materials(building, house.region, &facade.id, flat.base_color, palette, random);
     let bare = |surface: &Surface, paint: Vec3, random: &mut Random| {
         let design = surface.design.as_ref()?;
         let mut wall = palette.fitting(SurfaceKind::Wall, &[design.wall.as_str()], random).material;
@@ -178,31 +179,32 @@ fn fittings(
     ]
 }
 
-fn facade_words(house: &House<'_>, kind: &str, height_m: f64, random: &mut Random) -> &'static [&'static str] {
+fn facade_words(house: &House<'_>, height_m: f64, random: &mut Random) -> &'static [&'static str] {
+    use BuildingKind as K;
     let building = house.building;
     let old = building.year.is_none_or(|year| year < PLAIN_FROM);
-    match building.material.as_str() {
-        _ if kind == "construction" => return &["carcass"],
-        "brick" => return &["brick", "victorian"],
-        "glass" | "mirror" => return &["glass"],
-        "metal" | "steel" => return &["metal"],
-        "concrete" | "reinforced_concrete" => return &["slab", "ribbon", "panel"],
-        "plaster" | "stucco" | "render" => return stucco(house.region, old && height_m > 9.0),
-        "stone" | "sandstone" | "limestone" | "granite" => return &["victorian", "hotel", "ornate"],
-        "wood" | "timber_framing" => return &["wood"],
-        "tiles" => return &["tiled"],
-        _ => {}
+    match (building.kind, building.material) {
+        (Some(K::Construction), _) => return &["carcass"],
+        (_, Some(WallMaterial::Brick)) => return &["brick", "victorian"],
+        (_, Some(WallMaterial::Glass)) => return &["glass"],
+        (_, Some(WallMaterial::Metal)) => return &["metal"],
+        (_, Some(WallMaterial::Concrete)) => return &["slab", "ribbon", "panel"],
+        (_, Some(WallMaterial::Plaster)) => return stucco(house.region, old && height_m > 9.0),
+        (_, Some(WallMaterial::Stone)) => return &["victorian", "hotel", "ornate"],
+        (_, Some(WallMaterial::Wood)) => return &["wood"],
+        (_, Some(WallMaterial::Tiles)) => return &["tiled"],
+        (_, None) => {}
     }
-    let home = matches!(kind, "apartments" | "residential" | "dormitory" | "terrace" | "yes");
-    match kind {
-        "industrial" | "warehouse" | "hangar" => return &["warehouse", "mill"],
-        "shed" => return &["wood", "plaster-plain"],
-        "hotel" => return &["hotel", "panel"],
-        "parking" => return &["ribbon"],
-        "office" | "commercial" => return &["glass", "ribbon", "panel", "mill"],
-        "retail" | "supermarket" if height_m < LOW_M => return &["mixed", "panel", "brick"],
-        kind if is_house(kind) && house.region == Region::NorthAmerica => return &["wood", "wood", "brick-row"],
-        kind if is_house(kind) => return stucco(house.region, false),
+    let home = matches!(building.kind, Some(K::Apartments | K::Residential | K::Terrace) | None);
+    match building.kind {
+        Some(kind) if kind.is_works() => return &["warehouse", "mill"],
+        Some(K::Shed) => return &["wood", "plaster-plain"],
+        Some(K::Hotel) => return &["hotel", "panel"],
+        Some(K::Parking) => return &["ribbon"],
+        Some(K::Office | K::Commercial) => return &["glass", "ribbon", "panel", "mill"],
+        Some(K::Retail | K::Supermarket) if height_m < LOW_M => return &["mixed", "panel", "brick"],
+        Some(kind) if kind.is_house() && house.region == Region::NorthAmerica => return &["wood", "wood", "brick-row"],
+        Some(kind) if kind.is_house() => return stucco(house.region, false),
         _ => {}
     }
     match house.region {
@@ -214,7 +216,7 @@ fn facade_words(house: &House<'_>, kind: &str, height_m: f64, random: &mut Rando
         Region::EastAsia => &["tiled", "glass", "ribbon", "panel"],
         Region::TropicalAsia if home && height_m > LOW_M => &["public-flats", "public-flats", "slab", "mixed"],
         Region::TropicalAsia => &["plaster-plain", "mixed", "tiled", "panel"],
-        _ if kind == "terrace" => &["brick-row", "victorian"],
+        _ if building.kind == Some(K::Terrace) => &["brick-row", "victorian"],
         _ if home && height_m > 28.0 => &["slab", "panel", "mixed", "hotel", "brick-row"],
         _ if height_m > LOW_M => &["mill", "ribbon", "panel", "glass", "mixed", "brick-row"],
         _ => &["brick", "victorian", "mixed", "brick-row"],
@@ -232,7 +234,6 @@ fn stucco(region: Region, ornate: bool) -> &'static [&'static str] {
 
 fn ground_floor_words(
     house: &House<'_>,
-    kind: &str,
     height_m: f64,
     facade: &str,
     random: &mut Random,
@@ -240,13 +241,23 @@ fn ground_floor_words(
     let building: &Building = house.building;
     let shop = building.shop || random.chance(0.35);
     let is = |word: &str| facade.contains(word);
-    match kind {
-        kind if is_house(kind) && !building.shop => None,
-        "garage" | "garages" | "carport" | "shed" | "roof" | "hut" | "church" | "cathedral" | "construction"
-        | "parking" => None,
-        "industrial" | "warehouse" | "hangar" => Some(&["loading"]),
-        "office" | "commercial" | "hotel" => Some(&["lobby"]),
-        "retail" | "supermarket" => Some(&["shops"]),
+    use BuildingKind as K;
+    match building.kind {
+        Some(kind) if kind.is_house() && !building.shop => None,
+        Some(
+            K::Garage
+            | K::Carport
+            | K::Shed
+            | K::Canopy
+            | K::Hut
+            | K::Worship
+            | K::Chapel
+            | K::Construction
+            | K::Parking,
+        ) => None,
+        Some(kind) if kind.is_works() => Some(&["loading"]),
+        Some(K::Office | K::Commercial | K::Hotel) => Some(&["lobby"]),
+        Some(K::Retail | K::Supermarket) => Some(&["shops"]),
         _ if is("public-flats") => Some(&["void-deck"]),
         _ if is("tiled") || (house.region == Region::EastAsia && height_m < TOWER_M) => Some(&["arcade"]),
         _ if is("ornate") => Some(&["rusticated"]),
@@ -297,7 +308,7 @@ mod tests {
 
     #[test]
     fn there_is_a_material_for_every_slot() {
-        let building = Building::new(1, trove_model::Polygon::default(), "apartments");
+        let building = Building::new(1, trove_model::Polygon::default(), Some(BuildingKind::Apartments));
         let (library, report) = (trove_model::AssetLibrary::default(), trove_model::Report::default());
         let palette = Palette { library: &library, report: &report };
         let dress = dress(&house(&building, Region::EastAsia), 20.0, &palette, &mut trove_model::Seed(1).random());
@@ -309,9 +320,9 @@ mod tests {
 
     #[test]
     fn the_same_flats_wear_what_people_build_there() {
-        let building = Building::new(1, trove_model::Polygon::default(), "apartments");
+        let building = Building::new(1, trove_model::Polygon::default(), Some(BuildingKind::Apartments));
         let worn = |region, random: &mut Random| {
-            let words = facade_words(&house(&building, region), "apartments", 20.0, random);
+            let words = facade_words(&house(&building, region), 20.0, random);
             (0..8).map(|_| *random.pick(words).unwrap()).collect::<Vec<&str>>()
         };
         let mut random = trove_model::Seed(3).random();

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3, IVec3};
-use trove_model::{Bounds, Building, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed};
+use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed};
 
 use super::region::Region;
 use super::volumes::{Near, STOREY_M};
@@ -111,24 +111,25 @@ pub(super) fn unmapped(
         taken = union(&[taken, vec![footprint.clone()]].concat());
         // The beams do not reach the eaves.
         let height_m = Some((storeys * STOREY_M).max(facade.top_m));
-        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, kind) });
+        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, Some(kind)) });
     }
     report.measure("buildings.from_lidar", built.len() as f64);
     built
 }
 
 /// Kind, storeys and depth of a building of which only a facade of some length is known.
-fn guess(length_m: f64, region: Region, random: &mut Random) -> (&'static str, f64, f64) {
+fn guess(length_m: f64, region: Region, random: &mut Random) -> (BuildingKind, f64, f64) {
     let (drawn, storeys, depth) = (random.unit(), random.unit(), random.unit());
     let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::NorthAmerica);
     if length_m < LARGE_M {
         return (
-            if drawn < 0.6 { "commercial" } else { "apartments" },
+            if drawn < 0.6 { BuildingKind::Commercial } else { BuildingKind::Apartments },
             (3.0 + 3.0 * storeys).round(),
             8.0 + 6.0 * depth,
         );
     }
-    let kind = if drawn < if is_dense { 0.85 } else { 0.4 } { "office" } else { "apartments" };
+    let is_office = drawn < if is_dense { 0.85 } else { 0.4 };
+    let kind = if is_office { BuildingKind::Office } else { BuildingKind::Apartments };
     let storeys = if is_dense { 5.0 + 6.0 * storeys } else { 4.0 + 3.0 * storeys };
     (kind, storeys.round(), 14.0 + 10.0 * depth)
 }

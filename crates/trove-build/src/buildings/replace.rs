@@ -1,11 +1,11 @@
 //! Building assets in place of plain rectangular buildings.
 
 use glam::{DAffine3, DQuat, DVec2, DVec3};
-use trove_model::{Asset, AssetLibrary, Kind, Random};
+use trove_model::{Asset, AssetLibrary, BuildingKind, Kind, Random};
 
 use super::rectangle::{Base, base};
 use super::region::Region;
-use super::volumes::{House, is_house};
+use super::volumes::House;
 use crate::roads::{Footing, RoadSurfaces};
 
 /// Of the buildings that could be replaced so many are; the rest keeps streets from repeating few models.
@@ -43,7 +43,7 @@ pub(super) fn replacement<'a>(
     let described = building.part
         || volume.bottom_m > 0.0
         || building.roof.is_some()
-        || !building.material.is_empty()
+        || building.material.is_some()
         || building.color.is_some();
     let stands_alone = volume.sides.iter().all(|s| s.covers.is_empty() && s.room_m >= LEAST_ROOM_M);
     let is_plain = !volume.is_canopy && !volume.is_built_on && volume.footprint.holes.is_empty();
@@ -61,7 +61,7 @@ pub(super) fn replacement<'a>(
         misfit(asset.size_m, size_m).map(|misfit| (misfit, asset, front, size_m))
     };
     let best = |front: DVec2| {
-        let suitable = |a: &&Asset| suits(&a.id, &building.kind, house.region);
+        let suitable = |a: &&Asset| suits(&a.id, building.kind, house.region);
         let fitting = library.of_kind(Kind::Building).filter(suitable).filter_map(|a| candidate(a, front));
         fitting.min_by(|a, b| a.0.total_cmp(&b.0))
     };
@@ -75,22 +75,24 @@ pub(super) fn replacement<'a>(
 }
 
 /// Whether a model, by the words in its id, may stand for a kind of building in a region; any other model may for all.
-fn suits(id: &str, kind: &str, region: Region) -> bool {
+fn suits(id: &str, kind: Option<BuildingKind>, region: Region) -> bool {
+    use BuildingKind as K;
     let has = |words: &[&str]| words.iter().any(|w| id.contains(w));
     let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia);
-    let is_unknown = matches!(kind, "yes" | "");
+    let is_unknown = kind.is_none();
+    let is = |kinds: &[K]| kind.is_some_and(|kind| kinds.contains(&kind));
     if has(&["house"]) && !has(&["warehouse"]) {
-        is_house(kind) || (kind == "terrace" && has(&["row"])) || (is_unknown && !is_dense)
+        kind.is_some_and(K::is_house) || (is(&[K::Terrace]) && has(&["row"])) || (is_unknown && !is_dense)
     } else if has(&["apartments", "slab"]) {
-        matches!(kind, "apartments" | "residential" | "dormitory") || is_unknown
+        is(&[K::Apartments, K::Residential]) || is_unknown
     } else if has(&["office"]) {
-        matches!(kind, "office" | "commercial" | "public" | "civic") || (is_unknown && is_dense)
+        is(&[K::Office, K::Commercial, K::Public]) || (is_unknown && is_dense)
     } else if has(&["warehouse"]) {
-        matches!(kind, "industrial" | "warehouse" | "hangar")
+        kind.is_some_and(K::is_works)
     } else if has(&["hotel"]) {
-        kind == "hotel"
+        is(&[K::Hotel])
     } else if has(&["shop", "mixed"]) {
-        matches!(kind, "retail" | "commercial" | "residential" | "apartments") || is_unknown
+        is(&[K::Retail, K::Commercial, K::Residential, K::Apartments]) || is_unknown
     } else {
         true
     }
@@ -121,12 +123,12 @@ mod tests {
 
     #[test]
     fn no_country_house_stands_in_a_business_park() {
-        assert!(suits("building/detached-house", "house", Region::TropicalAsia));
-        assert!(suits("building/detached-house", "yes", Region::NorthernEurope));
-        assert!(!suits("building/detached-house", "yes", Region::TropicalAsia));
-        assert!(!suits("building/row-houses", "office", Region::NorthAmerica));
-        assert!(suits("building/office-ribbon", "office", Region::TropicalAsia));
-        assert!(suits("my/own-model", "office", Region::Elsewhere));
+        assert!(suits("building/detached-house", Some(BuildingKind::House), Region::TropicalAsia));
+        assert!(suits("building/detached-house", None, Region::NorthernEurope));
+        assert!(!suits("building/detached-house", None, Region::TropicalAsia));
+        assert!(!suits("building/row-houses", Some(BuildingKind::Office), Region::NorthAmerica));
+        assert!(suits("building/office-ribbon", Some(BuildingKind::Office), Region::TropicalAsia));
+        assert!(suits("my/own-model", Some(BuildingKind::Office), Region::Elsewhere));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, Mat3, Vec3};
-use trove_model::{
+use trove_model::{BarrierStyle, 
     Asset, Kind, LandKind, LineKind, MapLine, Material, Mesh, Outcome, Random, Report, Road, RoadKind, Seed,
 };
 
@@ -124,31 +124,31 @@ fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
 
 /// What a mapped line looks like, with its height over the model's; `None` for what others build.
 fn model(line: &MapLine, random: &mut Random) -> Option<(Kind, &'static str, f64)> {
-    let says = |words: &[&str]| words.iter().any(|w| line.detail.contains(w));
-    let (kind, model, model_m) = match line.kind {
-        LineKind::Fence if says(&["handrail"]) => (Kind::GuardRail, "guard-rail/railing", 1.04),
-        LineKind::Fence if says(&["chain", "wire", "mesh"]) => (Kind::Fence, "fence/chain-link", 1.85),
-        LineKind::Fence if says(&["wood", "split_rail", "picket", "pole"]) => (Kind::Fence, "fence/wood", 1.73),
-        LineKind::Fence if says(&["metal", "railing", "bar", "iron", "steel"]) => (Kind::Fence, "fence/bars", 1.32),
-        LineKind::Fence if says(&["panel", "corrugated", "slat", "concrete"]) => (Kind::Fence, "fence/panel", 1.85),
-        LineKind::Fence if says(&["hoarding", "construction"]) => (Kind::Fence, "fence/hoarding", 2.12),
-        LineKind::Fence => *random.pick(&[
+    use BarrierStyle as S;
+    let (kind, model, model_m) = match (line.kind, line.style) {
+        (LineKind::Fence, Some(S::Handrail)) => (Kind::GuardRail, "guard-rail/railing", 1.04),
+        (LineKind::Fence, Some(S::Wire)) => (Kind::Fence, "fence/chain-link", 1.85),
+        (LineKind::Fence, Some(S::Wood)) => (Kind::Fence, "fence/wood", 1.73),
+        (LineKind::Fence, Some(S::Bars)) => (Kind::Fence, "fence/bars", 1.32),
+        (LineKind::Fence, Some(S::Panels | S::Concrete)) => (Kind::Fence, "fence/panel", 1.85),
+        (LineKind::Fence, Some(S::Hoarding)) => (Kind::Fence, "fence/hoarding", 2.12),
+        (LineKind::Fence, Some(S::Brick | S::Stone) | None) => *random.pick(&[
             (Kind::Fence, "fence/bars", 1.32),
             (Kind::Fence, "fence/bars", 1.32),
             (Kind::Fence, "fence/chain-link", 1.85),
             (Kind::Fence, "fence/wood", 1.73),
         ])?,
-        LineKind::Wall if says(&["brick"]) => (Kind::Wall, "wall/brick", 2.4),
-        LineKind::Wall if says(&["stone", "gabion"]) => (Kind::Wall, "wall/stone", 2.2),
-        LineKind::Wall if says(&["concrete", "noise", "sound", "retaining"]) => (Kind::Wall, "wall/concrete", 2.0),
-        LineKind::Wall => *random.pick(&[
+        (LineKind::Wall, Some(S::Brick)) => (Kind::Wall, "wall/brick", 2.4),
+        (LineKind::Wall, Some(S::Stone)) => (Kind::Wall, "wall/stone", 2.2),
+        (LineKind::Wall, Some(S::Concrete)) => (Kind::Wall, "wall/concrete", 2.0),
+        (LineKind::Wall, _) => *random.pick(&[
             (Kind::Wall, "wall/brick", 2.4),
             (Kind::Wall, "wall/concrete", 2.0),
             (Kind::Wall, "wall/stone", 2.2),
         ])?,
-        LineKind::GuardRail if says(&["jersey", "concrete"]) => (Kind::GuardRail, "guard-rail/parapet", 0.86),
-        LineKind::GuardRail => (Kind::GuardRail, "guard-rail/w-beam", 0.76),
-        LineKind::Hedge | LineKind::PowerLine | LineKind::Tram | LineKind::Railway => return None,
+        (LineKind::GuardRail, Some(S::Concrete)) => (Kind::GuardRail, "guard-rail/parapet", 0.86),
+        (LineKind::GuardRail, _) => (Kind::GuardRail, "guard-rail/w-beam", 0.76),
+        (LineKind::Hedge | LineKind::PowerLine | LineKind::Tram | LineKind::Railway, _) => return None,
     };
     let guessed = if kind == Kind::GuardRail { 1.0 } else { random.range(HEIGHTS[0], HEIGHTS[1]) };
     let scale = line.height_m.filter(|h| (0.3..=8.0).contains(h)).map_or(guessed, |height_m| height_m / model_m);

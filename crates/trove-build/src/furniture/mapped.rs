@@ -1,7 +1,7 @@
 //! Furniture that the map has, moved out of the carriageway.
 
 use glam::DVec2;
-use trove_model::{Furniture, FurnitureKind, Kind, Outcome, Report};
+use trove_model::{Furniture, FurnitureKind, Kind, LampMount, MappedSign, Outcome, Report};
 
 use super::junctions::kerb_side;
 use super::yard::{Source, Wish, Yard, facing};
@@ -59,14 +59,14 @@ fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(K
     let habits = yard.habits;
     let one = |kind: Kind, model: &str| vec![(kind, model.to_owned())];
     match thing.kind {
-        FurnitureKind::StreetLamp => lamp(&thing.detail).map(|model| one(Kind::StreetLamp, model)).unwrap_or_default(),
+        FurnitureKind::StreetLamp => lamp(thing.lamp()).map(|model| one(Kind::StreetLamp, model)).unwrap_or_default(),
         FurnitureKind::StopSign => one(Kind::TrafficSign, habits.sign("sign/us/stop", "sign/stop")),
         FurnitureKind::GiveWaySign => one(Kind::TrafficSign, habits.sign("sign/us/yield", "sign/give-way")),
         FurnitureKind::TrafficSign => {
-            let model = sign(&thing.detail, yard);
+            let model = thing.sign().and_then(|said| sign(said, yard));
             if model.is_none() {
                 let what = "mapped sign that the library has no picture of";
-                report.note(Outcome::Dropped, what, format_args!("osm {}: {}", thing.id, thing.detail));
+                report.note(Outcome::Dropped, what, format_args!("osm {}", thing.id));
             }
             model.map(|model| vec![(Kind::TrafficSign, model)]).unwrap_or_default()
         }
@@ -95,36 +95,33 @@ fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(K
     }
 }
 
-/// By `lamp_mount`; `None` for what hangs on walls and wires.
-fn lamp(mount: &str) -> Option<&'static str> {
+/// What stands for a lamp; `None` for what hangs on walls and wires or lies in the ground.
+fn lamp(mount: Option<LampMount>) -> Option<&'static str> {
     match mount {
-        "wall_mounted" | "wall" | "suspended" | "ceiling" | "ground" => None,
-        "straight_mast" => Some("lamp/post-top"),
-        "bent_mast" | "high_mast" => Some("lamp/curved"),
-        _ => Some("lamp/straight"),
+        Some(LampMount::Wall | LampMount::Wires | LampMount::Ground) => None,
+        Some(LampMount::StraightMast) => Some("lamp/post-top"),
+        Some(LampMount::BentMast) => Some("lamp/curved"),
+        None => Some("lamp/straight"),
     }
 }
 
-/// By `traffic_sign`, in words or in Germany's, Austria's and Switzerland's numbers.
-fn sign(text: &str, yard: &Yard<'_, '_, '_>) -> Option<String> {
+/// The model of a sign; `None` where the library has none that says the same.
+fn sign(said: MappedSign, yard: &Yard<'_, '_, '_>) -> Option<String> {
     let habits = yard.habits;
-    let first = text.split([',', ';']).next()?.trim();
-    let number = first.split([':', '[', '-']).nth(1).unwrap_or(first);
-    let limit = || first.split(['[', ']']).nth(1)?.parse::<f64>().ok();
-    let model = match number {
-        "stop" | "206" => habits.sign("sign/us/stop", "sign/stop"),
-        "give_way" | "yield" | "205" => habits.sign("sign/us/yield", "sign/give-way"),
-        "220" => "sign/one-way",
-        "267" | "no_entry" => habits.sign("sign/us/do-not-enter", "sign/no-entry"),
-        "283" => "sign/no-stopping",
-        "286" => "sign/no-parking",
-        "314" => "sign/parking",
-        "350" => "sign/crossing",
-        "101" | "hazard" => "sign/warning",
-        "274" | "maxspeed" | "274.1" => {
-            return limit().map(|kmh| habits.speed_sign(kmh)).filter(|m| yard.has(Kind::TrafficSign, m));
+    let model = match said {
+        MappedSign::Stop => habits.sign("sign/us/stop", "sign/stop"),
+        MappedSign::GiveWay => habits.sign("sign/us/yield", "sign/give-way"),
+        MappedSign::OneWay => "sign/one-way",
+        MappedSign::NoEntry => habits.sign("sign/us/do-not-enter", "sign/no-entry"),
+        MappedSign::NoStopping => "sign/no-stopping",
+        MappedSign::NoParking => "sign/no-parking",
+        MappedSign::Parking => "sign/parking",
+        MappedSign::PedestrianCrossing => "sign/crossing",
+        MappedSign::Danger => "sign/warning",
+        MappedSign::SpeedLimit { limit_kmh } => {
+            return Some(habits.speed_sign(limit_kmh)).filter(|m| yard.has(Kind::TrafficSign, m));
         }
-        _ => return None,
+        MappedSign::Other => return None,
     };
     Some(model.to_owned())
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{FurnitureKind, Kind, Parking, Random, Report, Road, RoadKind, Seed};
+use trove_model::{CrossingMarking, FurnitureKind, Kind, Parking, Random, Report, Road, RoadKind, Seed};
 
 use super::habits::Signs;
 use super::junctions::{Arm, Junction, KerbSearch, kerb_side};
@@ -106,10 +106,12 @@ fn one_way(junction: &Junction<'_>, arm: &Arm<'_>, yard: &mut Yard<'_, '_, '_>, 
 /// Both directions of traffic see a crossing without signals.
 fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &Report) {
     let Some(map) = yard.around.map else { return };
-    let is_marked = |text: &str| !text.is_empty() && !["no", "unmarked", "traffic_signals"].contains(&text);
-    let lines = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && is_marked(&r.crossing));
+    let is_marked = |marking: Option<CrossingMarking>| {
+        marking.is_some_and(|m| !matches!(m, CrossingMarking::Unmarked | CrossingMarking::Signals))
+    };
+    let lines = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && is_marked(r.crossing));
     let middles = lines.map(|r| r.centreline.iter().sum::<DVec2>() / r.centreline.len() as f64);
-    let nodes = map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing && is_marked(&f.detail));
+    let nodes = map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing && is_marked(f.crossing()));
     let model = yard.habits.sign("sign/us/crossing", "sign/crossing");
     for middle in middles.chain(nodes.map(|f| f.position)) {
         let signalled = junctions.iter().any(|j| j.signalled && j.centre.distance(middle) < MAPPED_REACH_M);

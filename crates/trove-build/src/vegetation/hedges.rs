@@ -1,7 +1,7 @@
 //! Hedges and flower beds: pieces side by side along a line.
 
 use glam::DVec2;
-use trove_model::{Kind, PlantForm, Seed};
+use trove_model::{Kind, MappedPlant, PlantForm, Seed};
 
 use super::{Form, Wish};
 
@@ -38,7 +38,7 @@ fn pieces(
                 position: from + along * ((k as f64 + 0.5) / count),
                 height_m: height_m * vary,
                 group: seed.0,
-                called: String::new(),
+                mapped: MappedPlant::default(),
                 // Its neighbours touch it.
                 radius_m: Some(0.0),
                 form: Form::Row {

@@ -48,7 +48,7 @@ pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) 
             position: tree.position,
             height_m: tree.height_m.unwrap_or(drawn_m).clamp(2.0, 30.0),
             group: species_group(seed.child("kind"), tree.position),
-            called: tree.detail.trim().to_lowercase(),
+            mapped: tree.plant(),
             radius_m: Some(1.0),
             form: Form::Free,
             paved: true,

@@ -18,7 +18,7 @@ mod undergrowth;
 mod walls;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Climate, Kind, Outcome, PlantForm, Report, Seed};
+use trove_model::{AssetLibrary, Climate, Kind, MappedPlant, Outcome, PlantForm, Report, Seed};
 
 use crate::clearance::{Clearance, Room};
 use crate::plane_raster::PlaneRaster;
@@ -52,8 +52,8 @@ struct Wish {
     height_m: f64,
     /// Plants with the same number are of one species.
     group: u64,
-    /// Species or genus and leaf type, in lower case, where the map says so; else empty.
-    called: String,
+    /// Species or genus and leaves, where the map says so.
+    mapped: MappedPlant,
     /// Half the distance to its like, metres; `None`: as its size asks.
     radius_m: Option<f64>,
     /// How it stands.
@@ -74,7 +74,7 @@ enum Form {
 impl Wish {
     /// A free plant of whatever grows there, on open land, with as much room as its size asks.
     fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
-        Self { kind, position, height_m, group, called: String::new(), radius_m: None, form: Form::Free, paved: false }
+        Self { kind, position, height_m, group, mapped: MappedPlant::default(), radius_m: None, form: Form::Free, paved: false }
     }
 
     /// Where it needs room for its width: a row's piece at both ends and in its middle.

@@ -1,7 +1,7 @@
 //! Which model a plant becomes, and how large.
 
 use glam::DVec3;
-use trove_model::{Asset, AssetLibrary, Climate, Kind, LeafType, PlantForm, Seed};
+use trove_model::{Asset, AssetLibrary, Climate, Kind, LeafType, MappedPlant, PlantForm, Seed};
 
 use super::crowns::Crown;
 use super::{Form, Wish};
@@ -36,20 +36,13 @@ impl Model<'_> {
         named.filter(|name| !name.is_empty()).unwrap_or(&self.asset.id)
     }
 
-    /// Whether a map's description names its genus.
-    fn is_called(&self, description: &str) -> bool {
-        self.asset.plant.as_ref().is_some_and(|p| p.is_called(description))
+    /// Whether a map's name of a species or genus is its own.
+    fn is_called(&self, species: &str) -> bool {
+        self.asset.plant.as_ref().is_some_and(|p| p.is_called(species))
     }
 
-    /// Whether it has the leaves that a map's description tells; all but conifers and palms have broad ones.
-    fn has_leaves(&self, description: &str) -> bool {
-        let says = |words: &[&str]| words.iter().any(|word| description.contains(word));
-        let told = match () {
-            _ if says(&["palm", "arecaceae"]) => LeafType::Frond,
-            _ if says(&["needleleaved", "conifer"]) => LeafType::Needle,
-            _ => LeafType::Broad,
-        };
-        self.asset.plant.as_ref().is_none_or(|p| p.leaves == told)
+    fn has_leaves(&self, leaves: LeafType) -> bool {
+        self.asset.plant.as_ref().is_none_or(|p| p.leaves == leaves)
     }
 }
 
@@ -125,9 +118,12 @@ impl<'a> Species<'a> {
         // Of the genus that the map names; else with such leaves; else anything that has room.
         let fitting: Vec<&Model> = models.iter().filter(fits).collect();
         let only = |is: &dyn Fn(&Model) -> bool| -> Vec<&Model> { fitting.iter().copied().filter(|m| is(m)).collect() };
-        let mut candidates = only(&|m| m.is_called(&wish.called));
-        if candidates.is_empty() && !wish.called.is_empty() {
-            candidates = only(&|m| m.has_leaves(&wish.called));
+        let MappedPlant { species, leaves } = &wish.mapped;
+        let mut candidates = only(&|m| species.as_ref().is_some_and(|species| m.is_called(species)));
+        // Of the species that have names most have broad leaves.
+        let leaves = leaves.or(species.as_ref().map(|_| LeafType::Broad));
+        if let Some(leaves) = leaves.filter(|_| candidates.is_empty()) {
+            candidates = only(&|m| m.has_leaves(leaves));
         }
         if candidates.is_empty() {
             candidates = fitting;
@@ -230,10 +226,11 @@ mod tests {
         AssetLibrary { assets, ..AssetLibrary::default() }
     }
 
-    fn grown(climate: Climate, called: &str, height_m: f64) -> Vec<String> {
+    fn grown(climate: Climate, species: Option<&str>, leaves: Option<LeafType>, height_m: f64) -> Vec<String> {
         let library = library();
+        let mapped = MappedPlant { species: species.map(str::to_owned), leaves };
         let species = Species::new(&library, climate);
-        let wish = Wish { called: called.into(), ..Wish::new(Kind::Tree, DVec2::ZERO, height_m, 7) };
+        let wish = Wish { mapped, ..Wish::new(Kind::Tree, DVec2::ZERO, height_m, 7) };
         let space = Space { lane_m: 50.0, wall_m: 50.0 };
         let mut ids: Vec<String> =
             (0..40).filter_map(|i| Some(species.grow(&wish, space, Seed(i))?.asset.id.clone())).collect();
@@ -244,17 +241,19 @@ mod tests {
 
     #[test]
     fn what_a_map_calls_a_tree_grows_there_in_several_individuals() {
-        assert_eq!(grown(Climate::Temperate, "tilia cordata broadleaved", 9.0), ["tree/lime-1", "tree/lime-2"]);
-        assert_eq!(grown(Climate::Temperate, "tilia cordata", 3.5), ["tree/lime-young"]);
-        assert_eq!(grown(Climate::Temperate, "quercus robur", 9.0), ["tree/oak"]);
-        assert_eq!(grown(Climate::Temperate, "needleleaved", 9.0), ["tree/pine"]);
-        assert_eq!(grown(Climate::Tropical, "roystonea regia palm", 9.0), ["tree/palm"]);
+        let (broad, needle) = (Some(LeafType::Broad), Some(LeafType::Needle));
+        let temperate = |species, leaves, height_m| grown(Climate::Temperate, species, leaves, height_m);
+        assert_eq!(temperate(Some("tilia cordata"), broad, 9.0), ["tree/lime-1", "tree/lime-2"]);
+        assert_eq!(temperate(Some("tilia cordata"), None, 3.5), ["tree/lime-young"]);
+        assert_eq!(temperate(Some("quercus robur"), None, 9.0), ["tree/oak"]);
+        assert_eq!(temperate(None, needle, 9.0), ["tree/pine"]);
+        assert_eq!(grown(Climate::Tropical, Some("roystonea regia"), Some(LeafType::Frond), 9.0), ["tree/palm"]);
     }
 
     #[test]
     fn a_plant_grows_where_it_lives_and_a_row_is_of_one_species() {
         for climate in [Climate::Temperate, Climate::Tropical] {
-            let ids = grown(climate, "", 9.0);
+            let ids = grown(climate, None, None, 9.0);
             let species: Vec<&str> = ids.iter().filter_map(|id| id.split('-').next()).collect();
             assert!(species.windows(2).all(|pair| pair[0] == pair[1]), "{ids:?}");
             assert!(climate == Climate::Tropical || species[0] != "tree/palm");

@@ -50,7 +50,7 @@ fn map() -> (StreetMap, Polygon) {
         kind: LineKind::Hedge,
         line: vec![DVec2::new(-50.0, -12.0), DVec2::new(-20.0, -13.0)],
         height_m: Some(1.1),
-        detail: String::new(),
+        style: None,
     };
     let map = StreetMap {
         land: vec![Land { id: 1, kind: LandKind::Park, polygon: rectangle([-100.0, -120.0], [150.0, -8.0]) }],

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{Building, Polygon, Report, RoofShape};
+use trove_model::{Building, BuildingKind, Outcome, Polygon, Report};
 
 use super::colors::linear_color;
 use super::raw::Tags;
 use super::tagged::Tagged;
 use super::values::{decimal, heading_rad, length_m, year};
+use super::vocabulary::{BUILDINGS, ROOF_SHAPES, ROOFS, Said, WALLS};
 
 /// A storey's height where only `min_level` is tagged, metres.
 const STOREY_M: f64 = 3.0;
@@ -39,21 +40,33 @@ pub(super) fn building(id: i64, footprint: Polygon, tags: &Tags, report: &Report
         height_m,
         min_height_m: min_height_m.unwrap_or(0.0),
         levels: tagged.number(&["building:levels", "levels"], decimal, 0.0..=200.0),
-        roof: tagged.parsed(&["roof:shape"], roof_shape),
+        roof: tagged.word(&["roof:shape"], &ROOF_SHAPES),
         roof_height_m: tagged.number(&["roof:height"], length_m, 0.0..=200.0),
         roof_levels: tagged.number(&["roof:levels"], decimal, 0.0..=50.0),
-        roof_material: tags.get("roof:material").to_owned(),
+        roof_material: tagged.word(&["roof:material"], &ROOFS),
         roof_direction_rad: tagged.parsed(&["roof:direction", "roof:slope:direction"], heading_rad),
         ridge_across: tagged.parsed(&["roof:orientation"], across).unwrap_or(false),
-        material: tags
-            .first(&["building:material", "building:facade:material", "building:cladding", "material"])
-            .to_owned(),
+        material: tagged
+            .word(&["building:material", "building:facade:material", "building:cladding", "material"], &WALLS),
         color: tagged.parsed(&["building:colour", "building:color", "building:facade:colour", "colour"], linear_color),
         roof_color: tagged.parsed(&["roof:colour", "roof:color"], linear_color),
         name: tags.get("name").to_owned(),
         year: tagged.parsed(&["start_date"], year),
         shop: is_shop(tags),
-        ..Building::new(id, footprint, tags.get(if part { "building:part" } else { "building" }))
+        ..Building::new(id, footprint, kind(&tagged, if part { "building:part" } else { "building" }))
+    }
+}
+
+/// What a building was built as; a word that no table has is a kind all the same.
+fn kind(tagged: &Tagged, key: &str) -> Option<BuildingKind> {
+    match BUILDINGS.read(tagged.tags.get(key)) {
+        Said::Meaning(kind) => Some(kind),
+        Said::Nothing => None,
+        Said::Unknown => {
+            let example = format!("{}: {}", tagged.owner, tagged.tags.get(key));
+            tagged.report.note(Outcome::Substituted, "osm: building of a kind that is not known", example);
+            Some(BuildingKind::Other)
+        }
     }
 }
 
@@ -63,30 +76,6 @@ fn across(text: &str) -> Option<bool> {
         "along" => Some(false),
         _ => None,
     }
-}
-
-fn roof_shape(text: &str) -> Option<RoofShape> {
-    Some(match text {
-        "flat" => RoofShape::Flat,
-        "gabled"
-        | "pitched"
-        | "saltbox"
-        | "gabled_height_moved"
-        | "double_saltbox"
-        | "crosspitched"
-        | "cross_gabled" => RoofShape::Gabled,
-        "hipped" | "side_hipped" => RoofShape::Hipped,
-        "half-hipped" | "half_hipped" | "side_half-hipped" | "hipped-and-gabled" => RoofShape::HalfHipped,
-        "pyramidal" => RoofShape::Pyramidal,
-        "gambrel" => RoofShape::Gambrel,
-        "mansard" => RoofShape::Mansard,
-        "skillion" | "lean_to" | "monopitch" | "quadruple_saltbox" | "sawtooth" => RoofShape::Skillion,
-        "dome" => RoofShape::Dome,
-        "cone" | "conical" => RoofShape::Cone,
-        "onion" => RoofShape::Onion,
-        "round" | "barrel" => RoofShape::Round,
-        _ => return None,
-    })
 }
 
 /// Whether something is a place with a shop window at the street: a shop, a restaurant, a bank.

@@ -14,9 +14,11 @@ mod relations;
 mod rings;
 mod roads;
 mod sides;
+mod signs;
 mod tagged;
 mod things;
 mod values;
+mod vocabulary;
 mod ways;
 mod xml;
 

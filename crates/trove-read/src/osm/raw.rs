@@ -4,14 +4,14 @@ use trove_model::{Outcome, Report};
 
 /// The tags that say something about what a place looks like; all others are not kept.
 #[rustfmt::skip]
-const KEYS: [&str; 127] = [
+const KEYS: [&str; 126] = [
     "advertising", "aeroway", "amenity", "area", "area:highway", "barrier", "boundary", "bridge", "building",
     "building:cladding", "building:color", "building:colour", "building:facade:colour", "building:facade:material",
     "building:height", "building:levels", "building:material", "building:min_height", "building:min_level",
     "building:part", "bus", "colour", "craft", "crossing", "crossing:markings", "crossing_ref", "cycleway",
     "cycleway:both", "cycleway:left", "cycleway:right", "direction", "emergency", "est_height", "est_width",
     "fence_type", "fire_hydrant:type", "footway", "genus", "height", "highway", "historic", "indoor",
-    "junction", "lamp_mount", "lamp_type", "landcover", "landuse", "lanes", "lanes:backward", "lanes:forward", "layer",
+    "junction", "lamp_mount", "landcover", "landuse", "lanes", "lanes:backward", "lanes:forward", "layer",
     "leaf_type", "leisure", "level", "levels", "lit", "location", "man_made", "manhole", "material", "maxspeed",
     "maxspeed:backward", "maxspeed:forward", "min_height", "min_level", "name", "natural", "office", "oneway",
     "parking", "parking:both", "parking:both:orientation", "parking:lane:both", "parking:lane:both:diagonal",

@@ -3,13 +3,14 @@
 use std::mem::swap;
 
 use glam::DVec2;
-use trove_model::{Report, Road, RoadKind, SidewalkSides, Turns};
+use trove_model::{CrossingMarking, Report, Road, RoadKind, SidewalkSides, Turns};
 
 use super::meaning::{implied_layer, in_tunnel, stated_layer};
 use super::raw::Tags;
 use super::sides;
 use super::tagged::Tagged;
 use super::values::{decimal, length_m, speed_kmh};
+use super::vocabulary::{CROSSINGS, ROAD_SURFACES};
 
 /// No road has more lanes.
 const MAX_LANES: f64 = 20.0;
@@ -59,7 +60,7 @@ pub(super) fn road(
         layer: tagged.parsed(&["layer"], stated_layer).unwrap_or_else(|| implied_layer(tags)),
         bridge: tags.has("bridge"),
         tunnel: in_tunnel(tags),
-        surface: tags.get("surface").to_owned(),
+        surface: tagged.word(&["surface"], &ROAD_SURFACES),
         name: tags.get("name").to_owned(),
         roundabout,
         link: tags.get("highway").ends_with("_link"),
@@ -68,7 +69,7 @@ pub(super) fn road(
         speed_limit_kmh: tagged
             .parsed(&["maxspeed", "maxspeed:forward", "maxspeed:backward", "zone:maxspeed"], speed_kmh)
             .flatten(),
-        crossing: tags.first(&["crossing:markings", "crossing_ref", "crossing"]).to_owned(),
+        crossing: crossing_marking(&tagged),
         ..Road::new(id, kind, centreline)
     };
     if against { reversed(road) } else { road }
@@ -115,6 +116,12 @@ fn lit(text: &str) -> Option<bool> {
         "no" | "disused" | "none" => Some(false),
         _ => None,
     }
+}
+
+/// How a crossing is marked: what is painted, before that something is.
+pub(super) fn crossing_marking(tagged: &Tagged) -> Option<CrossingMarking> {
+    let said = tagged.words(&["crossing:markings", "crossing_ref", "crossing"], &CROSSINGS);
+    said.iter().find(|&&marking| marking != CrossingMarking::Usual).or(said.first()).copied()
 }
 
 /// The same road, drawn the other way.

@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use trove_model::{Outcome, Report};
 
 use super::raw::Tags;
+use super::vocabulary::{Said, Vocabulary};
 
 /// The tags of a thing that `owner` names.
 pub(super) struct Tagged<'a> {
@@ -36,6 +37,27 @@ impl Tagged<'_> {
             self.refuse(&format!("{} that cannot be used", keys[0]), text);
         }
         value
+    }
+
+    /// What the first of some keys that says anything means; where none does, a word that is not known is noted.
+    pub(super) fn word<T: Copy>(&self, keys: &[&str], vocabulary: &Vocabulary<T>) -> Option<T> {
+        self.words(keys, vocabulary).first().copied()
+    }
+
+    /// What each of some keys means, of those that say anything.
+    pub(super) fn words<T: Copy>(&self, keys: &[&str], vocabulary: &Vocabulary<T>) -> Vec<T> {
+        let (mut meanings, mut unknown) = (Vec::new(), Vec::new());
+        for &key in keys {
+            match vocabulary.read(self.tags.get(key)) {
+                Said::Meaning(meaning) => meanings.push(meaning),
+                Said::Unknown => unknown.push(key),
+                Said::Nothing => {}
+            }
+        }
+        for key in unknown.into_iter().filter(|_| meanings.is_empty()) {
+            self.refuse(&format!("{key} that is not known"), self.tags.get(key));
+        }
+        meanings
     }
 
     /// Notes a value that is not used, and why.

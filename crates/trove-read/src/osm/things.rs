@@ -3,14 +3,17 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{Furniture, FurnitureKind, Outcome, Report, StreetMap};
+use trove_model::{Furniture, FurnitureDetail, FurnitureKind, MappedPlant, Outcome, Report, StreetMap};
 
 use super::Places;
 use super::buildings::is_shop;
 use super::meaning::{Meaning, Outline, meaning};
 use super::raw::{Raw, RawThing, Tags};
+use super::roads::crossing_marking;
+use super::signs::sign;
 use super::tagged::Tagged;
 use super::values::{heading_rad, length_m};
+use super::vocabulary::{LAMPS, LEAVES, PLANT_GROUPS, Said};
 
 /// Adds every node that is a piece of furniture, and to `shops` where those are that are a shop.
 pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, shops: &mut Vec<DVec2>, report: &Report) {
@@ -47,18 +50,26 @@ pub(super) fn furniture(
 ) -> Furniture {
     let tagged = Tagged { tags, owner: &owner, report };
     let detail = match kind {
-        FurnitureKind::Tree | FurnitureKind::Shrub => {
-            let (name, leaves) = (tags.first(&["species", "taxon", "genus"]), tags.get("leaf_type"));
-            format!("{name} {leaves}").trim().to_owned()
-        }
-        FurnitureKind::TrafficSign => tags.get("traffic_sign").to_owned(),
-        FurnitureKind::Crossing => tags.first(&["crossing:markings", "crossing_ref", "crossing"]).to_owned(),
-        FurnitureKind::StreetLamp => tags.first(&["lamp_mount", "support", "lamp_type"]).to_owned(),
-        FurnitureKind::Bin => tags.get("amenity").to_owned(),
-        _ => String::new(),
+        FurnitureKind::Tree | FurnitureKind::Shrub => plant(&tagged).map(FurnitureDetail::Plant),
+        FurnitureKind::TrafficSign => sign(&tagged).map(FurnitureDetail::Sign),
+        FurnitureKind::Crossing => crossing_marking(&tagged).map(FurnitureDetail::Crossing),
+        FurnitureKind::StreetLamp => tagged.word(&["lamp_mount", "support"], &LAMPS).map(FurnitureDetail::Lamp),
+        _ => None,
     };
     let height_m = tagged.number(&["height"], length_m, 0.1..=150.0);
     Furniture { height_m, detail, ..Furniture::new(id, kind, position) }
+}
+
+/// What is tagged of a plant; `None` where nothing is.
+fn plant(tagged: &Tagged) -> Option<MappedPlant> {
+    let species = tagged.tags.first(&["species", "taxon", "genus"]).to_lowercase();
+    let group = species.split(' ').find_map(|word| match PLANT_GROUPS.read(word) {
+        Said::Meaning(leaves) => Some(leaves),
+        Said::Nothing | Said::Unknown => None,
+    });
+    let leaves = group.or_else(|| tagged.word(&["leaf_type"], &LEAVES));
+    let species = (!species.is_empty()).then_some(species);
+    (species.is_some() || leaves.is_some()).then_some(MappedPlant { species, leaves })
 }
 
 pub(super) fn furniture_kind(tags: &Tags) -> Option<FurnitureKind> {

@@ -1,7 +1,7 @@
 //! Ways → roads, buildings, land, lines, and furniture that is drawn as a line.
 
 use glam::DVec2;
-use trove_model::{Furniture, FurnitureKind, Land, MapLine, Outcome, Polygon, Report, StreetMap};
+use trove_model::{BarrierStyle, Furniture, FurnitureKind, Land, LineKind, MapLine, Outcome, Polygon, Report, StreetMap};
 
 use super::Places;
 use super::buildings::{building, is_shop};
@@ -14,6 +14,7 @@ use super::roads::road;
 use super::tagged::Tagged;
 use super::things::furniture;
 use super::values::length_m;
+use super::vocabulary::{BARRIER_STYLES, BARRIERS};
 
 /// A usual distance of street trees, metres.
 const TREE_SPACING_M: f64 = 8.0;
@@ -162,10 +163,17 @@ fn add_line(
             kind,
             line: run.clone(),
             height_m: tagged.number(&["height"], length_m, 0.1..=150.0),
-            detail: way.tags.first(&["fence_type", "wall", "material", "barrier"]).to_owned(),
+            style: barrier_style(kind, &tagged),
         });
     }
     map.lines.len() > before
+}
+
+/// How a fence, wall or guard rail is made.
+fn barrier_style(kind: LineKind, tagged: &Tagged) -> Option<BarrierStyle> {
+    let is_barrier = matches!(kind, LineKind::Fence | LineKind::Wall | LineKind::GuardRail);
+    let made = || tagged.word(&["fence_type", "wall", "material"], &BARRIER_STYLES);
+    is_barrier.then(|| made().or_else(|| tagged.word(&["barrier"], &BARRIERS))).flatten()
 }
 
 /// Points along a line, the first at its start.

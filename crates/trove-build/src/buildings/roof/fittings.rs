@@ -1,12 +1,12 @@
 //! What stands on pitched roofs: chimneys, dormers, skylights, solar panels.
 
 use glam::{DVec2, DVec3};
-use trove_model::{Random, RoofShape};
+use trove_model::{BuildingKind, Random, RoofShape};
 
 use super::pitched::Pitched;
 use crate::buildings::region::Region;
 use crate::buildings::shell::{Shell, Slot};
-use crate::buildings::volumes::{House, Volume, is_house};
+use crate::buildings::volumes::{House, Volume};
 
 /// Dormers and skylights are seen up to this distance from the driven path, metres.
 const WINDOWS_SEEN_M: f64 = 150.0;
@@ -21,10 +21,11 @@ const SKYLIGHT_M: [f64; 2] = [0.78, 1.2];
 
 /// Puts on a roof what a house of its kind has there.
 pub(super) fn fittings(shell: &mut Shell, roof: &Pitched, volume: &Volume<'_>, house: &House<'_>, random: &mut Random) {
-    let is_lived_in = !matches!(
-        house.building.kind.as_str(),
-        "garage" | "garages" | "shed" | "carport" | "roof" | "industrial" | "warehouse" | "hangar" | "greenhouse"
-    );
+    let is_shelter = |k: BuildingKind| {
+        use BuildingKind as K;
+        k.is_works() || k.is_canopy() || matches!(k, K::Garage | K::Shed | K::Greenhouse)
+    };
+    let is_lived_in = !house.building.kind.is_some_and(is_shelter);
     let is_old_world = matches!(house.region, Region::NorthernEurope | Region::Mediterranean | Region::NorthAmerica);
     if is_lived_in && is_old_world && volume.top_m > 4.0 {
         chimneys(shell, roof, random);
@@ -38,7 +39,7 @@ pub(super) fn fittings(shell: &mut Shell, roof: &Pitched, volume: &Volume<'_>, h
         if own.start > 0.0 || roof.skeleton.faces[side].len() < 3 {
             continue;
         }
-        let has_room = volume.top_m - volume.eaves_m > ROOM_M && !is_house(&house.building.kind) || style < 0.2;
+        let has_room = volume.top_m - volume.eaves_m > ROOM_M && !house.building.kind.is_some_and(BuildingKind::is_house) || style < 0.2;
         if wants_dormers && has_room && dormers(shell, roof, side) {
             continue;
         }

@@ -1,27 +1,25 @@
 //! What roofs are made of.
 
 use glam::{Vec3, vec3};
-use trove_model::{Building, Material, Random, RoofShape, SurfaceKind};
+use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofShape, SurfaceKind};
 
 use crate::buildings::dress::tinted;
 use crate::buildings::region::Region;
-use crate::buildings::volumes::is_house;
 use crate::palette::Palette;
 
 /// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
 /// [`super::super::shell::Slot`]; `finish` names the facade's surface, whose wall goes on in gables.
 pub(in crate::buildings) fn materials(
     building: &Building,
-    kind: &str,
     region: Region,
     finish: &str,
     wall: Vec3,
     palette: &Palette<'_>,
     random: &mut Random,
 ) -> Vec<Material> {
-    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_words(building, kind, region, random), random).material;
+    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_words(building, region, random), random).material;
     let mut pitched =
-        palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, kind, region, random), random).material;
+        palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, region, random), random).material;
     let mut gable = palette.fitting(SurfaceKind::Wall, wall_words(finish), random).material;
     // Roofs of one material differ a little in age.
     let age = random.range(0.85, 1.12) as f32;
@@ -40,15 +38,18 @@ pub(in crate::buildings) fn materials(
     vec![flat, pitched, gable, metal, boards, glazing]
 }
 
-fn flat_words(building: &Building, kind: &str, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn flat_words(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
-    match building.roof_material.as_str() {
-        "gravel" | "stone" => &["gravel"],
-        "tar_paper" | "bitumen" | "asphalt" | "asphalt_shingle" => &["bitumen"],
-        "concrete" | "cement" => &["membrane"],
-        "grass" | "plants" | "green" => &["green"],
-        _ => match kind {
-            "retail" | "supermarket" | "industrial" | "warehouse" | "hangar" if drawn < 0.7 => &["membrane"],
+    let is_hall = building
+        .kind
+        .is_some_and(|k| k.is_works() || matches!(k, BuildingKind::Retail | BuildingKind::Supermarket));
+    match building.roof_material {
+        Some(RoofMaterial::Gravel | RoofMaterial::Stone) => &["gravel"],
+        Some(RoofMaterial::Bitumen) => &["bitumen"],
+        Some(RoofMaterial::Concrete) => &["membrane"],
+        Some(RoofMaterial::Plants) => &["green"],
+        _ => match () {
+            _ if is_hall && drawn < 0.7 => &["membrane"],
             _ if drawn < 0.07 && region != Region::NorthAmerica => &["green"],
             _ if drawn < 0.4 => &["bitumen"],
             _ if drawn < 0.7 => &["gravel"],
@@ -57,23 +58,26 @@ fn flat_words(building: &Building, kind: &str, region: Region, random: &mut Rand
     }
 }
 
-fn pitched_words(building: &Building, kind: &str, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn pitched_words(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
     let is_crowned = matches!(building.roof, Some(RoofShape::Dome | RoofShape::Onion));
-    match building.roof_material.as_str() {
-        "roof_tiles" | "tile" | "tiles" | "clay" => match building.roof_color {
+    match building.roof_material {
+        Some(RoofMaterial::Tiles) => match building.roof_color {
             Some(color) if color.max_element() < 0.12 => &["dark"],
             _ => &["red"],
         },
-        "slate" | "stone" => &["slate"],
-        "metal" | "metal_sheet" | "tin" | "zinc" | "steel" | "aluminium" | "eternit" | "corrugated" => &["metal"],
-        "copper" => &["copper"],
-        "asphalt_shingle" | "asphalt" | "tar_paper" | "wood" | "shingle" => &["shingle"],
-        "glass" => &["slate"],
+        Some(RoofMaterial::Slate | RoofMaterial::Stone | RoofMaterial::Glass) => &["slate"],
+        Some(RoofMaterial::Metal) => &["metal"],
+        Some(RoofMaterial::Copper) => &["copper"],
+        Some(RoofMaterial::Bitumen | RoofMaterial::Shingle) => &["shingle"],
         _ if is_crowned && drawn < 0.6 => &["copper"],
         _ if is_crowned => &["slate", "metal"],
-        _ => match (kind, region) {
-            ("industrial" | "warehouse" | "hangar" | "carport" | "roof" | "garage" | "garages" | "shed", _) => {
+        _ => match (building.kind, region) {
+            (Some(kind), _)
+                if kind.is_works()
+                    || kind.is_canopy()
+                    || matches!(kind, BuildingKind::Garage | BuildingKind::Shed) =>
+            {
                 &["metal"]
             }
             (_, Region::NorthAmerica) if drawn < 0.8 => &["shingle"],
@@ -93,7 +97,7 @@ fn pitched_words(building: &Building, kind: &str, region: Region, random: &mut R
                     &["metal"]
                 }
             }
-            (kind, _) if is_house(kind) && drawn < 0.3 => &["dark"],
+            (Some(kind), _) if kind.is_house() && drawn < 0.3 => &["dark"],
             _ if drawn < 0.65 => &["red"],
             _ if drawn < 0.85 => &["dark"],
             _ => &["slate"],

@@ -2,12 +2,12 @@
 //! railings. All of it is sunk a little into the deck, so that it shares no plane with it.
 
 use glam::{DVec2, DVec3};
-use trove_model::{Polygon, Random};
+use trove_model::{BuildingKind, Polygon, Random};
 
 use crate::buildings::rectangle::base;
 use crate::buildings::region::Region;
 use crate::buildings::shell::{Shell, Slot};
-use crate::buildings::volumes::{House, Volume, is_house};
+use crate::buildings::volumes::{House, Volume};
 use crate::plane::grown;
 
 /// Smaller decks carry nothing, m².
@@ -59,7 +59,7 @@ pub(super) fn plant(
     let Some(polygon) = deck.iter().max_by(|a, b| a.area_m2().total_cmp(&b.area_m2())) else { return };
     let area_m2 = polygon.area_m2();
     let height_m = volume.top_m - volume.bottom_m;
-    if area_m2 < LEAST_M2 || height_m < 3.0 || is_house(&house.building.kind) && volume.top_m < 5.0 {
+    if area_m2 < LEAST_M2 || height_m < 3.0 || house.building.kind.is_some_and(BuildingKind::is_house) && volume.top_m < 5.0 {
         return;
     }
     let axis = base(polygon).map_or(DVec2::X, |b| b.axis);
@@ -67,17 +67,20 @@ pub(super) fn plant(
     if volume.top_m > 9.0 && area_m2 > 110.0 {
         stair_head(shell, &mut deck, area_m2 > 500.0, random);
     }
+    use BuildingKind as K;
     let is_worked_in = matches!(
-        house.building.kind.as_str(),
-        "office"
-            | "commercial"
-            | "retail"
-            | "supermarket"
-            | "hotel"
-            | "hospital"
-            | "university"
-            | "industrial"
-            | "warehouse"
+        house.building.kind,
+        Some(
+            K::Office
+                | K::Commercial
+                | K::Retail
+                | K::Supermarket
+                | K::Hotel
+                | K::Hospital
+                | K::University
+                | K::Industrial
+                | K::Warehouse
+        )
     );
     let units = if is_worked_in { area_m2 / 180.0 } else { area_m2 / 450.0 };
     for _ in 0..(units + random.unit()).min(8.0) as usize {

@@ -55,7 +55,7 @@ fn footprints() -> Vec<(&'static str, Polygon)> {
 
 /// A body from 10 to 18 m with its walls, as far from the driven path as given.
 fn body(footprint: &Polygon, shape: RoofShape, path_m: f64) -> (Mesh, usize) {
-    let building = Building::new(1, Polygon::default(), "yes");
+    let building = Building::new(1, Polygon::default(), None);
     let eaves_m = if shape == RoofShape::Flat { TOP_M } else { EAVES_M };
     let sides = footprint.edges().map(|(a, b)| Beside { covers: Vec::new(), length_m: a.distance(b), room_m: 0.8 });
     let volume = Volume {

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Building, Outcome, Polygon, Random, Report, RoofShape};
+use trove_model::{Building, BuildingKind, Outcome, Polygon, Random, Report, RoofShape};
 
-use super::{Volume, is_canopy, is_house, kind, name};
+use super::{Volume, kind, name};
 use crate::buildings::region::Region;
 
 /// Buildings this near tell what is usual here, metres.
@@ -50,16 +50,21 @@ enum Group {
 }
 
 impl Group {
-    fn of(kind: &str) -> Self {
+    fn of(kind: Option<BuildingKind>) -> Self {
+        use BuildingKind as K;
         match kind {
-            kind if is_house(kind) => Self::House,
-            kind if is_canopy(kind) => Self::Outbuilding,
-            "garage" | "garages" | "shed" | "kiosk" | "hut" | "service" | "toilets" | "greenhouse" => Self::Outbuilding,
-            "apartments" | "residential" | "terrace" | "dormitory" => Self::Dwelling,
-            "office" | "commercial" | "hotel" | "public" | "civic" => Self::Work,
-            "industrial" | "warehouse" | "hangar" | "retail" | "supermarket" => Self::Hall,
-            "church" | "cathedral" | "mosque" | "temple" | "synagogue" | "chapel" | "stadium" => Self::Special,
-            _ => Self::Any,
+            Some(K::House | K::Bungalow) => Self::House,
+            Some(K::Canopy | K::Carport | K::Garage | K::Shed | K::Kiosk | K::Hut | K::Service | K::Greenhouse) => {
+                Self::Outbuilding
+            }
+            Some(K::Apartments | K::Residential | K::Terrace) => Self::Dwelling,
+            Some(K::Office | K::Commercial | K::Hotel | K::Public) => Self::Work,
+            Some(K::Industrial | K::Warehouse | K::Hangar | K::Retail | K::Supermarket) => Self::Hall,
+            Some(K::Worship | K::Chapel | K::Stadium) => Self::Special,
+            Some(
+                K::School | K::University | K::Hospital | K::Transport | K::Parking | K::Construction | K::Other,
+            )
+            | None => Self::Any,
         }
     }
 }
@@ -72,14 +77,14 @@ impl Neighbourhood {
             let Some(walls_m) = known_walls_m(building) else { continue };
             let at = building.footprint.centroid();
             let area_m2 = building.footprint.area_m2();
-            cells.entry(cell(at)).or_default().push(Known { at, group: Group::of(&building.kind), area_m2, walls_m });
+            cells.entry(cell(at)).or_default().push(Known { at, group: Group::of(building.kind), area_m2, walls_m });
         }
         Self { region, cells }
     }
 
     /// The usual height of walls of buildings of like kind and size nearby, and half the spread of their middle half;
     /// `None` where too few are known.
-    fn usual_walls_m(&self, footprint: &Polygon, kind: &str) -> Option<(f64, f64)> {
+    fn usual_walls_m(&self, footprint: &Polygon, kind: Option<BuildingKind>) -> Option<(f64, f64)> {
         let (at, area_m2, group) = (footprint.centroid(), footprint.area_m2(), Group::of(kind));
         let [x, y] = cell(at);
         let like = |k: &&Known| {
@@ -104,7 +109,7 @@ fn cell(p: DVec2) -> [i64; 2] {
 fn known_walls_m(building: &Building) -> Option<f64> {
     let roof_m = building.roof_height_m.unwrap_or(0.0);
     let tagged = tagged_height_m(building).map(|h| h - roof_m);
-    tagged.or_else(|| tagged_levels(building).map(|l| l * storey_m(&building.kind))).filter(|h| *h > 1.0)
+    tagged.or_else(|| tagged_levels(building).map(|l| l * storey_m(building.kind))).filter(|h| *h > 1.0)
 }
 
 fn tagged_height_m(building: &Building) -> Option<f64> {
@@ -116,7 +121,7 @@ fn tagged_levels(building: &Building) -> Option<f64> {
 }
 
 /// Height of a storey that is not measured, metres.
-fn storey_m(kind: &str) -> f64 {
+fn storey_m(kind: Option<BuildingKind>) -> f64 {
     match Group::of(kind) {
         Group::House | Group::Outbuilding => 2.8,
         Group::Dwelling | Group::Any => 3.1,
@@ -136,6 +141,7 @@ pub(super) fn heights<'a>(
     report: &Report,
 ) -> Volume<'a> {
     let kind = kind(source, whole);
+    let is_canopy = kind.is_some_and(BuildingKind::is_canopy);
     // Both are drawn first, so that the draws do not depend on the tags.
     let (drawn, shape_drawn) = (random.unit(), random.unit());
     let bottom_m = source.min_height_m.max(0.0);
@@ -171,7 +177,7 @@ pub(super) fn heights<'a>(
         }
     };
     let roof = source.roof.unwrap_or_else(|| {
-        let shape = if source.part || is_canopy(kind) {
+        let shape = if source.part || is_canopy {
             RoofShape::Flat
         } else {
             usual_roof(kind, source, walls_m, around.region, shape_drawn)
@@ -206,7 +212,7 @@ pub(super) fn heights<'a>(
     let eaves_m =
         if roof == RoofShape::Flat { top_m } else { (top_m - roof_m).max((bottom_m + least_walls_m).min(top_m)) };
     let mut volume = Volume::new(source, bottom_m, eaves_m, top_m, roof);
-    if is_canopy(kind) && !source.part {
+    if is_canopy && !source.part {
         volume.bottom_m = volume.bottom_m.max(eaves_m - super::CANOPY_THICK_M);
         volume.is_canopy = true;
     }
@@ -222,32 +228,36 @@ fn width_m(footprint: &Polygon) -> f64 {
 }
 
 /// Walls' height of a building of which nothing is known, from and to, metres.
-fn usual_walls_m(kind: &str, area_m2: f64, region: Region) -> [f64; 2] {
+fn usual_walls_m(kind: Option<BuildingKind>, area_m2: f64, region: Region) -> [f64; 2] {
+    use BuildingKind as K;
     let dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::Mediterranean);
     match kind {
-        "carport" => [2.5, 2.9],
-        "roof" | "canopy" => [4.4, 5.2],
-        "garage" | "garages" | "shed" | "kiosk" | "hut" | "service" | "toilets" => [2.6, 3.4],
-        "bungalow" | "cabin" => [2.8, 3.4],
-        kind if is_house(kind) => [5.0, 7.0],
-        "terrace" => [6.0, 9.5],
-        "residential" | "apartments" | "dormitory" if dense => [14.0, 30.0],
-        "residential" => [8.0, 13.0],
-        "apartments" | "dormitory" => [12.0, 21.0],
-        "office" | "commercial" | "hotel" => [14.0, 38.0],
-        "retail" | "supermarket" => [5.0, 8.0],
-        "industrial" | "warehouse" | "hangar" => [7.0, 12.0],
-        "church" | "cathedral" | "mosque" | "temple" | "synagogue" => [10.0, 16.0],
-        "school" | "university" | "hospital" | "public" | "civic" | "college" => [9.0, 18.0],
-        _ if area_m2 < 40.0 => [2.8, 4.0],
-        _ if area_m2 < 250.0 && dense => [9.0, 18.0],
-        _ if area_m2 < 250.0 => [6.5, 12.0],
-        _ => [10.0, 24.0],
+        Some(K::Carport) => [2.5, 2.9],
+        Some(K::Canopy) => [4.4, 5.2],
+        Some(K::Garage | K::Shed | K::Kiosk | K::Hut | K::Service) => [2.6, 3.4],
+        Some(K::Bungalow) => [2.8, 3.4],
+        Some(K::House) => [5.0, 7.0],
+        Some(K::Terrace) => [6.0, 9.5],
+        Some(K::Residential | K::Apartments) if dense => [14.0, 30.0],
+        Some(K::Residential) => [8.0, 13.0],
+        Some(K::Apartments) => [12.0, 21.0],
+        Some(K::Office | K::Commercial | K::Hotel) => [14.0, 38.0],
+        Some(K::Retail | K::Supermarket) => [5.0, 8.0],
+        Some(K::Industrial | K::Warehouse | K::Hangar) => [7.0, 12.0],
+        Some(K::Worship) => [10.0, 16.0],
+        Some(K::School | K::University | K::Hospital | K::Public) => [9.0, 18.0],
+        Some(K::Transport | K::Chapel | K::Stadium | K::Parking | K::Greenhouse | K::Construction | K::Other)
+        | None => match area_m2 {
+            small if small < 40.0 => [2.8, 4.0],
+            middling if middling < 250.0 && dense => [9.0, 18.0],
+            middling if middling < 250.0 => [6.5, 12.0],
+            _ => [10.0, 24.0],
+        },
     }
 }
 
 /// The roof that a building of some kind usually has where it stands.
-fn usual_roof(kind: &str, source: &Building, walls_m: f64, region: Region, drawn: f64) -> RoofShape {
+fn usual_roof(kind: Option<BuildingKind>, source: &Building, walls_m: f64, region: Region, drawn: f64) -> RoofShape {
     use RoofShape::{Flat, Gabled, Gambrel, HalfHipped, Hipped, Mansard};
     let (area_m2, width_m) = (source.footprint.area_m2(), width_m(&source.footprint));
     let pick = |shares: &[(f64, RoofShape)]| {
@@ -276,9 +286,7 @@ fn usual_roof(kind: &str, source: &Building, walls_m: f64, region: Region, drawn
             Region::NorthAmerica if walls_m < 8.0 && area_m2 < 200.0 => pick(&[(0.4, Gabled), (0.2, Hipped)]),
             _ => Flat,
         },
-        Group::Hall if width_m < 30.0 && matches!(kind, "industrial" | "warehouse" | "hangar") => {
-            pick(&[(0.3, Gabled)])
-        }
+        Group::Hall if width_m < 30.0 && kind.is_some_and(BuildingKind::is_works) => pick(&[(0.3, Gabled)]),
         Group::Special => pick(&[(0.8, Gabled)]),
         _ => Flat,
     }

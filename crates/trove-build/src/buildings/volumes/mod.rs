@@ -357,15 +357,6 @@ fn without_straight_points(mut polygon: Polygon) -> Polygon {
 }
 
 /// The kind that tells most: a part's own, else its building's.
-pub(super) fn kind<'a>(source: &'a Building, whole: &'a Building) -> &'a str {
-    if matches!(source.kind.as_str(), "yes" | "") { &whole.kind } else { &source.kind }
-}
-
-pub(super) fn is_house(kind: &str) -> bool {
-    matches!(kind, "house" | "detached" | "semidetached_house" | "bungalow" | "cabin" | "farm")
-}
-
-/// Whether a kind of building is a roof on posts.
-pub(super) fn is_canopy(kind: &str) -> bool {
-    matches!(kind, "roof" | "carport" | "canopy")
+pub(super) fn kind(source: &Building, whole: &Building) -> Option<BuildingKind> {
+    source.kind.or(whole.kind)
 }

@@ -1,5 +1,5 @@
 use glam::DVec2;
-use trove_model::{HeightField, Seed};
+use trove_model::{BuildingKind, HeightField, Seed};
 
 use super::*;
 use crate::testing;
@@ -8,7 +8,7 @@ use crate::testing;
 fn square(id: i64, x: f64, y: f64, size: [f64; 2], height_m: f64) -> Building {
     let corners = [(x, y), (x + size[0], y), (x + size[0], y + size[1]), (x, y + size[1])];
     let footprint = Polygon::simple(corners.map(|(x, y)| DVec2::new(x, y - 60.0)).into());
-    Building { height_m: Some(height_m), roof: Some(RoofShape::Flat), ..Building::new(id, footprint, "yes") }
+    Building { height_m: Some(height_m), roof: Some(RoofShape::Flat), ..Building::new(id, footprint, None) }
 }
 
 /// What is built of some buildings: id, bottom, top and footprint of each volume.
@@ -82,7 +82,7 @@ fn an_unmapped_height_is_that_of_the_neighbours() {
 
 #[test]
 fn a_carport_is_a_slab_on_posts() {
-    let carport = Building { kind: "carport".into(), height_m: Some(2.8), ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8) };
+    let carport = Building { kind: Some(BuildingKind::Carport), height_m: Some(2.8), ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8) };
     let drive = testing::drive();
     let bounds = crate::area(&drive).unwrap();
     let ground = HeightField::flat(bounds, 0.0);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
+use trove_model::{Bounds, CrossingMarking, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
 
 use super::lines::dashes;
 use crate::plane::{difference, grown, intersection, strip, union};
@@ -44,32 +44,33 @@ pub(super) fn crossings(
     let furniture = map.map_or(&[][..], |m| &m.furniture);
     let signals: Vec<DVec2> =
         furniture.iter().filter(|f| f.kind == FurnitureKind::TrafficSignal).map(|f| f.position).collect();
-    let style = |tag: &str, at: DVec2| {
-        let signalised = signals.iter().any(|s| s.distance(at) < SIGNAL_M);
-        match tag {
-            "no" | "unmarked" | "surface" | "informal" => None,
-            "zebra" | "zebra:bicolour" | "zebra:double" | "zebra:paired" => Some(CrossingStyle::Bars),
-            "ladder" | "ladder:skewed" | "ladder:paired" => Some(CrossingStyle::Ladder),
-            "lines" | "lines:paired" | "lines:rainbow" => Some(CrossingStyle::Lines),
-            "dashes" | "dots" => Some(CrossingStyle::Dashes),
-            _ if signalised => Some(customs.signalised),
-            _ => Some(customs.zebra),
+    let style = |marking: Option<CrossingMarking>, at: DVec2| {
+        let signalised = || signals.iter().any(|s| s.distance(at) < SIGNAL_M);
+        match marking {
+            Some(CrossingMarking::Unmarked) => None,
+            Some(CrossingMarking::Zebra) => Some(CrossingStyle::Bars),
+            Some(CrossingMarking::Ladder) => Some(CrossingStyle::Ladder),
+            Some(CrossingMarking::Lines) => Some(CrossingStyle::Lines),
+            Some(CrossingMarking::Dashes) => Some(CrossingStyle::Dashes),
+            Some(CrossingMarking::Signals) => Some(customs.signalised),
+            Some(CrossingMarking::Usual) | None if signalised() => Some(customs.signalised),
+            Some(CrossingMarking::Usual) | None => Some(customs.zebra),
         }
     };
     let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
-    let mut outlines: Vec<(Polygon, &str)> =
-        drive.lane_map.iter().flat_map(|m| &m.crossings).map(|outline| (outline.clone(), "")).collect();
+    let mut outlines: Vec<(Polygon, Option<CrossingMarking>)> =
+        drive.lane_map.iter().flat_map(|m| &m.crossings).map(|outline| (outline.clone(), None)).collect();
     if let Some(map) = map {
         let ways = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && r.layer == 0 && !r.tunnel && !r.bridge);
         for way in ways {
             // Segment by segment: a way may go round a corner on an island.
             let segments = way.centreline.windows(2).filter(|w| w[0].distance(w[1]) > 1.5);
-            outlines.extend(segments.flat_map(|w| strip(w, CROSSING_M / 2.0)).map(|o| (o, way.crossing.as_str())));
+            outlines.extend(segments.flat_map(|w| strip(w, CROSSING_M / 2.0)).map(|o| (o, way.crossing)));
         }
         let vertices = vertices(map);
         for point in map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing) {
             let across = vertices.get(&key(point.position)).map(|&along| across(point.position, along));
-            outlines.extend(across.into_iter().flatten().map(|o| (o, point.detail.as_str())));
+            outlines.extend(across.into_iter().flatten().map(|o| (o, point.crossing())));
         }
     }
     outlines.retain(|(outline, _)| near(outline));
@@ -77,7 +78,7 @@ pub(super) fn crossings(
     let on_road = intersection(&union(&all), carriageway);
 
     let mut found: Vec<Crossing> = Vec::new();
-    for (outline, tag) in &outlines {
+    for (outline, marking) in &outlines {
         let (Some((middle, walk, half)), Some(bounds)) = (long_axis(outline), outline.bounds()) else { continue };
         if found.iter().any(|c| c.is_near(middle) && c.area.iter().any(|a| a.contains(middle))) {
             continue;
@@ -90,7 +91,7 @@ pub(super) fn crossings(
         area = difference(&area, &taken);
         area.retain(|p| p.area_m2() > LEAST_M2);
         if !area.is_empty() {
-            found.push(Crossing { area, walk, middle, half, style: style(tag, middle) });
+            found.push(Crossing { area, walk, middle, half, style: style(*marking, middle) });
         }
     }
     found

@@ -1,7 +1,7 @@
 //! The road's surface, stretch by stretch: what it is made of, how old it is, and what wheels have left on it.
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, Polygon, Seed, SurfaceKind};
+use trove_model::{Bounds, Drive, Polygon, RoadSurface, Seed, SurfaceKind};
 
 use super::tone::Tone;
 use crate::plane::{difference, intersection, strip, union};
@@ -56,15 +56,15 @@ impl Look {
         }
     }
 
-    /// By OpenStreetMap's `surface`; `None` where it does not say, or says no more than that it is paved.
-    fn tagged(surface: &str) -> Option<Self> {
+    /// Of what a map says; `None` for asphalt, whose age it does not say.
+    fn mapped(surface: RoadSurface) -> Option<Self> {
         Some(match surface {
-            "concrete" | "concrete:plates" | "concrete:lanes" => Self::Concrete,
-            "sett" | "cobblestone" | "unhewn_cobblestone" | "cobblestone:flattened" => Self::Setts,
-            "paving_stones" | "bricks" | "brick" => Self::Stones,
-            "gravel" | "fine_gravel" | "compacted" | "pebblestone" => Self::Gravel,
-            "unpaved" | "ground" | "dirt" | "earth" | "sand" | "mud" | "grass" => Self::Soil,
-            _ => return None,
+            RoadSurface::Asphalt => return None,
+            RoadSurface::Concrete => Self::Concrete,
+            RoadSurface::Setts => Self::Setts,
+            RoadSurface::PavingStones => Self::Stones,
+            RoadSurface::Gravel => Self::Gravel,
+            RoadSurface::Earth => Self::Soil,
         })
     }
 
@@ -220,7 +220,7 @@ fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
                 lanes: drives.map(|b| shifted(&line, (b.left_m + b.right_m) / 2.0)).collect(),
                 line,
                 edges_m: [half_m, -half_m],
-                tagged: Look::tagged(&stretch.road.surface),
+                tagged: stretch.road.surface.and_then(Look::mapped),
                 number: (stretch.road.id as u64) << 8 ^ i as u64,
             });
         }
