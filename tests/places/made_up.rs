@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use trove_model::{
-    Building, Cycleway, Furniture, FurnitureKind, Land, LandKind, LineKind, MapLine, Parking, ParkingOrientation,
-    Polygon, Road, RoadKind, RoofShape, Sides, SidewalkSides, StreetMap, Turns,
+    Building, BuildingKind, Cycleway, Furniture, FurnitureKind, Land, LandKind, LineKind, MapLine, Parking,
+    ParkingOrientation, Polygon, Road, RoadKind, RoofShape, Sides, SidewalkSides, StreetMap, Turns,
 };
 
 fn points(xy: &[(f64, f64)]) -> Vec<DVec2> {
@@ -121,7 +121,9 @@ fn buildings() -> Vec<Building> {
         RoofShape::Onion,
         RoofShape::Round,
     ];
-    const KINDS: [&str; 6] = ["house", "apartments", "office", "retail", "warehouse", "yes"];
+    use BuildingKind as K;
+    const KINDS: [Option<K>; 6] =
+        [Some(K::House), Some(K::Apartments), Some(K::Office), Some(K::Retail), Some(K::Warehouse), None];
     let mut buildings: Vec<Building> = ROOFS
         .iter()
         .enumerate()
@@ -144,29 +146,35 @@ fn buildings() -> Vec<Building> {
     buildings.push(Building {
         roof: Some(RoofShape::Hipped),
         levels: Some(4.0),
-        ..Building::new(120, l, "apartments")
+        ..Building::new(120, l, Some(K::Apartments))
     });
     let court =
         Polygon { holes: vec![rectangle(30.0, -110.0, 12.0, 10.0).exterior], ..rectangle(20.0, -120.0, 30.0, 30.0) };
     buildings.push(Building {
         levels: Some(6.0),
         roof: Some(RoofShape::Mansard),
-        ..Building::new(121, court, "residential")
+        ..Building::new(121, court, Some(K::Residential))
     });
     // A tower made of parts, one of them in the air, and two that overlap.
-    buildings
-        .push(Building { height_m: Some(60.0), ..Building::new(122, rectangle(-50.0, -60.0, 30.0, 30.0), "office") });
+    buildings.push(Building {
+        height_m: Some(60.0),
+        ..Building::new(122, rectangle(-50.0, -60.0, 30.0, 30.0), Some(K::Office))
+    });
     for (id, part, low, high) in [
         (123, rectangle(-50.0, -60.0, 30.0, 30.0), 0.0, 12.0),
         (124, rectangle(-45.0, -55.0, 20.0, 20.0), 12.0, 60.0),
         (125, rectangle(-28.0, -50.0, 14.0, 8.0), 20.0, 24.0),
     ] {
-        let part =
-            Building { part: true, min_height_m: low, height_m: Some(high), ..Building::new(id, part, "office") };
+        let part = Building {
+            part: true,
+            min_height_m: low,
+            height_m: Some(high),
+            ..Building::new(id, part, Some(K::Office))
+        };
         buildings.push(part);
     }
-    buildings.push(Building::new(126, rectangle(24.0, 40.0, 10.0, 8.0), "garage"));
-    buildings.push(Building::new(127, rectangle(28.0, 44.0, 12.0, 9.0), "shed"));
+    buildings.push(Building::new(126, rectangle(24.0, 40.0, 10.0, 8.0), Some(K::Garage)));
+    buildings.push(Building::new(127, rectangle(28.0, 44.0, 12.0, 9.0), Some(K::Shed)));
     buildings
 }
 
@@ -212,12 +220,6 @@ fn lines() -> Vec<MapLine> {
     ]
     .into_iter()
     .enumerate()
-    .map(|(i, (kind, line))| MapLine {
-        id: 400 + i as i64,
-        kind,
-        line: points(&line),
-        height_m: None,
-        detail: String::new(),
-    })
+    .map(|(i, (kind, line))| MapLine { id: 400 + i as i64, kind, line: points(&line), height_m: None, style: None })
     .collect()
 }

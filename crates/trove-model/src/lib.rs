@@ -60,8 +60,8 @@ pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed};
 pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
 pub use street_map::{
-    BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind, LampMount,
-    Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind, RoadSurface,
-    RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
+    BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,
+    LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
+    RoadSurface, RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
 };
 pub use tags::Tags;

@@ -157,7 +157,11 @@ fn roofs_dates_and_shops_are_read() {
 #[test]
 fn a_word_that_no_table_has_is_reported_with_its_place() {
     let content = squares()
-        + &way(1, &[1, 2, 3, 4, 1], "building=pagoda|building:material=jelly|roof:material=marzipan|roof:shape=twisted")
+        + &way(
+            1,
+            &[1, 2, 3, 4, 1],
+            "building=pagoda|building:material=jelly|roof:material=marzipan|roof:shape=twisted",
+        )
         + &way(2, &[1, 2], "highway=residential|surface=lava")
         + &way(3, &[1, 2], "barrier=fence|fence_type=moat")
         + &way(4, &[1, 3], "highway=footway|footway=crossing|crossing=leap")

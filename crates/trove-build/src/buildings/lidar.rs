@@ -5,7 +5,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3, IVec3};
-use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed};
+use trove_model::{
+    Bounds, Building, BuildingKind, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed,
+};
 
 use super::region::Region;
 use super::volumes::{Near, STOREY_M};

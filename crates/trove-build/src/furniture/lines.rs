@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, Mat3, Vec3};
-use trove_model::{BarrierStyle, 
-    Asset, Kind, LandKind, LineKind, MapLine, Material, Mesh, Outcome, Random, Report, Road, RoadKind, Seed,
+use trove_model::{
+    Asset, BarrierStyle, Kind, LandKind, LineKind, MapLine, Material, Mesh, Outcome, Random, Report, Road, RoadKind,
+    Seed,
 };
 
 use super::boundaries;

@@ -74,7 +74,16 @@ enum Form {
 impl Wish {
     /// A free plant of whatever grows there, on open land, with as much room as its size asks.
     fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
-        Self { kind, position, height_m, group, mapped: MappedPlant::default(), radius_m: None, form: Form::Free, paved: false }
+        Self {
+            kind,
+            position,
+            height_m,
+            group,
+            mapped: MappedPlant::default(),
+            radius_m: None,
+            form: Form::Free,
+            paved: false,
+        }
     }
 
     /// Where it needs room for its width: a row's piece at both ends and in its middle.

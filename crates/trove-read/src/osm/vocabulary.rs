@@ -98,10 +98,7 @@ pub(super) const ROOFS: Vocabulary<RoofMaterial> = Vocabulary {
         (RoofMaterial::Stone, &["stone"]),
         (RoofMaterial::Shingle, &["shingle", "wood"]),
         (RoofMaterial::Bitumen, &["tar_paper", "bitumen", "asphalt", "asphalt_shingle"]),
-        (
-            RoofMaterial::Metal,
-            &["metal", "metal_sheet", "tin", "zinc", "steel", "aluminium", "eternit", "corrugated"],
-        ),
+        (RoofMaterial::Metal, &["metal", "metal_sheet", "tin", "zinc", "steel", "aluminium", "eternit", "corrugated"]),
         (RoofMaterial::Copper, &["copper"]),
         (RoofMaterial::Gravel, &["gravel"]),
         (RoofMaterial::Concrete, &["concrete", "cement"]),
@@ -117,15 +114,7 @@ pub(super) const ROOF_SHAPES: Vocabulary<RoofShape> = Vocabulary {
         (RoofShape::Flat, &["flat"]),
         (
             RoofShape::Gabled,
-            &[
-                "gabled",
-                "pitched",
-                "saltbox",
-                "gabled_height_moved",
-                "double_saltbox",
-                "crosspitched",
-                "cross_gabled",
-            ],
+            &["gabled", "pitched", "saltbox", "gabled_height_moved", "double_saltbox", "crosspitched", "cross_gabled"],
         ),
         (RoofShape::Hipped, &["hipped", "side_hipped"]),
         (RoofShape::HalfHipped, &["half-hipped", "half_hipped", "side_half-hipped", "hipped-and-gabled"]),

@@ -1,7 +1,9 @@
 //! Ways → roads, buildings, land, lines, and furniture that is drawn as a line.
 
 use glam::DVec2;
-use trove_model::{BarrierStyle, Furniture, FurnitureKind, Land, LineKind, MapLine, Outcome, Polygon, Report, StreetMap};
+use trove_model::{
+    BarrierStyle, Furniture, FurnitureKind, Land, LineKind, MapLine, Outcome, Polygon, Report, StreetMap,
+};
 
 use super::Places;
 use super::buildings::{building, is_shop};

@@ -39,7 +39,9 @@ pub(super) fn fittings(shell: &mut Shell, roof: &Pitched, volume: &Volume<'_>, h
         if own.start > 0.0 || roof.skeleton.faces[side].len() < 3 {
             continue;
         }
-        let has_room = volume.top_m - volume.eaves_m > ROOM_M && !house.building.kind.is_some_and(BuildingKind::is_house) || style < 0.2;
+        let has_room = volume.top_m - volume.eaves_m > ROOM_M
+            && !house.building.kind.is_some_and(BuildingKind::is_house)
+            || style < 0.2;
         if wants_dormers && has_room && dormers(shell, roof, side) {
             continue;
         }

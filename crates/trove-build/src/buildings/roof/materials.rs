@@ -18,8 +18,7 @@ pub(in crate::buildings) fn materials(
     random: &mut Random,
 ) -> Vec<Material> {
     let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_words(building, region, random), random).material;
-    let mut pitched =
-        palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, region, random), random).material;
+    let mut pitched = palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, region, random), random).material;
     let mut gable = palette.fitting(SurfaceKind::Wall, wall_words(finish), random).material;
     // Roofs of one material differ a little in age.
     let age = random.range(0.85, 1.12) as f32;
@@ -40,9 +39,8 @@ pub(in crate::buildings) fn materials(
 
 fn flat_words(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
-    let is_hall = building
-        .kind
-        .is_some_and(|k| k.is_works() || matches!(k, BuildingKind::Retail | BuildingKind::Supermarket));
+    let is_hall =
+        building.kind.is_some_and(|k| k.is_works() || matches!(k, BuildingKind::Retail | BuildingKind::Supermarket));
     match building.roof_material {
         Some(RoofMaterial::Gravel | RoofMaterial::Stone) => &["gravel"],
         Some(RoofMaterial::Bitumen) => &["bitumen"],
@@ -74,9 +72,7 @@ fn pitched_words(building: &Building, region: Region, random: &mut Random) -> &'
         _ if is_crowned => &["slate", "metal"],
         _ => match (building.kind, region) {
             (Some(kind), _)
-                if kind.is_works()
-                    || kind.is_canopy()
-                    || matches!(kind, BuildingKind::Garage | BuildingKind::Shed) =>
+                if kind.is_works() || kind.is_canopy() || matches!(kind, BuildingKind::Garage | BuildingKind::Shed) =>
             {
                 &["metal"]
             }

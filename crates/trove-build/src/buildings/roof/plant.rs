@@ -59,7 +59,10 @@ pub(super) fn plant(
     let Some(polygon) = deck.iter().max_by(|a, b| a.area_m2().total_cmp(&b.area_m2())) else { return };
     let area_m2 = polygon.area_m2();
     let height_m = volume.top_m - volume.bottom_m;
-    if area_m2 < LEAST_M2 || height_m < 3.0 || house.building.kind.is_some_and(BuildingKind::is_house) && volume.top_m < 5.0 {
+    if area_m2 < LEAST_M2
+        || height_m < 3.0
+        || house.building.kind.is_some_and(BuildingKind::is_house) && volume.top_m < 5.0
+    {
         return;
     }
     let axis = base(polygon).map_or(DVec2::X, |b| b.axis);

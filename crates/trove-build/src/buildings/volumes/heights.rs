@@ -61,9 +61,7 @@ impl Group {
             Some(K::Office | K::Commercial | K::Hotel | K::Public) => Self::Work,
             Some(K::Industrial | K::Warehouse | K::Hangar | K::Retail | K::Supermarket) => Self::Hall,
             Some(K::Worship | K::Chapel | K::Stadium) => Self::Special,
-            Some(
-                K::School | K::University | K::Hospital | K::Transport | K::Parking | K::Construction | K::Other,
-            )
+            Some(K::School | K::University | K::Hospital | K::Transport | K::Parking | K::Construction | K::Other)
             | None => Self::Any,
         }
     }

@@ -8,7 +8,7 @@ mod near;
 mod tests;
 
 use rayon::prelude::*;
-use trove_model::{Bounds, Building, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
+use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
 
 use super::region::Region;
 use crate::clearance::recorded;

@@ -1,5 +1,5 @@
 use glam::DVec2;
-use trove_model::{BuildingKind, HeightField, Seed};
+use trove_model::{HeightField, Seed};
 
 use super::*;
 use crate::testing;
@@ -82,7 +82,8 @@ fn an_unmapped_height_is_that_of_the_neighbours() {
 
 #[test]
 fn a_carport_is_a_slab_on_posts() {
-    let carport = Building { kind: Some(BuildingKind::Carport), height_m: Some(2.8), ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8) };
+    let carport =
+        Building { kind: Some(BuildingKind::Carport), height_m: Some(2.8), ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8) };
     let drive = testing::drive();
     let bounds = crate::area(&drive).unwrap();
     let ground = HeightField::flat(bounds, 0.0);
