@@ -163,7 +163,7 @@ fn limits_are_in_the_country_s_unit_and_nothing_stands_on_the_carriageway_or_off
 #[test]
 fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
     let house = [[30.0, -62.0], [50.0, -62.0], [50.0, -48.0], [30.0, -48.0]].map(DVec2::from_array);
-    let house = Building::new(9, Polygon::simple(house.to_vec()), Some(BuildingKind::House));
+    let house = Building::new(9, Polygon::simple(house.to_vec()), Some(trove_model::BuildingKind::House));
     let power = line(LineKind::PowerLine, &[[-60.0, -55.0], [-20.0, -55.0], [20.0, -55.0], [60.0, -55.0]]);
     let map = StreetMap {
         buildings: vec![house],
@@ -220,7 +220,7 @@ fn open_land_behind_a_sidewalk_is_bounded_but_not_before_houses_nor_across_paths
     let street = testing::road(1, RoadKind::Tertiary, &[[-190.0, 0.0], [190.0, 0.0]]);
     let map = StreetMap {
         roads: vec![Road { sidewalk, ..street }, testing::road(2, RoadKind::Footway, &[[10.0, 3.0], [10.0, 90.0]])],
-        buildings: vec![Building::new(9, Polygon::simple(house.to_vec()), Some(BuildingKind::House))],
+        buildings: vec![Building::new(9, Polygon::simple(house.to_vec()), Some(trove_model::BuildingKind::House))],
         ..StreetMap::default()
     };
     let found = furnished(CAMBRIDGE, &map);
