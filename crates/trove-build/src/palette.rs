@@ -3,6 +3,9 @@
 use glam::Vec3;
 use trove_model::{AssetLibrary, Material, Outcome, Random, Report, Surface, SurfaceKind, Tags};
 
+/// No tag is asked for.
+pub(crate) const ANY: &[&str] = &[];
+
 /// The library's surfaces, with plain colours where it lacks a kind.
 pub(crate) struct Palette<'a> {
     pub library: &'a AssetLibrary,
@@ -10,10 +13,10 @@ pub(crate) struct Palette<'a> {
 }
 
 impl Palette<'_> {
-    /// One of a kind's surfaces whose id has one of the words; one of all of the kind where none has.
-    pub(crate) fn fitting(&self, kind: SurfaceKind, words: &[&str], random: &mut Random) -> Surface {
+    /// One of a kind's surfaces with one of the tags; one of all of the kind where none has one.
+    pub(crate) fn fitting(&self, kind: SurfaceKind, tags: &[impl AsRef<str>], random: &mut Random) -> Surface {
         let (fits, others): (Vec<&Surface>, Vec<&Surface>) =
-            self.library.surfaces_of(kind).partition(|s| words.iter().any(|w| s.id.contains(w)));
+            self.library.surfaces_of(kind).partition(|s| s.tags.has_any(tags));
         match random.pick(if fits.is_empty() { &others } else { &fits }) {
             Some(surface) => (*surface).clone(),
             None => {

@@ -19,7 +19,7 @@ pub struct Asset {
     pub kind: Kind,
     /// What its pixels are.
     pub class: Class,
-    /// What tells it from others of its kind.
+    /// What it is: its kind's [word](Kind::word), and what tells it from others of its kind.
     pub tags: Tags,
     /// Length (x), width (y), height (z) of its bounding box.
     pub size_m: DVec3,
@@ -42,14 +42,14 @@ pub struct Asset {
 }
 
 impl Asset {
-    /// An ordinary asset, whose size is its mesh's.
+    /// An ordinary asset, whose size is its mesh's and whose tag is its kind's word.
     pub fn new(id: &str, kind: Kind, class: Class, mesh: Mesh, slots: Vec<Slot>, licence: &str) -> Self {
         let (low, high) = mesh.bounds().unwrap_or_default();
         Self {
             id: id.into(),
             kind,
             class,
-            tags: Tags::default(),
+            tags: Tags::new([kind.word()]),
             size_m: high.as_dvec3() - low.as_dvec3(),
             mesh: Arc::new(mesh),
             slots,
@@ -62,9 +62,10 @@ impl Asset {
         }
     }
 
-    /// The same with these tags.
+    /// The same with these tags besides its own.
     pub fn tagged<W: AsRef<str>>(self, words: impl IntoIterator<Item = W>) -> Self {
-        Self { tags: Tags::new(words), ..self }
+        let own: Vec<String> = words.into_iter().map(|w| w.as_ref().to_owned()).collect();
+        Self { tags: Tags::new(self.tags.iter().map(str::to_owned).chain(own)), ..self }
     }
 
     /// The mesh for a distance from the camera's path.

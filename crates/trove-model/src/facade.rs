@@ -94,7 +94,7 @@ pub struct Fixtures {
 /// The rules of a facade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacadeDesign {
-    /// Id of the surface of the wall between the openings, of the kind `Wall`.
+    /// Tag of the surface of the wall between the openings, of the kind `Wall`.
     pub wall: String,
     /// Multiplies that surface's colour.
     pub wall_tint: Vec3,

@@ -107,6 +107,50 @@ impl Kind {
         }
     }
 
+    /// The everyday word for it, which is among the tags of its assets: `lamp`, `bicycle-rack`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Adult => "adult",
+            Self::Child => "child",
+            Self::ConstructionWorker => "worker",
+            Self::PoliceOfficer => "police-officer",
+            Self::PersonalMobility => "personal-mobility",
+            Self::Stroller => "stroller",
+            Self::Wheelchair => "wheelchair",
+            Self::Animal => "animal",
+            Self::Bicycle | Self::BicycleWithRider => "bicycle",
+            Self::Motorcycle | Self::MotorcycleWithRider => "motorcycle",
+            Self::Car => "car",
+            Self::PoliceCar => "police-car",
+            Self::Ambulance => "ambulance",
+            Self::Truck => "truck",
+            Self::Trailer => "trailer",
+            Self::ConstructionVehicle => "machine",
+            Self::Bus | Self::ArticulatedBus => "bus",
+            Self::Barrier => "barrier",
+            Self::TrafficCone => "cone",
+            Self::PushablePullable => "cart",
+            Self::Debris => "debris",
+            Self::BicycleRack => "bicycle-rack",
+            Self::Building => "building",
+            Self::Tree => "tree",
+            Self::Bush => "bush",
+            Self::TrafficSign => "sign",
+            Self::TrafficSignal => "signal",
+            Self::StreetLamp => "lamp",
+            Self::UtilityPole => "utility-pole",
+            Self::Bollard => "bollard",
+            Self::Hydrant => "hydrant",
+            Self::Bin => "bin",
+            Self::Bench => "bench",
+            Self::Shelter => "shelter",
+            Self::StreetFurniture => "street-furniture",
+            Self::Fence => "fence",
+            Self::Wall => "wall",
+            Self::GuardRail => "guard-rail",
+        }
+    }
+
     /// Whether it stands on a pole or trunk that is not under the middle of it: its asset's origin is the pole's foot.
     pub fn is_on_pole(self) -> bool {
         matches!(self, Self::Tree | Self::TrafficSign | Self::TrafficSignal | Self::StreetLamp | Self::UtilityPole)

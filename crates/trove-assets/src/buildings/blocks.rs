@@ -31,7 +31,7 @@ pub(super) fn slab(surfaces: &[Surface]) -> Asset {
         site.block(concrete, vec3(0.0, size.y / 2.0 + 0.2, z - 0.06), vec3(size.x, 0.4, 0.12));
     }
     site.roof_plant(size / 2.0 * 0.5, top);
-    site.asset("building/slab-block")
+    site.asset("building/slab-block").tagged(["apartments", "slab"])
 }
 
 /// A glass tower on a lobby, with a plant storey behind louvres.
@@ -63,7 +63,7 @@ pub(super) fn tower(surfaces: &[Surface]) -> Asset {
         }
     }
     site.canopy(metal, vec3(0.0, -size.y / 2.0 - 1.4, 3.6), vec3(9.0, 3.4, 0.2));
-    site.asset("building/office-tower")
+    site.asset("building/office-tower").tagged(["office", "tower"])
 }
 
 /// A shed with loading doors in front and a low gable.
@@ -87,7 +87,7 @@ pub(super) fn warehouse(surfaces: &[Surface]) -> Asset {
         let vent = crate::shape::Shape::cylinder(0.45, 1.0, 16);
         site.add(sheet, vent.moved(vec3(x, 0.0, 10.9)));
     }
-    site.asset("building/warehouse")
+    site.asset("building/warehouse").tagged(["warehouse"])
 }
 
 /// A low gabled roof of ribbed sheets with rooflights.
@@ -136,7 +136,7 @@ pub(super) fn corner(surfaces: &[Surface]) -> Asset {
             site.balcony([vec2(x + low, -half.y), vec2(x + low + 1.9, -half.y)], floor, 1.2, slab);
         }
     }
-    site.asset("building/mixed-use-corner")
+    site.asset("building/mixed-use-corner").tagged(["shops", "mixed"])
 }
 
 /// An office of the sixties: ribbons of windows, a canopy.
@@ -159,7 +159,7 @@ pub(super) fn ribbon(surfaces: &[Surface]) -> Asset {
         }
     }
     site.canopy(concrete, vec3(-6.0, -size.y / 2.0 - 1.5, 3.4), vec3(6.0, 3.0, 0.25));
-    site.asset("building/office-ribbon")
+    site.asset("building/office-ribbon").tagged(["office", "ribbon"])
 }
 
 /// A hotel: deep frames, a drive-up canopy, a sign on the roof.
@@ -186,5 +186,5 @@ pub(super) fn hotel(surfaces: &[Surface]) -> Asset {
     }
     let dark = site.plain(Material::plain("canopy", Vec3::splat(0.06), 0.4));
     site.canopy(dark, vec3(0.0, -size.y / 2.0 - 2.6, 3.9), vec3(11.0, 4.6, 0.3));
-    site.asset("building/hotel")
+    site.asset("building/hotel").tagged(["hotel"])
 }

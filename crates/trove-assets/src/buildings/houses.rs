@@ -47,7 +47,7 @@ pub(super) fn row(surfaces: &[Surface]) -> Asset {
             site.block(dark, vec3(x * size.x, y * (size.y / 2.0 + 0.05), 4.7), vec3(0.09, 0.09, 9.3));
         }
     }
-    site.asset("building/row-houses")
+    site.asset("building/row-houses").tagged(["house", "row"])
 }
 
 /// A plastered house with a hipped roof and a porch.
@@ -73,7 +73,7 @@ pub(super) fn detached(surfaces: &[Surface]) -> Asset {
     for x in [0.2, 2.8] {
         site.block(white, vec3(x, front - 1.4, 1.55), vec3(0.18, 0.18, 2.75));
     }
-    site.asset("building/detached-house")
+    site.asset("building/detached-house").tagged(["house", "detached"])
 }
 
 /// Five storeys of brick with balconies and a parapet.
@@ -100,7 +100,7 @@ pub(super) fn apartments(surfaces: &[Surface]) -> Asset {
     }
     let dark = site.plain(Material::plain("canopy", Vec3::splat(0.06), 0.4));
     site.canopy(dark, vec3(0.0, -size.y / 2.0 - 0.9, 2.85), vec3(4.0, 1.8, 0.14));
-    site.asset("building/brick-apartments")
+    site.asset("building/brick-apartments").tagged(["apartments", "brick"])
 }
 
 /// A two-storey row of shops with a cornice and a parapet.
@@ -124,7 +124,7 @@ pub(super) fn shops(surfaces: &[Surface]) -> Asset {
         let x = -size.x / 2.0 + 4.0 * bay as f32;
         site.add(cloth, awning(vec2(x + 0.2, x + 3.8), -size.y / 2.0));
     }
-    site.asset("building/shops")
+    site.asset("building/shops").tagged(["shops"])
 }
 
 /// Cloth that slopes from the wall, with a hem.

@@ -86,7 +86,8 @@ impl Individual {
             })
             .to_vec();
         let asset = Asset::new(id, kind, kind.class(), near, self.slots, crate::LICENCE);
-        Asset { coarser, plant: Some(plant), ..asset }
+        let species = plant.species.clone();
+        Asset { coarser, plant: Some(plant), ..asset }.tagged([species])
     }
 }
 

@@ -7,16 +7,17 @@ use crate::shape::{Blend, Limb, Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
     vec![
-        dog("animal/dog", 1.0, 2.0),
-        dog("animal/dog-small", 0.62, 1.5),
+        dog("dog", 1.0, 2.0),
+        dog("dog-small", 0.62, 1.5).tagged(["dog", "small"]),
         cat(),
-        pigeon("animal/pigeon", 0.0),
-        pigeon("animal/pigeon-pecking", 0.95),
+        pigeon("pigeon", 0.0),
+        pigeon("pigeon-pecking", 0.95).tagged(["pigeon"]),
     ]
 }
 
-fn animal(model: Model, id: &str, commonness: f32) -> Asset {
-    Asset { commonness, ..model.asset(id, Kind::Animal, Kind::Animal.class()) }
+fn animal(model: Model, name: &str, commonness: f32) -> Asset {
+    let asset = model.asset(&format!("animal/{name}"), Kind::Animal, Kind::Animal.class());
+    Asset { commonness, ..asset }.tagged([name])
 }
 
 /// Hair or feathers of a colour.
@@ -34,7 +35,7 @@ const COATS: [Vec3; 6] = [
 ];
 
 /// A walking dog: deep chest, tucked belly, bent hocks, hanging ears, collar.
-fn dog(id: &str, scale: f32, commonness: f32) -> Asset {
+fn dog(name: &str, scale: f32, commonness: f32) -> Asset {
     let mut model = Model::default();
     let fur = model.slot(coat(COATS[0]), &COATS);
     let dark = model.slot(Material::plain("nose", Vec3::splat(0.012), 0.35), &[]);
@@ -81,7 +82,7 @@ fn dog(id: &str, scale: f32, commonness: f32) -> Asset {
     let ring = [vec2(0.074, -0.012), vec2(0.079, -0.01), vec2(0.077, 0.012), vec2(0.07, 0.012)];
     let band = Shape::lathe(&ring, 20).turned(Quat::from_rotation_y(0.75)).moved(vec3(0.275, 0.0, 0.585));
     model.add(collar, band.scaled(size));
-    animal(model, id, commonness)
+    animal(model, name, commonness)
 }
 
 /// A cat that walks with its tail up.
@@ -119,11 +120,11 @@ fn cat() -> Asset {
     for side in [1.0, -1.0] {
         model.add(eye, Shape::ellipsoid(Vec3::splat(0.0075), 8).moved(vec3(0.236, side * 0.019, 0.293)));
     }
-    animal(model, "animal/cat", 0.7)
+    animal(model, "cat", 0.7)
 }
 
 /// A pigeon on its feet; `bow_rad` brings its beak to the ground.
-fn pigeon(id: &str, bow_rad: f32) -> Asset {
+fn pigeon(name: &str, bow_rad: f32) -> Asset {
     let mut model = Model::default();
     let grey = vec3(0.16, 0.17, 0.2);
     let body = model.slot(coat(grey), &[grey, vec3(0.09, 0.095, 0.12), vec3(0.3, 0.29, 0.29), vec3(0.17, 0.1, 0.07)]);
@@ -164,5 +165,5 @@ fn pigeon(id: &str, bow_rad: f32) -> Asset {
             model.add(pink, Shape::tube(&[foot + Vec3::Z * 0.005, foot + toe.extend(0.001)], 0.0035, 5));
         }
     }
-    animal(model, id, 0.6)
+    animal(model, name, 0.6)
 }

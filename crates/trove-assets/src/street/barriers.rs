@@ -18,8 +18,8 @@ pub(super) fn assets() -> Vec<Asset> {
     // Of all barriers those of plastic are the most common.
     let common = |asset: Asset| Asset { commonness: 4.0, ..asset };
     vec![
-        common(water_filled("barrier/water-red", &[RED, WHITE, vec3(0.52, 0.1, 0.06), WHITE * 0.85])),
-        common(water_filled("barrier/water-white", &[WHITE, RED, vec3(0.62, 0.59, 0.5), vec3(0.66, 0.15, 0.08)])),
+        common(water_filled("water-red", &[RED, WHITE, vec3(0.52, 0.1, 0.06), WHITE * 0.85])),
+        common(water_filled("water-white", &[WHITE, RED, vec3(0.62, 0.59, 0.5), vec3(0.66, 0.15, 0.08)])),
         jersey(),
         steel(),
         crowd(),
@@ -28,13 +28,13 @@ pub(super) fn assets() -> Vec<Asset> {
     ]
 }
 
-fn asset(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::Barrier, Class::Barrier)
+fn asset(model: Model, name: &str) -> Asset {
+    model.asset(&format!("barrier/{name}"), Kind::Barrier, Class::Barrier).tagged([name])
 }
 
 /// A hollow plastic barrier of two metres: a flared foot, scoops in its sides, a thick rim, knuckles at its ends; bags of
 /// sand hang over many.
-fn water_filled(id: &str, paints: &[Vec3]) -> Asset {
+fn water_filled(name: &str, paints: &[Vec3]) -> Asset {
     let mut model = Model::default();
     let shell = model.slot(plastic(paints[0]), paints);
     let black = model.slot(dark(), &[]);
@@ -108,7 +108,7 @@ fn water_filled(id: &str, paints: &[Vec3]) -> Asset {
         |places: &[(f32, f32)]| Shape::join(places.iter().map(|&(y, side)| sandbag(y, side, height_m))).slot(bag);
     model.add_extra("sandbags", 0.2, false, bags(&[(-0.2, 1.0)]));
     model.add_extra("sandbags", 0.15, false, bags(&[(0.55, -1.0), (-0.45, 1.0)]));
-    asset(model, id)
+    asset(model, name)
 }
 
 /// A filled bag that hangs down a barrier's side from a cord over its rim.
@@ -186,7 +186,7 @@ fn jersey() -> Asset {
         let eye: Vec<Vec3> = (0..=8).map(around).map(|a| vec3(a.y, y + a.x * y.signum(), z)).collect();
         model.add(rod, Shape::tube(&eye, 0.009, 6));
     }
-    asset(model, "barrier/jersey")
+    asset(model, "jersey")
 }
 
 /// Points of a bow from one point to another, rising in between.
@@ -228,7 +228,7 @@ fn steel() -> Asset {
             model.add(zinc, bolt.moved(vec3(side * 0.1, y + 0.2, 0.63)));
         }
     }
-    asset(model, "barrier/steel")
+    asset(model, "steel")
 }
 
 /// A plastic fence for footpaths beside works: a frame with upright slots, a striped board, feet across.
@@ -263,7 +263,7 @@ fn works_fence() -> Asset {
         model.add(foot, Shape::rounded_block(vec3(0.6, 0.16, 0.07), 0.02).moved(vec3(0.0, y, 0.035)));
         model.add(shell, Shape::rounded_block(vec3(0.06, 0.06, 0.16), 0.01).moved(vec3(0.0, y, 0.1)));
     }
-    asset(model, "barrier/works-fence")
+    asset(model, "works-fence")
 }
 
 /// Slanting stripes of a board about the origin in x (width) and y (height), thin in z.
@@ -307,7 +307,7 @@ fn crowd() -> Asset {
         model.add(steel, bar(vec3(0.0, y, 0.012), vec3(0.56, 0.06, 0.024)));
         model.add(steel, Shape::tube(&[vec3(0.0, y, 0.02), vec3(0.0, y, low_m)], 0.016, 8));
     }
-    asset(model, "barrier/crowd")
+    asset(model, "crowd")
 }
 
 /// Planks with slanting stripes on A-shaped legs.
@@ -339,5 +339,5 @@ fn planks() -> Asset {
             .moved(vec3(0.0, 0.85, 0.98)),
     );
     model.add(legs, Shape::extruded(&polygon(12, 0.065, 0.0), 0.03).moved(vec3(0.0, 0.85, 0.955)));
-    asset(model, "barrier/planks")
+    asset(model, "planks")
 }

@@ -14,8 +14,8 @@ pub(super) fn assets() -> Vec<Asset> {
     vec![round_bin(), post_bin(), steel_bin(), timber_bin(), bag_ring(), recycling()]
 }
 
-fn bin(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::Bin, Class::Void)
+fn bin(model: Model, name: &str) -> Asset {
+    model.asset(&format!("bin/{name}"), Kind::Bin, Class::Void).tagged([name])
 }
 
 /// A steel drum of slats with a dark opening under a lid.
@@ -39,7 +39,7 @@ fn round_bin() -> Asset {
     let lid = [(0.0, 0.95), (0.29, 0.95), (0.29, 0.97), (0.2, 1.03), (0.0, 1.06)];
     model.add(frame, Shape::lathe(&lid.map(|(r, z)| vec2(r, z)), 28));
     model.add(frame, post(Vec3::ZERO, 0.2, 0.06, 20));
-    bin(model, "bin/round")
+    bin(model, "round")
 }
 
 /// A box on a post.
@@ -54,7 +54,7 @@ fn post_bin() -> Asset {
     model.add(body, Shape::rounded_block(vec3(0.37, 0.45, 0.07), 0.03).moved(vec3(0.01, 0.0, 1.08)));
     model.add(black, bar(vec3(0.168, 0.0, 0.95), vec3(0.012, 0.3, 0.11)));
     model.add(steel, bar(vec3(-0.17, 0.0, 0.5), vec3(0.05, 0.1, 0.05)));
-    bin(model, "bin/post")
+    bin(model, "post")
 }
 
 /// A brushed drum with a domed hood, a slot in it and an ashtray.
@@ -78,7 +78,7 @@ fn steel_bin() -> Asset {
     model.add(steel, Shape::lathe(&hood.map(|(r, z)| vec2(r, z)), 32));
     model.add(black, Shape::rounded_block(vec3(0.06, 0.26, 0.09), 0.015).moved(vec3(0.18, 0.0, 0.9)));
     model.add(black, post(Vec3::Z * 1.115, 0.055, 0.022, 16));
-    bin(model, "bin/steel")
+    bin(model, "steel")
 }
 
 /// A box clad with boards under a steel lid.
@@ -101,7 +101,7 @@ fn timber_bin() -> Asset {
         model.add(steel, bar(vec3(x, y, 0.02), vec3(0.05, 0.05, 0.04)));
     }
     model.add(steel, Shape::rounded_block(vec3(0.5, 0.5, 0.04), 0.015).moved(Vec3::Z * 1.06));
-    bin(model, "bin/timber")
+    bin(model, "timber")
 }
 
 /// A sack that hangs from a ring on a post, half full.
@@ -137,7 +137,7 @@ fn bag_ring() -> Asset {
     });
     model.add(sack, hung);
     rust_at_foot(&mut model, steel, 0.1);
-    bin(model, "bin/bag")
+    bin(model, "bag")
 }
 
 /// Three bins in a row for paper, glass and the rest.
@@ -160,5 +160,5 @@ fn recycling() -> Asset {
         model.add(lid, bar(vec3(0.221, y, 0.68), vec3(0.004, 0.24, 0.16)));
         model.add(black, bar(vec3(0.223, y + 0.19, 0.5), vec3(0.008, 0.02, 0.06)));
     }
-    bin(model, "bin/recycling")
+    bin(model, "recycling")
 }

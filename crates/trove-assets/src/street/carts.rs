@@ -48,7 +48,7 @@ fn wheelie_bin() -> Asset {
         model.add(black, wheel(0.1, 0.05).moved(vec3(-0.26, y, 0.1)));
         model.add(body, bar(vec3(-0.345, y * 0.9, 0.965), vec3(0.08, 0.03, 0.03)));
     }
-    model.asset("cart/wheelie-bin", Kind::PushablePullable, Class::Void)
+    model.asset("cart/wheelie-bin", Kind::PushablePullable, Class::Void).tagged(["wheelie-bin"])
 }
 
 /// A flat trolley with a bow to push and a load of boxes.
@@ -79,7 +79,7 @@ fn trolley() -> Asset {
     ] {
         model.add(card, bar(Vec3::ZERO, size).turned(Quat::from_rotation_z(turn)).moved(centre));
     }
-    model.asset("cart/trolley", Kind::PushablePullable, Class::Void)
+    model.asset("cart/trolley", Kind::PushablePullable, Class::Void).tagged(["trolley"])
 }
 
 fn suitcase() -> Asset {
@@ -98,7 +98,7 @@ fn suitcase() -> Asset {
     for (x, y) in [(-0.1, -0.18), (-0.1, 0.18), (0.1, -0.18), (0.1, 0.18)] {
         model.add(black, wheel(0.028, 0.025).moved(vec3(x, y, 0.028)));
     }
-    model.asset("cart/suitcase", Kind::PushablePullable, Class::Void)
+    model.asset("cart/suitcase", Kind::PushablePullable, Class::Void).tagged(["suitcase"])
 }
 
 /// Cardboard boxes, one of them open.
@@ -115,7 +115,7 @@ fn boxes() -> Asset {
     }
     let turn = Quat::from_rotation_z(0.5);
     model.add(card, bar(Vec3::ZERO, vec3(0.34, 0.28, 0.22)).turned(turn).moved(vec3(0.5, 0.12, 0.11)));
-    model.asset("debris/boxes", Kind::Debris, Class::Void)
+    model.asset("debris/boxes", Kind::Debris, Class::Void).tagged(["boxes"])
 }
 
 /// Filled black bags, tied at the top.
@@ -138,7 +138,7 @@ fn bags() -> Asset {
         });
         model.add(sack, crumpled.moved(at));
     }
-    model.asset("debris/bags", Kind::Debris, Class::Void)
+    model.asset("debris/bags", Kind::Debris, Class::Void).tagged(["bags"])
 }
 
 fn tyre() -> Asset {
@@ -148,7 +148,7 @@ fn tyre() -> Asset {
     let closed = section.into_iter().chain([(0.27, 0.13), (0.28, 0.06), (0.19, 0.05), (0.2, 0.02)]);
     let points: Vec<_> = closed.map(|(r, z)| vec2(r, z)).collect();
     model.add(black, Shape::lathe(&points, 36));
-    model.asset("debris/tyre", Kind::Debris, Class::Void)
+    model.asset("debris/tyre", Kind::Debris, Class::Void).tagged(["tyre"])
 }
 
 /// A fallen branch with its twigs.
@@ -169,5 +169,5 @@ fn branch() -> Asset {
         let bend = from.lerp(to, 0.5) + vec3(0.0, 0.0, 0.04);
         model.add(bark, Shape::tapered_tube(&[(from, 0.012), (bend, 0.009), (to, 0.003)], 6));
     }
-    model.asset("debris/branch", Kind::Debris, Class::Void)
+    model.asset("debris/branch", Kind::Debris, Class::Void).tagged(["branch"])
 }

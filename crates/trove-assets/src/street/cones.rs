@@ -11,7 +11,7 @@ const PALE: Vec3 = vec3(0.72, 0.2, 0.07);
 const WHITE: Vec3 = vec3(0.74, 0.74, 0.71);
 
 struct Cone {
-    id: &'static str,
+    name: &'static str,
     /// Side of the foot.
     base_m: f32,
     height_m: f32,
@@ -29,20 +29,21 @@ struct Cone {
 #[rustfmt::skip]
 pub(super) fn assets() -> Vec<Asset> {
     let two: &[[f32; 2]] = &[[0.32, 0.5], [0.66, 0.84]];
-    let plain = Cone { id: "cone/standard", base_m: 0.42, height_m: 0.75, radii_m: [0.145, 0.03], bands: two, black_base: true, disc: false, bent_m: 0.0, commonness: 3.0 };
+    let plain = Cone { name: "standard", base_m: 0.42, height_m: 0.75, radii_m: [0.145, 0.03], bands: two, black_base: true, disc: false, bent_m: 0.0, commonness: 3.0 };
     let cones = [
-        Cone { id: "cone/tall", base_m: 0.46, height_m: 1.05, radii_m: [0.15, 0.045], bands: &[[0.4, 0.55], [0.68, 0.8]], black_base: false, commonness: 1.5, ..plain },
-        Cone { id: "cone/small", base_m: 0.33, height_m: 0.56, radii_m: [0.11, 0.025], bands: &[[0.45, 0.75]], commonness: 1.0, ..plain },
-        Cone { id: "cone/bare", height_m: 0.7, bands: &[], black_base: false, commonness: 0.6, ..plain },
-        Cone { id: "cone/disc", disc: true, commonness: 0.7, ..plain },
-        Cone { id: "cone/battered", bent_m: 0.09, commonness: 0.6, ..plain },
+        Cone { name: "tall", base_m: 0.46, height_m: 1.05, radii_m: [0.15, 0.045], bands: &[[0.4, 0.55], [0.68, 0.8]], black_base: false, commonness: 1.5, ..plain },
+        Cone { name: "small", base_m: 0.33, height_m: 0.56, radii_m: [0.11, 0.025], bands: &[[0.45, 0.75]], commonness: 1.0, ..plain },
+        Cone { name: "bare", height_m: 0.7, bands: &[], black_base: false, commonness: 0.6, ..plain },
+        Cone { name: "disc", disc: true, commonness: 0.7, ..plain },
+        Cone { name: "battered", bent_m: 0.09, commonness: 0.6, ..plain },
         plain,
     ];
     cones.into_iter().map(cone).chain([tube(), drum(), panel()]).collect()
 }
 
-fn asset(model: Model, id: &str, commonness: f32) -> Asset {
-    Asset { commonness, ..model.asset(id, Kind::TrafficCone, Class::TrafficCone) }
+fn asset(model: Model, name: &str, commonness: f32) -> Asset {
+    let asset = model.asset(&format!("cone/{name}"), Kind::TrafficCone, Class::TrafficCone);
+    Asset { commonness, ..asset }.tagged([name])
 }
 
 fn cone(make: Cone) -> Asset {
@@ -101,7 +102,7 @@ fn cone(make: Cone) -> Asset {
         model.add(orange, disc(0.105, 0.02).moved(vec3(-0.01, 0.0, top + 0.18)));
         model.add(amber, disc(0.092, 0.024).moved(vec3(-0.012, 0.0, top + 0.18)));
     }
-    asset(model, make.id, make.commonness)
+    asset(model, make.name, make.commonness)
 }
 
 /// An upright tube on a heavy foot, which divides lanes.
@@ -127,7 +128,7 @@ fn tube() -> Asset {
         let band = [(0.0425, 0.0), (0.0455, 0.002), (0.0455, 0.1), (0.0425, 0.102)];
         model.add(white, Shape::lathe(&band.map(|(r, h)| vec2(r, z + h)), 20));
     }
-    asset(model, "cone/tube", 1.0)
+    asset(model, "tube", 1.0)
 }
 
 /// A drum with bands in a ring of rubber.
@@ -162,7 +163,7 @@ fn drum() -> Asset {
         .map(|a| vec3(0.0, 0.11 * a.cos(), 0.9 + 0.12 * a.sin()))
         .collect();
     model.add(orange, Shape::tube(&handle, 0.016, 8));
-    asset(model, "cone/drum", 0.8)
+    asset(model, "drum", 0.8)
 }
 
 /// A striped panel on a foot of recycled rubber.
@@ -190,5 +191,5 @@ fn panel() -> Asset {
     }
     model.add(lamp, upright(Shape::cylinder(0.085, 0.07, 20)).moved(vec3(-0.035, 0.0, 1.18)));
     model.add(back, Shape::rounded_block(vec3(0.09, 0.13, 0.06), 0.012).moved(vec3(0.0, 0.0, 1.11)));
-    asset(model, "cone/panel", 0.5)
+    asset(model, "panel", 0.5)
 }

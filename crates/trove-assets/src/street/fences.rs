@@ -8,7 +8,7 @@ use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plas
 use crate::shape::{Model, Shape};
 use crate::surfaces::{self, Canvas, Texel, hash};
 
-/// `-far` pieces are for where a camera sees no bars.
+/// Pieces tagged `far` are for where a camera sees no bars.
 pub(super) fn assets() -> Vec<Asset> {
     vec![
         chain_link(),
@@ -19,24 +19,24 @@ pub(super) fn assets() -> Vec<Asset> {
         hoarding(),
         site_fence(),
         picket(),
-        wall("wall/concrete", surfaces::set("concrete/board-marked"), 2.0, 0.2),
-        wall("wall/brick", surfaces::set("brick/flemish"), 2.4, 0.24),
-        wall("wall/garden", surfaces::set("brick/flemish"), 1.15, 0.24),
-        wall("wall/dwarf", surfaces::set("brick/flemish"), 0.6, 0.24),
-        wall("wall/stone", surfaces::set("stone/rubble"), 2.2, 0.35),
+        wall("concrete", surfaces::set("concrete/board-marked"), 2.0, 0.2),
+        wall("brick", surfaces::set("brick/flemish"), 2.4, 0.24),
+        wall("garden", surfaces::set("brick/flemish"), 1.15, 0.24),
+        wall("dwarf", surfaces::set("brick/flemish"), 0.6, 0.24),
+        wall("stone", surfaces::set("stone/rubble"), 2.2, 0.35),
         railed(true),
         railed(false),
         w_beam(),
-        railing("guard-rail/railing", galvanised(), &[]),
-        railing("guard-rail/railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]),
+        railing("railing", galvanised(), &[]),
+        railing("railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]).tagged(["railing", "painted"]),
         parapet(),
     ]
 }
 
 const GREEN: Vec3 = vec3(0.02, 0.085, 0.045);
 
-fn fence(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::Fence, Class::Barrier)
+fn fence(model: Model, name: &str) -> Asset {
+    model.asset(&format!("fence/{name}"), Kind::Fence, Class::Barrier).tagged([name])
 }
 
 /// Something long from x = 0 to `length_m`.
@@ -88,7 +88,7 @@ fn chain_link() -> Asset {
     for z in [0.08, 1.76] {
         model.add(steel, Shape::tube(&[vec3(0.0, 0.0, z), vec3(length_m, 0.0, z)], 0.016, 6));
     }
-    fence(model, "fence/chain-link")
+    fence(model, "chain-link")
 }
 
 /// Upright bars between two rails; from afar a stripe for three of them.
@@ -106,7 +106,7 @@ fn bars(near: bool) -> Asset {
         let x = 0.02 + length_m * i as f32 / count as f32;
         model.add(paint, standing(x, 0.0, 0.08, 1.22, vec2(width_m, 0.018)));
     }
-    fence(model, if near { "fence/bars" } else { "fence/bars-far" })
+    if near { fence(model, "bars") } else { fence(model, "bars-far").tagged(["bars", "far"]) }
 }
 
 /// Boards side by side on two rails.
@@ -124,7 +124,7 @@ fn wood() -> Asset {
         let x = length_m * (i as f32 + 0.5) / 16.0;
         model.add(boards, board(vec3(x, 0.0, 0.885 + lift / 2.0), vec3(length_m / 16.0 - 0.008, 0.02, 1.67 + lift)));
     }
-    fence(model, "fence/wood")
+    fence(model, "wood")
 }
 
 /// Pointed boards apart from each other.
@@ -142,7 +142,7 @@ fn picket() -> Asset {
         let corners = [vec2(-0.035, 0.06), vec2(0.035, 0.06), vec2(0.035, 0.93), vec2(0.0, 1.0), vec2(-0.035, 0.93)];
         model.add(paint, swept(&corners, 0.02).moved(vec3(x, 0.0, 0.0)));
     }
-    fence(model, "fence/picket")
+    fence(model, "picket")
 }
 
 /// Closed panels between posts.
@@ -155,7 +155,7 @@ fn panels() -> Asset {
     for i in 0..6 {
         model.add(panel, rail(2.4, 0.0, 0.2 + 0.29 * i as f32, vec2(0.035, 0.28)));
     }
-    fence(model, "fence/panel")
+    fence(model, "panel")
 }
 
 /// Corrugated sheets around a building site.
@@ -177,7 +177,7 @@ fn hoarding() -> Asset {
         model.add(steel, rail(length_m, 0.045, z, vec2(0.03, 0.06)));
     }
     model.add(steel, standing(0.0, 0.07, 0.0, 2.12, Vec2::splat(0.06)));
-    fence(model, "fence/hoarding")
+    fence(model, "hoarding")
 }
 
 /// A movable steel fence on concrete feet.
@@ -196,11 +196,11 @@ fn site_fence() -> Asset {
         model.add(steel, Shape::tube(&[vec3(0.0, 0.0, z), vec3(length_m, 0.0, z)], 0.016, 8));
     }
     model.add(feet, bar(vec3(0.115, 0.0, 0.07), vec3(0.23, 0.7, 0.14)));
-    fence(model, "fence/site")
+    fence(model, "site")
 }
 
 /// A wall under a coping.
-fn wall(id: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
+fn wall(name: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
     let mut model = Model::default();
     let body = model.slot(Material { dirt: 0.8, ..body }, &[]);
     let coping = model.slot(concrete(), &[]);
@@ -209,7 +209,7 @@ fn wall(id: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
     let half = thick_m / 2.0 + 0.04;
     let profile = [vec2(-half, 0.0), vec2(half, 0.0), vec2(half, 0.05), vec2(0.0, 0.08), vec2(-half, 0.05)];
     model.add(coping, along_x(&profile, length_m).moved(Vec3::Z * (height_m - 0.08)));
-    model.asset(id, Kind::Wall, Class::Barrier)
+    model.asset(&format!("wall/{name}"), Kind::Wall, Class::Barrier).tagged([name])
 }
 
 /// Pointed iron bars in the coping of a dwarf wall, every eighth a stronger one; from afar a stripe for three of them.
@@ -242,7 +242,9 @@ fn railed(near: bool) -> Asset {
             model.add(paint, swept(&point, 1.2 * half_m).moved(Vec3::X * x));
         }
     }
-    model.asset(if near { "wall/railed" } else { "wall/railed-far" }, Kind::Wall, Class::Barrier)
+    let id = if near { "wall/railed" } else { "wall/railed-far" };
+    let asset = model.asset(id, Kind::Wall, Class::Barrier).tagged(["railed"]);
+    if near { asset } else { asset.tagged(["far"]) }
 }
 
 /// A (y, z) profile, counter-clockwise seen from +x, swept from x = 0.
@@ -250,8 +252,8 @@ fn along_x(profile: &[Vec2], length_m: f32) -> Shape {
     super::finish::upright(Shape::extruded(profile, length_m))
 }
 
-fn guard_rail(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::GuardRail, Class::Barrier)
+fn guard_rail(model: Model, name: &str) -> Asset {
+    model.asset(&format!("guard-rail/{name}"), Kind::GuardRail, Class::Barrier).tagged([name])
 }
 
 /// A W-shaped steel beam on posts; traffic runs on its −y side.
@@ -277,11 +279,11 @@ fn w_beam() -> Asset {
     model.add(steel, standing(0.0, 0.08, 0.0, 0.72, vec2(0.07, 0.12)));
     let amber = model.slot(plastic(vec3(0.6, 0.3, 0.02)), &[]);
     model.add(amber, bar(vec3(0.035, -0.02, 0.605), vec3(0.05, 0.03, 0.05)));
-    guard_rail(model, "guard-rail/w-beam")
+    guard_rail(model, "w-beam")
 }
 
 /// Tubes that keep those on foot from the road.
-fn railing(id: &str, material: Material, paints: &[Vec3]) -> Asset {
+fn railing(name: &str, material: Material, paints: &[Vec3]) -> Asset {
     let mut model = Model::default();
     let steel = model.slot(material, paints);
     let length_m = 2.0;
@@ -293,7 +295,7 @@ fn railing(id: &str, material: Material, paints: &[Vec3]) -> Asset {
         let x = length_m * i as f32 / 13.0;
         model.add(steel, Shape::tube(&[vec3(x, 0.0, 0.18), vec3(x, 0.0, 1.02)], 0.007, 5));
     }
-    guard_rail(model, id)
+    guard_rail(model, name)
 }
 
 /// A concrete parapet as on bridges.
@@ -306,5 +308,5 @@ fn parapet() -> Asset {
         [vec2(-0.2, 0.0), vec2(0.2, 0.0), vec2(0.2, 0.86), vec2(-0.06, 0.86), vec2(-0.1, 0.3), vec2(-0.2, 0.08)];
     model.add(body, along_x(&profile, length_m));
     model.add(dark, standing(0.0, 0.0, 0.1, 0.85, vec2(0.012, 0.402)));
-    guard_rail(model, "guard-rail/parapet")
+    guard_rail(model, "parapet")
 }

@@ -11,17 +11,17 @@ use crate::shape::{Model, Shape};
 pub(super) fn assets() -> Vec<Asset> {
     vec![
         us_mailbox(),
-        post_box("mailbox/yellow", vec3(0.6, 0.38, 0.01)),
-        post_box("mailbox/red", vec3(0.4, 0.015, 0.02)),
-        post_box("mailbox/green", vec3(0.02, 0.12, 0.06)),
-        cabinet("cabinet/slim", vec3(0.75, 0.32, 1.15)),
-        cabinet("cabinet/wide", vec3(1.3, 0.36, 1.3)),
+        post_box("yellow", vec3(0.6, 0.38, 0.01)),
+        post_box("red", vec3(0.4, 0.015, 0.02)),
+        post_box("green", vec3(0.02, 0.12, 0.06)),
+        cabinet("slim", vec3(0.75, 0.32, 1.15)),
+        cabinet("wide", vec3(1.3, 0.36, 1.3)),
         news_box(),
         meter(),
         pay_station(),
         advertising_column(),
-        planter("planter/round", true),
-        planter("planter/trough", false),
+        planter("round", true),
+        planter("trough", false),
         table(true),
         table(false),
         picnic_table(),
@@ -30,8 +30,8 @@ pub(super) fn assets() -> Vec<Asset> {
     ]
 }
 
-fn furniture(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::StreetFurniture, Class::Void)
+fn furniture(model: Model, what: &str, name: &str) -> Asset {
+    model.asset(&format!("{what}/{name}"), Kind::StreetFurniture, Class::Void).tagged([what, name])
 }
 
 /// A blue steel box with a rounded top on four legs.
@@ -47,11 +47,11 @@ fn us_mailbox() -> Asset {
     }
     model.add(blue, bar(vec3(0.235, 0.0, 1.08), vec3(0.06, 0.44, 0.04)));
     model.add(white, bar(vec3(0.242, 0.0, 0.72), vec3(0.004, 0.3, 0.18)));
-    furniture(model, "mailbox/blue")
+    furniture(model, "mailbox", "blue")
 }
 
 /// A box on a stand.
-fn post_box(id: &str, color: Vec3) -> Asset {
+fn post_box(name: &str, color: Vec3) -> Asset {
     let mut model = Model::default();
     let paint = model.slot(painted(color), &[]);
     let dark = model.slot(rubber(), &[]);
@@ -64,11 +64,11 @@ fn post_box(id: &str, color: Vec3) -> Asset {
         model.add(paint, bar(vec3(-0.05, y, 0.34), vec3(0.06, 0.05, 0.68)));
     }
     model.add(dark, bar(vec3(-0.05, 0.0, 0.02), vec3(0.24, 0.5, 0.04)));
-    furniture(model, id)
+    furniture(model, "mailbox", name)
 }
 
 /// A cabinet of cables or switches with two doors, stickers on it.
-fn cabinet(id: &str, size: Vec3) -> Asset {
+fn cabinet(name: &str, size: Vec3) -> Asset {
     let mut model = Model::default();
     let grey = vec3(0.33, 0.335, 0.32);
     let body = model
@@ -88,7 +88,7 @@ fn cabinet(id: &str, size: Vec3) -> Asset {
     }
     model.add(dark, bar(vec3(depth / 2.0 + 0.015, 0.03 * width, height * 0.55), vec3(0.02, 0.03, 0.1)));
     // Left by passers-by.
-    let mut random = Seed(11).child(id).random();
+    let mut random = Seed(11).child(&format!("cabinet/{name}")).random();
     for color in [vec3(0.5, 0.5, 0.46), vec3(0.45, 0.05, 0.05), vec3(0.05, 0.12, 0.35), vec3(0.5, 0.4, 0.05)] {
         let sticker = model.slot(plastic(color), &[]);
         let [y, z] = [random.range(-0.38, 0.38) as f32 * width, random.range(0.25, 0.75) as f32 * height];
@@ -96,7 +96,7 @@ fn cabinet(id: &str, size: Vec3) -> Asset {
         let patch = Shape::block(vec3(0.002, random.range(0.06, 0.13) as f32, random.range(0.05, 0.1) as f32));
         model.add(sticker, patch.turned(turn).moved(vec3(depth / 2.0 + 0.011, y, z)));
     }
-    furniture(model, id)
+    furniture(model, "cabinet", name)
 }
 
 /// A row of newspaper boxes.
@@ -112,7 +112,7 @@ fn news_box() -> Asset {
         model.add(paper, bar(vec3(0.195, y, 0.76), vec3(0.012, 0.32, 0.3)));
         model.add(pane, Shape::block(vec3(0.004, 0.36, 0.34)).moved(vec3(0.206, y, 0.76)));
     }
-    furniture(model, "news-box/row")
+    furniture(model, "news-box", "row")
 }
 
 /// A parking meter on a pole.
@@ -128,7 +128,7 @@ fn meter() -> Asset {
         let plate = bar(vec3(0.064, 0.0, 1.36), vec3(0.012, 0.1, 0.07));
         model.add(face, plate.turned(Quat::from_rotation_z(turn)));
     }
-    furniture(model, "parking-meter/single")
+    furniture(model, "parking-meter", "single")
 }
 
 fn pay_station() -> Asset {
@@ -149,7 +149,7 @@ fn pay_station() -> Asset {
         ];
         model.add(white, Shape::join(letter).turned(Quat::from_rotation_z(turn)));
     }
-    furniture(model, "parking-meter/station")
+    furniture(model, "parking-meter", "station")
 }
 
 /// A thick column with posters all around.
@@ -173,11 +173,11 @@ fn advertising_column() -> Asset {
         };
         model.add(poster, Shape::sheet(&[row(0.5), row(2.7)]));
     }
-    furniture(model, "advertising/column")
+    furniture(model, "advertising", "column")
 }
 
 /// A tub with a bush in it.
-fn planter(id: &str, round: bool) -> Asset {
+fn planter(name: &str, round: bool) -> Asset {
     let mut model = Model::default();
     let tub = model.slot(concrete(), &[]);
     let soil = model.slot(Material::plain("soil", vec3(0.07, 0.045, 0.03), 0.95), &[]);
@@ -192,7 +192,7 @@ fn planter(id: &str, round: bool) -> Asset {
         model.add(soil, bar(vec3(0.0, 0.0, 0.49), vec3(0.4, 1.3, 0.04)));
     }
     // Leaves one by one around a few middles.
-    let mut random = Seed(23).child(id).random();
+    let mut random = Seed(23).child(&format!("planter/{name}")).random();
     let middles: &[f32] = if round { &[0.0] } else { &[-0.45, 0.0, 0.45] };
     for &y in middles {
         for _ in 0..220 {
@@ -210,7 +210,7 @@ fn planter(id: &str, round: bool) -> Asset {
             model.add(leaves, both.moved(Vec3::X * reach).turned(turn).moved(vec3(0.0, y, 0.55)));
         }
     }
-    furniture(model, id)
+    furniture(model, "planter", name)
 }
 
 /// A round table with two chairs, with a parasol or without.
@@ -240,7 +240,7 @@ fn table(parasol: bool) -> Asset {
         let shade = Shape::lathe(&[vec2(1.15, 2.1), vec2(0.6, 2.32), vec2(0.0, 2.45)], 8);
         model.add(cloth, shade.clone().and(shade.inside_out()));
     }
-    furniture(model, if parasol { "cafe/parasol" } else { "cafe/table" })
+    furniture(model, "cafe", if parasol { "parasol" } else { "table" })
 }
 
 fn picnic_table() -> Asset {
@@ -259,7 +259,7 @@ fn picnic_table() -> Asset {
             model.add(wood, leg.turned(Quat::from_rotation_y(lean)).moved(vec3(lean, y, 0.375)));
         }
     }
-    furniture(model, "picnic-table/timber")
+    furniture(model, "picnic-table", "timber")
 }
 
 /// A telephone under a hood on a pillar.
@@ -272,7 +272,7 @@ fn telephone() -> Asset {
     model.add(magenta, bar(vec3(0.02, 0.0, 2.15), vec3(0.5, 0.6, 0.22)));
     model.add(black, bar(vec3(0.03, 0.0, 1.35), vec3(0.12, 0.24, 0.4)));
     model.add(frame, bar(vec3(0.06, 0.0, 1.05), vec3(0.3, 0.3, 0.03)));
-    furniture(model, "telephone/pillar")
+    furniture(model, "telephone", "pillar")
 }
 
 fn flagpole() -> Asset {
@@ -281,5 +281,5 @@ fn flagpole() -> Asset {
     model.add(white, Shape::tapered_tube(&[(Vec3::ZERO, 0.07), (Vec3::Z * 9.0, 0.04)], 14));
     model.add(white, Shape::ellipsoid(Vec3::splat(0.08), 14).moved(Vec3::Z * 9.05));
     model.add(white, post(Vec3::ZERO, 0.14, 0.12, 16));
-    furniture(model, "flagpole/plain")
+    furniture(model, "flagpole", "plain")
 }

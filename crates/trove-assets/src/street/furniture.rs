@@ -14,8 +14,8 @@ pub(super) fn assets() -> Vec<Asset> {
     vec![
         steel_bollard(),
         iron_bollard(),
-        hydrant("hydrant/pillar", vec3(0.42, 0.03, 0.02)),
-        hydrant("hydrant/yellow", vec3(0.52, 0.34, 0.02)),
+        hydrant("pillar", vec3(0.42, 0.03, 0.02)),
+        hydrant("yellow", vec3(0.52, 0.34, 0.02)),
         flexible_bollard(),
         concrete_bollard(),
         timber_bollard(),
@@ -33,7 +33,7 @@ fn steel_bollard() -> Asset {
     model.add(steel, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 24));
     model
         .add(tape, Shape::lathe(&[vec2(0.0575, 0.78), vec2(0.0585, 0.78), vec2(0.0585, 0.86), vec2(0.0575, 0.86)], 24));
-    model.asset("bollard/steel", Kind::Bollard, Class::TrafficSign)
+    model.asset("bollard/steel", Kind::Bollard, Class::TrafficSign).tagged(["steel"])
 }
 
 fn iron_bollard() -> Asset {
@@ -58,7 +58,7 @@ fn iron_bollard() -> Asset {
         white,
         Shape::lathe(&[(0.0905, 0.68), (0.0925, 0.68), (0.0895, 0.75), (0.087, 0.75)].map(|(r, z)| vec2(r, z)), 20),
     );
-    model.asset("bollard/iron", Kind::Bollard, Class::TrafficSign)
+    model.asset("bollard/iron", Kind::Bollard, Class::TrafficSign).tagged(["iron"])
 }
 
 /// A plastic post that springs back, with bands.
@@ -76,7 +76,7 @@ fn flexible_bollard() -> Asset {
     }
     let foot = [(0.0, 0.0), (0.11, 0.0), (0.105, 0.015), (0.06, 0.035), (0.0, 0.035)];
     model.add(black, Shape::lathe(&foot.map(|(r, z)| vec2(r, z)), 24));
-    model.asset("bollard/flexible", Kind::Bollard, Class::TrafficSign)
+    model.asset("bollard/flexible", Kind::Bollard, Class::TrafficSign).tagged(["flexible"])
 }
 
 fn concrete_bollard() -> Asset {
@@ -85,7 +85,7 @@ fn concrete_bollard() -> Asset {
     let profile =
         [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02), (0.13, 0.7), (0.135, 0.72), (0.135, 0.78), (0.115, 0.85), (0.0, 0.88)];
     model.add(body, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 28));
-    model.asset("bollard/concrete", Kind::Bollard, Class::TrafficSign)
+    model.asset("bollard/concrete", Kind::Bollard, Class::TrafficSign).tagged(["concrete"])
 }
 
 fn timber_bollard() -> Asset {
@@ -98,10 +98,10 @@ fn timber_bollard() -> Asset {
         [(0.0, 0.16), (0.93, 0.16), (0.945, 0.155), (0.99, 0.07)].map(|(z, side)| section(z, side)).to_vec();
     model.add(wood, Shape::loft(&rings).laid(Vec3::Z, vec2(0.3, 0.7)));
     model.add(tape, bar(vec3(0.0, 0.0, 0.82), vec3(0.163, 0.163, 0.06)));
-    model.asset("bollard/timber", Kind::Bollard, Class::TrafficSign)
+    model.asset("bollard/timber", Kind::Bollard, Class::TrafficSign).tagged(["timber"])
 }
 
-fn hydrant(id: &str, color: Vec3) -> Asset {
+fn hydrant(name: &str, color: Vec3) -> Asset {
     let mut model = Model::default();
     let red = model.slot(painted(color), &[]);
     let cap = model.slot(painted(color * 0.8), &[]);
@@ -134,7 +134,7 @@ fn hydrant(id: &str, color: Vec3) -> Asset {
         let at = Quat::from_rotation_z(TAU * k as f32 / 8.0) * vec3(0.135, 0.0, 0.04);
         model.add(cap, post(at, 0.012, 0.02, 6));
     }
-    model.asset(id, Kind::Hydrant, Class::TrafficSign)
+    model.asset(&format!("hydrant/{name}"), Kind::Hydrant, Class::TrafficSign).tagged([name])
 }
 
 /// Hoops along x, with bicycles leaning on most of them or empty.
@@ -159,7 +159,8 @@ fn rack(used: bool) -> Asset {
             }
         }
     }
-    model.asset(if used { "bicycle-rack/hoops" } else { "bicycle-rack/empty" }, Kind::BicycleRack, Class::Void)
+    let name = if used { "hoops" } else { "empty" };
+    model.asset(&format!("bicycle-rack/{name}"), Kind::BicycleRack, Class::Void).tagged([name])
 }
 
 /// A parked bicycle along x: wheels, frame, saddle, handlebar.
@@ -225,5 +226,5 @@ fn shelter() -> Asset {
     for y in [-1.2, 0.6] {
         model.add(steel, bar(vec3(-0.32, y, 0.23), vec3(0.3, 0.05, 0.44)));
     }
-    model.asset("shelter/bus-stop", Kind::Shelter, Class::Void)
+    model.asset("shelter/bus-stop", Kind::Shelter, Class::Void).tagged(["bus-stop"])
 }

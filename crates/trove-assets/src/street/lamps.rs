@@ -12,8 +12,8 @@ pub(super) fn assets() -> Vec<Asset> {
     vec![curved(), straight(), cobra(), mast(), post_top(), historic(), wooden_pole(), concrete_pole()]
 }
 
-fn lamp(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::StreetLamp, Class::TrafficSign)
+fn lamp(model: Model, name: &str) -> Asset {
+    model.asset(&format!("lamp/{name}"), Kind::StreetLamp, Class::TrafficSign).tagged([name])
 }
 
 fn lens() -> Material {
@@ -45,7 +45,7 @@ fn curved() -> Asset {
     model.add(head, Shape::ellipsoid(vec3(0.42, 0.15, 0.09), 20).moved(vec3(0.36, 0.0, 0.0)).turned(tilt).moved(end));
     model.add(lens, Shape::ellipsoid(vec3(0.26, 0.12, 0.07), 16).moved(vec3(0.42, 0.0, -0.04)).turned(tilt).moved(end));
     rust_at_foot(&mut model, steel, 0.12);
-    lamp(model, "lamp/curved")
+    lamp(model, "curved")
 }
 
 /// A slim modern lamp with a flat head.
@@ -60,7 +60,7 @@ fn straight() -> Asset {
     let turn = Quat::from_rotation_y(-0.12);
     model.add(paint, bar(Vec3::ZERO, vec3(0.66, 0.26, 0.07)).turned(turn).moved(vec3(1.65, 0.0, 8.18)));
     model.add(lens, bar(vec3(0.04, 0.0, -0.034), vec3(0.46, 0.2, 0.012)).turned(turn).moved(vec3(1.65, 0.0, 8.18)));
-    lamp(model, "lamp/straight")
+    lamp(model, "straight")
 }
 
 /// An aluminium pole with a truss arm and a flat oval head, as along American streets.
@@ -84,7 +84,7 @@ fn cobra() -> Asset {
     let end = upper(1.0);
     model.add(head, Shape::ellipsoid(vec3(0.4, 0.17, 0.1), 20).moved(end + vec3(0.3, 0.0, -0.01)));
     model.add(lens, Shape::ellipsoid(vec3(0.22, 0.14, 0.09), 16).moved(end + vec3(0.36, 0.0, -0.05)));
-    lamp(model, "lamp/cobra")
+    lamp(model, "cobra")
 }
 
 /// A tall tapered mast with a long bare arm, as over wide roads.
@@ -101,7 +101,7 @@ fn mast() -> Asset {
     model.add(head, bar(arm(1.0) + vec3(0.25, 0.0, 0.02), vec3(0.62, 0.3, 0.09)));
     model.add(lens, bar(arm(1.0) + vec3(0.28, 0.0, -0.03), vec3(0.45, 0.24, 0.015)));
     rust_at_foot(&mut model, steel, 0.14);
-    lamp(model, "lamp/mast")
+    lamp(model, "mast")
 }
 
 /// A low post with its light on top, as in side streets and parks.
@@ -122,7 +122,7 @@ fn post_top() -> Asset {
     model.add(lens, Shape::lathe(&bowl.map(|(r, z)| vec2(r, z)), 20));
     let cap = [(0.0, 4.95), (0.36, 4.95), (0.34, 5.0), (0.12, 5.12), (0.0, 5.14)];
     model.add(paint, Shape::lathe(&cap.map(|(r, z)| vec2(r, z)), 24));
-    lamp(model, "lamp/post-top")
+    lamp(model, "post-top")
 }
 
 /// A cast-iron post with a lantern.
@@ -170,14 +170,14 @@ fn historic() -> Asset {
         [(0.29, 3.9), (0.29, 3.92), (0.14, 4.08), (0.1, 4.1), (0.1, 4.16), (0.03, 4.22), (0.03, 4.3), (0.0, 4.36)];
     model.add(iron, Shape::lathe(&roof.map(|(r, z)| vec2(r, z)), 16));
     model.add(bulb, Shape::ellipsoid(vec3(0.06, 0.06, 0.11), 14).moved(vec3(0.0, 0.0, 3.62)));
-    lamp(model, "lamp/historic")
+    lamp(model, "historic")
 }
 
 /// Wires hang where a pole has parts of this material.
 const INSULATOR: &str = "insulator";
 
-fn pole(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::UtilityPole, Class::TrafficSign)
+fn pole(model: Model, name: &str) -> Asset {
+    model.asset(&format!("utility-pole/{name}"), Kind::UtilityPole, Class::TrafficSign).tagged([name])
 }
 
 /// A timber pole with cross arms, insulators and a transformer.
@@ -200,7 +200,7 @@ fn wooden_pole() -> Asset {
     }
     model.add(steel, post(vec3(-0.34, 0.0, 7.2), 0.22, 0.8, 18));
     model.add(steel, bar(vec3(-0.14, 0.0, 7.6), vec3(0.1, 0.14, 0.5)));
-    pole(model, "utility-pole/timber")
+    pole(model, "timber")
 }
 
 /// A concrete pole with a cable clamp and a box.
@@ -218,5 +218,5 @@ fn concrete_pole() -> Asset {
     }
     model.add(steel, bar(vec3(0.24, 0.0, 2.2), vec3(0.2, 0.34, 0.5)));
     model.add(steel, Shape::tube(&[vec3(0.2, 0.0, 2.4), vec3(0.14, 0.0, 8.3)], 0.02, 6));
-    pole(model, "utility-pole/concrete")
+    pole(model, "concrete")
 }

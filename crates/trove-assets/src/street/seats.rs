@@ -33,7 +33,7 @@ fn slatted_bench() -> Asset {
             model.add(iron, bar(vec3(0.17, y, 0.54), vec3(0.03, 0.05, 0.2)));
         }
     }
-    model.asset("bench/slatted", Kind::Bench, Class::Void)
+    model.asset("bench/slatted", Kind::Bench, Class::Void).tagged(["slatted"])
 }
 
 fn stone_bench() -> Asset {
@@ -46,7 +46,7 @@ fn stone_bench() -> Asset {
     for i in 0..6 {
         model.add(wood, board(vec3(-0.2 + 0.08 * i as f32, 0.0, 0.43), vec3(0.065, 2.0, 0.05)));
     }
-    model.asset("bench/stone", Kind::Bench, Class::Void)
+    model.asset("bench/stone", Kind::Bench, Class::Void).tagged(["stone"])
 }
 
 /// A seat of steel rods on two frames, its back bent from the same rods.
@@ -76,7 +76,7 @@ fn mesh_bench() -> Asset {
         model.add(zinc, bar(vec3(-0.01, y, 0.41), vec3(0.4, 0.05, 0.03)));
         model.add(zinc, bar(vec3(0.0, y, 0.008), vec3(0.3, 0.14, 0.016)));
     }
-    model.asset("bench/steel", Kind::Bench, Class::Void)
+    model.asset("bench/steel", Kind::Bench, Class::Void).tagged(["steel"])
 }
 
 /// A block of granite.
@@ -85,5 +85,5 @@ fn granite_bench() -> Asset {
     let stone = model.slot(surfaces::set("stone/granite"), &[]);
     model.add(stone, Shape::rounded_block(vec3(0.5, 1.9, 0.36), 0.012).moved(vec3(0.0, 0.0, 0.27)));
     model.add(stone, Shape::rounded_block(vec3(0.4, 1.7, 0.1), 0.008).moved(vec3(0.0, 0.0, 0.05)));
-    model.asset("bench/granite", Kind::Bench, Class::Void)
+    model.asset("bench/granite", Kind::Bench, Class::Void).tagged(["granite"])
 }

@@ -12,7 +12,7 @@ use crate::shape::{Model, Shape};
 /// How a signal is built.
 #[derive(Clone, Copy)]
 struct Make {
-    id: &'static str,
+    name: &'static str,
     /// Reach of its arm; 0 for heads on the pole alone.
     arm_m: f32,
     /// Heads lie along the arm, as in eastern Asia.
@@ -25,11 +25,11 @@ struct Make {
 
 #[rustfmt::skip]
 const MAKES: [Make; 5] = [
-    Make { id: "post", arm_m: 0.0, lying: false, board: false, hand: false },
-    Make { id: "arm", arm_m: 5.0, lying: false, board: true, hand: false },
-    Make { id: "us-arm", arm_m: 6.0, lying: false, board: true, hand: true },
-    Make { id: "us-long-arm", arm_m: 9.5, lying: false, board: true, hand: true },
-    Make { id: "lying-arm", arm_m: 6.0, lying: true, board: false, hand: false },
+    Make { name: "post", arm_m: 0.0, lying: false, board: false, hand: false },
+    Make { name: "arm", arm_m: 5.0, lying: false, board: true, hand: false },
+    Make { name: "us-arm", arm_m: 6.0, lying: false, board: true, hand: true },
+    Make { name: "us-long-arm", arm_m: 9.5, lying: false, board: true, hand: true },
+    Make { name: "lying-arm", arm_m: 6.0, lying: true, board: false, hand: false },
 ];
 
 /// All makes for both sides of traffic, with the traffic's lamp red or green: `signal/us-arm/right/red`. An arm reaches to
@@ -39,7 +39,8 @@ pub(super) fn assets() -> Vec<Asset> {
         [("right", 1.0), ("left", -1.0)].into_iter().flat_map(move |(name, side)| {
             [Lamp::Red, Lamp::Green].map(|lit| {
                 let state = if lit == Lamp::Red { "red" } else { "green" };
-                signal(&format!("signal/{}/{name}/{state}", make.id), make, side, lit)
+                signal(&format!("signal/{}/{name}/{state}", make.name), make, side, lit)
+                    .tagged([make.name, name, state])
             })
         })
     };

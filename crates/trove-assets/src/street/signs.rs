@@ -32,51 +32,61 @@ struct Plate {
 const DISC_LIMITS: [u32; 14] = [5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130];
 const BOARD_LIMITS: [u32; 13] = [10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70];
 
-/// `sign/us/…` after the Manual on Uniform Traffic Control Devices, the others after the Vienna Convention.
+/// Tagged `us` after the Manual on Uniform Traffic Control Devices, `vienna` after the Vienna Convention.
 pub(super) fn assets() -> Vec<Asset> {
-    let discs = DISC_LIMITS
-        .par_iter()
-        .map(|limit| sign(&format!("sign/disc/speed-{limit}"), vec![disc(0.32, 2.5, speed_limit(&limit.to_string()))]));
+    let discs = DISC_LIMITS.par_iter().map(|limit| {
+        sign(&format!("disc/speed-{limit}"), vec![disc(0.32, 2.5, speed_limit(&limit.to_string()))])
+            .tagged(["vienna", &format!("speed-{limit}")])
+    });
     let boards = BOARD_LIMITS.par_iter().map(|limit| {
-        sign(&format!("sign/us/speed-{limit}"), vec![board(vec2(0.61, 0.76), 2.45, us_speed_limit(&limit.to_string()))])
+        us(&format!("speed-{limit}"), vec![board(vec2(0.61, 0.76), 2.45, us_speed_limit(&limit.to_string()))])
     });
     #[rustfmt::skip]
     let others: [fn() -> Asset; 20] = [
-        || sign("sign/us/stop", vec![stop()]),
-        || sign("sign/us/yield", vec![give_way(true)]),
-        || sign("sign/us/one-way-left", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(PI))]),
-        || sign("sign/us/one-way-right", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(0.0))]),
-        || sign("sign/us/do-not-enter", vec![board(vec2(0.76, 0.76), 2.4, do_not_enter())]),
-        || sign("sign/us/no-parking", vec![board(vec2(0.3, 0.46), 2.3, us_no_parking())]),
-        || sign("sign/us/crossing", vec![us_crossing()]),
-        || sign("sign/us/bus-stop", vec![board(vec2(0.46, 0.61), 2.45, bus("BUS STOP", BLUE, WHITE))]),
-        || sign("sign/stop", vec![stop()]),
-        || sign("sign/give-way", vec![give_way(false)]),
-        || sign("sign/no-entry", vec![disc(0.32, 2.5, no_entry())]),
-        || sign("sign/no-stopping", vec![disc(0.28, 2.4, no_stopping(true))]),
-        || sign("sign/no-parking", vec![disc(0.28, 2.4, no_stopping(false))]),
-        || sign("sign/one-way", vec![board(vec2(0.6, 0.6), 2.45, one_way())]),
-        || sign("sign/parking", vec![board(vec2(0.6, 0.6), 2.45, parking())]),
-        || sign("sign/crossing", vec![board(vec2(0.6, 0.6), 2.45, crossing())]),
-        || sign("sign/warning", vec![warning()]),
-        || sign("sign/bus-stop", vec![board(vec2(0.4, 0.55), 2.6, bus("BUS", vec3(0.55, 0.4, 0.02), BLACK))]),
-        || sign("sign/haltestelle", vec![disc(0.25, 2.6, haltestelle())]),
+        || us("stop", vec![stop()]),
+        || us("yield", vec![give_way(true)]),
+        || us("one-way-left", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(PI))]),
+        || us("one-way-right", vec![board(vec2(0.91, 0.31), 2.4, us_one_way(0.0))]),
+        || us("do-not-enter", vec![board(vec2(0.76, 0.76), 2.4, do_not_enter())]),
+        || us("no-parking", vec![board(vec2(0.3, 0.46), 2.3, us_no_parking())]),
+        || us("crossing", vec![us_crossing()]),
+        || us("bus-stop", vec![board(vec2(0.46, 0.61), 2.45, bus("BUS STOP", BLUE, WHITE))]),
+        || vienna("stop", vec![stop()]),
+        || vienna("give-way", vec![give_way(false)]),
+        || vienna("no-entry", vec![disc(0.32, 2.5, no_entry())]),
+        || vienna("no-stopping", vec![disc(0.28, 2.4, no_stopping(true))]),
+        || vienna("no-parking", vec![disc(0.28, 2.4, no_stopping(false))]),
+        || vienna("one-way", vec![board(vec2(0.6, 0.6), 2.45, one_way())]),
+        || vienna("parking", vec![board(vec2(0.6, 0.6), 2.45, parking())]),
+        || vienna("crossing", vec![board(vec2(0.6, 0.6), 2.45, crossing())]),
+        || vienna("warning", vec![warning()]),
+        || vienna("bus-stop", vec![board(vec2(0.4, 0.55), 2.6, bus("BUS", vec3(0.55, 0.4, 0.02), BLACK))]),
+        || vienna("haltestelle", vec![disc(0.25, 2.6, haltestelle())]),
         street_name,
     ];
     let others = others.par_iter().map(|sign| sign());
     discs.chain(boards).chain(others).collect()
 }
 
-fn sign(id: &str, plates: Vec<Plate>) -> Asset {
+fn us(name: &str, plates: Vec<Plate>) -> Asset {
+    sign(&format!("us/{name}"), plates).tagged(["us", name])
+}
+
+fn vienna(name: &str, plates: Vec<Plate>) -> Asset {
+    sign(name, plates).tagged(["vienna", name])
+}
+
+fn sign(name: &str, plates: Vec<Plate>) -> Asset {
+    let id = format!("sign/{name}");
     let top = |p: &Plate| p.up_m + p.outline.iter().map(|corner| corner.y).fold(0.0, f32::max);
     let top_m = plates.iter().map(top).fold(0.0, f32::max);
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     let back = model.slot(painted(Vec3::splat(0.27)), &[]);
     model.add(steel, post(Vec3::ZERO, 0.038, top_m - 0.04, 16));
-    mount(&mut model, back, id, plates, vec2(0.0, 0.055));
+    mount(&mut model, back, &id, plates, vec2(0.0, 0.055));
     rust_at_foot(&mut model, steel, 0.08);
-    model.asset(id, Kind::TrafficSign, Class::TrafficSign)
+    model.asset(&id, Kind::TrafficSign, Class::TrafficSign)
 }
 
 /// Hangs plates at (y, x).
@@ -341,7 +351,7 @@ fn street_name() -> Asset {
         let plate = Shape::block(vec3(0.015, size.x, size.y)).turned(Quat::from_rotation_z(turn));
         model.add(steel, plate.moved(Vec3::Z * up_m));
     }
-    model.asset("sign/street-name", Kind::TrafficSign, Class::TrafficSign)
+    model.asset("sign/street-name", Kind::TrafficSign, Class::TrafficSign).tagged(["street-name"])
 }
 
 fn parking() -> Picture {

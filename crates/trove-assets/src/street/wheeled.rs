@@ -13,8 +13,8 @@ pub(super) fn assets() -> Vec<Asset> {
     vec![hand_truck(), shopping_trolley(), market_cart(), dumpster(), wheelbarrow(), kick_scooter()]
 }
 
-fn pushed(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::PushablePullable, Class::Void)
+fn pushed(model: Model, name: &str) -> Asset {
+    model.asset(&format!("cart/{name}"), Kind::PushablePullable, Class::Void).tagged([name])
 }
 
 /// A wheel about the y axis: tyre and rim.
@@ -53,7 +53,7 @@ fn hand_truck() -> Asset {
     {
         model.add(card, bar(Vec3::ZERO, size).turned(Quat::from_rotation_z(turn)).moved(vec3(0.185, 0.0, z)));
     }
-    pushed(model, "cart/hand-truck")
+    pushed(model, "hand-truck")
 }
 
 /// A basket of wire on castors.
@@ -98,7 +98,7 @@ fn shopping_trolley() -> Asset {
         }
     }
     model.add(grip, Shape::tube(&[vec3(-0.47, -0.27, 1.01), vec3(-0.47, 0.27, 1.01)], 0.016, 10));
-    pushed(model, "cart/shopping-trolley")
+    pushed(model, "shopping-trolley")
 }
 
 /// A hawker's cart: a chest on two wheels under an awning with lappets.
@@ -143,7 +143,7 @@ fn market_cart() -> Asset {
     for (x, y, size) in [(-0.4, 0.1, 0.28), (0.0, -0.12, 0.22), (0.36, 0.08, 0.32)] {
         model.add(top, Shape::rounded_block(vec3(size, size, 0.2), 0.02).moved(vec3(x, y, 1.04)));
     }
-    pushed(model, "cart/market")
+    pushed(model, "market")
 }
 
 /// A bin for a house, on four castors, with a domed lid.
@@ -190,7 +190,7 @@ fn dumpster() -> Asset {
     }
     let bow = [vec3(0.47, -0.4, 1.0), vec3(0.56, -0.36, 1.0), vec3(0.56, 0.36, 1.0), vec3(0.47, 0.4, 1.0)];
     model.add(shell, Shape::tube(&bow, 0.018, 8));
-    pushed(model, "cart/dumpster")
+    pushed(model, "dumpster")
 }
 
 /// A barrow with sand in it.
@@ -219,7 +219,7 @@ fn wheelbarrow() -> Asset {
         model.add(steel, Shape::tube(&leg.map(|(x, y, z)| vec3(x, side * y, z)), 0.013, 8));
     }
     wheel(&mut model, wheels, vec3(0.66, 0.0, 0.19), 0.19, 0.08);
-    pushed(model, "cart/wheelbarrow")
+    pushed(model, "wheelbarrow")
 }
 
 /// An electric kick scooter on its stand.
@@ -252,5 +252,5 @@ fn kick_scooter() -> Asset {
     }
     model.add(wheels[1], Shape::tube(&[vec3(-0.1, 0.07, 0.11), vec3(-0.06, 0.16, 0.005)], 0.008, 6));
     model.add(lens, Shape::ellipsoid(vec3(0.02, 0.03, 0.03), 10).moved(vec3(0.345, 0.0, 0.98)));
-    model.asset("kick-scooter/parked", Kind::StreetFurniture, Class::Void)
+    model.asset("kick-scooter/parked", Kind::StreetFurniture, Class::Void).tagged(["kick-scooter", "parked"])
 }

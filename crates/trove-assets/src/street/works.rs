@@ -25,12 +25,12 @@ pub(super) fn assets() -> Vec<Asset> {
     ]
 }
 
-fn works(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::StreetFurniture, Class::Void)
+fn works(model: Model, name: &str) -> Asset {
+    model.asset(&format!("works/{name}"), Kind::StreetFurniture, Class::Void).tagged(["works", name])
 }
 
-fn debris(model: Model, id: &str) -> Asset {
-    model.asset(id, Kind::Debris, Class::Void)
+fn debris(model: Model, name: &str) -> Asset {
+    model.asset(&format!("debris/{name}"), Kind::Debris, Class::Void).tagged([name])
 }
 
 /// A cabin of ribbed plastic with a bowed, pale roof.
@@ -74,7 +74,7 @@ fn toilet() -> Asset {
         .collect();
     model.add(pale, Shape::loft(&roof));
     model.add(pale, Shape::cylinder(0.045, 0.25, 12).moved(vec3(-0.35, 0.3, 2.25)));
-    works(model, "works/toilet")
+    works(model, "toilet")
 }
 
 /// An open container with sloping ends that lorries lift, half full of rubble.
@@ -132,7 +132,7 @@ fn skip() -> Asset {
             .turned(Quat::from_rotation_y(-0.3) * Quat::from_rotation_z(turn * 0.4));
         model.add(wood, plank.moved(vec3(0.3 * i as f32 - 0.4, 0.25 * turn, 1.14)));
     }
-    works(model, "works/skip")
+    works(model, "skip")
 }
 
 /// Two bays of tubes with decks of planks and rails.
@@ -170,7 +170,7 @@ fn scaffolding() -> Asset {
         }
         model.add(wood, board(vec3(half_x + 0.02, 0.0, z + 0.1), vec3(0.03, 4.5, 0.15)));
     }
-    works(model, "works/scaffolding")
+    works(model, "scaffolding")
 }
 
 /// A wooden drum with cable on it.
@@ -195,7 +195,7 @@ fn cable_drum() -> Asset {
         (0..=56).map(|i| vec2(0.45 + 0.012 * (i as f32 * FRAC_PI_2).sin(), -0.36 + 0.72 * i as f32 / 56.0)).collect();
     model.add(black, Shape::lathe(&layers, 32).turned(Quat::from_rotation_x(FRAC_PI_2)).moved(vec3(0.0, 0.0, 0.65)));
     model.add(iron, disc(0.05, 0.95).moved(vec3(0.0, 0.475, 0.65)));
-    works(model, "works/cable-drum")
+    works(model, "cable-drum")
 }
 
 /// Pallets on a pile, the top one askew.
@@ -218,7 +218,7 @@ fn pallets() -> Asset {
         let turn = [0.0, 0.02, -0.03, 0.13][level];
         model.add(wood, Shape::join(parts).turned(Quat::from_rotation_z(turn)));
     }
-    debris(model, "debris/pallets")
+    debris(model, "pallets")
 }
 
 /// A filled sack lying flat.
@@ -248,7 +248,7 @@ fn sandbags() -> Asset {
     {
         model.add(bag, sack(turn, vec3(x, y, z), i as f32 * 2.1));
     }
-    debris(model, "debris/sandbags")
+    debris(model, "sandbags")
 }
 
 /// Broken concrete and bricks on a heap of earth.
@@ -285,7 +285,7 @@ fn rubble() -> Asset {
             chunk.turned(turn).moved(vec3(r * angle.cos(), r * angle.sin(), z)),
         );
     }
-    debris(model, "debris/rubble")
+    debris(model, "rubble")
 }
 
 /// Something under a tarpaulin that is weighed down with planks.
@@ -326,7 +326,7 @@ fn covered_heap() -> Asset {
         let plank = board(Vec3::ZERO, vec3(1.2, 0.12, 0.04)).turned(Quat::from_rotation_z(turn));
         model.add(wood, plank.moved(vec3(x, y, 0.075)));
     }
-    debris(model, "debris/covered")
+    debris(model, "covered")
 }
 
 /// A folding board before a shop.
@@ -347,7 +347,7 @@ fn a_board() -> Asset {
         model.add(wood, lean(board(vec3(-0.002, 0.0, 0.6), vec3(0.012, 0.56, 0.88))));
         model.add(poster, lean(super::signs::face(vec2(0.54, 0.86)).moved(vec3(0.006, 0.0, 0.6))));
     }
-    works(model, "advertising/board")
+    model.asset("advertising/board", Kind::StreetFurniture, Class::Void).tagged(["advertising", "board"])
 }
 
 /// A generator on a trailer's wheels under a ribbed hood.
@@ -387,5 +387,5 @@ fn generator() -> Asset {
     model.add(steel, Shape::tube(&[vec3(0.9, 0.0, 0.45), vec3(1.7, 0.0, 0.45)], 0.04, 10));
     model.add(steel, Shape::tube(&[vec3(1.45, 0.0, 0.62), vec3(1.45, 0.0, 0.0)], 0.025, 10));
     model.add(steel, Shape::tube(&[vec3(-0.6, 0.15, 1.35), vec3(-0.6, 0.15, 1.55), vec3(-0.68, 0.15, 1.62)], 0.03, 10));
-    works(model, "works/generator")
+    works(model, "generator")
 }

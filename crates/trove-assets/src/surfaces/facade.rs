@@ -23,7 +23,7 @@ impl Style {
     /// The rules, with the wall named.
     pub(super) fn rules(&self) -> FacadeDesign {
         let wall_tint = self.color / self.finish.color();
-        FacadeDesign { wall: self.finish.id().into(), wall_tint, ..self.design.clone() }
+        FacadeDesign { wall: self.finish.tags()[0].into(), wall_tint, ..self.design.clone() }
     }
 
     /// The flat texture.

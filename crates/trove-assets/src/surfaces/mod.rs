@@ -45,14 +45,20 @@ enum Paint {
     Cells([u32; 2], fn(u32) -> Canvas, u32),
 }
 
-type Recipe = (&'static str, SurfaceKind, Paint);
+/// An id, a kind, tags, and how it is painted.
+type Recipe = (&'static str, SurfaceKind, &'static [&'static str], Paint);
 
-fn plain(id: &'static str, kind: SurfaceKind, paint: impl Fn(u32) -> Canvas + Send + Sync + 'static) -> Recipe {
-    (id, kind, Paint::Plain(Box::new(paint)))
+fn plain(
+    id: &'static str,
+    kind: SurfaceKind,
+    tags: &'static [&'static str],
+    paint: impl Fn(u32) -> Canvas + Send + Sync + 'static,
+) -> Recipe {
+    (id, kind, tags, Paint::Plain(Box::new(paint)))
 }
 
-fn storeys(id: &'static str, kind: SurfaceKind, style: Style, seed: u32) -> Recipe {
-    (id, kind, Paint::Storeys(Box::new(style), seed))
+fn storeys(id: &'static str, kind: SurfaceKind, tags: &'static [&'static str], style: Style, seed: u32) -> Recipe {
+    (id, kind, tags, Paint::Storeys(Box::new(style), seed))
 }
 
 /// Every surface, in no particular order; `detail` multiplies the resolution of all but facades.
@@ -63,7 +69,7 @@ pub(crate) fn surfaces(detail: u32) -> Vec<Surface> {
     surfaces
 }
 
-fn surface((id, kind, paint): &Recipe, detail: u32) -> Surface {
+fn surface((id, kind, tags, paint): &Recipe, detail: u32) -> Surface {
     let (canvas, cells, design) = match paint {
         Paint::Plain(paint) => (paint(detail), [1, 1], None),
         Paint::Storeys(style, seed) => (style.paint(*seed), style.grid.cells, Some(Arc::new(style.rules()))),
@@ -104,7 +110,7 @@ fn surface((id, kind, paint): &Recipe, detail: u32) -> Surface {
     Surface {
         id: (*id).into(),
         kind: *kind,
-        tags: Tags::default(),
+        tags: Tags::new(*tags),
         material,
         size_m: canvas.size_m.to_array(),
         cells,
@@ -137,81 +143,85 @@ fn ground_recipes() -> Vec<Recipe> {
     let green = vec3(0.092, 0.138, 0.04);
     let straw = vec3(0.2, 0.165, 0.075);
     vec![
-        plain("asphalt/new", Asphalt, |d| road::asphalt(NEW, d)),
-        plain("asphalt/worn", Asphalt, |d| road::asphalt(WORN, d)),
-        plain("asphalt/worn-pale", Asphalt, move |d| road::asphalt(pale, d)),
-        plain("marking/white", MarkingWhite, |d| road::marking(vec3(0.74, 0.74, 0.71), 11, d)),
-        plain("marking/yellow", MarkingYellow, |d| road::marking(vec3(0.62, 0.36, 0.04), 12, d)),
-        plain("cover/round", RoadCover, |d| road::cover(Cover::Round, [0.68, 0.68], 13, d)),
-        plain("cover/square", RoadCover, |d| road::cover(Cover::Square, [0.9, 0.6], 14, d)),
-        plain("cover/grating", RoadCover, |d| road::cover(Cover::Grating, [0.5, 0.4], 15, d)),
-        plain("paving/slabs", Paving, |d| paving::slabs(vec3(0.26, 0.248, 0.226), vec2(0.6, 0.6), 21, d)),
-        plain("paving/bricks", Paving, |d| paving::bricks(vec3(0.24, 0.13, 0.095), 22, d)),
-        plain("paving/herringbone", Paving, |d| paving::herringbone(vec3(0.25, 0.19, 0.155), 23, d)),
-        plain("paving/concrete", Paving, |d| paving::flags(vec3(0.27, 0.258, 0.235), 24, d)),
-        plain("paving/setts", Paving, |d| road::setts(vec3(0.2, 0.195, 0.19), 25, d)),
-        plain("paving/mosaic", Paving, |d| road::mosaic(vec3(0.21, 0.205, 0.2), 26, d)),
-        plain("paving/asphalt-walk", Paving, move |d| road::asphalt(walk, d)),
-        plain("kerb/concrete", Kerb, |d| paving::kerb(vec3(0.3, 0.29, 0.27), false, 31, d)),
-        plain("kerb/granite", Kerb, |d| paving::kerb(vec3(0.25, 0.245, 0.24), false, 34, d)),
-        plain("kerb/black-white", Kerb, |d| paving::kerb(vec3(0.3, 0.29, 0.27), true, 32, d)),
-        plain("concrete/plain", Concrete, |d| paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33, d)),
-        plain("grass/lawn", Grass, move |d| ground::grass(green, straw, 0.12, 41, d)),
-        plain("grass/worn", Grass, move |d| ground::grass(vec3(0.084, 0.136, 0.04), straw, 0.42, 42, d)),
-        plain("soil/earth", Soil, |d| ground::soil(43, d)),
-        plain("gravel/grey", Gravel, |d| ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44, d)),
-        plain("water/still", Water, ground::water),
-        plain("flat-roof/bitumen", FlatRoof, |d| roof::bitumen(51, d)),
-        plain("flat-roof/gravel", FlatRoof, |d| ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52, d)),
-        plain("flat-roof/membrane", FlatRoof, |d| roof::membrane(vec3(0.5, 0.5, 0.48), 55, d)),
-        plain("flat-roof/green", FlatRoof, |d| roof::stonecrop(56, d)),
-        plain("roof-tiles/slate", RoofTiles, |d| roof::slates(vec3(0.085, 0.09, 0.1), false, 57, d)),
-        plain("roof-tiles/shingle", RoofTiles, |d| roof::slates(vec3(0.115, 0.1, 0.088), true, 58, d)),
-        plain("roof-tiles/metal", RoofTiles, |d| roof::seams(vec3(0.3, 0.31, 0.32), 0.2, 59, d)),
-        plain("roof-tiles/copper", RoofTiles, |d| roof::seams(vec3(0.13, 0.27, 0.21), 1.0, 60, d)),
-        plain("roof-tiles/red", RoofTiles, |d| roof::tiles(vec3(0.27, 0.105, 0.06), 53, d)),
-        plain("roof-tiles/dark", RoofTiles, |d| roof::tiles(vec3(0.085, 0.08, 0.08), 54, d)),
+        plain("asphalt/new", Asphalt, &["new"], |d| road::asphalt(NEW, d)),
+        plain("asphalt/worn", Asphalt, &["worn"], |d| road::asphalt(WORN, d)),
+        plain("asphalt/worn-pale", Asphalt, &["worn", "pale"], move |d| road::asphalt(pale, d)),
+        plain("marking/white", MarkingWhite, &["white"], |d| road::marking(vec3(0.74, 0.74, 0.71), 11, d)),
+        plain("marking/yellow", MarkingYellow, &["yellow"], |d| road::marking(vec3(0.62, 0.36, 0.04), 12, d)),
+        plain("cover/round", RoadCover, &["round"], |d| road::cover(Cover::Round, [0.68, 0.68], 13, d)),
+        plain("cover/square", RoadCover, &["square"], |d| road::cover(Cover::Square, [0.9, 0.6], 14, d)),
+        plain("cover/grating", RoadCover, &["grating"], |d| road::cover(Cover::Grating, [0.5, 0.4], 15, d)),
+        plain("paving/slabs", Paving, &["slabs"], |d| paving::slabs(vec3(0.26, 0.248, 0.226), vec2(0.6, 0.6), 21, d)),
+        plain("paving/bricks", Paving, &["bricks"], |d| paving::bricks(vec3(0.24, 0.13, 0.095), 22, d)),
+        plain("paving/herringbone", Paving, &["herringbone"], |d| paving::herringbone(vec3(0.25, 0.19, 0.155), 23, d)),
+        plain("paving/concrete", Paving, &["concrete"], |d| paving::flags(vec3(0.27, 0.258, 0.235), 24, d)),
+        plain("paving/setts", Paving, &["setts"], |d| road::setts(vec3(0.2, 0.195, 0.19), 25, d)),
+        plain("paving/mosaic", Paving, &["mosaic"], |d| road::mosaic(vec3(0.21, 0.205, 0.2), 26, d)),
+        plain("paving/asphalt-walk", Paving, &["asphalt", "asphalt-walk"], move |d| road::asphalt(walk, d)),
+        plain("kerb/concrete", Kerb, &["concrete"], |d| paving::kerb(vec3(0.3, 0.29, 0.27), false, 31, d)),
+        plain("kerb/granite", Kerb, &["granite"], |d| paving::kerb(vec3(0.25, 0.245, 0.24), false, 34, d)),
+        plain("kerb/black-white", Kerb, &["black-white"], |d| paving::kerb(vec3(0.3, 0.29, 0.27), true, 32, d)),
+        plain("concrete/plain", Concrete, &["plain"], |d| {
+            paving::concrete(vec3(0.31, 0.3, 0.28), [4.0, 4.0], 0.0, 33, d)
+        }),
+        plain("grass/lawn", Grass, &["lawn"], move |d| ground::grass(green, straw, 0.12, 41, d)),
+        plain("grass/worn", Grass, &["worn"], move |d| ground::grass(vec3(0.084, 0.136, 0.04), straw, 0.42, 42, d)),
+        plain("soil/earth", Soil, &["earth"], |d| ground::soil(43, d)),
+        plain("gravel/grey", Gravel, &["grey"], |d| ground::gravel(vec3(0.3, 0.29, 0.27), 0.05, 44, d)),
+        plain("water/still", Water, &["still"], ground::water),
+        plain("flat-roof/bitumen", FlatRoof, &["bitumen"], |d| roof::bitumen(51, d)),
+        plain("flat-roof/gravel", FlatRoof, &["gravel"], |d| ground::gravel(vec3(0.36, 0.34, 0.31), 0.04, 52, d)),
+        plain("flat-roof/membrane", FlatRoof, &["membrane"], |d| roof::membrane(vec3(0.5, 0.5, 0.48), 55, d)),
+        plain("flat-roof/green", FlatRoof, &["green"], |d| roof::stonecrop(56, d)),
+        plain("roof-tiles/slate", RoofTiles, &["slate"], |d| roof::slates(vec3(0.085, 0.09, 0.1), false, 57, d)),
+        plain("roof-tiles/shingle", RoofTiles, &["shingle"], |d| roof::slates(vec3(0.115, 0.1, 0.088), true, 58, d)),
+        plain("roof-tiles/metal", RoofTiles, &["metal"], |d| roof::seams(vec3(0.3, 0.31, 0.32), 0.2, 59, d)),
+        plain("roof-tiles/copper", RoofTiles, &["copper"], |d| roof::seams(vec3(0.13, 0.27, 0.21), 1.0, 60, d)),
+        plain("roof-tiles/red", RoofTiles, &["red"], |d| roof::tiles(vec3(0.27, 0.105, 0.06), 53, d)),
+        plain("roof-tiles/dark", RoofTiles, &["dark"], |d| roof::tiles(vec3(0.085, 0.08, 0.08), 54, d)),
     ]
 }
 
 /// Upper storeys and ground floors, their walls, and what is seen in them.
 fn building_recipes() -> Vec<Recipe> {
     use SurfaceKind::{Facade, FacadeGroundFloor, RoomBack, ShopSign, Wall};
-    let upper = |id, style, seed| storeys(id, Facade, style, seed);
-    let ground = |id, style, seed| storeys(id, FacadeGroundFloor, style, seed);
+    let upper = |id, tags, style, seed| storeys(id, Facade, tags, style, seed);
+    let ground = |id, tags, style, seed| storeys(id, FacadeGroundFloor, tags, style, seed);
     let blue = styles::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24));
     let green = styles::curtain_wall(vec3(0.76, 0.88, 0.84), vec3(0.08, 0.092, 0.088), Vec3::splat(0.1));
     let mut recipes = vec![
-        upper("facade/brick-row", styles::brick_row(), 101),
-        upper("facade/brick-mill", styles::brick_mill(), 102),
-        upper("facade/plaster-shutters", styles::mediterranean(), 103),
-        upper("facade/victorian", styles::victorian(), 104),
-        upper("facade/glass-blue", blue, 105),
-        upper("facade/glass-green", green, 106),
-        upper("facade/office-ribbon", styles::ribbon(), 107),
-        upper("facade/slab-block", styles::slab_block(), 108),
-        upper("facade/hotel-grid", styles::hotel(), 109),
-        upper("facade/warehouse-metal", styles::warehouse(), 110),
-        upper("facade/mixed-use", styles::mixed_use(), 111),
-        upper("facade/white-panel", styles::panel(vec3(0.6, 0.6, 0.59)), 112),
-        upper("facade/metal-panel", styles::panel(vec3(0.22, 0.235, 0.26)), 113),
-        upper("facade/plaster-ornate", styles::ornate(), 114),
-        upper("facade/plaster-plain", styles::plain(), 115),
-        upper("facade/public-flats", styles::public_flats(), 116),
-        upper("facade/tiled-flats", styles::tiled_flats(), 117),
-        upper("facade/wood-boards", styles::boards(), 118),
-        upper("facade/carcass", styles::carcass(), 119),
-        ground("ground-floor/shops", ground_floor::shops(), 121),
-        ground("ground-floor/entrances", ground_floor::entrances(), 122),
-        ground("ground-floor/loading", ground_floor::loading(), 123),
-        ground("ground-floor/arcade", ground_floor::arcade(), 124),
-        ground("ground-floor/lobby", ground_floor::lobby(), 125),
-        ground("ground-floor/rusticated", ground_floor::rusticated(), 126),
-        ground("ground-floor/void-deck", ground_floor::void_deck(), 127),
-        ground("ground-floor/garage", ground_floor::garage(), 128),
-        ("sign/shops", ShopSign, Paint::Cells(inside::SIGNS, inside::signs, 131)),
-        ("room/backs", RoomBack, Paint::Cells(inside::ROOMS, inside::rooms, 132)),
+        upper("facade/brick-row", &["brick", "brick-row"], styles::brick_row(), 101),
+        upper("facade/brick-mill", &["brick", "mill"], styles::brick_mill(), 102),
+        upper("facade/plaster-shutters", &["plaster", "plaster-shutters"], styles::mediterranean(), 103),
+        upper("facade/victorian", &["victorian"], styles::victorian(), 104),
+        upper("facade/glass-blue", &["glass", "blue"], blue, 105),
+        upper("facade/glass-green", &["glass", "green"], green, 106),
+        upper("facade/office-ribbon", &["office", "ribbon"], styles::ribbon(), 107),
+        upper("facade/slab-block", &["slab"], styles::slab_block(), 108),
+        upper("facade/hotel-grid", &["hotel"], styles::hotel(), 109),
+        upper("facade/warehouse-metal", &["warehouse", "metal"], styles::warehouse(), 110),
+        upper("facade/mixed-use", &["mixed"], styles::mixed_use(), 111),
+        upper("facade/white-panel", &["panel", "white"], styles::panel(vec3(0.6, 0.6, 0.59)), 112),
+        upper("facade/metal-panel", &["panel", "metal"], styles::panel(vec3(0.22, 0.235, 0.26)), 113),
+        upper("facade/plaster-ornate", &["plaster", "ornate"], styles::ornate(), 114),
+        upper("facade/plaster-plain", &["plaster", "plaster-plain"], styles::plain(), 115),
+        upper("facade/public-flats", &["public-flats"], styles::public_flats(), 116),
+        upper("facade/tiled-flats", &["tiled"], styles::tiled_flats(), 117),
+        upper("facade/wood-boards", &["wood", "boards"], styles::boards(), 118),
+        upper("facade/carcass", &["carcass"], styles::carcass(), 119),
+        ground("ground-floor/shops", &["shops"], ground_floor::shops(), 121),
+        ground("ground-floor/entrances", &["entrances"], ground_floor::entrances(), 122),
+        ground("ground-floor/loading", &["loading"], ground_floor::loading(), 123),
+        ground("ground-floor/arcade", &["arcade"], ground_floor::arcade(), 124),
+        ground("ground-floor/lobby", &["lobby"], ground_floor::lobby(), 125),
+        ground("ground-floor/rusticated", &["rusticated"], ground_floor::rusticated(), 126),
+        ground("ground-floor/void-deck", &["void-deck"], ground_floor::void_deck(), 127),
+        ground("ground-floor/garage", &["garage"], ground_floor::garage(), 128),
+        ("sign/shops", ShopSign, &[], Paint::Cells(inside::SIGNS, inside::signs, 131)),
+        ("room/backs", RoomBack, &[], Paint::Cells(inside::ROOMS, inside::rooms, 132)),
     ];
-    recipes.extend(Finish::ALL.iter().map(|&finish| plain(finish.id(), Wall, move |d| finish.bare(141, d))));
+    recipes.extend(
+        Finish::ALL.iter().map(|&finish| plain(finish.id(), Wall, finish.tags(), move |d| finish.bare(141, d))),
+    );
     recipes
 }

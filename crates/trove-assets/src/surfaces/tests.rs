@@ -84,6 +84,7 @@ fn every_surface_is_there_tiles_and_is_as_bright_as_the_real_thing() {
 
 #[test]
 fn a_surface_is_the_same_every_time() {
-    let recipe = plain("grass/lawn", SurfaceKind::Grass, |d| ground::grass(vec3(0.1, 0.1, 0.0), Vec3::ONE, 0.2, 1, d));
+    let recipe =
+        plain("grass/lawn", SurfaceKind::Grass, &[], |d| ground::grass(vec3(0.1, 0.1, 0.0), Vec3::ONE, 0.2, 1, d));
     assert_eq!(surface(&recipe, 1).material, surface(&recipe, 1).material);
 }

@@ -47,6 +47,19 @@ impl Finish {
         }
     }
 
+    /// What that surface is tagged with, the first of which facades name it by.
+    pub(super) fn tags(self) -> &'static [&'static str] {
+        match self {
+            Self::Brick => &["brick"],
+            Self::Plaster => &["plaster"],
+            Self::Concrete(_) => &["concrete"],
+            Self::Metal(_) => &["metal"],
+            Self::Corrugated => &["corrugated"],
+            Self::Tiles => &["tiles"],
+            Self::Boards => &["boards"],
+        }
+    }
+
     /// The colour of that surface.
     pub(super) fn color(self) -> Vec3 {
         match self {

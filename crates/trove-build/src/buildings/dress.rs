@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use glam::{Vec3, vec3};
 use trove_model::{
-    Building, BuildingKind, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind, WallMaterial,
+    Building, BuildingKind, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind, Tags, WallMaterial,
 };
 
 use super::region::Region;
 use super::volumes::House;
 use super::walls::Grid;
-use crate::palette::Palette;
+use crate::palette::{ANY, Palette};
 
 /// From this height on a building is a tower.
 const TOWER_M: f64 = 45.0;
@@ -62,10 +62,10 @@ pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, ran
     let facade = if matches!(building.kind, Some(BuildingKind::Garage | BuildingKind::Carport)) {
         palette.fitting(SurfaceKind::FacadeGroundFloor, &["garage"], random)
     } else {
-        palette.fitting(SurfaceKind::Facade, facade_words(house, height_m, random), random)
+        palette.fitting(SurfaceKind::Facade, facade_tags(house, height_m, random), random)
     };
-    let words = ground_floor_words(house, height_m, &facade.id, random);
-    let ground_floor = words.map(|words| palette.fitting(SurfaceKind::FacadeGroundFloor, words, random));
+    let tags = ground_floor_tags(house, height_m, &facade.tags, random);
+    let ground_floor = tags.map(|tags| palette.fitting(SurfaceKind::FacadeGroundFloor, tags, random));
     let paints = facade.design.as_ref().map_or(&[][..], |d| &d.paints);
     let paint = random.pick(paints).copied().unwrap_or(Vec3::ONE) * shade(random);
     let paint = building.color.map_or(paint, |color| tinted(Vec3::ONE, color));
@@ -76,8 +76,8 @@ pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, ran
     let alike = |g: &Surface| g.design.as_ref().map(|d| &d.wall) == facade.design.as_ref().map(|d| &d.wall);
     let ground_paint = if ground_floor.as_ref().is_none_or(alike) { paint } else { shade(random) };
     flat_ground.base_color *= ground_paint;
-    let trim = palette.fitting(SurfaceKind::Concrete, &[], random).material;
-    let mut roof = super::roof::materials(building, house.region, &facade.id, flat.base_color, palette, random);
+    let trim = palette.fitting(SurfaceKind::Concrete, ANY, random).material;
+    let mut roof = super::roof::materials(building, house.region, &facade.tags, flat.base_color, palette, random);
     let bare = |surface: &Surface, paint: Vec3, random: &mut Random| {
         let design = surface.design.as_ref()?;
         let mut wall = palette.fitting(SurfaceKind::Wall, &[design.wall.as_str()], random).material;
@@ -133,13 +133,13 @@ fn fittings(
     let band = design.courses.iter().chain(&shop.courses).find(|c| c.out_m <= 0.0).map_or(design.trim, |c| c.color);
     let iron = pick(&[vec3(0.03, 0.03, 0.032), vec3(0.05, 0.055, 0.06), vec3(0.03, 0.05, 0.04)]);
     let roller = {
-        let mut sheet = palette.fitting(SurfaceKind::Wall, &["wall/corrugated"], random).material;
+        let mut sheet = palette.fitting(SurfaceKind::Wall, &["corrugated"], random).material;
         sheet.base_color *= pick_shade(random);
         sheet
     };
-    let cast = palette.fitting(SurfaceKind::Concrete, &[], random).material;
-    let sign = palette.fitting(SurfaceKind::ShopSign, &[], random).material;
-    let back = palette.fitting(SurfaceKind::RoomBack, &[], random).material;
+    let cast = palette.fitting(SurfaceKind::Concrete, ANY, random).material;
+    let sign = palette.fitting(SurfaceKind::ShopSign, ANY, random).material;
+    let back = palette.fitting(SurfaceKind::RoomBack, ANY, random).material;
     let stone = |color: Vec3| {
         let color = color * (Vec3::ONE * 0.6 + paint * 0.4) / 0.31;
         Material { base_color: cast.base_color * color, name: "facade stone".into(), ..cast.clone() }
@@ -179,7 +179,7 @@ fn fittings(
     ]
 }
 
-fn facade_words(house: &House<'_>, height_m: f64, random: &mut Random) -> &'static [&'static str] {
+fn facade_tags(house: &House<'_>, height_m: f64, random: &mut Random) -> &'static [&'static str] {
     use BuildingKind as K;
     let building = house.building;
     let old = building.year.is_none_or(|year| year < PLAIN_FROM);
@@ -232,15 +232,15 @@ fn stucco(region: Region, ornate: bool) -> &'static [&'static str] {
     }
 }
 
-fn ground_floor_words(
+fn ground_floor_tags(
     house: &House<'_>,
     height_m: f64,
-    facade: &str,
+    facade: &Tags,
     random: &mut Random,
 ) -> Option<&'static [&'static str]> {
     let building: &Building = house.building;
     let shop = building.shop || random.chance(0.35);
-    let is = |word: &str| facade.contains(word);
+    let is = |tag: &str| facade.has(tag);
     use BuildingKind as K;
     match building.kind {
         Some(kind) if kind.is_house() && !building.shop => None,
@@ -322,7 +322,7 @@ mod tests {
     fn the_same_flats_wear_what_people_build_there() {
         let building = Building::new(1, trove_model::Polygon::default(), Some(BuildingKind::Apartments));
         let worn = |region, random: &mut Random| {
-            let words = facade_words(&house(&building, region), 20.0, random);
+            let words = facade_tags(&house(&building, region), 20.0, random);
             (0..8).map(|_| *random.pick(words).unwrap()).collect::<Vec<&str>>()
         };
         let mut random = trove_model::Seed(3).random();

@@ -1,7 +1,7 @@
 //! Building assets in place of plain rectangular buildings.
 
 use glam::{DAffine3, DQuat, DVec2, DVec3};
-use trove_model::{Asset, AssetLibrary, BuildingKind, Kind, Random};
+use trove_model::{Asset, AssetLibrary, BuildingKind, Kind, Random, Tags};
 
 use super::rectangle::{Base, base};
 use super::region::Region;
@@ -61,7 +61,7 @@ pub(super) fn replacement<'a>(
         misfit(asset.size_m, size_m).map(|misfit| (misfit, asset, front, size_m))
     };
     let best = |front: DVec2| {
-        let suitable = |a: &&Asset| suits(&a.id, building.kind, house.region);
+        let suitable = |a: &&Asset| suits(&a.tags, building.kind, house.region);
         let fitting = library.of_kind(Kind::Building).filter(suitable).filter_map(|a| candidate(a, front));
         fitting.min_by(|a, b| a.0.total_cmp(&b.0))
     };
@@ -74,24 +74,23 @@ pub(super) fn replacement<'a>(
     Some(Replacement { asset, world_from_mesh })
 }
 
-/// Whether a model, by the words in its id, may stand for a kind of building in a region; any other model may for all.
-fn suits(id: &str, kind: Option<BuildingKind>, region: Region) -> bool {
+/// Whether a model with these tags may stand for a kind of building in a region; one without any of them may for all.
+fn suits(tags: &Tags, kind: Option<BuildingKind>, region: Region) -> bool {
     use BuildingKind as K;
-    let has = |words: &[&str]| words.iter().any(|w| id.contains(w));
     let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia);
     let is_unknown = kind.is_none();
     let is = |kinds: &[K]| kind.is_some_and(|kind| kinds.contains(&kind));
-    if has(&["house"]) && !has(&["warehouse"]) {
-        kind.is_some_and(K::is_house) || (is(&[K::Terrace]) && has(&["row"])) || (is_unknown && !is_dense)
-    } else if has(&["apartments", "slab"]) {
+    if tags.has("house") {
+        kind.is_some_and(K::is_house) || (is(&[K::Terrace]) && tags.has("row")) || (is_unknown && !is_dense)
+    } else if tags.has("apartments") {
         is(&[K::Apartments, K::Residential]) || is_unknown
-    } else if has(&["office"]) {
+    } else if tags.has("office") {
         is(&[K::Office, K::Commercial, K::Public]) || (is_unknown && is_dense)
-    } else if has(&["warehouse"]) {
+    } else if tags.has("warehouse") {
         kind.is_some_and(K::is_works)
-    } else if has(&["hotel"]) {
+    } else if tags.has("hotel") {
         is(&[K::Hotel])
-    } else if has(&["shop", "mixed"]) {
+    } else if tags.has("shops") {
         is(&[K::Retail, K::Commercial, K::Residential, K::Apartments]) || is_unknown
     } else {
         true
@@ -123,12 +122,14 @@ mod tests {
 
     #[test]
     fn no_country_house_stands_in_a_business_park() {
-        assert!(suits("building/detached-house", Some(BuildingKind::House), Region::TropicalAsia));
-        assert!(suits("building/detached-house", None, Region::NorthernEurope));
-        assert!(!suits("building/detached-house", None, Region::TropicalAsia));
-        assert!(!suits("building/row-houses", Some(BuildingKind::Office), Region::NorthAmerica));
-        assert!(suits("building/office-ribbon", Some(BuildingKind::Office), Region::TropicalAsia));
-        assert!(suits("my/own-model", Some(BuildingKind::Office), Region::Elsewhere));
+        let suits = |tags: &[&str], kind, region| suits(&Tags::new(tags), kind, region);
+        assert!(suits(&["house", "detached"], Some(BuildingKind::House), Region::TropicalAsia));
+        assert!(suits(&["house", "detached"], None, Region::NorthernEurope));
+        assert!(!suits(&["house", "detached"], None, Region::TropicalAsia));
+        assert!(suits(&["house", "row"], Some(BuildingKind::Terrace), Region::TropicalAsia));
+        assert!(!suits(&["house", "row"], Some(BuildingKind::Office), Region::NorthAmerica));
+        assert!(suits(&["office", "ribbon"], Some(BuildingKind::Office), Region::TropicalAsia));
+        assert!(suits(&["building"], Some(BuildingKind::Office), Region::Elsewhere));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use trove_model::{Kind, Random, Report, Road, RoadKind, Seed};
 
+use super::habits::words;
 use super::yard::{Source, Yard};
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::segments::SegmentIndex;
@@ -69,7 +70,7 @@ fn lamps<'r>(
         let models = habits.lamps[usize::from(!main)];
         // A street's lamps are alike on both its sides.
         let draw = seed.child(road.map_or("", |r| &r.name)).random().index(models.len());
-        if yard.place_at_kerb(Kind::StreetLamp, models[draw], kerb, Source::MadeUp, report) {
+        if yard.place_at_kerb(Kind::StreetLamp, &words(models[draw]), kerb, Source::MadeUp, report) {
             since_m = 0.0;
         }
     }
@@ -92,7 +93,7 @@ fn small_things(
         if alone && is_seen(kerb) {
             let row = run[(at_m / KERB_STEP_M) as usize..].iter().step_by(step).take(count);
             for kerb in row.filter(|k| k.sidewalk) {
-                yard.place_at_kerb(kind, model, kerb, Source::MadeUp, report);
+                yard.place_at_kerb(kind, &words(model), kerb, Source::MadeUp, report);
             }
         }
         at_m += random.range(SMALL_SPACING_M[0], SMALL_SPACING_M[1]) + count as f64 * BOLLARD_STEP_M;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use trove_model::{Kind, Land, LandKind, LineKind, Outcome, Polygon, Report, Road, RoadKind, Seed};
 
+use super::habits::words;
 use super::lines::{Layer, ROAD_REACH_M, Run};
 use crate::kerbs::{KERB_STEP_M, KerbPoint};
 use crate::roads::Footing;
@@ -56,7 +57,8 @@ pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, rep
             }
             for line in plan.lines(stretch, layer) {
                 let line = layer.traffic_on_the_right(line);
-                layer.lay(&Run { kind: kind(model), model, line: &line, scale, in_sight_m: Some(0.0) }, report);
+                let tags = &words(model);
+                layer.lay(&Run { kind: kind(model), tags, line: &line, scale, in_sight_m: Some(0.0) }, report);
                 report.note(Outcome::Guessed, "boundary behind a sidewalk", model);
             }
         }

@@ -32,7 +32,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
         if !wanted || path.nearest(footprint.centroid(), SEEN_M).is_none() {
             continue;
         }
-        let model = if parasols { "cafe/parasol" } else { "cafe/table" };
+        let tags: &[&str] = if parasols { &["cafe", "parasol"] } else { &["cafe", "table"] };
         let looks_at_sidewalk = |&(a, b): &(DVec2, DVec2)| {
             let outward = -(b - a).normalize_or_zero().perp();
             let road_m = yard.clearance.road_distance_m((a + b) / 2.0 + outward * 0.5);
@@ -48,7 +48,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
                 let position = a + along * at_m + outward * OFF_WALL_M;
                 let yaw_rad = outward.to_angle() + random.range(-0.4, 0.4);
                 // A shop's own tables may stand before its own wall.
-                let wish = Wish { kind: Kind::StreetFurniture, model, position, yaw_rad, source: Source::Mapped };
+                let wish = Wish { kind: Kind::StreetFurniture, tags, position, yaw_rad, source: Source::Mapped };
                 if !yard.in_sight(position, 1.0) {
                     yard.place(&wish, report);
                 }

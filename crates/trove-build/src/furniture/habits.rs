@@ -21,7 +21,7 @@ pub(super) enum SignalSide {
     Far,
 }
 
-/// A region's habits; models are named by the beginnings of their ids.
+/// A region's habits; models are named by their tags, with `/` between them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Habits {
     pub signs: Signs,
@@ -115,11 +115,11 @@ const EUROPE: Habits = Habits {
     boundaries: &["fence/bars", "fence/bars", "wall/dwarf", "wall/dwarf", "wall/garden", "wall/railed"],
     boundary_share: 0.3,
     overhead_wires: false,
-    bus_stop: "sign/bus-stop",
+    bus_stop: "sign/vienna/bus-stop",
     name_plate: [BLUE, WHITE],
 };
 
-const GERMANY: Habits = Habits { bus_stop: "sign/haltestelle", name_plate: [WHITE, BLACK], ..EUROPE };
+const GERMANY: Habits = Habits { bus_stop: "sign/vienna/haltestelle", name_plate: [WHITE, BLACK], ..EUROPE };
 
 const BRITAIN: Habits = Habits {
     miles: true,
@@ -219,21 +219,23 @@ impl Habits {
         Self { on_left: drives_on_left(lat_deg, lon_deg), ..habits }
     }
 
-    /// The sign for a speed limit, as it is written there.
+    /// What the sign for a speed limit is called, with the number that is written there.
     pub(super) fn speed_sign(&self, limit_kmh: f64) -> String {
         // Half a mile or kilometre an hour is rounding of the map's unit.
         let written = if self.miles { limit_kmh / 1.609_344 } else { limit_kmh };
         let number = (written / 5.0).round() * 5.0;
-        match self.signs {
-            Signs::American => format!("sign/us/speed-{number}"),
-            Signs::Vienna => format!("sign/disc/speed-{number}"),
-        }
+        format!("speed-{number}")
     }
 
-    /// The American model where the country has those, the other elsewhere.
-    pub(super) fn sign(&self, american: &'static str, vienna: &'static str) -> &'static str {
-        if self.signs == Signs::American { american } else { vienna }
+    /// The tags of the American sign where the country has those, of the other elsewhere.
+    pub(super) fn sign<'n>(&self, american: &'n str, vienna: &'n str) -> [&'n str; 3] {
+        if self.signs == Signs::American { ["sign", "us", american] } else { ["sign", "vienna", vienna] }
     }
+}
+
+/// The tags of a model.
+pub(super) fn words(model: &str) -> Vec<&str> {
+    model.split('/').collect()
 }
 
 #[cfg(test)]
@@ -247,12 +249,12 @@ mod tests {
             let projection = MapProjection { origin_lat_deg, origin_lon_deg, anchor_m: DVec2::ZERO };
             Habits::of(&projection).speed_sign(limit_kmh)
         };
-        assert_eq!(of(42.35, -71.05, 40.23), "sign/us/speed-25"); // Boston
-        assert_eq!(of(43.65, -79.38, 40.0), "sign/us/speed-40"); // Toronto
-        assert_eq!(of(51.5, -0.12, 32.19), "sign/disc/speed-20"); // London
-        assert_eq!(of(52.47, 13.44, 30.0), "sign/disc/speed-30"); // Berlin
-        assert_eq!(of(43.74, 7.43, 50.0), "sign/disc/speed-50"); // Monaco
-        assert_eq!(of(25.05, 121.52, 50.0), "sign/disc/speed-50"); // Taipei
-        assert_eq!(of(1.3, 103.79, 70.0), "sign/disc/speed-70"); // Singapore
+        assert_eq!(of(42.35, -71.05, 40.23), "speed-25"); // Boston
+        assert_eq!(of(43.65, -79.38, 40.0), "speed-40"); // Toronto
+        assert_eq!(of(51.5, -0.12, 32.19), "speed-20"); // London
+        assert_eq!(of(52.47, 13.44, 30.0), "speed-30"); // Berlin
+        assert_eq!(of(43.74, 7.43, 50.0), "speed-50"); // Monaco
+        assert_eq!(of(25.05, 121.52, 50.0), "speed-50"); // Taipei
+        assert_eq!(of(1.3, 103.79, 70.0), "speed-70"); // Singapore
     }
 }

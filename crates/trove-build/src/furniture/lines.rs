@@ -34,6 +34,8 @@ const RAILING_SHARE: f64 = 0.4;
 const WIDE_M: f64 = 0.5;
 /// A kerb's road is at most this far from it, metres.
 pub(super) const ROAD_REACH_M: f64 = 16.0;
+/// Tag of a coarser piece, whose other tags are those of the piece that it stands for.
+const FAR: &str = "far";
 /// Pieces are let into the ground, which is not as straight as they are, metres.
 const SUNK_M: f64 = 0.04;
 /// Walls and fences whose height the map lacks are this share of their model's.
@@ -51,7 +53,8 @@ const BUCKET_M: f64 = 8.0;
 /// What is to stand along a line.
 pub(super) struct Run<'l> {
     pub kind: Kind,
-    pub model: &'static str,
+    /// What the piece is tagged with.
+    pub tags: &'l [&'l str],
     pub line: &'l [DVec2],
     /// Height over the model's own.
     pub scale: f64,
@@ -77,16 +80,17 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
     };
     for line in &map.lines {
         let mut random = seed.child("line").nth(line.id as u64).random();
-        if let Some((kind, model, height)) = model(line, &mut random) {
+        if let Some((kind, tags, height)) = model(line, &mut random) {
             let facing_road = layer.traffic_on_the_right(line.line.clone());
-            layer.lay(&Run { kind, model, line: &facing_road, scale: height, in_sight_m: None }, report);
+            layer.lay(&Run { kind, tags, line: &facing_road, scale: height, in_sight_m: None }, report);
         }
     }
     for site in map.land.iter().filter(|l| l.kind == LandKind::Construction) {
         let mut ring = site.polygon.exterior.clone();
         ring.extend(site.polygon.exterior.first());
-        let model = if seed.nth(site.id as u64).random().chance(0.5) { "fence/hoarding" } else { "fence/site" };
-        layer.lay(&Run { kind: Kind::Fence, model, line: &ring, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
+        let make = if seed.nth(site.id as u64).random().chance(0.5) { "hoarding" } else { "site" };
+        let tags = &["fence", make];
+        layer.lay(&Run { kind: Kind::Fence, tags, line: &ring, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
         report.note(Outcome::Guessed, "fence around a building site", format_args!("osm {}", site.id));
     }
     along_kerbs(&mut layer, seed, report);
@@ -111,49 +115,49 @@ fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
             let sidewalk = stretch.iter().all(|k| k.sidewalk);
             let fast = kind <= RoadKind::Trunk;
             let railed = layer.yard.habits.railings && kind <= RoadKind::Secondary && random.chance(RAILING_SHARE);
-            let (model, off_m) = match (sidewalk, fast, railed) {
-                (false, true, _) => ("guard-rail/w-beam", GUARD_OFF_KERB_M),
-                (true, false, true) => ("guard-rail/railing-painted", RAILING_OFF_KERB_M),
+            let (tags, off_m): (&[&str], f64) = match (sidewalk, fast, railed) {
+                (false, true, _) => (&["guard-rail", "w-beam"], GUARD_OFF_KERB_M),
+                (true, false, true) => (&["guard-rail", "railing", "painted"], RAILING_OFF_KERB_M),
                 _ => continue,
             };
             let line: Vec<DVec2> = stretch.iter().map(|k: &KerbPoint| k.position + k.outward * off_m).collect();
             let line = layer.traffic_on_the_right(line);
-            layer.lay(&Run { kind: Kind::GuardRail, model, line: &line, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
+            layer.lay(&Run { kind: Kind::GuardRail, tags, line: &line, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
         }
     }
 }
 
 /// What a mapped line looks like, with its height over the model's; `None` for what others build.
-fn model(line: &MapLine, random: &mut Random) -> Option<(Kind, &'static str, f64)> {
+fn model(line: &MapLine, random: &mut Random) -> Option<(Kind, &'static [&'static str], f64)> {
     use BarrierStyle as S;
-    let (kind, model, model_m) = match (line.kind, line.style) {
-        (LineKind::Fence, Some(S::Handrail)) => (Kind::GuardRail, "guard-rail/railing", 1.04),
-        (LineKind::Fence, Some(S::Wire)) => (Kind::Fence, "fence/chain-link", 1.85),
-        (LineKind::Fence, Some(S::Wood)) => (Kind::Fence, "fence/wood", 1.73),
-        (LineKind::Fence, Some(S::Bars)) => (Kind::Fence, "fence/bars", 1.32),
-        (LineKind::Fence, Some(S::Panels | S::Concrete)) => (Kind::Fence, "fence/panel", 1.85),
-        (LineKind::Fence, Some(S::Hoarding)) => (Kind::Fence, "fence/hoarding", 2.12),
-        (LineKind::Fence, Some(S::Brick | S::Stone) | None) => *random.pick(&[
-            (Kind::Fence, "fence/bars", 1.32),
-            (Kind::Fence, "fence/bars", 1.32),
-            (Kind::Fence, "fence/chain-link", 1.85),
-            (Kind::Fence, "fence/wood", 1.73),
+    let (kind, tags, model_m): (Kind, &[&str], f64) = match (line.kind, line.style) {
+        (LineKind::Fence, Some(S::Handrail)) => (Kind::GuardRail, &["guard-rail", "railing"], 1.04),
+        (LineKind::Fence, Some(S::Wire)) => (Kind::Fence, &["fence", "chain-link"], 1.85),
+        (LineKind::Fence, Some(S::Wood)) => (Kind::Fence, &["fence", "wood"], 1.73),
+        (LineKind::Fence, Some(S::Bars)) => (Kind::Fence, &["fence", "bars"], 1.32),
+        (LineKind::Fence, Some(S::Panels | S::Concrete)) => (Kind::Fence, &["fence", "panel"], 1.85),
+        (LineKind::Fence, Some(S::Hoarding)) => (Kind::Fence, &["fence", "hoarding"], 2.12),
+        (LineKind::Fence, Some(S::Brick | S::Stone) | None) => *random.pick::<(Kind, &[&str], f64)>(&[
+            (Kind::Fence, &["fence", "bars"], 1.32),
+            (Kind::Fence, &["fence", "bars"], 1.32),
+            (Kind::Fence, &["fence", "chain-link"], 1.85),
+            (Kind::Fence, &["fence", "wood"], 1.73),
         ])?,
-        (LineKind::Wall, Some(S::Brick)) => (Kind::Wall, "wall/brick", 2.4),
-        (LineKind::Wall, Some(S::Stone)) => (Kind::Wall, "wall/stone", 2.2),
-        (LineKind::Wall, Some(S::Concrete)) => (Kind::Wall, "wall/concrete", 2.0),
-        (LineKind::Wall, _) => *random.pick(&[
-            (Kind::Wall, "wall/brick", 2.4),
-            (Kind::Wall, "wall/concrete", 2.0),
-            (Kind::Wall, "wall/stone", 2.2),
+        (LineKind::Wall, Some(S::Brick)) => (Kind::Wall, &["wall", "brick"], 2.4),
+        (LineKind::Wall, Some(S::Stone)) => (Kind::Wall, &["wall", "stone"], 2.2),
+        (LineKind::Wall, Some(S::Concrete)) => (Kind::Wall, &["wall", "concrete"], 2.0),
+        (LineKind::Wall, _) => *random.pick::<(Kind, &[&str], f64)>(&[
+            (Kind::Wall, &["wall", "brick"], 2.4),
+            (Kind::Wall, &["wall", "concrete"], 2.0),
+            (Kind::Wall, &["wall", "stone"], 2.2),
         ])?,
-        (LineKind::GuardRail, Some(S::Concrete)) => (Kind::GuardRail, "guard-rail/parapet", 0.86),
-        (LineKind::GuardRail, _) => (Kind::GuardRail, "guard-rail/w-beam", 0.76),
+        (LineKind::GuardRail, Some(S::Concrete)) => (Kind::GuardRail, &["guard-rail", "parapet"], 0.86),
+        (LineKind::GuardRail, _) => (Kind::GuardRail, &["guard-rail", "w-beam"], 0.76),
         (LineKind::Hedge | LineKind::PowerLine | LineKind::Tram | LineKind::Railway, _) => return None,
     };
     let guessed = if kind == Kind::GuardRail { 1.0 } else { random.range(HEIGHTS[0], HEIGHTS[1]) };
     let scale = line.height_m.filter(|h| (0.3..=8.0).contains(h)).map_or(guessed, |height_m| height_m / model_m);
-    Some((kind, model, scale))
+    Some((kind, tags, scale))
 }
 
 pub(super) struct Layer<'y, 'a, 'b, 'c> {
@@ -185,12 +189,12 @@ impl<'a> Layer<'_, 'a, '_, '_> {
     pub(super) fn lay(&mut self, run: &Run<'_>, report: &Report) {
         self.runs += 1;
         let library = self.yard.library;
-        let named = |id: &str| library.of_kind(run.kind).find(|a| a.id == id);
-        let Some(near) = named(run.model) else {
+        let Some(near) = library.tagged(run.kind, run.tags).find(|a| !a.tags.has(FAR)) else {
             let what = "line without an asset to build it of";
-            return report.note(Outcome::Dropped, what, run.model);
+            return report.note(Outcome::Dropped, what, run.tags.join("/"));
         };
-        let far = named(&format!("{}-far", run.model)).unwrap_or(near);
+        let is_like_near = |a: &&Asset| near.tags.iter().all(|tag| a.tags.has(tag));
+        let far = library.tagged(run.kind, &[FAR]).find(is_like_near).unwrap_or(near);
         let half_m = near.size_m.y / 2.0;
         for [from, to] in apart(&simplified(run.line), half_m) {
             let count = (from.distance(to) / near.size_m.x).round().max(1.0);

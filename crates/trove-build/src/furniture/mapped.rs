@@ -3,6 +3,7 @@
 use glam::DVec2;
 use trove_model::{Furniture, FurnitureKind, Kind, LampMount, MappedSign, Outcome, Report};
 
+use super::habits::words;
 use super::junctions::kerb_side;
 use super::yard::{Source, Wish, Yard, facing};
 use crate::kerbs::KerbPoint;
@@ -19,8 +20,9 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, report: &Report) {
     let furniture = around.map.iter().flat_map(|m| &m.furniture).filter(|f| around.bounds.contains(f.position));
     for thing in furniture {
         let wanted = models(thing, yard, report);
-        for (kind, model) in &wanted {
-            let placed = stand(thing, *kind, model, yard, report);
+        for (kind, tags) in &wanted {
+            let tags: Vec<&str> = tags.iter().map(String::as_str).collect();
+            let placed = stand(thing, *kind, &tags, yard, report);
             if !placed {
                 let what = format!("mapped {:?} without room or kerb", thing.kind);
                 report.note(Outcome::Dropped, &what, format_args!("osm {}", thing.id));
@@ -30,7 +32,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, report: &Report) {
 }
 
 /// Puts a thing where it is drawn, or beside the road that it is drawn on.
-fn stand(thing: &Furniture, kind: Kind, model: &str, yard: &mut Yard<'_, '_, '_>, report: &Report) -> bool {
+fn stand(thing: &Furniture, kind: Kind, tags: &[&str], yard: &mut Yard<'_, '_, '_>, report: &Report) -> bool {
     let around = yard.around;
     let p = thing.position;
     let kerbs = around.kerbs.near(p, LOOK_REACH_M);
@@ -44,46 +46,48 @@ fn stand(thing: &Furniture, kind: Kind, model: &str, yard: &mut Yard<'_, '_, '_>
     };
     let at_kerb = kerbs.iter().find(fits).copied();
     let look = |k: Option<KerbPoint>| thing.heading_rad.or(k.map(|k| facing(kind, &k))).unwrap_or(0.0);
-    let wish = |position, yaw_rad| Wish { kind, model, position, yaw_rad, source: Source::Mapped };
+    let wish = |position, yaw_rad| Wish { kind, tags, position, yaw_rad, source: Source::Mapped };
     if around.stand.surfaces.footing(p) == Footing::Carriageway {
         let Some(kerb) = at_kerb else { return false };
-        return yard.place_at_kerb(kind, model, &kerb, Source::Mapped, report);
+        return yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report);
     }
     let as_drawn = wish(p, look(kerbs.first().copied()));
     yard.place(&as_drawn, report)
-        || at_kerb.is_some_and(|kerb| yard.place_at_kerb(kind, model, &kerb, Source::Mapped, report))
+        || at_kerb.is_some_and(|kerb| yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report))
 }
 
 /// What stands for a thing; a bus stop is a sign and, where there is room, a shelter.
-fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(Kind, String)> {
+fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(Kind, Vec<String>)> {
     let habits = yard.habits;
-    let one = |kind: Kind, model: &str| vec![(kind, model.to_owned())];
+    let one = |kind: Kind, tags: &[&str]| vec![(kind, owned(tags))];
     match thing.kind {
-        FurnitureKind::StreetLamp => lamp(thing.lamp()).map(|model| one(Kind::StreetLamp, model)).unwrap_or_default(),
-        FurnitureKind::StopSign => one(Kind::TrafficSign, habits.sign("sign/us/stop", "sign/stop")),
-        FurnitureKind::GiveWaySign => one(Kind::TrafficSign, habits.sign("sign/us/yield", "sign/give-way")),
+        FurnitureKind::StreetLamp => {
+            lamp(thing.lamp()).map(|make| one(Kind::StreetLamp, &["lamp", make])).unwrap_or_default()
+        }
+        FurnitureKind::StopSign => one(Kind::TrafficSign, &habits.sign("stop", "stop")),
+        FurnitureKind::GiveWaySign => one(Kind::TrafficSign, &habits.sign("yield", "give-way")),
         FurnitureKind::TrafficSign => {
-            let model = thing.sign().and_then(|said| sign(said, yard));
-            if model.is_none() {
+            let tags = thing.sign().and_then(|said| sign(said, yard));
+            if tags.is_none() {
                 let what = "mapped sign that the library has no picture of";
                 report.note(Outcome::Dropped, what, format_args!("osm {}", thing.id));
             }
-            model.map(|model| vec![(Kind::TrafficSign, model)]).unwrap_or_default()
+            tags.map(|tags| vec![(Kind::TrafficSign, tags)]).unwrap_or_default()
         }
-        FurnitureKind::Bench => one(Kind::Bench, "bench"),
-        FurnitureKind::PicnicTable => one(Kind::StreetFurniture, "picnic-table"),
-        FurnitureKind::Bin => one(Kind::Bin, "bin"),
-        FurnitureKind::Hydrant => one(Kind::Hydrant, "hydrant"),
-        FurnitureKind::Bollard => one(Kind::Bollard, "bollard"),
+        FurnitureKind::Bench => one(Kind::Bench, &["bench"]),
+        FurnitureKind::PicnicTable => one(Kind::StreetFurniture, &["picnic-table"]),
+        FurnitureKind::Bin => one(Kind::Bin, &["bin"]),
+        FurnitureKind::Hydrant => one(Kind::Hydrant, &["hydrant"]),
+        FurnitureKind::Bollard => one(Kind::Bollard, &["bollard"]),
         FurnitureKind::BusStop => {
-            vec![(Kind::TrafficSign, habits.bus_stop.to_owned()), (Kind::Shelter, "shelter".to_owned())]
+            [one(Kind::TrafficSign, &words(habits.bus_stop)), one(Kind::Shelter, &["shelter"])].concat()
         }
-        FurnitureKind::BicycleParking => one(Kind::BicycleRack, "bicycle-rack"),
-        FurnitureKind::Mailbox => one(Kind::StreetFurniture, habits.mailbox),
-        FurnitureKind::StreetCabinet => one(Kind::StreetFurniture, "cabinet"),
-        FurnitureKind::Telephone => one(Kind::StreetFurniture, "telephone"),
-        FurnitureKind::AdvertisingColumn => one(Kind::StreetFurniture, "advertising"),
-        FurnitureKind::Flagpole => one(Kind::StreetFurniture, "flagpole"),
+        FurnitureKind::BicycleParking => one(Kind::BicycleRack, &["bicycle-rack"]),
+        FurnitureKind::Mailbox => one(Kind::StreetFurniture, &words(habits.mailbox)),
+        FurnitureKind::StreetCabinet => one(Kind::StreetFurniture, &["cabinet"]),
+        FurnitureKind::Telephone => one(Kind::StreetFurniture, &["telephone"]),
+        FurnitureKind::AdvertisingColumn => one(Kind::StreetFurniture, &["advertising"]),
+        FurnitureKind::Flagpole => one(Kind::StreetFurniture, &["flagpole"]),
         // Poles come with their wires, signals with their junctions, the rest with the ground and the green.
         FurnitureKind::UtilityPole
         | FurnitureKind::TrafficSignal
@@ -99,29 +103,35 @@ fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(K
 fn lamp(mount: Option<LampMount>) -> Option<&'static str> {
     match mount {
         Some(LampMount::Wall | LampMount::Wires | LampMount::Ground) => None,
-        Some(LampMount::StraightMast) => Some("lamp/post-top"),
-        Some(LampMount::BentMast) => Some("lamp/curved"),
-        None => Some("lamp/straight"),
+        Some(LampMount::StraightMast) => Some("post-top"),
+        Some(LampMount::BentMast) => Some("curved"),
+        None => Some("straight"),
     }
 }
 
-/// The model of a sign; `None` where the library has none that says the same.
-fn sign(said: MappedSign, yard: &Yard<'_, '_, '_>) -> Option<String> {
+fn owned(tags: &[&str]) -> Vec<String> {
+    tags.iter().map(|&tag| tag.to_owned()).collect()
+}
+
+/// The tags of a sign; `None` where the library has none that says the same.
+fn sign(said: MappedSign, yard: &Yard<'_, '_, '_>) -> Option<Vec<String>> {
     let habits = yard.habits;
-    let model = match said {
-        MappedSign::Stop => habits.sign("sign/us/stop", "sign/stop"),
-        MappedSign::GiveWay => habits.sign("sign/us/yield", "sign/give-way"),
-        MappedSign::OneWay => "sign/one-way",
-        MappedSign::NoEntry => habits.sign("sign/us/do-not-enter", "sign/no-entry"),
-        MappedSign::NoStopping => "sign/no-stopping",
-        MappedSign::NoParking => "sign/no-parking",
-        MappedSign::Parking => "sign/parking",
-        MappedSign::PedestrianCrossing => "sign/crossing",
-        MappedSign::Danger => "sign/warning",
+    let tags = match said {
+        MappedSign::Stop => habits.sign("stop", "stop"),
+        MappedSign::GiveWay => habits.sign("yield", "give-way"),
+        MappedSign::OneWay => ["sign", "vienna", "one-way"],
+        MappedSign::NoEntry => habits.sign("do-not-enter", "no-entry"),
+        MappedSign::NoStopping => ["sign", "vienna", "no-stopping"],
+        MappedSign::NoParking => ["sign", "vienna", "no-parking"],
+        MappedSign::Parking => ["sign", "vienna", "parking"],
+        MappedSign::PedestrianCrossing => ["sign", "vienna", "crossing"],
+        MappedSign::Danger => ["sign", "vienna", "warning"],
         MappedSign::SpeedLimit { limit_kmh } => {
-            return Some(habits.speed_sign(limit_kmh)).filter(|m| yard.has(Kind::TrafficSign, m));
+            let name = habits.speed_sign(limit_kmh);
+            let tags = habits.sign(&name, &name);
+            return yard.has(Kind::TrafficSign, &tags).then(|| owned(&tags));
         }
         MappedSign::Other => return None,
     };
-    Some(model.to_owned())
+    Some(owned(&tags))
 }

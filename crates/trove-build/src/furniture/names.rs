@@ -12,7 +12,7 @@ use super::yard::{Source, Wish, Yard};
 use crate::piece::Piece;
 use crate::segments::SegmentIndex;
 
-const MODEL: &str = "sign/street-name";
+const TAGS: &[&str] = &["sign", "street-name"];
 /// Further from the driven path than this no one reads a name, metres.
 const READ_M: f64 = 120.0;
 /// A corner is within this of its junction's middle, metres.
@@ -44,7 +44,7 @@ const SHORT: [(&str, &str); 11] = [
 /// A sign at one corner of every junction of named streets that is near enough to be read.
 pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &Report) -> Vec<Piece> {
     let library = yard.library;
-    let Some(asset) = library.of_kind(Kind::TrafficSign).find(|a| a.id == MODEL) else { return Vec::new() };
+    let Some(asset) = library.tagged(Kind::TrafficSign, TAGS).next() else { return Vec::new() };
     let path: Vec<DVec2> =
         yard.around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([path.as_slice()]);
@@ -96,7 +96,7 @@ fn corner<'a>(
     kerbs.iter().filter(|k| k.sidewalk).step_by(3).take(30).find_map(|kerb| {
         let position = kerb.position + kerb.outward * OFF_KERB_M;
         let yaw_rad = along.to_angle();
-        let wish = Wish { kind: Kind::TrafficSign, model: MODEL, position, yaw_rad, source: Source::MadeUp };
+        let wish = Wish { kind: Kind::TrafficSign, tags: TAGS, position, yaw_rad, source: Source::MadeUp };
         let foot_world = position.extend(yard.around.stand.surface_m(position));
         let world_from_mesh = DAffine3::from_rotation_translation(DQuat::from_rotation_z(yaw_rad), foot_world);
         yard.take(asset, &wish).then_some(world_from_mesh)

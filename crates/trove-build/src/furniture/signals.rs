@@ -4,7 +4,7 @@
 use glam::DVec2;
 use trove_model::{Drive, Kind, Outcome, Report, Seed};
 
-use super::habits::SignalSide;
+use super::habits::{SignalSide, words};
 use super::junctions::{Arm, Junction, KerbSearch, kerb_side};
 use super::yard::{Source, Wish, Yard};
 
@@ -71,13 +71,14 @@ fn approach(
     let beside_m = (kerb.position - arm.end).dot(side);
     let make = habits.signals[WIDE_M.iter().filter(|wide_m| beside_m > **wide_m).count()];
     let hand = if habits.on_left { "left" } else { "right" };
-    let model = format!("{make}/{hand}/{}", if green { "green" } else { "red" });
+    let state = if green { "green" } else { "red" };
+    let tags = [words(make).as_slice(), &[hand, state]].concat();
     // Where a crossing is in the way, a little further from the junction.
     let away = arm.inward * (kerb.position - junction.centre).dot(arm.inward).signum();
     let placed = [0.0, 1.5, 3.0, 4.5].into_iter().any(|back_m| {
         let position = kerb.position + kerb.outward * OFF_KERB_M + away * back_m;
         let yaw_rad = (-arm.inward).to_angle();
-        let wish = Wish { kind: Kind::TrafficSignal, model: &model, position, yaw_rad, source: Source::Mapped };
+        let wish = Wish { kind: Kind::TrafficSignal, tags: &tags, position, yaw_rad, source: Source::Mapped };
         yard.place(&wish, report)
     });
     if placed {

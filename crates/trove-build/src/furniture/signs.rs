@@ -51,13 +51,13 @@ fn at_kerb(
     junction: &Junction<'_>,
     search: &KerbSearch,
     seen_from: DVec2,
-    model: &str,
+    tags: &[&str],
     report: &Report,
 ) -> bool {
     let Some(kerb) = junction.kerb(yard.around, search) else { return false };
     let position = kerb.position + kerb.outward * OFF_KERB_M;
     let yaw_rad = (-seen_from).to_angle();
-    yard.place(&Wish { kind: Kind::TrafficSign, model, position, yaw_rad, source: Source::MadeUp }, report)
+    yard.place(&Wish { kind: Kind::TrafficSign, tags, position, yaw_rad, source: Source::MadeUp }, report)
 }
 
 /// Who comes from a lesser road stops or gives way; among equals America stops, and Europe gives way to the right.
@@ -68,15 +68,16 @@ fn priority(junction: &Junction<'_>, yard: &mut Yard<'_, '_, '_>, report: &Repor
     let ends = |arm: &Arm<'_>| !junction.arms.iter().any(|other| other.inward.dot(arm.inward) < -0.8);
     for arm in junction.arms.iter().filter(|a| a.enters) {
         let lesser = arm.road.kind > main;
-        let model = match (american, lesser) {
-            (true, _) if arm.road.link => "sign/us/yield",
-            (true, _) if lesser || ends(arm) => "sign/us/stop",
-            (false, true) => "sign/give-way",
+        let name = match (american, lesser) {
+            (true, _) if arm.road.link => "yield",
+            (true, _) if lesser || ends(arm) => "stop",
+            (false, true) => "give-way",
             _ => continue,
         };
         let side = kerb_side(arm.inward, yard.habits.on_left);
         let search = KerbSearch { traffic: arm.inward, on_road: arm.end, side, along_m: BEFORE_M };
-        at_kerb(yard, junction, &search, arm.inward, model, report);
+        let tags = yard.habits.sign(name, name);
+        at_kerb(yard, junction, &search, arm.inward, &tags, report);
     }
 }
 
@@ -86,21 +87,21 @@ fn one_way(junction: &Junction<'_>, arm: &Arm<'_>, yard: &mut Yard<'_, '_, '_>, 
     let outward = -arm.inward;
     let side = kerb_side(outward, on_left);
     let search = KerbSearch { traffic: outward, on_road: arm.end, side, along_m: BEHIND_M };
-    let model = if arm.enters {
-        yard.habits.sign("sign/us/do-not-enter", "sign/no-entry")
+    let tags = if arm.enters {
+        yard.habits.sign("do-not-enter", "no-entry")
     } else {
-        yard.habits.sign("sign/us/one-way-right", "sign/one-way")
+        yard.habits.sign("one-way-right", "one-way")
     };
     if arm.enters || yard.habits.signs == Signs::Vienna {
-        at_kerb(yard, junction, &search, outward, model, report);
+        at_kerb(yard, junction, &search, outward, &tags, report);
         return;
     }
     // America's arrow looks at those who would turn, and points along the street.
     let crossing = junction.arms.iter().find(|a| a.enters && a.inward.dot(outward).abs() < 0.5);
     let Some(crossing) = crossing else { return };
     let to_left = crossing.inward.perp_dot(outward) > 0.0;
-    let model = if to_left { "sign/us/one-way-left" } else { model };
-    at_kerb(yard, junction, &search, crossing.inward, model, report);
+    let tags = if to_left { ["sign", "us", "one-way-left"] } else { tags };
+    at_kerb(yard, junction, &search, crossing.inward, &tags, report);
 }
 
 /// Both directions of traffic see a crossing without signals.
@@ -112,7 +113,7 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
     let lines = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && is_marked(r.crossing));
     let middles = lines.map(|r| r.centreline.iter().sum::<DVec2>() / r.centreline.len() as f64);
     let nodes = map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing && is_marked(f.crossing()));
-    let model = yard.habits.sign("sign/us/crossing", "sign/crossing");
+    let tags = yard.habits.sign("crossing", "crossing");
     for middle in middles.chain(nodes.map(|f| f.position)) {
         let signalled = junctions.iter().any(|j| j.signalled && j.centre.distance(middle) < MAPPED_REACH_M);
         if signalled || !yard.around.bounds.contains(middle) {
@@ -123,7 +124,7 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
             let on_side = kerb.outward.dot(kerb_side(kerb.traffic, yard.habits.on_left)) > 0.7;
             let before = (BEFORE_CROSSING_M..BEFORE_CROSSING_M + 2.0).contains(&ahead_m);
             if on_side && before && !yard.has_near(Kind::TrafficSign, kerb.position, 3.0) {
-                yard.place_at_kerb(Kind::TrafficSign, model, &kerb, Source::MadeUp, report);
+                yard.place_at_kerb(Kind::TrafficSign, &tags, &kerb, Source::MadeUp, report);
             }
         }
     }
@@ -145,9 +146,10 @@ fn along(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
                 continue;
             }
             let to_left = (kerb.position - nearest.position).dot(nearest.along.perp()) > 0.0;
-            let model = limit(road, kerb, yard, &mut shown).or_else(|| parking(road, to_left, yard, &mut random));
-            if let Some(model) = model {
-                yard.place_at_kerb(Kind::TrafficSign, &model, kerb, Source::MadeUp, report);
+            let name = limit(road, kerb, yard, &mut shown).or_else(|| parking(road, to_left, yard, &mut random));
+            if let Some(name) = name {
+                let tags = yard.habits.sign(&name, &name);
+                yard.place_at_kerb(Kind::TrafficSign, &tags, kerb, Source::MadeUp, report);
             }
         }
     }
@@ -163,26 +165,33 @@ fn limit(
     if kerb.outward.dot(kerb_side(kerb.traffic, yard.habits.on_left)) < 0.7 {
         return None;
     }
-    let model = yard.habits.speed_sign(road.speed_limit_kmh?);
-    let before = shown.entry(model.clone()).or_default();
+    let name = yard.habits.speed_sign(road.speed_limit_kmh?);
+    let before = shown.entry(name.clone()).or_default();
     let again =
         before.iter().any(|b| b.position.distance(kerb.position) < LIMIT_AGAIN_M && b.traffic.dot(kerb.traffic) > 0.7);
-    if again || !yard.has(Kind::TrafficSign, &model) {
+    if again || !yard.has(Kind::TrafficSign, &yard.habits.sign(&name, &name)) {
         return None;
     }
     before.push(*kerb);
-    Some(model)
+    Some(name)
 }
 
 /// Whether one may park on a side of a road, where the map says it; main roads forbid it here and there.
 fn parking(road: &Road, to_left: bool, yard: &Yard<'_, '_, '_>, random: &mut Random) -> Option<String> {
     let parking = if to_left { road.parking.left } else { road.parking.right };
-    let forbidden = yard.habits.sign("sign/us/no-parking", "sign/no-stopping");
-    let model = match parking {
+    let american = yard.habits.signs == Signs::American;
+    let forbidden = if american { "no-parking" } else { "no-stopping" };
+    let name = match parking {
         Some(Parking::No) => forbidden,
-        Some(_) => yard.habits.sign("sign/us/no-parking", "sign/parking"),
+        Some(_) => {
+            if american {
+                "no-parking"
+            } else {
+                "parking"
+            }
+        }
         None if road.kind <= RoadKind::Residential && random.chance(0.4) => forbidden,
         None => return None,
     };
-    Some(model.to_owned())
+    Some(name.to_owned())
 }

@@ -60,24 +60,25 @@ fn furnished([origin_lat_deg, origin_lon_deg]: [f64; 2], map: &StreetMap) -> Fur
 /// Blocks for the models that are asked for, and a pole with two insulators.
 fn library() -> AssetLibrary {
     let mut assets: Vec<Asset> = [
-        ("sign/give-way", Kind::TrafficSign),
-        ("sign/us/stop", Kind::TrafficSign),
-        ("sign/us/speed-25", Kind::TrafficSign),
-        ("sign/disc/speed-50", Kind::TrafficSign),
-        ("lamp/cobra", Kind::StreetLamp),
-        ("bench/a", Kind::Bench),
+        ("gives way", Kind::TrafficSign, &["vienna", "give-way"][..]),
+        ("stops", Kind::TrafficSign, &["us", "stop"]),
+        ("25 mph", Kind::TrafficSign, &["us", "speed-25"]),
+        ("50 km/h", Kind::TrafficSign, &["vienna", "speed-50"]),
+        ("lamp", Kind::StreetLamp, &["cobra"]),
+        ("bench", Kind::Bench, &[]),
     ]
-    .map(|(id, kind)| testing::asset(id, kind, [0.1, 0.1, 2.5]))
+    .map(|(id, kind, tags)| testing::asset(id, kind, [0.1, 0.1, 2.5]).tagged(tags))
     .to_vec();
     for hand in ["right", "left"] {
         for state in ["red", "green"] {
             for make in ["post", "arm", "us-arm", "us-long-arm"] {
-                let id = format!("signal/{make}/{hand}/{state}");
-                assets.push(testing::asset(&id, Kind::TrafficSignal, [0.2, 0.2, 4.0]));
+                let id = format!("signal {make} {hand} {state}");
+                let asset = testing::asset(&id, Kind::TrafficSignal, [0.2, 0.2, 4.0]);
+                assets.push(asset.tagged([make, hand, state]));
             }
         }
     }
-    let pole = testing::asset("utility-pole/a", Kind::UtilityPole, [0.2, 0.2, 9.0]);
+    let pole = testing::asset("pole", Kind::UtilityPole, [0.2, 0.2, 9.0]);
     let mut mesh: Mesh = (*pole.mesh).clone();
     mesh.slots = vec![0; mesh.triangles.len()];
     for y in [-1.0, 1.0] {
@@ -90,13 +91,17 @@ fn library() -> AssetLibrary {
     insulator.name = "insulator".into();
     let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new() }];
     assets.push(Asset { mesh: Arc::new(mesh), slots, ..pole });
-    assets.push(testing::asset("fence/bars", Kind::Fence, [2.4, 0.06, 1.3]));
-    assets.push(testing::asset("fence/wood", Kind::Fence, [2.0, 0.1, 1.7]));
-    assets.push(testing::asset("fence/chain-link", Kind::Fence, [2.5, 0.06, 1.8]));
-    for id in ["wall/railed", "wall/garden", "wall/brick"] {
-        assets.push(testing::asset(id, Kind::Wall, [2.0, 0.24, 1.6]));
+    for (make, size_m) in [
+        ("bars", [2.4, 0.06, 1.3]),
+        ("wood", [2.0, 0.1, 1.7]),
+        ("chain-link", [2.5, 0.06, 1.8]),
+        ("picket", [2.0, 0.1, 1.0]),
+    ] {
+        assets.push(testing::asset(&format!("fence {make}"), Kind::Fence, size_m).tagged([make]));
     }
-    assets.push(testing::asset("fence/picket", Kind::Fence, [2.0, 0.1, 1.0]));
+    for make in ["railed", "garden", "brick"] {
+        assets.push(testing::asset(&format!("wall {make}"), Kind::Wall, [2.0, 0.24, 1.6]).tagged([make]));
+    }
     assets.sort_by(|a, b| a.id.cmp(&b.id));
     AssetLibrary { assets, ..AssetLibrary::default() }
 }
@@ -120,7 +125,7 @@ fn line(kind: LineKind, line: &[[f64; 2]]) -> MapLine {
 fn a_sign_faces_its_traffic_where_traffic_keeps_right_and_where_it_keeps_left() {
     for (place, side) in [(BERLIN, 1.0), (SINGAPORE, -1.0)] {
         let found = furnished(place, &junction(RoadKind::Primary, RoadKind::Residential));
-        let gives_way: Vec<_> = found.scenery.iter().filter(|(id, ..)| id == "sign/give-way").collect();
+        let gives_way: Vec<_> = found.scenery.iter().filter(|(id, ..)| id == "gives way").collect();
         assert_eq!(gives_way.len(), 1, "{:?}", found.scenery);
         let (_, foot, yaw_rad) = gives_way[0];
         // Those who come from the south see it from the south, at their side of the road.
@@ -137,7 +142,7 @@ fn signals_of_one_axis_are_green_while_the_other_s_are_red() {
         let states: Vec<(bool, bool)> = found
             .scenery
             .iter()
-            .filter(|(id, ..)| id.starts_with("signal/"))
+            .filter(|(id, ..)| id.starts_with("signal "))
             .map(|(id, _, yaw_rad)| (along_x(*yaw_rad), id.ends_with("green")))
             .collect();
         assert_eq!(states.len(), 3, "{:?}", found.scenery);
@@ -147,12 +152,10 @@ fn signals_of_one_axis_are_green_while_the_other_s_are_red() {
 
 #[test]
 fn limits_are_in_the_country_s_unit_and_nothing_stands_on_the_carriageway_or_off_the_ground() {
-    for (place, main, sign) in
-        [(BERLIN, RoadKind::Primary, "sign/disc/speed-50"), (BOSTON, RoadKind::Tertiary, "sign/us/speed-25")]
-    {
+    for (place, main, sign) in [(BERLIN, RoadKind::Primary, "50 km/h"), (BOSTON, RoadKind::Tertiary, "25 mph")] {
         let found = furnished(place, &junction(main, RoadKind::Residential));
         let limits: Vec<&str> =
-            found.scenery.iter().map(|(id, ..)| id.as_str()).filter(|id| id.contains("/speed-")).collect();
+            found.scenery.iter().map(|(id, ..)| id.as_str()).filter(|id| ["25 mph", "50 km/h"].contains(id)).collect();
         assert!(!limits.is_empty() && limits.iter().all(|id| *id == sign), "{limits:?}");
         assert!(found.scenery.len() > 20, "{}", found.scenery.len());
         assert_eq!(found.on_carriageway, 0);
@@ -171,7 +174,7 @@ fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
         ..junction(RoadKind::Secondary, RoadKind::Residential)
     };
     let found = furnished(BERLIN, &map);
-    let poles = found.scenery.iter().filter(|(id, ..)| id == "utility-pole/a").count();
+    let poles = found.scenery.iter().filter(|(id, ..)| id == "pole").count();
     assert_eq!(poles, 4, "{:?}", found.scenery);
     let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
     let points: Vec<DVec3> =
@@ -188,7 +191,7 @@ fn a_tram_s_wire_follows_its_track_between_poles_on_both_sides() {
     let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
     map.lines = vec![line(LineKind::Tram, &[[-150.0, 0.0], [150.0, 0.0]])];
     let found = furnished(BERLIN, &map);
-    let poles: Vec<DVec3> = found.scenery.iter().filter(|(id, ..)| id == "utility-pole/a").map(|s| s.1).collect();
+    let poles: Vec<DVec3> = found.scenery.iter().filter(|(id, ..)| id == "pole").map(|s| s.1).collect();
     assert!(poles.iter().any(|p| p.y > 3.0) && poles.iter().any(|p| p.y < -3.0), "{poles:?}");
     let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
     let points = wires.mesh.positions.iter().map(|p| wires.world_from_mesh.transform_point3(p.as_dvec3()));

@@ -98,9 +98,8 @@ fn by_rule(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) -> Vec<Piec
 
 /// A pole whose cross arms stand across the line, where there is room for one.
 fn pole(p: DVec2, along: DVec2, source: Source, yard: &mut Yard<'_, '_, '_>, report: &Report) -> Option<Pole> {
-    let model = "utility-pole";
     let yaw_rad = along.to_angle();
-    let wish = Wish { kind: Kind::UtilityPole, model, position: p, yaw_rad, source };
+    let wish = Wish { kind: Kind::UtilityPole, tags: &["utility-pole"], position: p, yaw_rad, source };
     if !yard.place(&wish, report) {
         if source == Source::Mapped {
             report.note(Outcome::Dropped, "mapped utility pole without room", format_args!("at {p:.0}"));

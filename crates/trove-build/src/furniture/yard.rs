@@ -46,13 +46,20 @@ pub(super) enum Source {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wish<'w> {
     pub kind: Kind,
-    /// The beginning of the ids of the models that will do.
-    pub model: &'w str,
+    /// What the models that will do are all tagged with.
+    pub tags: &'w [&'w str],
     /// Where its foot stands.
     pub position: DVec2,
     /// Where its front looks, or its arm reaches.
     pub yaw_rad: f64,
     pub source: Source,
+}
+
+impl Wish<'_> {
+    /// Its tags in the order in which they are asked for, as seeds and reports name it: `lamp/curved`.
+    fn name(&self) -> String {
+        self.tags.join("/")
+    }
 }
 
 /// The room that a model takes on the ground, in its own frame.
@@ -121,8 +128,8 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         let foot_world = wish.position.extend(self.foot_m(asset, wish));
         // Lamps of a model are painted alike.
         let alike = wish.kind == Kind::StreetLamp;
-        let seed = self.seed.child(if alike { wish.model } else { "piece" });
-        let seed = if alike { seed } else { seed.nth(self.placed.len() as u64) };
+        let seed = self.seed;
+        let seed = if alike { seed.child(&wish.name()) } else { seed.child("piece").nth(self.placed.len() as u64) };
         self.placed.push(Scenery { asset, foot_world, yaw_rad: wish.yaw_rad, scale: DVec3::ONE, seed });
         true
     }
@@ -141,20 +148,20 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
     pub(super) fn place_at_kerb(
         &mut self,
         kind: Kind,
-        model: &str,
+        tags: &[&str],
         kerb: &KerbPoint,
         source: Source,
         report: &Report,
     ) -> bool {
-        let wish = Wish { kind, model, position: kerb.position, yaw_rad: facing(kind, kerb), source };
+        let wish = Wish { kind, tags, position: kerb.position, yaw_rad: facing(kind, kerb), source };
         let Some(asset) = self.model(&wish, report) else { return false };
         let off_m = (BEFORE_M + self.plan(asset).radius_m).max(OFF_KERB_M);
         self.place(&Wish { position: kerb.position + kerb.outward * off_m, ..wish }, report)
     }
 
-    /// Whether the library has a model of that name.
-    pub(super) fn has(&self, kind: Kind, model: &str) -> bool {
-        self.library.of_kind(kind).any(|a| is_named(a, model))
+    /// Whether the library has a model with these tags.
+    pub(super) fn has(&self, kind: Kind, tags: &[&str]) -> bool {
+        self.library.tagged(kind, tags).next().is_some()
     }
 
     /// Takes the room for a model; whether there was any.
@@ -202,18 +209,18 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             || self.crossing_edges.nearest(p, AROUND_CROSSING_M + radius_m).is_some()
     }
 
-    /// A model of the name that is wanted; of a library that has none any of the kind, but no sign for another.
+    /// A model with the tags that are wanted; of a library that has none any of the kind, but no sign for another.
     fn model(&self, wish: &Wish, report: &Report) -> Option<&'a Asset> {
         let library = self.library;
-        let named: Vec<&'a Asset> = library.of_kind(wish.kind).filter(|a| is_named(a, wish.model)).collect();
+        let tagged: Vec<&'a Asset> = library.tagged(wish.kind, wish.tags).collect();
         let says_something = matches!(wish.kind, Kind::TrafficSign | Kind::TrafficSignal);
-        let models = if named.is_empty() && !says_something { library.of_kind(wish.kind).collect() } else { named };
+        let models = if tagged.is_empty() && !says_something { library.of_kind(wish.kind).collect() } else { tagged };
         let square = (wish.position / ALIKE_SQUARE_M).floor();
         let seed = self.seed.child("model").nth(square.x as i64 as u64).nth(square.y as i64 as u64);
-        let found = seed.child(wish.model).random().pick(&models).copied();
-        if found.is_none_or(|asset| !is_named(asset, wish.model)) {
+        let found = seed.child(&wish.name()).random().pick(&models).copied();
+        if found.is_none_or(|asset| !asset.tags.has_all(wish.tags)) {
             let outcome = if found.is_none() { Outcome::Dropped } else { Outcome::Substituted };
-            report.note(outcome, "furniture of a model that the asset library lacks", wish.model);
+            report.note(outcome, "furniture of a model that the asset library lacks", wish.name());
         }
         found
     }
@@ -231,10 +238,6 @@ pub(super) fn facing(kind: Kind, kerb: &KerbPoint) -> f64 {
         _ => -kerb.outward,
     };
     look.to_angle()
-}
-
-fn is_named(asset: &Asset, model: &str) -> bool {
-    asset.id.strip_prefix(model).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 /// Circles along the longer side of what a model has below people's heads.

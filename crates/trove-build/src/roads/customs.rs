@@ -103,7 +103,7 @@ pub(super) struct Customs {
     pub concrete_share: f64,
     /// Width of the strip of concrete along the kerb; 0: none.
     pub gutter_m: f64,
-    /// Words in the ids of the surfaces of sidewalks and kerbs.
+    /// Tags of the surfaces of sidewalks and kerbs.
     pub sidewalk: &'static [&'static str],
     pub kerb: &'static [&'static str],
 }
@@ -136,7 +136,7 @@ const VIENNA: Customs = Customs {
     concrete_share: 0.02,
     gutter_m: 0.0,
     sidewalk: &["slabs"],
-    kerb: &["kerb/concrete"],
+    kerb: &["concrete"],
 };
 
 /// Germany's and its neighbours' (RMS: 3/6 m in towns, crossings at signals between broken lines, stop lines of 0.5 m).
@@ -147,7 +147,7 @@ const GERMANY: Customs = Customs {
     give_way: GiveWay::Bars,
     gutter_m: 0.3,
     sidewalk: &["mosaic"],
-    kerb: &["kerb/granite"],
+    kerb: &["granite"],
     ..VIENNA
 };
 
@@ -159,7 +159,7 @@ const FRANCE: Customs = Customs {
     give_way: GiveWay::Bars,
     arrow_m: 4.0,
     sidewalk: &["asphalt-walk", "slabs"],
-    kerb: &["kerb/granite"],
+    kerb: &["granite"],
     ..VIENNA
 };
 
@@ -187,7 +187,7 @@ const SINGAPORE: Customs = Customs {
     road_tone: 1.12,
     concrete_share: 0.15,
     gutter_m: 0.4,
-    sidewalk: &["paving/concrete"],
+    sidewalk: &["concrete"],
     kerb: &["black-white"],
     ..BRITAIN
 };
@@ -209,7 +209,7 @@ const NORTH_AMERICA: Customs = Customs {
     concrete_share: 0.05,
     cycle_coat: [0.35, 0.95, 0.45],
     gutter_m: 0.45,
-    sidewalk: &["paving/concrete"],
+    sidewalk: &["concrete"],
     ..VIENNA
 };
 
@@ -264,7 +264,7 @@ const AUSTRALIA: Customs = Customs {
     signalised: CrossingStyle::Lines,
     give_way: GiveWay::Bars,
     gutter_m: 0.4,
-    sidewalk: &["paving/concrete"],
+    sidewalk: &["concrete"],
     ..VIENNA
 };
 

@@ -122,12 +122,12 @@ pub(crate) fn surfaces(
     let palette = Palette { library, report };
     // One surface of a kind in the whole place; kerbs of plain stone where the library has them.
     let material = |kind: SurfaceKind| {
-        let words: &[&str] = match kind {
+        let tags: &[&str] = match kind {
             SurfaceKind::Kerb => customs.kerb,
             SurfaceKind::Paving => customs.sidewalk,
             _ => &[],
         };
-        palette.fitting(kind, words, &mut seed.child(&format!("{kind:?}")).random()).material
+        palette.fitting(kind, tags, &mut seed.child(&format!("{kind:?}")).random()).material
     };
 
     let water = covers.iter().find(|c| c.kind == SurfaceKind::Water).map_or(&[][..], |c| &c.area);

@@ -1,25 +1,26 @@
 //! What roofs are made of.
 
 use glam::{Vec3, vec3};
-use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofShape, SurfaceKind};
+use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofShape, SurfaceKind, Tags};
 
 use crate::buildings::dress::tinted;
 use crate::buildings::region::Region;
 use crate::palette::Palette;
 
 /// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
-/// [`super::super::shell::Slot`]; `finish` names the facade's surface, whose wall goes on in gables.
+/// [`super::super::shell::Slot`]; `facade` are the tags of the facade's surface, whose wall
+/// goes on in gables.
 pub(in crate::buildings) fn materials(
     building: &Building,
     region: Region,
-    finish: &str,
+    facade: &Tags,
     wall: Vec3,
     palette: &Palette<'_>,
     random: &mut Random,
 ) -> Vec<Material> {
-    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_words(building, region, random), random).material;
-    let mut pitched = palette.fitting(SurfaceKind::RoofTiles, pitched_words(building, region, random), random).material;
-    let mut gable = palette.fitting(SurfaceKind::Wall, wall_words(finish), random).material;
+    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_tags(building, region, random), random).material;
+    let mut pitched = palette.fitting(SurfaceKind::RoofTiles, pitched_tags(building, region, random), random).material;
+    let mut gable = palette.fitting(SurfaceKind::Wall, &gable_tags(facade, palette), random).material;
     // Roofs of one material differ a little in age.
     let age = random.range(0.85, 1.12) as f32;
     flat.base_color *= age;
@@ -37,7 +38,7 @@ pub(in crate::buildings) fn materials(
     vec![flat, pitched, gable, metal, boards, glazing]
 }
 
-fn flat_words(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn flat_tags(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
     let is_hall =
         building.kind.is_some_and(|k| k.is_works() || matches!(k, BuildingKind::Retail | BuildingKind::Supermarket));
@@ -56,7 +57,7 @@ fn flat_words(building: &Building, region: Region, random: &mut Random) -> &'sta
     }
 }
 
-fn pitched_words(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn pitched_tags(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
     let is_crowned = matches!(building.roof, Some(RoofShape::Dome | RoofShape::Onion));
     match building.roof_material {
@@ -101,20 +102,9 @@ fn pitched_words(building: &Building, region: Region, random: &mut Random) -> &'
     }
 }
 
-/// The wall that a facade's surface has between its windows.
-fn wall_words(finish: &str) -> &'static [&'static str] {
-    let has = |words: &[&str]| words.iter().any(|w| finish.contains(w));
-    if has(&["brick", "victorian", "mill", "row"]) {
-        &["brick"]
-    } else if has(&["warehouse", "corrugated"]) {
-        &["corrugated"]
-    } else if has(&["metal", "glass"]) {
-        &["metal"]
-    } else if has(&["slab", "ribbon", "panel", "concrete", "hdb", "tower"]) {
-        &["concrete"]
-    } else if has(&["wood", "boards", "detached"]) {
-        &["boards"]
-    } else {
-        &["plaster"]
-    }
+/// The tags that a facade shares with walls: it has such a one between its windows.
+fn gable_tags<'t>(facade: &'t Tags, palette: &Palette<'_>) -> Vec<&'t str> {
+    let is_wall = |tag: &&str| palette.library.surfaces_of(SurfaceKind::Wall).any(|s| s.tags.has(tag));
+    let shared: Vec<&str> = facade.iter().filter(is_wall).collect();
+    if shared.is_empty() { vec!["plaster"] } else { shared }
 }

@@ -32,8 +32,8 @@ pub(super) enum CoverKind {
 impl CoverKind {
     pub(super) const ALL: [Self; 3] = [Self::Round, Self::Square, Self::Grating];
 
-    /// Word in the id of its surface.
-    pub(super) fn word(self) -> &'static str {
+    /// Tag of its surface.
+    pub(super) fn tag(self) -> &'static str {
         match self {
             Self::Round => "round",
             Self::Square => "square",

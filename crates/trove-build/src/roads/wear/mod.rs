@@ -110,8 +110,8 @@ impl Surfacing<'_> {
             .into_iter()
             .filter(|(_, mesh)| !mesh.triangles.is_empty())
             .map(|((_, look), mesh)| {
-                let (kind, words) = look.surface();
-                stuff(mesh, Class::Road, self.material(kind, words))
+                let (kind, tags) = look.surface();
+                stuff(mesh, Class::Road, self.material(kind, tags))
             })
             .collect();
         pieces.extend(self.painted(tone));
@@ -119,7 +119,7 @@ impl Surfacing<'_> {
         for kind in CoverKind::ALL {
             let mesh = ironwork::mesh(&covers, kind, self.drape, COVER_M);
             if !mesh.triangles.is_empty() {
-                pieces.push(stuff(mesh, Class::Road, self.material(SurfaceKind::RoadCover, &[kind.word()])));
+                pieces.push(stuff(mesh, Class::Road, self.material(SurfaceKind::RoadCover, &[kind.tag()])));
             }
         }
         pieces
@@ -138,8 +138,8 @@ impl Surfacing<'_> {
         all.filter(|f| f.kind == kind).map(|f| f.position).collect()
     }
 
-    fn material(&self, kind: SurfaceKind, words: &[&str]) -> Material {
-        self.palette.fitting(kind, words, &mut self.seed.child(&format!("{kind:?}")).random()).material
+    fn material(&self, kind: SurfaceKind, tags: &[&str]) -> Material {
+        self.palette.fitting(kind, tags, &mut self.seed.child(&format!("{kind:?}")).random()).material
     }
 
     /// The carriageway near the path within the gutters, and the gutters.
@@ -197,8 +197,8 @@ impl Surfacing<'_> {
         for (tint, area) in &self.markings.coats {
             let mut mesh = self.drape.surface(area, COAT_M);
             mesh.tints = vec![*tint; mesh.positions.len()];
-            let (kind, words) = Look::Aged.surface();
-            pieces.push(stuff(mesh, Class::Road, self.material(kind, words)));
+            let (kind, tags) = Look::Aged.surface();
+            pieces.push(stuff(mesh, Class::Road, self.material(kind, tags)));
         }
         for (&paint, area) in &self.markings.paints {
             let mut mesh = self.drape.surface(area, PAINT_M);
