@@ -4,6 +4,7 @@
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
 
 pub mod asset_files;
+pub mod drive_source;
 pub mod environment;
 mod error;
 pub mod human_body;

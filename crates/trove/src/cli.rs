@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
+use trove_read::drive_source::DATASETS;
 use trove_render::KernelChoice;
 
 use crate::assets::{self, AssetsCommand};
@@ -15,7 +17,7 @@ use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
 use crate::overview::Overview;
 use crate::progress::duration;
-use crate::recipe::{Dataset, Recipe};
+use crate::recipe::Recipe;
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message};
 
@@ -53,12 +55,12 @@ enum Command {
     Inspect {
         /// The dataset's root folder.
         root: PathBuf,
-        /// Which dataset it is.
-        #[arg(long, value_enum)]
-        dataset: Option<Dataset>,
-        /// nuScenes' version folder, where there are several.
-        #[arg(long)]
-        version: Option<String>,
+        /// Which dataset it is; without it the one whose root the folder looks like.
+        #[arg(long, value_parser = PossibleValuesParser::new(DATASETS.iter().map(|dataset| dataset.name)))]
+        dataset: Option<String>,
+        /// A key of the dataset's own, as in a recipe's [drive], such as version=v1.0-mini.
+        #[arg(long = "option", value_name = "KEY=VALUE")]
+        options: Vec<String>,
         /// Prints JSON.
         #[arg(long)]
         json: bool,
@@ -175,7 +177,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
 fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
     match command {
         Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
-        Command::Inspect { root, dataset, version, json } => inspect::run(&root, dataset, version, json).map(|()| 0),
+        Command::Inspect { root, dataset, options, json } => inspect::run(&root, dataset, &options, json).map(|()| 0),
         Command::Build { recipe, out, keyframe, environment, overview, json } => {
             let search = libraries::search(site_packages);
             let recipe = Recipe::read(&recipe)?;

@@ -1,33 +1,37 @@
 //! `trove inspect`: what a dataset holds.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result, anyhow};
 use serde_json::json;
-use trove_model::{Drive, Report};
+use trove_model::Report;
+use trove_read::drive_source::{DATASETS, DriveDescription};
 
-use crate::recipe::{Dataset, DriveSection, Keyframes};
+use crate::cache;
+use crate::recipe::{DriveSection, Keyframes};
 use crate::run::report_json;
-use crate::sources::open_dataset;
 
-/// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
-pub(crate) fn run(root: &Path, dataset: Option<Dataset>, version: Option<String>, as_json: bool) -> Result<()> {
-    let section = DriveSection {
-        dataset: dataset.unwrap_or(Dataset::Nuscenes),
-        root: root.to_owned(),
-        version,
-        scenes: None,
-        keyframes: Keyframes::All,
+/// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map. Without a name the dataset is
+/// the one whose root the folder looks like; `options` are the dataset's own keys as a recipe has them (`version=v1.0-mini`).
+pub(crate) fn run(root: &Path, dataset: Option<String>, options: &[String], as_json: bool) -> Result<()> {
+    let dataset = match dataset {
+        Some(name) => name,
+        None => recognised(root)?.to_owned(),
     };
+    let options = options.iter().map(|option| {
+        let (key, value) = option.split_once('=').context("--option: expected KEY=VALUE, as in a recipe's [drive]")?;
+        Ok((key.trim().to_owned(), toml_value(value)))
+    });
+    let options = options.collect::<Result<_>>()?;
+    let section = DriveSection { dataset, root: root.to_owned(), scenes: None, keyframes: Keyframes::All, options };
     let report = Report::default();
-    let opened = open_dataset(&section, root, &report)?;
+    let opened = section.opener()?(root, cache::folder().as_deref(), &report)?;
     let mut drives = Vec::new();
-    for scene in opened.scenes() {
-        match opened.drive(&scene.name, &report) {
-            Ok(drive) if as_json => drives.push(describe(&drive)),
+    for listing in opened.drives() {
+        match opened.describe(&listing.name, &report) {
+            Ok(drive) if as_json => drives.push(drive),
             Ok(drive) => print(&drive),
-            Err(error) => eprintln!("{}: {error}", scene.name),
+            Err(error) => eprintln!("{}: {error}", listing.name),
         }
     }
     let report = report_json(&report);
@@ -42,62 +46,54 @@ pub(crate) fn run(root: &Path, dataset: Option<Dataset>, version: Option<String>
     Ok(())
 }
 
-fn boxes_by_class(drive: &Drive) -> BTreeMap<&'static str, usize> {
-    let mut boxes = BTreeMap::new();
-    for object in drive.keyframes.iter().flat_map(|keyframe| &keyframe.boxes) {
-        *boxes.entry(object.kind.class().row().name).or_default() += 1;
-    }
-    boxes
-}
-
-fn describe(drive: &Drive) -> serde_json::Value {
-    let (lat_deg, lon_deg) = drive.projection.geo_from_world(glam::DVec2::ZERO);
-    json!({
-        "scene": drive.id,
-        "dataset": drive.dataset,
-        "place": drive.place,
-        "lat_deg": lat_deg,
-        "lon_deg": lon_deg,
-        "keyframes": drive.keyframes.len(),
-        "duration_s": duration_s(drive),
-        "path_m": path_m(drive),
-        "cameras": drive.rig.iter().map(|camera| &camera.name).collect::<Vec<_>>(),
-        "tracks": drive.tracks.len(),
-        "boxes": boxes_by_class(drive),
-        "lidar_keyframes": lidar_keyframes(drive),
-        "lidar_labels": drive.keyframes.iter().filter_map(|k| k.lidar.as_ref()).any(|l| !l.classes.is_empty()),
-        "lane_map": drive.lane_map.is_some(),
-        "licence": drive.licence,
+/// The dataset whose root a folder looks like.
+fn recognised(root: &Path) -> Result<&'static str> {
+    let found = DATASETS.iter().find(|dataset| (dataset.is_at)(root));
+    found.map(|dataset| dataset.name).ok_or_else(|| {
+        let names: Vec<&str> = DATASETS.iter().map(|dataset| dataset.name).collect();
+        let known = names.join(", ");
+        let root = root.display();
+        anyhow!(
+            "{root}: expected the root of a dataset ({known}), found none; give the root, or name it with --dataset"
+        )
     })
 }
 
-fn print(drive: &Drive) {
-    let (lat_deg, lon_deg) = drive.projection.geo_from_world(glam::DVec2::ZERO);
-    println!("{} ({}, {lat_deg:.5}, {lon_deg:.5})", drive.id, drive.place);
-    println!("  {} keyframes over {:.1} s and {:.0} m", drive.keyframes.len(), duration_s(drive), path_m(drive));
-    let cameras: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
-    println!("  cameras: {}", cameras.join(", "));
-    let boxes: Vec<String> = boxes_by_class(drive).iter().map(|(class, n)| format!("{class} {n}")).collect();
-    println!("  {} tracks; boxes: {}", drive.tracks.len(), boxes.join(", "));
-    println!(
-        "  LiDAR at {} keyframes; own map: {}",
-        lidar_keyframes(drive),
-        if drive.lane_map.is_some() { "yes" } else { "no" }
-    );
+/// A number, a boolean or a list as TOML has it; anything else is text.
+fn toml_value(text: &str) -> toml::Value {
+    text.trim().parse().unwrap_or_else(|_| toml::Value::String(text.trim().to_owned()))
 }
 
-fn lidar_keyframes(drive: &Drive) -> usize {
-    drive.keyframes.iter().filter(|keyframe| keyframe.lidar.is_some()).count()
+fn print(drive: &DriveDescription) {
+    println!("{} ({}, {:.5}, {:.5})", drive.scene, drive.place, drive.lat_deg, drive.lon_deg);
+    println!("  {} keyframes over {:.1} s and {:.0} m", drive.keyframes, drive.duration_s, drive.path_m);
+    println!("  cameras: {}", drive.cameras.join(", "));
+    let boxes: Vec<String> = drive.boxes.iter().map(|(class, n)| format!("{class} {n}")).collect();
+    println!("  {} tracks; boxes: {}", drive.tracks, boxes.join(", "));
+    let own_map = if drive.lane_map { "yes" } else { "no" };
+    println!("  LiDAR at {} keyframes; own map: {own_map}", drive.lidar_keyframes);
 }
 
-fn duration_s(drive: &Drive) -> f64 {
-    match (drive.keyframes.first(), drive.keyframes.last()) {
-        (Some(first), Some(last)) => (last.time_ns - first.time_ns) as f64 * 1e-9,
-        _ => 0.0,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_that_is_no_dataset_says_which_there_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = format!("{:#}", run(folder.path(), None, &[], false).unwrap_err());
+        assert!(message.contains("nuscenes") && message.contains("--dataset"), "{message}");
     }
-}
 
-fn path_m(drive: &Drive) -> f64 {
-    let position = |k: &trove_model::Keyframe| k.world_from_ego.translation;
-    drive.keyframes.windows(2).map(|pair| position(&pair[0]).distance(position(&pair[1]))).sum()
+    #[test]
+    fn options_are_those_of_the_dataset() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = |option: &str| {
+            let named = Some("nuscenes".to_owned());
+            format!("{:#}", run(folder.path(), named, &[option.to_owned()], false).unwrap_err())
+        };
+        assert!(message("version").contains("KEY=VALUE"));
+        assert!(message("verison=v1.0-mini").contains("did you mean `version`?"));
+        assert!(message("version=v1.0-mini").contains("v1.0-mini"));
+    }
 }

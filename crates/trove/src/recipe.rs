@@ -12,6 +12,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
 use trove_model::Season;
+use trove_read::drive_source::{DATASETS, Opener};
 use trove_render::Denoising;
 use trove_write::FrameFile;
 
@@ -64,27 +65,43 @@ pub struct Recipe {
 
 /// `[drive]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
 pub struct DriveSection {
-    /// Which reader.
-    pub dataset: Dataset,
+    /// The dataset's name in [`DATASETS`].
+    pub dataset: String,
     /// The dataset's root folder.
     pub root: PathBuf,
-    /// nuScenes' version folder; without it the only one there is.
-    pub version: Option<String>,
     /// Names of scenes; without it all.
     pub scenes: Option<Vec<String>>,
     /// Which moments.
     #[serde(default)]
     pub keyframes: Keyframes,
+    /// All other keys: the dataset's own.
+    #[serde(flatten)]
+    pub options: toml::Table,
 }
 
-/// A dataset that has a reader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, clap::ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Dataset {
-    /// nuScenes.
-    Nuscenes,
+/// The keys of `[drive]` that every dataset has.
+const DRIVE_KEYS: [&str; 4] = ["dataset", "root", "scenes", "keyframes"];
+
+impl DriveSection {
+    /// What opens the dataset, with its own keys read.
+    ///
+    /// # Errors
+    /// A dataset that has no reader, and a key that the dataset does not have or that is not of its type.
+    pub fn opener(&self) -> Result<Opener> {
+        let Some(dataset) = DATASETS.iter().find(|dataset| dataset.name == self.dataset) else {
+            let names: Vec<&str> = DATASETS.iter().map(|dataset| dataset.name).collect();
+            let hint = nearest(&self.dataset, &names);
+            bail!("drive.dataset: expected one of {}, found \"{}\"{hint}", names.join(", "), self.dataset);
+        };
+        (dataset.configure)(self.options.clone()).map_err(|error| {
+            let hint = match unknown_field(&error) {
+                Some((unknown, known)) => nearest(unknown, &[&known[..], &DRIVE_KEYS].concat()),
+                None => String::new(),
+            };
+            anyhow!("drive: {}{hint}", error.message())
+        })
+    }
 }
 
 /// Which keyframes of a drive.
@@ -402,6 +419,7 @@ impl Recipe {
                 );
             }
             (Some(drive), None) => {
+                drive.opener().map(drop)?;
                 if let Keyframes::Every(EveryNth { every }) = drive.keyframes {
                     check("drive.keyframes.every", every, every > 0, "1 or more")?;
                 }
@@ -542,15 +560,21 @@ fn check(key: &str, value: impl Display, holds: bool, expected: &str) -> Result<
 
 /// The parser's error (which shows the place) and, for a key that is not known, the nearest one that is.
 fn explain(error: &toml::de::Error) -> anyhow::Error {
-    let names: Vec<&str> = error.message().split('`').skip(1).step_by(2).collect();
-    let hint = match names.split_first() {
-        Some((unknown, known)) if error.message().starts_with("unknown field") => {
-            let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
-            nearest.map(|name| format!("did you mean `{name}`?")).unwrap_or_default()
-        }
-        _ => String::new(),
-    };
-    anyhow!("{error}{hint}")
+    let hint = unknown_field(error).map(|(unknown, known)| nearest(unknown, &known)).unwrap_or_default();
+    anyhow!("{error}{}", hint.trim_start_matches("; "))
+}
+
+/// The key that the parser does not know, and those that it knows there.
+fn unknown_field(error: &toml::de::Error) -> Option<(&str, Vec<&str>)> {
+    let mut names = error.message().split('`').skip(1).step_by(2);
+    let unknown = names.next().filter(|_| error.message().starts_with("unknown field"))?;
+    Some((unknown, names.collect()))
+}
+
+/// The known name that is nearest to an unknown one, as the end of a message.
+fn nearest(unknown: &str, known: &[&str]) -> String {
+    let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
+    nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -592,6 +616,23 @@ mod tests {
     fn an_unknown_key_names_the_nearest_known_one_and_its_line() {
         let message = error(&format!("{DRIVE}[render]\nssp = 3\n"));
         assert!(message.contains("did you mean `spp`?") && message.contains("line 5"), "{message}");
+    }
+
+    #[test]
+    fn a_dataset_s_own_keys_stand_beside_those_of_every_dataset() {
+        let recipe = Recipe::parse(&format!("{DRIVE}version = \"v1.0-mini\"\nscenes = [\"scene-0103\"]\n")).unwrap();
+        let drive = recipe.drive.unwrap();
+        assert_eq!(drive.options.keys().collect::<Vec<_>>(), ["version"]);
+        for (text, expect) in [
+            (format!("{DRIVE}verison = \"v1.0-mini\"\n"), "drive: unknown field `verison`"),
+            (format!("{DRIVE}verison = \"v1.0-mini\"\n"), "did you mean `version`?"),
+            (format!("{DRIVE}secnes = []\n"), "did you mean `scenes`?"),
+            (format!("{DRIVE}version = 1\n"), "drive: invalid type"),
+            (DRIVE.replace("nuscenes", "nuscene"), "found \"nuscene\"; did you mean `nuscenes`?"),
+        ] {
+            let message = error(&text);
+            assert!(message.contains(expect), "{message}");
+        }
     }
 
     #[test]

@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 use trove_model::{Bounds, Drive, EnvironmentMap, MapProjection, Outcome, Report, StreetMap};
-use trove_read::nuscenes::NuScenes;
+use trove_read::drive_source::DriveSource;
 use trove_read::{ReadError, environment, osm};
 
-use crate::recipe::{Dataset, DriveSection, Recipe};
+use crate::recipe::Recipe;
 use crate::{cache, place};
 
 /// Opened sources of a recipe.
 pub(crate) struct Sources<'a> {
     recipe: &'a Recipe,
-    dataset: Option<NuScenes>,
+    dataset: Option<Box<dyn DriveSource>>,
     /// The picture of the sky, where one is asked for.
     environment: Option<Arc<EnvironmentMap>>,
 }
@@ -23,7 +23,7 @@ impl<'a> Sources<'a> {
     /// Opens the dataset and reads the sky; `report` takes what is wrong with the dataset as a whole.
     pub(crate) fn open(recipe: &'a Recipe, report: &Report) -> Result<Self> {
         let dataset = match &recipe.drive {
-            Some(section) => Some(open_dataset(section, &recipe.at(&section.root), report)?),
+            Some(section) => Some(section.opener()?(&recipe.at(&section.root), cache::folder().as_deref(), report)?),
             None => None,
         };
         let environment = recipe.environment_file().map(|file| environment::read(&file)).transpose()?;
@@ -58,7 +58,7 @@ impl<'a> Sources<'a> {
         let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else {
             return Ok(vec![(place::NAME.to_owned(), place::KEYFRAMES_HINT)]);
         };
-        let known = dataset.scenes();
+        let known = dataset.drives();
         let Some(names) = &section.scenes else {
             ensure!(!known.is_empty(), "{}: expected at least one scene, found none", section.root.display());
             return Ok(known.into_iter().map(|scene| (scene.name, scene.keyframes)).collect());
@@ -82,7 +82,7 @@ impl<'a> Sources<'a> {
     /// One scene's drive and the map around it.
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
         let Some(dataset) = &self.dataset else { return place::drive(self.recipe, report) };
-        let drive = dataset.drive(scene, report)?;
+        let drive = dataset.read(scene, report)?;
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
         let map = street_map(self.recipe, &drive.projection, area, report)?;
         if map.is_none() {
@@ -109,22 +109,4 @@ pub(crate) fn street_map<'r>(
         }
     }
     elsewhere.map_or(Ok(None), |error| Err(error.into()))
-}
-
-/// Opens a dataset; without a version the only one that is there.
-pub(crate) fn open_dataset(section: &DriveSection, root: &Path, report: &Report) -> Result<NuScenes> {
-    let Dataset::Nuscenes = section.dataset;
-    let version = match &section.version {
-        Some(version) => version.clone(),
-        None => match NuScenes::versions(root).as_slice() {
-            [only] => only.clone(),
-            [] => bail!(
-                "{}: expected a nuScenes root with a folder v1.0-* of tables, found none; check drive.root",
-                root.display()
-            ),
-            several => bail!("{}: expected one version, found {several:?}; name one in drive.version", root.display()),
-        },
-    };
-    let cache = cache::folder();
-    Ok(NuScenes::open(root, &version, cache.as_deref(), report)?)
 }

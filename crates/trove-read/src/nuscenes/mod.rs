@@ -19,6 +19,7 @@ mod lidar;
 mod place;
 mod poses;
 mod records;
+mod source;
 mod table;
 mod tables;
 
@@ -29,6 +30,7 @@ use trove_model::{Drive, Outcome, Report};
 use self::index::Index;
 use self::index_file::IndexFile;
 use self::records::{LogRecord, SceneRecord};
+pub(crate) use self::source::DATASET;
 use self::tables::Tables;
 use crate::ReadError;
 

@@ -1,0 +1,126 @@
+//! Datasets of recorded drives behind one seam: which there are, and what a program asks of each.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::DVec2;
+use serde::Serialize;
+use trove_model::{Drive, Report};
+
+use crate::{ReadError, nuscenes};
+
+/// Every dataset that can be read, in the order in which a folder is compared with them.
+pub const DATASETS: &[Dataset] = &[nuscenes::DATASET];
+
+/// A dataset that can be read.
+#[derive(Clone, Copy, Debug)]
+pub struct Dataset {
+    /// Its name in recipes and on the command line (`nuscenes`).
+    pub name: &'static str,
+    /// Whether a folder looks like its root.
+    pub is_at: fn(&Path) -> bool,
+    /// Takes the dataset's own options, those keys of a recipe's `[drive]` that are not every dataset's.
+    ///
+    /// # Errors
+    /// An option that the dataset does not have, or one that is not of its type.
+    pub configure: fn(toml::Table) -> Result<Opener, toml::de::Error>,
+}
+
+/// Opens a dataset that has its options: its root folder, where an index may be kept, and what takes notes.
+pub type Opener = Box<dyn Fn(&Path, Option<&Path>, &Report) -> Result<Box<dyn DriveSource>, ReadError>>;
+
+/// An opened dataset of recorded drives.
+pub trait DriveSource: Send + Sync {
+    /// The drives, sorted by name.
+    fn drives(&self) -> Vec<DriveListing>;
+
+    /// Reads a drive by its name.
+    ///
+    /// # Errors
+    /// No drive of that name, or a file that is missing or damaged.
+    fn read(&self, name: &str, report: &Report) -> Result<Drive, ReadError>;
+
+    /// What a drive holds.
+    ///
+    /// # Errors
+    /// As [`DriveSource::read`].
+    fn describe(&self, name: &str, report: &Report) -> Result<DriveDescription, ReadError> {
+        Ok(DriveDescription::of(&self.read(name, report)?))
+    }
+}
+
+/// A drive in a dataset's list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DriveListing {
+    /// `scene-0103`.
+    pub name: String,
+    /// How many annotated moments it has.
+    pub keyframes: usize,
+}
+
+/// What a drive holds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DriveDescription {
+    /// The dataset's name of it (`scene-0103`).
+    pub scene: String,
+    /// The dataset (`nuscenes`).
+    pub dataset: String,
+    /// The dataset's name of the place; empty where unknown.
+    pub place: String,
+    /// Latitude of the drive's anchor.
+    pub lat_deg: f64,
+    /// Longitude of the drive's anchor.
+    pub lon_deg: f64,
+    /// How many annotated moments it has.
+    pub keyframes: usize,
+    /// From the first keyframe to the last.
+    pub duration_s: f64,
+    /// Length of the driven path.
+    pub path_m: f64,
+    /// Names of the cameras.
+    pub cameras: Vec<String>,
+    /// How many objects are followed over time.
+    pub tracks: usize,
+    /// How many boxes there are in all keyframes, by the names of their classes.
+    pub boxes: BTreeMap<&'static str, usize>,
+    /// How many keyframes have a LiDAR sweep.
+    pub lidar_keyframes: usize,
+    /// Whether LiDAR returns have classes.
+    pub lidar_labels: bool,
+    /// Whether the dataset has a map of its own there.
+    pub lane_map: bool,
+    /// Licence of the recording.
+    pub licence: String,
+}
+
+impl DriveDescription {
+    fn of(drive: &Drive) -> Self {
+        let (lat_deg, lon_deg) = drive.projection.geo_from_world(DVec2::ZERO);
+        let keyframes = &drive.keyframes;
+        let sweeps = || keyframes.iter().filter_map(|k| k.lidar.as_ref());
+        let duration_ns =
+            keyframes.first().zip(keyframes.last()).map_or(0, |(first, last)| last.time_ns - first.time_ns);
+        let position = |i: usize| keyframes[i].world_from_ego.translation;
+        let mut boxes = BTreeMap::new();
+        for object in keyframes.iter().flat_map(|k| &k.boxes) {
+            *boxes.entry(object.kind.class().row().name).or_default() += 1;
+        }
+        Self {
+            scene: drive.id.clone(),
+            dataset: drive.dataset.clone(),
+            place: drive.place.clone(),
+            lat_deg,
+            lon_deg,
+            keyframes: keyframes.len(),
+            duration_s: duration_ns as f64 * 1e-9,
+            path_m: (1..keyframes.len()).map(|i| position(i - 1).distance(position(i))).sum(),
+            cameras: drive.rig.iter().map(|camera| camera.name.clone()).collect(),
+            tracks: drive.tracks.len(),
+            boxes,
+            lidar_keyframes: sweeps().count(),
+            lidar_labels: sweeps().any(|sweep| !sweep.classes.is_empty()),
+            lane_map: drive.lane_map.is_some(),
+            licence: drive.licence.clone(),
+        }
+    }
+}
