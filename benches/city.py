@@ -6,6 +6,7 @@
 import math
 import random
 import sys
+from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 LAT_DEG, LON_DEG = 52.5, 13.4
@@ -54,7 +55,9 @@ def city(buildings):
     for i in range(len(at)):
         kind = "secondary" if i % 6 == 0 else "residential"
         for line in [[corners[i, j] for j in range(len(at))], [corners[j, i] for j in range(len(at))]]:
-            extract.way(line, highway=kind, lanes=4 if kind == "secondary" else 2, sidewalk="both", parking__both="lane")
+            extract.way(
+                line, highway=kind, lanes=4 if kind == "secondary" else 2, sidewalk="both", parking__both="lane"
+            )
     made = 0
     for west in at[:-1]:
         for south in at[:-1]:
@@ -78,6 +81,6 @@ def city(buildings):
 
 if __name__ == "__main__":
     made, side_m = city(int(sys.argv[1]))
-    with open(sys.argv[2], "w", encoding="utf-8") as file:
+    with Path(sys.argv[2]).open("w", encoding="utf-8") as file:
         made.write(file)
     print(f"{len(made.ways)} ways and {len(made.nodes)} nodes on a square of {side_m:.0f} m")

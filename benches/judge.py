@@ -55,7 +55,9 @@ def pictures(folder):
             planes = [field(random, *size, 12) + 0.4 * field(random, *size, 160) for _ in range(3)]
             grain = random.normal(0, 2, (size[1], size[0], 3))
             path = folder / f"{side}{i}.png"
-            Image.fromarray((low + (high - low) * np.stack(planes, -1) / 1.4 + grain).clip(0, 255).astype(np.uint8)).save(path)
+            Image.fromarray(
+                (low + (high - low) * np.stack(planes, -1) / 1.4 + grain).clip(0, 255).astype(np.uint8)
+            ).save(path)
             made.append(path)
         repeat(folder / side, "{:06}.png", made, count)
 
@@ -81,7 +83,17 @@ def main():
         pictures(folder)
         for method in ["set", "picture"]:
             for space in ["lab", "l-alpha-beta"]:
-                command = [trove, "recolor", folder / "source", "--to", folder / "target", "--method", method, "--space", space]
+                command = [
+                    trove,
+                    "recolor",
+                    folder / "source",
+                    "--to",
+                    folder / "target",
+                    "--method",
+                    method,
+                    "--space",
+                    space,
+                ]
                 taken = timed(*command, "--out", folder / method / space)
                 print(f"100 pictures of 1600×900, --method {method} --space {space}: {taken}")
 

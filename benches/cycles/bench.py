@@ -43,7 +43,7 @@ def cycles(scene, pictures):
         "pictures": pictures,
     }
     (folder / "job.json").write_text(json.dumps(job))
-    with open(folder / "log.txt", "w") as log:
+    with (folder / "log.txt").open("w") as log:
         command = [sys.executable, IN_CYCLES, folder / "job.json"]
         subprocess.run(command, stdout=log, stderr=log, check=True)
     return json.loads((folder / "times.json").read_text())
@@ -73,7 +73,9 @@ def cycles_all(scene):
 def agreement(ours, theirs, classes, names):
     """Prints how the references' mean radiances compare, over the whole and by class."""
     a, b = ours.mean(axis=-1, dtype=np.float64), theirs.mean(axis=-1, dtype=np.float64)
-    print(f"  references, ours / Cycles: whole picture {a.mean() / b.mean():.3f}, FLIP {metrics.flip(ours, theirs):.3f}")
+    print(
+        f"  references, ours / Cycles: whole picture {a.mean() / b.mean():.3f}, FLIP {metrics.flip(ours, theirs):.3f}"
+    )
     for number, name in enumerate(names):
         mask = classes == number
         if mask.mean() > 0.002:

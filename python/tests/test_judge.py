@@ -40,7 +40,10 @@ def blobs(random, ids):
 def cityscapes_pairs(folder, wrong_share=0.2):
     """Folders of predictions and truths, with instances, in Cityscapes' names; all 34 ids are among them."""
     random = np.random.default_rng(5)
-    sample = Path(os.environ.get("TROVE_TEST_DATA", "none")) / "cityscapes-sample/tests/data/pseudo_cityscapes_dataset/gtFine"
+    sample = (
+        Path(os.environ.get("TROVE_TEST_DATA", "none"))
+        / "cityscapes-sample/tests/data/pseudo_cityscapes_dataset/gtFine"
+    )
     truths = {f"made_{i:06}_000019": blobs(random, np.arange(34)) for i in range(2)}
     truths |= {path.name.split("_gtFine")[0]: np.array(Image.open(path)) for path in sample.glob("*_labelIds.png")}
     for name, truth in truths.items():
@@ -65,7 +68,9 @@ def test_ious_are_those_of_cityscapes_scripts_to_the_last_digit(tmp_path):
     assert ours["iou"] == {name: iou for name, iou in expected["classScores"].items() if not np.isnan(iou)}
     assert ours["miou"] == expected["averageScoreClasses"]
     ids = [label.id for label in theirs.labels if label.trainId not in (255, -1)]
-    assert [row[:-1] for row in ours["confusion"]["pixels"]] == np.array(expected["confMatrix"])[np.ix_(ids, ids)].tolist()
+    assert [row[:-1] for row in ours["confusion"]["pixels"]] == np.array(expected["confMatrix"])[
+        np.ix_(ids, ids)
+    ].tolist()
 
 
 def test_panoptic_quality_is_that_of_cityscapes_scripts(tmp_path):
@@ -83,10 +88,22 @@ def test_panoptic_quality_is_that_of_cityscapes_scripts(tmp_path):
             name = path.name.replace("_instanceIds", "_panoptic")
             save(side / name, np.stack([segments % 256, segments // 256, segments * 0], -1).astype(np.uint8))
             crowd = lambda s: int(s < 1000 and categories[s]["isthing"])  # noqa: E731
-            rows = [{"id": int(s), "category_id": int(s if s < 1000 else s // 1000), "iscrowd": crowd(s)} for s in np.unique(segments) if s]
+            rows = [
+                {"id": int(s), "category_id": int(s if s < 1000 else s // 1000), "iscrowd": crowd(s)}
+                for s in np.unique(segments)
+                if s
+            ]
             areas = {row["id"]: int((segments == row["id"]).sum()) for row in rows}
-            sides[side].append({"image_id": name, "file_name": name, "segments_info": [row | {"area": areas[row["id"]]} for row in rows]})
-    stat = theirs.pq_compute_single_core(0, list(zip(sides[truth], sides[predicted])), str(truth), str(predicted), categories)
+            sides[side].append(
+                {
+                    "image_id": name,
+                    "file_name": name,
+                    "segments_info": [row | {"area": areas[row["id"]]} for row in rows],
+                }
+            )
+    stat = theirs.pq_compute_single_core(
+        0, list(zip(sides[truth], sides[predicted])), str(truth), str(predicted), categories
+    )
     expected = theirs.average_pq(stat, categories)
     assert ours["pq"] == pytest.approx(expected["All"]["pq"], rel=1e-12)
     names = {label.id: label.name for label in theirs.csLabels}
@@ -154,7 +171,10 @@ def test_recoloured_pictures_lie_under_the_same_paths_and_a_second_run_keeps_the
     first = json.loads(trove("recolor", source, "--to", target, "--strength", 1, "--json").stdout)
     out = tmp_path / "s-recolored"
     assert Path(first["out"]) == out and (first["pictures"], first["kept"]) == (2, 0)
-    assert sorted(path.relative_to(out).as_posix() for path in out.rglob("rgb.png")) == ["k0/ego.A/rgb.png", "k1/ego.A/rgb.png"]
+    assert sorted(path.relative_to(out).as_posix() for path in out.rglob("rgb.png")) == [
+        "k0/ego.A/rgb.png",
+        "k1/ego.A/rgb.png",
+    ]
     assert first["after"]["mean"] == pytest.approx(first["target"]["mean"], abs=0.5)
     assert first["after"]["deviation"] == pytest.approx(first["target"]["deviation"], abs=0.5)
     assert Image.open(first["page"]).width > 800
@@ -247,7 +267,13 @@ def test_the_page_needs_nothing_else_and_shows_in_a_browser(labels, tmp_path):
     chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if chromium is None:
         return
-    quiet = "--disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync".split()
+    quiet = [
+        "--disable-quic",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+    ]
     picture = tmp_path / "page.png"
     command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", *quiet, f"--user-data-dir={tmp_path / 'user'}"]
     command += ["--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={picture}", Path(found["page"]).as_uri()]

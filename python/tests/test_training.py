@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from conftest import trove
 from PIL import Image
-
 from trove.train import labels, table
 from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
@@ -49,7 +48,10 @@ def experiment(finished, tmp_path):
 
 def test_every_class_of_ours_has_a_place_or_is_left_out_on_purpose():
     paper, camvid = labels.lookup("native", "paper"), labels.lookup("native", "camvid")
-    left_out = {name: [i for i in range(20) if table[i] == labels.IGNORED] for name, table in [("paper", paper), ("camvid", camvid)]}
+    left_out = {
+        name: [i for i in range(20) if table[i] == labels.IGNORED]
+        for name, table in [("paper", paper), ("camvid", camvid)]
+    }
     assert left_out == {"paper": [0, 10], "camvid": [0, 16, 17]}
     assert labels.CAMVID[camvid[18]] == "pole" and labels.PAPER[paper[13]] == "truck"
     with pytest.raises(ValueError, match="numbered as camvid"):
@@ -133,7 +135,7 @@ def test_picture_and_labels_of_other_sizes_are_refused(tmp_path):
 
     Image.new("RGB", (8, 6)).save(tmp_path / "a.png")
     Image.new("L", (8, 5)).save(tmp_path / "b.png")
-    with pytest.raises(ValueError, match="b.png: expected"):
+    with pytest.raises(ValueError, match=r"b\.png: expected"):
         Pictures([Sample(tmp_path / "a.png", tmp_path / "b.png")], "native", "camvid", (4, 3), False, 0)[0]
 
 
@@ -175,7 +177,12 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
     from trove.train import training
 
     torch.set_num_threads(1)
-    text = experiment.read_text().replace("epochs = 1", "steps = 120\nrate = 3e-3").replace("[64, 36]", "[160, 90]").replace("batch = 2", "batch = 6")
+    text = (
+        experiment.read_text()
+        .replace("epochs = 1", "steps = 120\nrate = 3e-3")
+        .replace("[64, 36]", "[160, 90]")
+        .replace("batch = 2", "batch = 6")
+    )
     experiment.write_text(text)
     found = read(experiment)
     lines = []
@@ -201,7 +208,9 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
 
 def test_rows_trained_at_the_same_time_find_what_they_find_alone(finished, experiment, tmp_path):
     pytest.importorskip("torch", reason="the optional extra [train] is not installed")
-    experiment.write_text(experiment.read_text().replace("epochs = 1", "steps = 3").replace("seeds = [1]", "seeds = [1, 2]"))
+    experiment.write_text(
+        experiment.read_text().replace("epochs = 1", "steps = 3").replace("seeds = [1]", "seeds = [1, 2]")
+    )
     command = [sys.executable, "-m", "trove.train", experiment, "--rows", "S", "--threads", "1", "--out"]
     for out, jobs in ((tmp_path / "a", 1), (tmp_path / "b", 2)):
         done = subprocess.run([*map(str, command), str(out), "--jobs", str(jobs)], capture_output=True, text=True)

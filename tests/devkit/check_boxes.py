@@ -72,7 +72,7 @@ def pixels_inside(corners_px, size):
     points = np.column_stack([u.ravel(), v.ravel()])
     inside = outline.contains_points(points, radius=1.0) | outline.contains_points(points, radius=-1.0)
     mask = np.zeros(size[::-1], bool)
-    mask[low[1]:high[1], low[0]:high[0]] = inside.reshape(u.shape)
+    mask[low[1] : high[1], low[0] : high[0]] = inside.reshape(u.shape)
     return mask
 
 
@@ -178,7 +178,7 @@ def print_table(verdicts):
     """One line a category; returns hits and judged boxes of all."""
     print(f"{'category':40} {'boxes':>6} {'hidden':>7} {'small':>6} {'judged':>7} {'hit':>6} {'share':>7}")
     totals = np.zeros(5, int)
-    for name in sorted({name for name, _ in verdicts}) + ["all"]:
+    for name in [*sorted({name for name, _ in verdicts}), "all"]:
         of = {verdict: n for (other, verdict), n in verdicts.items() if other == name}
         row = np.array([sum(of.values()), of.get("hidden", 0), of.get("smaller than a pixel", 0), 0, of.get("hit", 0)])
         row[3] = row[0] - row[1] - row[2]

@@ -9,12 +9,23 @@ from pathlib import Path
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m trove.train", description="Measures what datasets are worth for training.", epilog="Example: python -m trove.train camvid.toml --out results")
+    parser = argparse.ArgumentParser(
+        prog="python -m trove.train",
+        description="Measures what datasets are worth for training.",
+        epilog="Example: python -m trove.train camvid.toml --out results",
+    )
     parser.add_argument("experiment", type=Path, help="the experiment, TOML")
-    parser.add_argument("--out", type=Path, required=True, help="folder for runs and table; what is finished there is kept")
+    parser.add_argument(
+        "--out", type=Path, required=True, help="folder for runs and table; what is finished there is kept"
+    )
     parser.add_argument("--rows", nargs="*", help="only these rows of the experiment")
     parser.add_argument("--threads", type=int, default=0, help="threads on the CPU for a job; 0 is all")
-    parser.add_argument("--jobs", type=int, default=1, help="seeds and rows that are trained at the same time, each in a process of its own")
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=1,
+        help="seeds and rows that are trained at the same time, each in a process of its own",
+    )
     options = parser.parse_args()
     try:
         import torch  # noqa: F401

@@ -7,4 +7,5 @@ def iou(confusion: np.ndarray) -> np.ndarray:
     """IoU of every class from counts (truth, prediction); NaN where a class is neither there nor predicted."""
     both = np.diag(confusion).astype(float)
     union = confusion.sum(0) + confusion.sum(1) - both
-    return np.divide(both, union, out=np.full_like(both, np.nan), where=union > 0)
+    shares: np.ndarray = np.divide(both, union, out=np.full_like(both, np.nan), where=union > 0)
+    return shares

@@ -1,6 +1,7 @@
 """Pictures with labels, from every dataset's own layout."""
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,7 +53,7 @@ def kitti_step(root: Path, split: str = "train") -> list[Sample]:
     return [Sample(root / "image_02" / path.parent.name / path.name, path) for path in labels]
 
 
-FORMATS = {
+FORMATS: dict[str, tuple[Callable[..., list[Sample]], str]] = {
     "native": (native, "native"),
     "camvid": (camvid, "camvid"),
     "cityscapes": (cityscapes, "cityscapes"),
@@ -74,7 +75,9 @@ class Pictures:
 
     KEPT_BYTES = 2 << 30
 
-    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], augment: bool, seed: int):
+    def __init__(
+        self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], augment: bool, seed: int
+    ):
         self.samples, self.size, self.augment, self.seed = samples, size, augment, seed
         self.table = lookup(numbering, target)
         self.crowns: tuple[int, int, int] | None = CROWNS[target] if numbering == "native" else None
@@ -88,7 +91,11 @@ class Pictures:
     def __getitem__(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         picture, labels = self._pair(index)
         random = np.random.default_rng((self.seed, self.epoch, index))
-        zoom, x, y, mirrored = (random.uniform(1, _ZOOM), *random.random(2), random.random() < 0.5) if self.augment else (1, 0.5, 0.5, False)
+        zoom, x, y, mirrored = (
+            (random.uniform(1, _ZOOM), *random.random(2), random.random() < 0.5)
+            if self.augment
+            else (1, 0.5, 0.5, False)
+        )
         scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * zoom
         width, height = self.size[0] / scale, self.size[1] / scale
         left, top = x * (picture.width - width), y * (picture.height - height)
@@ -108,7 +115,8 @@ class Pictures:
         if index in self._kept:
             return self._kept[index]
         sample = self.samples[index]
-        picture, labels = Image.open(sample.picture).convert("RGB"), Image.open(sample.labels)
+        picture: Image.Image = Image.open(sample.picture).convert("RGB")
+        labels: Image.Image = Image.open(sample.labels)
         if labels.mode not in ("L", "P"):
             labels = labels.getchannel(0)
         if picture.size != labels.size:
@@ -119,7 +127,10 @@ class Pictures:
         scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * _ZOOM
         if scale < 1:
             size = (round(picture.width * scale), round(picture.height * scale))
-            picture, labels = picture.resize(size, Image.Resampling.BILINEAR), labels.resize(size, Image.Resampling.NEAREST)
+            picture, labels = (
+                picture.resize(size, Image.Resampling.BILINEAR),
+                labels.resize(size, Image.Resampling.NEAREST),
+            )
         size_bytes = 4 * picture.width * picture.height
         if self._kept_bytes + size_bytes <= self.KEPT_BYTES:
             self._kept[index] = (picture, labels)
@@ -164,5 +175,3 @@ def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list
             members += [(i, queues[i].pop(0)) for _ in range(share)]
         batches.append(members)
     return batches
-
-

@@ -1,58 +1,61 @@
 """What is to be trained on what: a TOML file.
 
-    classes = "camvid"            # or "paper", the 12 classes
-    size    = [480, 360]          # width and height that networks see
-    rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: first without, then on the real set alone; [M]: mixed batches
-    compare = { "S+R[M]" = "R" }  # rows whose gain is told
+classes = "camvid"            # or "paper", the 12 classes
+size    = [480, 360]          # width and height that networks see
+rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: first without, then on the real set alone; [M]: mixed batches
+compare = { "S+R[M]" = "R" }  # rows whose gain is told
 
-    [sets.R]
-    format = "camvid"             # native | camvid | cityscapes | kitti-step
-    root   = "data/camvid"        # relative to this file
-    split  = "train"
+[sets.R]
+format = "camvid"             # native | camvid | cityscapes | kitti-step
+root   = "data/camvid"        # relative to this file
+split  = "train"
 
-    [sets.P]
-    of    = "R"                   # a part of another set
-    count = 100
+[sets.P]
+of    = "R"                   # a part of another set
+count = 100
 
-    [sets.S]
-    format = "native"
-    root   = "out/camvid-twin"
-    frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
+[sets.S]
+format = "native"
+root   = "out/camvid-twin"
+frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
 
-    [sets.C]                      # S in other colours: a row with C holds these in place of S
-    format   = "native"
-    root     = "out/camvid-twin"
-    pictures = "out/camvid-twin-recolored"
+[sets.C]                      # S in other colours: a row with C holds these in place of S
+format   = "native"
+root     = "out/camvid-twin"
+pictures = "out/camvid-twin-recolored"
 
-    [val]
-    format = "camvid"
-    root   = "data/camvid"
-    split  = "val"
+[val]
+format = "camvid"
+root   = "data/camvid"
+split  = "val"
 
-    [training]
-    model  = "small"              # or "deeplab"
-    steps  = 600                  # the same for every row; or epochs = 30, of a row's own pictures
-    batch  = 10
-    rate   = 1e-3
-    seeds  = [1, 2, 3]
-    balanced = true               # rare classes weigh more in the loss
+[training]
+model  = "small"              # or "deeplab"
+steps  = 600                  # the same for every row; or epochs = 30, of a row's own pictures
+batch  = 10
+rate   = 1e-3
+seeds  = [1, 2, 3]
+balanced = true               # rare classes weigh more in the loss
 """
 
 import hashlib
+import itertools
 import os
 import re
+import sys
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from trove.train.data import FORMATS, Sample
 from trove.train.labels import TARGETS
 
-try:
+if sys.version_info >= (3, 11):
     import tomllib
-except ModuleNotFoundError:  # Python 3.10
+else:
     import tomli as tomllib
 
 
@@ -73,7 +76,7 @@ class Training:
     weights: Path | None = None
     balanced: bool = False
 
-    def settings(self) -> list:
+    def settings(self) -> list[Any]:
         """All that changes what a run finds, but for its seed."""
         weights = self.weights and [self.weights.name, self.weights.stat().st_size]
         return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced]
@@ -88,7 +91,11 @@ class Pool:
 
     def digest(self, base: Path) -> str:
         """A hash of the numbering and of the sizes of all files and their paths from `base`, wherever that lies."""
-        files = [(os.path.relpath(f, base), f.stat().st_size) for sample in self.samples for f in (sample.picture, sample.labels)]
+        files = [
+            (os.path.relpath(f, base), f.stat().st_size)
+            for sample in self.samples
+            for f in (sample.picture, sample.labels)
+        ]
         return _digest(self.numbering, files)
 
 
@@ -125,7 +132,11 @@ class Experiment:
 
     def folders(self, row: str, seed: int, out: Path) -> list[tuple[Path, list[str]]]:
         """The folder and the sets of each stage of a row."""
-        folders, name, key = [], "", _digest(self.classes, self.size, self.training.settings(), self.val.digest(self.folder))
+        folders, name, key = (
+            [],
+            "",
+            _digest(self.classes, self.size, self.training.settings(), self.val.digest(self.folder)),
+        )
         for names in self.stages(row):
             key = _digest(key, seed, [self.digests[n] for n in names])
             name += (" then " if name else "") + "+".join(names)
@@ -170,25 +181,36 @@ def read(path: Path) -> Experiment:
         entry["weights"] = path.parent / entry["weights"]
     size = table.get("size", [512, 256])
     experiment = Experiment(
-        path.parent, classes, (size[0], size[1]), table.get("rows", []), table.get("compare", {}), pools, _pool(path, "val", table["val"]), Training(**entry)
+        path.parent,
+        classes,
+        (size[0], size[1]),
+        table.get("rows", []),
+        table.get("compare", {}),
+        pools,
+        _pool(path, "val", table["val"]),
+        Training(**entry),
     )
     for row in experiment.rows:
-        for name in sum(experiment.stages(row), []):
+        for name in itertools.chain.from_iterable(experiment.stages(row)):
             if name not in pools:
                 raise ExperimentError(f"{path}: rows: {row} asks for the set {name}, which is not under [sets]")
     return experiment
 
 
-def _pool(path: Path, place: str, entry: dict) -> Pool:
+def _pool(path: Path, place: str, entry: dict[str, Any]) -> Pool:
     _known(path, f"{place}.", entry, {"format", "root", "split", "pictures", "frames"})
     if entry.get("format") not in FORMATS:
-        raise ExperimentError(f"{path}: {place}.format: expected one of {', '.join(FORMATS)}, found {entry.get('format')}")
+        raise ExperimentError(
+            f"{path}: {place}.format: expected one of {', '.join(FORMATS)}, found {entry.get('format')}"
+        )
     find, numbering = FORMATS[entry["format"]]
     options = {key: path.parent / entry[key] for key in ("pictures", "frames") if key in entry}
     root = path.parent / entry.get("root", "")
     samples = find(root, split=entry.get("split", "train"), **options)
     if not samples:
-        raise ExperimentError(f"{path}: {place}.root: expected pictures laid out as {entry['format']} in {root}, found none")
+        raise ExperimentError(
+            f"{path}: {place}.root: expected pictures laid out as {entry['format']} in {root}, found none"
+        )
     return Pool(samples, numbering)
 
 
@@ -197,11 +219,11 @@ def _part(whole: Pool, count: int, seed: int) -> Pool:
     return Pool([whole.samples[i] for i in sorted(chosen)], whole.numbering)
 
 
-def _digest(*parts) -> str:
+def _digest(*parts: Any) -> str:
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:12]
 
 
-def _known(path: Path, place: str, table: dict, keys: set[str]) -> None:
+def _known(path: Path, place: str, table: dict[str, Any], keys: set[str]) -> None:
     unknown = sorted(set(table) - keys)
     if unknown:
         raise ExperimentError(f"{path}: {place}{unknown[0]} is not known; expected {', '.join(sorted(keys))}")

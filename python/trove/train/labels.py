@@ -17,8 +17,8 @@ PAPER = [
 TARGETS = {"camvid": CAMVID, "paper": PAPER}
 # The classes of trees, and of what is seen between their twigs.
 CROWNS = {
-    "camvid": tuple(CAMVID.index(name) for name in ("tree", "sky", "building")),
-    "paper": tuple(PAPER.index(name) for name in ("vegetation", "sky", "building")),
+    "camvid": (CAMVID.index("tree"), CAMVID.index("sky"), CAMVID.index("building")),
+    "paper": (PAPER.index("vegetation"), PAPER.index("sky"), PAPER.index("building")),
 }
 
 # Native class id -> (CamVid class, paper's class); "" is ignored. The same rows as `CLASSES` in trove-model.

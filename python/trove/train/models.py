@@ -41,7 +41,9 @@ class DeepLabV2(nn.Module):
 
 
 def _convolution(inside: int, outside: int, stride: int = 1) -> nn.Sequential:
-    return nn.Sequential(nn.Conv2d(inside, outside, 3, stride, 1, bias=False), nn.BatchNorm2d(outside), nn.ReLU(inplace=True))
+    return nn.Sequential(
+        nn.Conv2d(inside, outside, 3, stride, 1, bias=False), nn.BatchNorm2d(outside), nn.ReLU(inplace=True)
+    )
 
 
 class _Pointwise(nn.Conv2d):
@@ -59,7 +61,11 @@ class _Residual(nn.Module):
 
     def __init__(self, inside: int, outside: int, stride: int):
         super().__init__()
-        self.body = nn.Sequential(_convolution(inside, outside, stride), nn.Conv2d(outside, outside, 3, 1, 1, bias=False), nn.BatchNorm2d(outside))
+        self.body = nn.Sequential(
+            _convolution(inside, outside, stride),
+            nn.Conv2d(outside, outside, 3, 1, 1, bias=False),
+            nn.BatchNorm2d(outside),
+        )
         self.side = nn.Sequential(nn.Conv2d(inside, outside, 1, stride, bias=False), nn.BatchNorm2d(outside))
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:

@@ -1,5 +1,7 @@
 """The results in the paper's form."""
 
+from typing import Any
+
 import numpy as np
 
 from trove.train.confusion import iou
@@ -14,16 +16,22 @@ def _interval(values: np.ndarray) -> float:
     return float("nan") if n < 2 else _STUDENT[min(n - 2, 9)] * float(np.std(values, ddof=1)) / n**0.5
 
 
-def summary(results: list[dict]) -> dict:
+def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
     """Means over the seeds of one row, percent: `iou` by class, `miou` and its interval, `accuracy`."""
     counts = [np.array(result["confusion"]) for result in results]
     ious = np.array([iou(c) for c in counts]) * 100
     mious = np.nanmean(ious, axis=1)
     accuracy = np.array([np.trace(c) / c.sum() for c in counts]) * 100
-    return {"iou": np.nanmean(ious, axis=0), "miou": float(mious.mean()), "half": _interval(mious), "accuracy": float(accuracy.mean()), "mious": mious}
+    return {
+        "iou": np.nanmean(ious, axis=0),
+        "miou": float(mious.mean()),
+        "half": _interval(mious),
+        "accuracy": float(accuracy.mean()),
+        "mious": mious,
+    }
 
 
-def _rows(summaries: dict[str, dict]) -> list[list[str]]:
+def _rows(summaries: dict[str, dict[str, Any]]) -> list[list[str]]:
     def number(value: float) -> str:
         return "–" if np.isnan(value) else f"{value:.2f}"
 
@@ -34,7 +42,7 @@ def _rows(summaries: dict[str, dict]) -> list[list[str]]:
     return rows
 
 
-def markdown(classes: list[str], summaries: dict[str, dict], compare: dict[str, str]) -> str:
+def markdown(classes: list[str], summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
     """A Markdown table with a line for every gain asked for."""
     head = ["trained on", *classes, "mIoU", "accuracy"]
     lines = [head, ["---"] * len(head), *_rows(summaries)]
@@ -45,11 +53,13 @@ def markdown(classes: list[str], summaries: dict[str, dict], compare: dict[str, 
             a, b = summaries[better]["mious"], summaries[than]["mious"]
             apart = a - b if len(a) == len(b) else np.array([a.mean() - b.mean()])
             half = _interval(apart)
-            text += f"\n{better} against {than}: {apart.mean():+.2f} mIoU" + ("" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})")
+            text += f"\n{better} against {than}: {apart.mean():+.2f} mIoU" + (
+                "" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})"
+            )
     return text + "\n"
 
 
-def latex(classes: list[str], summaries: dict[str, dict]) -> str:
+def latex(classes: list[str], summaries: dict[str, dict[str, Any]]) -> str:
     """The same as a LaTeX tabular."""
     head = ["Training", *classes, "mIoU", "Acc."]
     lines = [" & ".join(line).replace("_", r"\_").replace("±", r"$\pm$") + r" \\" for line in [head, *_rows(summaries)]]
@@ -57,7 +67,7 @@ def latex(classes: list[str], summaries: dict[str, dict]) -> str:
     return f"\\begin{{tabular}}{{l{'r' * (len(head) - 1)}}}\n\\hline\n{body}\n\\hline\n\\end{{tabular}}\n"
 
 
-def curves(results: list[dict]) -> str:
+def curves(results: list[dict[str, Any]]) -> str:
     """The curves of the loss as an SVG picture, a line a run."""
     most = max((point[2] for r in results for point in r["curve"]), default=1.0)
     parts = []
@@ -65,6 +75,8 @@ def curves(results: list[dict]) -> str:
         last = max((point[1] for point in result["curve"]), default=1)
         points = " ".join(f"{40 + 700 * p[1] / last:.1f},{20 + 360 * (1 - p[2] / most):.1f}" for p in result["curve"])
         hue = 360 * i // max(len(results), 1)
-        parts.append(f'<polyline points="{points}" fill="none" stroke="hsl({hue},60%,45%)"><title>{result["row"]} seed {result["seed"]}</title></polyline>')
+        parts.append(
+            f'<polyline points="{points}" fill="none" stroke="hsl({hue},60%,45%)"><title>{result["row"]} seed {result["seed"]}</title></polyline>'
+        )
     axes = '<path d="M40 20V380H740" fill="none" stroke="#888"/>'
     return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 400">{axes}{"".join(parts)}</svg>\n'

@@ -1,8 +1,10 @@
 """Trains one network on one or two stages of sets, and measures it."""
 
 import json
-import os
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -36,7 +38,7 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
     return confusion
 
 
-def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) -> list[dict]:
+def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) -> list[dict[str, Any]]:
     """Trains and measures rows of the experiment in the file `path` with one seed, on so many threads; 0 is all."""
     if threads:
         torch.set_num_threads(threads)
@@ -44,7 +46,7 @@ def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) ->
     return [run(experiment, row, seed, out, lambda text: print(text, flush=True)) for row in rows]
 
 
-def run(experiment: Experiment, row: str, seed: int, out: Path, say) -> dict:
+def run(experiment: Experiment, row: str, seed: int, out: Path, say: Callable[[str], None]) -> dict[str, Any]:
     """Trains and measures one row with one seed.
 
     What is finished in `out` is not done again, what was begun goes on, and rows that begin alike share their first
@@ -64,7 +66,8 @@ def run(experiment: Experiment, row: str, seed: int, out: Path, say) -> dict:
             curve = state["curve"]
             continue
         folder.mkdir(parents=True, exist_ok=True)
-        _stage(experiment, names, seed * 1000 + number, model, device, folder / "checkpoint.pt", curve, number, lambda text: say(f"{row} seed {seed}: {text}"))
+        stage = _Stage(experiment, names, number, seed * 1000 + number, folder / "checkpoint.pt")
+        _train(stage, model, device, curve, lambda text: say(f"{row} seed {seed}: {text}"))
         _save(trained, {"model": model.state_dict(), "curve": curve})
         (folder / "checkpoint.pt").unlink(missing_ok=True)
     result = folder / "result.json"
@@ -73,17 +76,34 @@ def run(experiment: Experiment, row: str, seed: int, out: Path, say) -> dict:
         confusion = measure(model, val, classes, device)
         partial = result.with_suffix(".partial")
         partial.write_text(json.dumps({"seed": seed, "confusion": confusion.tolist(), "curve": curve}))
-        os.replace(partial, result)
+        partial.replace(result)
     found = {"row": row, **json.loads(result.read_text())}
     say(f"{row} seed {seed}: mIoU {100 * np.nanmean(iou(np.array(found['confusion']))):.2f}")
     return found
 
 
-def _stage(experiment, names, seed, model, device, checkpoint, curve, number, say) -> None:
+@dataclass(frozen=True)
+class _Stage:
+    """What one stage of a row trains on, and the file that it resumes from."""
+
+    experiment: Experiment
+    names: list[str]
+    number: int
+    seed: int
+    checkpoint: Path
+
+
+def _train(
+    stage: _Stage, model: nn.Module, device: torch.device, curve: list[list[float]], say: Callable[[str], None]
+) -> None:
     """Trains on all `names` in mixed batches; the checkpoint is what an interrupted stage goes on from."""
+    experiment, names, seed, checkpoint = stage.experiment, stage.names, stage.seed, stage.checkpoint
     training = experiment.training
     pools = [experiment.pools[name] for name in names]
-    sets = [Pictures(p.samples, p.numbering, experiment.classes, experiment.size, True, seed + i) for i, p in enumerate(pools)]
+    sets = [
+        Pictures(p.samples, p.numbering, experiment.classes, experiment.size, True, seed + i)
+        for i, p in enumerate(pools)
+    ]
     lengths = [len(s) for s in sets]
     steps = training.steps or max(1, training.epochs * sum(lengths) // training.batch)
     batches = mixed_batches(lengths, training.batch, steps, seed)
@@ -100,7 +120,9 @@ def _stage(experiment, names, seed, model, device, checkpoint, curve, number, sa
             part.load_state_dict(state[name])
         first = state["step"]
         curve[:] = state["curve"]
-    weight = torch.from_numpy(_weights(sets, len(TARGETS[experiment.classes]))).to(device) if training.balanced else None
+    weight = (
+        torch.from_numpy(_weights(sets, len(TARGETS[experiment.classes]))).to(device) if training.balanced else None
+    )
     loss_of = nn.CrossEntropyLoss(weight, ignore_index=IGNORED)
     model.train().to(memory_format=torch.channels_last)
     lost = []
@@ -121,18 +143,23 @@ def _stage(experiment, names, seed, model, device, checkpoint, curve, number, sa
         schedule.step()
         lost.append(loss.item())
         if (step + 1) % _LINE_EVERY == 0 or step + 1 == steps:
-            curve.append([number, step + 1, float(np.mean(lost))])
-            say(f"stage {number + 1} on {'+'.join(names)}, step {step + 1} of {steps}, loss {np.mean(lost):.3f}")
+            curve.append([stage.number, step + 1, float(np.mean(lost))])
+            say(f"stage {stage.number + 1} on {'+'.join(names)}, step {step + 1} of {steps}, loss {np.mean(lost):.3f}")
             lost = []
         if (step + 1) % _SAVE_EVERY == 0:
-            _save(checkpoint, {name: part.state_dict() for name, part in resumed.items()} | {"step": step + 1, "curve": curve})
+            _save(
+                checkpoint,
+                {name: part.state_dict() for name, part in resumed.items()} | {"step": step + 1, "curve": curve},
+            )
 
 
 def _weights(sets: list[Pictures], classes: int) -> np.ndarray:
     """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set counting alike."""
     shares = np.zeros(classes)
     for pictures in sets:
-        counts = sum(np.bincount(pictures.labels(i).ravel(), minlength=256)[:classes] for i in range(len(pictures)))
+        counts = np.zeros(classes)
+        for i in range(len(pictures)):
+            counts += np.bincount(pictures.labels(i).ravel(), minlength=256)[:classes]
         shares += counts / counts.sum() / len(sets)
     return (1 / np.log(1.02 + shares)).astype(np.float32)
 
@@ -141,10 +168,12 @@ def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
     """AdamW that decays weights, and neither biases nor normalisation."""
     decayed = [p for p in model.parameters() if p.ndim > 1]
     plain = [p for p in model.parameters() if p.ndim <= 1]
-    return torch.optim.AdamW([{"params": decayed, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}], lr=rate)
+    return torch.optim.AdamW(
+        [{"params": decayed, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}], lr=rate
+    )
 
 
-def _tensor(items, device: torch.device) -> torch.Tensor:
+def _tensor(items: list[tuple[np.ndarray, np.ndarray]], device: torch.device) -> torch.Tensor:
     """The pictures of pairs as (N, 3, H, W), 0 to 1, channels last."""
     pictures = torch.from_numpy(np.stack([picture for picture, _ in items])).to(device)
     return pictures.permute(0, 3, 1, 2).float() / 255
@@ -155,7 +184,7 @@ def _fast_bfloat16() -> bool:
     return getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
 
 
-def _save(path: Path, state) -> None:
+def _save(path: Path, state: dict[str, Any]) -> None:
     partial = path.with_suffix(".partial")
     torch.save(state, partial)
-    os.replace(partial, path)
+    partial.replace(path)
