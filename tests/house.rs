@@ -49,6 +49,30 @@ fn the_model_knows_glam_and_nothing_else() {
     assert_eq!(dependencies("trove-model"), ["glam"]);
 }
 
+/// A string literal like `"lamp/curved"`, as ids of assets are.
+fn id_in(line: &str) -> Option<&str> {
+    let is_part =
+        |part: &str| !part.is_empty() && part.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+    line.split('"').skip(1).step_by(2).find(|literal| literal.contains('/') && literal.split('/').all(is_part))
+}
+
+#[test]
+fn the_builder_knows_no_id() {
+    assert_eq!(id_in("    let lamp = named(\"lamp/curved\");"), Some("lamp/curved"));
+    assert_eq!(id_in("    format!(\"{} km/h\", \"curved\")"), None);
+    let mut files = Vec::new();
+    sources(&root().join("crates/trove-build/src"), "rs", &mut files);
+    files.retain(|file| !file.ends_with("tests.rs") && !file.ends_with("testing.rs"));
+    assert!(files.len() > 50);
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let built = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+        for (i, line) in built.lines().enumerate() {
+            assert_eq!(id_in(line), None, "{}:{}: ask for tags instead", file.display(), i + 1);
+        }
+    }
+}
+
 #[test]
 fn no_file_is_longer_than_it_should_be() {
     let mut files = Vec::new();

@@ -91,6 +91,48 @@ fn sizes_are_those_of_real_ones() {
     assert_eq!(outside, Vec::<String>::new());
 }
 
+/// A row of a table of tags in the documentation: a kind, and its tags but for its own word.
+pub(crate) fn tag_row<'t>(kind: &str, word: &str, tags: impl Iterator<Item = &'t str>) -> String {
+    let plain = |tag: &'t str| if tag.starts_with("speed-") { "speed-50" } else { tag };
+    let tags: BTreeSet<&str> = tags.filter(|tag| *tag != word).map(plain).collect();
+    let snake: String =
+        kind.chars().map(|c| if c.is_uppercase() { format!("_{}", c.to_lowercase()) } else { c.into() }).collect();
+    let quoted: Vec<String> = tags.iter().map(|tag| format!("`{tag}`")).collect();
+    format!("| `{}` | {} |", snake.trim_start_matches('_'), quoted.join(" "))
+}
+
+/// Says which rows the documentation lacks.
+pub(crate) fn assert_documented(rows: &[String]) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/assets.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let missing: Vec<&str> = rows.iter().map(String::as_str).filter(|row| !text.contains(row)).collect();
+    assert!(missing.is_empty(), "docs/assets.md lacks\n{}", missing.join("\n"));
+}
+
+#[test]
+fn the_documentation_lists_the_tags_of_models() {
+    use Kind::*;
+    let asked = [
+        Building,
+        TrafficSign,
+        TrafficSignal,
+        StreetLamp,
+        Hydrant,
+        Bin,
+        Bench,
+        BicycleRack,
+        StreetFurniture,
+        Fence,
+        Wall,
+        GuardRail,
+    ];
+    let row = |kind: Kind| {
+        let tags = ASSETS.iter().filter(|a| a.kind == kind).flat_map(|a| a.tags.iter());
+        tag_row(&format!("{kind:?}"), kind.word(), tags)
+    };
+    assert_documented(&asked.map(row));
+}
+
 #[test]
 fn the_library_is_the_same_every_time() {
     for (a, b) in ASSETS.iter().zip(&assets(&Ingredients::default(), &[])) {

@@ -106,7 +106,9 @@ fn bars(near: bool) -> Asset {
         let x = 0.02 + length_m * i as f32 / count as f32;
         model.add(paint, standing(x, 0.0, 0.08, 1.22, vec2(width_m, 0.018)));
     }
-    if near { fence(model, "bars") } else { fence(model, "bars-far").tagged(["bars", "far"]) }
+    let id = if near { "fence/bars" } else { "fence/bars-far" };
+    let asset = model.asset(id, Kind::Fence, Class::Barrier).tagged(["bars"]);
+    if near { asset } else { asset.tagged(["far"]) }
 }
 
 /// Boards side by side on two rails.

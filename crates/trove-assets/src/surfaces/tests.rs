@@ -88,3 +88,15 @@ fn a_surface_is_the_same_every_time() {
         plain("grass/lawn", SurfaceKind::Grass, &[], |d| ground::grass(vec3(0.1, 0.1, 0.0), Vec3::ONE, 0.2, 1, d));
     assert_eq!(surface(&recipe, 1).material, surface(&recipe, 1).material);
 }
+
+#[test]
+fn the_documentation_lists_the_tags_of_surfaces() {
+    use SurfaceKind::*;
+    let recipes: Vec<super::Recipe> = super::ground_recipes().into_iter().chain(super::building_recipes()).collect();
+    let asked = [Asphalt, RoadCover, Paving, Kerb, Concrete, FlatRoof, RoofTiles, Facade, FacadeGroundFloor, Wall];
+    let row = |kind: SurfaceKind| {
+        let tags = recipes.iter().filter(|r| r.1 == kind).flat_map(|r| r.2.iter().copied());
+        crate::tests::tag_row(&format!("{kind:?}"), "", tags)
+    };
+    crate::tests::assert_documented(&asked.map(row));
+}

@@ -133,6 +133,15 @@ mod tests {
     }
 
     #[test]
+    fn what_a_library_is_called_says_nothing_of_its_buildings() {
+        let asset = crate::testing::asset("houses/tower", Kind::Building, [20.0, 15.0, 20.0]);
+        use BuildingKind::{Apartments, Hotel, House, Office, Retail};
+        for kind in [Apartments, Hotel, House, Office, Retail] {
+            assert!(suits(&asset.tags, Some(kind), Region::TropicalAsia), "{kind:?}");
+        }
+    }
+
+    #[test]
     fn an_asset_is_never_stretched_beyond_a_quarter() {
         let asset = DVec3::new(10.0, 20.0, 12.0);
         assert_eq!(misfit(asset, asset), Some(0.0));

@@ -27,6 +27,7 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     stand(&mut mesh, Axis::turn(front, up), entry, kind);
     let slots = model.materials.into_iter().map(|material| Slot { material, paints: Vec::new() }).collect();
     let mut asset = Asset::new(id, kind, class, mesh, slots, &licence(entry));
+    asset = asset.tagged(entry.tags.iter().flatten());
     asset.commonness = entry.commonness.filter(|c| c.is_finite() && *c >= 0.0).unwrap_or(1.0);
     asset.figure = posture(entry).map(|posture| Figure { person: id.into(), posture });
     asset.coarser = coarser(&asset);

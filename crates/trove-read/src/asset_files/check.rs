@@ -14,7 +14,7 @@ use super::names::kind_named;
 use super::picture::{Pictures, decode};
 use super::repair::{self, BUDGET};
 use super::subjects::{self, Expected};
-use super::{GLANCE_LIMIT, guess};
+use super::{GLANCE_LIMIT, guess, tags};
 
 /// Something that is wrong, or may be.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -114,6 +114,12 @@ fn of_asset(folder: &Path, file: &LibraryFile, entry: &AssetEntry, pictures: &Pi
         return findings;
     }
     let kind = kind_named(entry.kind.as_deref(), "").ok().flatten().flatten();
+    let needed = kind.map(tags::needed).unwrap_or_default();
+    let has = entry.tags.as_deref().unwrap_or_default();
+    if !needed.is_empty() && !has.iter().any(|tag| needed.contains(&tag.as_str())) {
+        let what = format!("tags = {has:?}, of which none is asked for of its kind: it will hardly be placed");
+        say(false, what, &format!("give it some of: {}", needed.join(", ")));
+    }
     if let Ok(Some(asset)) = asset("", &entry, model)
         && let Some(what) = misfit(asset.size_m, kind, &entry.file)
     {

@@ -12,6 +12,7 @@ use super::model::Model;
 use super::names::{class_named, kind_name, kind_named};
 use super::samples::samples;
 use super::subjects::{self, Expected, Named};
+use super::tags;
 use super::upright::{Scale, upright};
 
 /// Fills in what the entry lacks; what it has is kept and helps with the rest.
@@ -39,6 +40,12 @@ pub(super) fn complete(entry: &mut AssetEntry, model: &Model, terms: Option<&Ter
             add("class", format!("{:?}", class.row().name), confidence, reason);
             entry.class = Some(class.row().name.into());
         }
+    }
+    if let (None, Some(kind)) = (&entry.tags, kind)
+        && let Some((tags, guess)) = tags::of_model(&entry.file, kind, model.materials.iter().map(|m| m.name.as_str()))
+    {
+        add(guess.key, guess.value, guess.confidence, guess.reason);
+        entry.tags = Some(tags);
     }
     let points = samples(model);
     let (low, high) = model.mesh.bounds().unwrap_or((Vec3::ZERO, Vec3::ONE));

@@ -59,6 +59,8 @@ pub struct AssetEntry {
     pub kind: Option<String>,
     /// Name of the [`Class`](trove_model::Class) where it is not the kind's own.
     pub class: Option<String>,
+    /// What it is besides its kind: lower-case words that the builder may ask for.
+    pub tags: Option<Vec<String>>,
     /// The file's axis that points up.
     pub up: Option<Axis>,
     /// The file's axis that points forward.
@@ -95,6 +97,8 @@ pub struct SurfaceEntry {
     pub name: String,
     /// [`SurfaceKind`](trove_model::SurfaceKind) in snake case, or `none` for what is not to be used.
     pub kind: Option<String>,
+    /// What it is besides its kind: lower-case words that the builder may ask for.
+    pub tags: Option<Vec<String>>,
     /// Metres that the picture covers along u and v.
     pub size_m: Option<[f32; 2]>,
     /// For facades: bays and storeys in the picture; for covers, signs and rooms how many across and up.
@@ -170,6 +174,7 @@ impl LibraryFile {
         })?;
         for entry in &file.assets {
             let place = format!("asset {:?}", entry.file);
+            tags_are_words(entry.tags.as_deref(), &place)?;
             kind_named(entry.kind.as_deref(), &place)?;
             class_named(entry.class.as_deref(), &place)?;
             let sizes = [entry.unit_m, entry.height_m, entry.length_m];
@@ -188,9 +193,23 @@ impl LibraryFile {
             }
         }
         for entry in &file.surfaces {
-            surface_kind_named(entry.kind.as_deref(), &format!("surface {:?}", entry.name))?;
+            let place = format!("surface {:?}", entry.name);
+            surface_kind_named(entry.kind.as_deref(), &place)?;
+            tags_are_words(entry.tags.as_deref(), &place)?;
         }
         Ok(file)
+    }
+}
+
+/// A tag with a space or a capital in it would never be found.
+fn tags_are_words(tags: Option<&[String]>, place: &str) -> Result<(), Fault> {
+    let is_word = |tag: &&String| !tag.is_empty() && !tag.contains(|c: char| c.is_whitespace() || c.is_uppercase());
+    match tags.unwrap_or_default().iter().find(|tag| !is_word(tag)) {
+        None => Ok(()),
+        Some(tag) => {
+            let remedy = "write it like `chain-link`";
+            Err(Fault::new(format!("{place}, tags"), "lower-case words without spaces", format!("{tag:?}"), remedy))
+        }
     }
 }
 
@@ -207,6 +226,8 @@ mod tests {
             ("[[asset]]\nfile = \"a.glb\"\nup = \"+y\"\nfront = \"-y\"", "a.glb", "right angles"),
             ("[[asset]]\nfile = \"a.glb\"\nunit_m = 0.0", "a.glb", "above 0"),
             ("[[asset]]\nfile = \"a.glb\"\nunit_m = 1.0\nheight_m = 2.0", "a.glb", "several"),
+            ("[[asset]]\nfile = \"a.glb\"\ntags = [\"chain link\"]", "a.glb", "chain-link"),
+            ("[[surface]]\nname = \"a\"\ncolor = \"a.png\"\ntags = [\"Red\"]", "\"a\", tags", "lower-case"),
             ("[[asset]\n", "line 1", "a library"),
         ] {
             let message = LibraryFile::parse(text).unwrap_err().at(Path::new("library.toml")).to_string();

@@ -30,6 +30,7 @@ mod scan;
 mod sky;
 mod subjects;
 mod surface;
+mod tags;
 mod texture_set;
 mod upright;
 mod words;

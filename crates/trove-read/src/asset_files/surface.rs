@@ -90,7 +90,15 @@ pub(super) fn surface(
     }
     let size_m = entry.size_m.unwrap_or([2.0; 2]).map(|s| if s.is_finite() && s > 0.0 { s } else { 2.0 });
     material.uv_scale = vec2(1.0 / size_m[0], 1.0 / size_m[1]);
-    Ok(Some(Surface { id: id.to_owned(), kind, tags: Tags::default(), material, size_m, cells, design: None }))
+    Ok(Some(Surface {
+        id: id.to_owned(),
+        kind,
+        tags: Tags::new(entry.tags.iter().flatten()),
+        material,
+        size_m,
+        cells,
+        design: None,
+    }))
 }
 
 /// Kinds whose pictures hold whole things have to say how many.

@@ -8,6 +8,7 @@ use super::library_file::{Guess, SurfaceEntry};
 use super::licence::{Terms, nearest};
 use super::names::surface_kind_name;
 use super::scan::{folder_of, stem_of};
+use super::tags;
 use super::words::{match_of, words};
 
 /// What a picture of a set shows.
@@ -165,6 +166,10 @@ fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEn
     });
     guess("kind", format!("{:?}", surface_kind_name(kind)), confidence, &reason);
     e.kind = Some(surface_kind_name(kind));
+    if let Some((tags, tagged)) = kind.and_then(|kind| tags::of_surface(&e.name, kind)) {
+        guess(tagged.key, tagged.value, tagged.confidence, &tagged.reason);
+        e.tags = Some(tags);
+    }
     let side = match kind {
         Some(SurfaceKind::Asphalt | SurfaceKind::Grass | SurfaceKind::Soil) => 3.0,
         _ => 2.0,

@@ -54,7 +54,26 @@ fn sets_of_textures_become_surfaces_and_skies_are_listed() {
     assert_eq!(material.orm_map.as_ref().unwrap().rgba[0], [250, 200, 255, 255]);
     assert_eq!((material.roughness, material.metalness), (1.0, 0.0));
     assert!(material.height_map.is_some() && material.height_m > 0.0);
+    assert_eq!(surface.tags.iter().collect::<Vec<_>>(), ["brick"]);
     assert!(folder.toml().contains("[[environment]]\nfile = \"sky.hdr\""), "{}", folder.toml());
+}
+
+#[test]
+fn tags_come_from_the_name_of_a_file_and_never_from_its_folder() {
+    let block = Glb::cuboid([12.0, 9.0, 10.0]).bytes();
+    let folder = Folder::new(&[
+        ("houses/office_tower.glb", &block),
+        ("houses/skyscraper.glb", &block),
+        ("houses/town_hall.glb", &block),
+        ("library.toml", b"[[asset]]\nfile = \"houses/town_hall.glb\"\nkind = \"building\"\ntags = [\"civic\"]\n"),
+    ]);
+    let (library, report) = folder.read();
+    let library = library.expect(&report);
+    let tags: Vec<Vec<&str>> = library.assets.iter().map(|a| a.tags.iter().collect()).collect();
+    assert_eq!(tags, [vec!["building", "office"], vec!["building", "office"], vec!["building", "civic"]], "{report}");
+    let written = folder.toml();
+    assert!(written.contains("tags = [\"office\"] # 0.75: words in its name"), "{written}");
+    assert_eq!(library.tagged(Kind::Building, &["house"]).count(), 0);
 }
 
 #[test]
@@ -72,9 +91,11 @@ fn checks_find_what_is_wrong() {
     let lost = lost.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}));
     let library = "[[asset]]\nfile = \"a_car.glb\"\nkind = \"car\"\nunit_m = 100.0\n\
         [[asset]]\nfile = \"b_car.glb\"\nlicence = \"MIT\"\n[[asset]]\nfile = \"c_car.glb\"\nlicence = \"MIT\"\n\
-        [[asset]]\nfile = \"gone.glb\"\nlicence = \"MIT\"\n";
+        [[asset]]\nfile = \"gone.glb\"\nlicence = \"MIT\"\n\
+        [[asset]]\nfile = \"fence.glb\"\nlicence = \"MIT\"\ntags = [\"nice\"]\n";
     let folder = Folder::new(&[
         ("a_car.glb", &Glb::cuboid([1.8, 1.5, 4.5]).bytes()),
+        ("fence.glb", &Glb::cuboid([0.08, 1.4, 2.4]).bytes()),
         ("b_car.glb", &inside_out.bytes()),
         ("c_car.glb", &lost.bytes()),
         ("library.toml", library.as_bytes()),
@@ -86,10 +107,11 @@ fn checks_find_what_is_wrong() {
         ("b_car.glb", "face inwards"),
         ("c_car.glb", "paint.png"),
         ("gone.glb", "readable file"),
+        ("fence.glb", "tags = [\"nice\"]"),
     ] {
         assert!(findings.iter().any(|f| f.file == file && f.what.contains(what)), "{file} {what}: {findings:#?}");
     }
-    assert_eq!(findings.len(), 5, "{findings:#?}");
+    assert_eq!(findings.len(), 6, "{findings:#?}");
     assert!(asset_files::check(folder.path.parent().unwrap())[0].severe);
 }
 

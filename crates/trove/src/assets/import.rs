@@ -62,6 +62,7 @@ fn asset(entry: &AssetEntry) -> Value {
         "file": entry.file,
         "part": entry.part,
         "kind": entry.kind,
+        "tags": entry.tags,
         "size_m": entry.size_m.map(|s| s.to_array()),
         "licence": entry.licence,
         "guesses": guesses,

@@ -33,6 +33,7 @@ fn asset(a: &Asset) -> Value {
         "id": a.id,
         "kind": format!("{:?}", a.kind),
         "class": a.class.row().name,
+        "tags": a.tags.iter().collect::<Vec<_>>(),
         "size_m": a.size_m.to_array(),
         "triangles": a.mesh.triangles.len(),
         "materials": a.slots.iter().map(|slot| &slot.material.name).collect::<Vec<_>>(),
@@ -46,6 +47,7 @@ fn material(s: &Surface) -> Value {
     json!({
         "id": s.id,
         "kind": format!("{:?}", s.kind),
+        "tags": s.tags.iter().collect::<Vec<_>>(),
         "size_m": s.size_m,
         "textures": s.material.textures().map(|t| json!({ "name": t.name, "size_px": [t.width, t.height] })).collect::<Vec<_>>(),
     })
