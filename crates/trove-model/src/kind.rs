@@ -68,6 +68,58 @@ impl Kind {
         Self::StreetFurniture, Self::Fence, Self::Wall, Self::GuardRail,
     ];
 
+    /// Its name in every file that is written or read (`bicycle_with_rider`), unique among the kinds.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Adult => "adult",
+            Self::Child => "child",
+            Self::ConstructionWorker => "construction_worker",
+            Self::PoliceOfficer => "police_officer",
+            Self::PersonalMobility => "personal_mobility",
+            Self::Stroller => "stroller",
+            Self::Wheelchair => "wheelchair",
+            Self::Animal => "animal",
+            Self::Bicycle => "bicycle",
+            Self::BicycleWithRider => "bicycle_with_rider",
+            Self::Motorcycle => "motorcycle",
+            Self::MotorcycleWithRider => "motorcycle_with_rider",
+            Self::Car => "car",
+            Self::PoliceCar => "police_car",
+            Self::Ambulance => "ambulance",
+            Self::Truck => "truck",
+            Self::Trailer => "trailer",
+            Self::ConstructionVehicle => "construction_vehicle",
+            Self::Bus => "bus",
+            Self::ArticulatedBus => "articulated_bus",
+            Self::Barrier => "barrier",
+            Self::TrafficCone => "traffic_cone",
+            Self::PushablePullable => "pushable_pullable",
+            Self::Debris => "debris",
+            Self::BicycleRack => "bicycle_rack",
+            Self::Building => "building",
+            Self::Tree => "tree",
+            Self::Bush => "bush",
+            Self::TrafficSign => "traffic_sign",
+            Self::TrafficSignal => "traffic_signal",
+            Self::StreetLamp => "street_lamp",
+            Self::UtilityPole => "utility_pole",
+            Self::Bollard => "bollard",
+            Self::Hydrant => "hydrant",
+            Self::Bin => "bin",
+            Self::Bench => "bench",
+            Self::Shelter => "shelter",
+            Self::StreetFurniture => "street_furniture",
+            Self::Fence => "fence",
+            Self::Wall => "wall",
+            Self::GuardRail => "guard_rail",
+        }
+    }
+
+    /// The kind of a name; `None` where no kind is called that.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// The class where an asset does not say otherwise.
     pub fn class(self) -> Class {
         match self {
@@ -169,5 +221,19 @@ impl Kind {
                 | Class::CycleRider
                 | Class::MotorcycleRider
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_found_by_its_name() {
+        for kind in Kind::ALL {
+            assert_eq!(Kind::from_name(kind.name()), Some(kind));
+        }
+        assert_eq!(Kind::BicycleWithRider.name(), "bicycle_with_rider");
+        assert_eq!(Kind::from_name("BicycleWithRider"), None);
     }
 }

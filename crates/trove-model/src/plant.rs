@@ -73,6 +73,19 @@ pub enum Season {
 }
 
 impl Season {
+    /// Every season, from spring on.
+    pub const ALL: [Self; 4] = [Self::Spring, Self::Summer, Self::Autumn, Self::Winter];
+
+    /// Its name in recipes and manifests (`autumn`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spring => "spring",
+            Self::Summer => "summer",
+            Self::Autumn => "autumn",
+            Self::Winter => "winter",
+        }
+    }
+
     /// The season of a time, nanoseconds since 1970 UTC, at a latitude and in a climate.
     pub fn at(time_ns: i64, lat_deg: f64, climate: Climate) -> Self {
         // South of the equator half a year on.

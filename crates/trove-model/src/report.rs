@@ -20,6 +20,21 @@ pub enum Outcome {
     Warned,
 }
 
+impl Outcome {
+    /// Every outcome.
+    pub const ALL: [Self; 4] = [Self::Dropped, Self::Substituted, Self::Guessed, Self::Warned];
+
+    /// Its name in reports (`dropped`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dropped => "dropped",
+            Self::Substituted => "substituted",
+            Self::Guessed => "guessed",
+            Self::Warned => "warned",
+        }
+    }
+}
+
 /// All that happened of one kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {

@@ -6,19 +6,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use trove_files::{hidden_beside, sync_folder, write_synced};
+use trove_format::WrittenFile;
 
 use crate::WriteError;
-
-/// A file that lies on the disk.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WrittenFile {
-    /// Name relative to its folder.
-    pub name: String,
-    /// SHA-256 of its bytes, lower-case hexadecimal.
-    pub sha256: String,
-    /// Length.
-    pub bytes: u64,
-}
 
 /// SHA-256 of a file's bytes, lower-case hexadecimal.
 pub fn sha256_file(path: &Path) -> Result<String, WriteError> {

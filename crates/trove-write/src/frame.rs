@@ -1,15 +1,10 @@
-//! One frame's folder.
+//! A frame as exporters get it.
 
-use std::collections::BTreeSet;
-use std::path::Path;
-use std::{fs, io};
+use trove_format::{FrameFile, FrameTable};
+use trove_model::{Capture, Color, Ego, Labels, MapProjection, Pose, Raster, Scene, Shot, World};
 
-use serde::{Deserialize, Serialize};
-use trove_model::{Capture, Color, Ego, InstanceId, Labels, MapProjection, Pose, Scene, Shot, World};
-
-use crate::files::FolderInTheMaking;
 use crate::frame_table::frame_table;
-use crate::{WriteError, WrittenFile, exr_file, jpeg, png_file};
+use crate::{WriteError, jpeg};
 
 /// Everything in `frame.json` that a shot, a scene and a capture do not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,120 +33,35 @@ pub struct FrameMeta {
     pub projection: MapProjection,
 }
 
-/// A picture of a frame's folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // docs/output.md says what they hold
-pub enum FrameFile {
-    Radiance,
-    Rgb,
-    Class,
-    Instance,
-    Depth,
-    Normal,
-    FlowForward,
-    FlowBackward,
-    Change,
+/// A frame: its table, its picture and its labels, all of one size.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Its folder below the output folder (`scene-0103/v00/k005/ego.CAM_FRONT`), with `/` between the parts.
+    pub path: String,
+    /// Camera and objects.
+    pub table: FrameTable,
+    /// The picture, as the sensor's JPEG left it; `None` where only labels were asked for.
+    pub color: Option<Color>,
+    /// The labels.
+    pub labels: Labels,
+    /// Where it differs from another scene's frame; `None` where there is no other.
+    pub change: Option<Raster<bool>>,
 }
 
-/// Camera and objects, which every frame's folder has.
-const TABLE: &str = "frame.json";
-
-impl FrameFile {
-    /// All that there are.
-    pub const ALL: [Self; 9] = [
-        Self::Radiance,
-        Self::Rgb,
-        Self::Class,
-        Self::Instance,
-        Self::Depth,
-        Self::Normal,
-        Self::FlowForward,
-        Self::FlowBackward,
-        Self::Change,
-    ];
-
-    /// The file's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Radiance => "radiance.exr",
-            Self::Rgb => "rgb.png",
-            Self::Class => "class.png",
-            Self::Instance => "instance.png",
-            Self::Depth => "depth.exr",
-            Self::Normal => "normal.exr",
-            Self::FlowForward => "flow_forward.exr",
-            Self::FlowBackward => "flow_backward.exr",
-            Self::Change => "change.png",
+impl Frame {
+    /// The frame that a capture of a scene is.
+    ///
+    /// # Errors
+    /// A capture, a shot and a scene that do not belong together, or a picture that JPEG cannot hold.
+    pub fn of(path: String, scene: &Scene, shot: &Shot, capture: Capture, meta: &FrameMeta) -> Result<Self, WriteError> {
+        let (width, height) = (shot.lens.width_px, shot.lens.height_px);
+        check_sizes(&capture, width, height)?;
+        let table = frame_table(scene, shot, &capture, meta)?;
+        let Capture { mut color, labels, change, .. } = capture;
+        if let (Some(color), Some(quality)) = (&mut color, shot.film.sensor.and_then(|sensor| sensor.jpeg_quality)) {
+            color.srgb.data = jpeg::worn(FrameFile::Rgb.name(), width, height, &color.srgb.data, quality)?;
         }
-    }
-
-    /// Whether light has to be followed for it.
-    pub fn shows_light(self) -> bool {
-        matches!(self, Self::Radiance | Self::Rgb)
-    }
-}
-
-/// Names of the files in a finished frame's folder that holds these pictures.
-pub fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
-    pictures.iter().map(|file| file.name()).chain([TABLE]).collect()
-}
-
-/// Writes a frame's folder whole: under a hidden name beside it first, then renamed, so that `dir` is never there in
-/// part. What an interrupted run left under the hidden name, and a `dir` without all its files, is replaced; a finished
-/// frame is not. `pictures` are those that are wanted; a capture without light has none that show it, and one that was
-/// compared with none shows no change.
-pub fn write_frame(
-    dir: &Path,
-    scene: &Scene,
-    shot: &Shot,
-    capture: &Capture,
-    meta: &FrameMeta,
-    pictures: &BTreeSet<FrameFile>,
-) -> Result<Vec<WrittenFile>, WriteError> {
-    check_sizes(capture, shot.lens.width_px, shot.lens.height_px)?;
-    let table = frame_table(scene, shot, capture, meta)?;
-    narrowed(&capture.labels)?;
-    let there = |file: &FrameFile| match file {
-        FrameFile::Change => capture.change.is_some(),
-        _ => capture.color.is_some() || !file.shows_light(),
-    };
-    let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
-    clear_unfinished(dir, &frame_files(&pictures))?;
-
-    let mut folder = FolderInTheMaking::start(dir)?;
-    for file in pictures {
-        folder.add(file.name(), &encode(file, shot, capture)?)?;
-    }
-    folder.add(TABLE, &table)?;
-    folder.finish()
-}
-
-/// A picture's bytes.
-fn encode(file: FrameFile, shot: &Shot, capture: &Capture) -> Result<Vec<u8>, WriteError> {
-    let (name, width, height) = (file.name(), shot.lens.width_px, shot.lens.height_px);
-    let labels = &capture.labels;
-    let color = || capture.color.as_ref().ok_or_else(|| WriteError::Mismatch(format!("{name} without light")));
-    match file {
-        FrameFile::Radiance => exr_file::encode(name, &color()?.radiance, ["R", "G", "B"]),
-        FrameFile::Rgb => {
-            let srgb = &color()?.srgb.data;
-            match shot.film.sensor.and_then(|sensor| sensor.jpeg_quality) {
-                Some(quality) => png_file::rgb(name, width, height, &jpeg::worn(name, width, height, srgb, quality)?),
-                None => png_file::rgb(name, width, height, srgb),
-            }
-        }
-        FrameFile::Class => png_file::grey(name, width, height, &labels.class.data),
-        FrameFile::Instance => png_file::grey16(name, width, height, &narrowed(labels)?),
-        FrameFile::Depth => exr_file::encode_scalar(name, &labels.depth_m),
-        FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),
-        FrameFile::FlowForward => exr_file::encode(name, &labels.flow_forward, ["R", "G"]),
-        FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
-        FrameFile::Change => {
-            let change = capture.change.as_ref();
-            let change = change.ok_or_else(|| WriteError::Mismatch(format!("{name} without another scene")))?;
-            png_file::grey(name, width, height, &change.map(|&differs| if differs { u8::MAX } else { 0 }).data)
-        }
+        Ok(Self { path, table, color, labels, change })
     }
 }
 
@@ -180,31 +90,4 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
             Err(WriteError::Mismatch(format!("{what} of {w}×{h} pixels ({len} values) in a shot of {width}×{height}")))
         }
     }
-}
-
-fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
-    let narrow = |&id: &u32| u16::try_from(id).map_err(|_| WriteError::TooManyObjects(InstanceId(id)));
-    labels.instance.data.iter().map(narrow).collect()
-}
-
-/// Removes what lies at `dir` where that is a frame without all its files, and refuses where it is anything else.
-fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
-    let entries = match fs::read_dir(dir) {
-        Ok(entries) => entries,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
-        Err(e) => return Err(WriteError::storage(dir, "look into the folder")(e)),
-    };
-    let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
-    let mut present = Vec::new();
-    for entry in entries {
-        let name = entry.map_err(WriteError::storage(dir, "look into the folder"))?.file_name();
-        match FrameFile::ALL.map(FrameFile::name).into_iter().chain([TABLE]).find(|file| name == *file) {
-            Some(file) => present.push(file),
-            None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
-        }
-    }
-    if expected.iter().all(|file| present.contains(file)) {
-        return occupied("one".into());
-    }
-    fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))
 }

@@ -15,7 +15,6 @@ use glam::{DAffine3, DVec3, Vec3};
 use serde_json::{Value, json};
 use trove_model::{EnvironmentMap, Instance, Raster, Scene, Shot};
 
-use crate::frame_table::kind_name;
 use crate::{WriteError, exr_file, write_atomically};
 use geometry::Geometry;
 use materials::Materials;
@@ -154,7 +153,7 @@ fn node(instance: &Instance, mesh: usize) -> Result<Value, WriteError> {
     let mut name = class.name.to_owned();
     if let Some(object) = &instance.object {
         name = format!("{name} {}", instance.id.0);
-        extras["kind"] = kind_name(object.kind).into();
+        extras["kind"] = object.kind.name().into();
         extras["asset"] = object.asset.as_str().into();
         extras["category"] = object.category.as_str().into();
         extras["track_token"] = object.track_token.as_str().into();

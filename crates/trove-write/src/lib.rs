@@ -5,9 +5,11 @@
 
 pub mod contact_sheet;
 mod error;
+mod exporter;
 mod exr_file;
 mod files;
 mod frame;
+mod frame_folders;
 mod frame_table;
 pub mod gltf;
 mod jpeg;
@@ -17,7 +19,8 @@ mod png_file;
 mod sheet;
 
 pub use error::WriteError;
-pub use files::{WrittenFile, sha256_file, write_atomically};
-pub use frame::{FrameFile, FrameMeta, frame_files, write_frame};
+pub use exporter::{ExportFormat, Exporter};
+pub use files::{sha256_file, write_atomically};
+pub use frame::{Frame, FrameMeta};
 pub use picture::write_picture;
 pub use sheet::write_sheet;

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
+use trove_format::{EntryRow, ReportTable};
 use trove_model::{Environment, Report};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
@@ -12,7 +13,7 @@ use trove_write::gltf::{SunLight, write_environment, write_glb};
 use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
-use crate::run::{fits_json, report_json};
+use crate::run::fit_rows;
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 
@@ -66,7 +67,7 @@ pub(crate) fn run(
     let stats = write_glb(out, &scene, &shots, sun.as_ref())?;
     let area = trove_build::area(&drive).with_context(|| format!("{name}: nothing was recorded"))?;
     overview.write(&scene, area, search)?;
-    let report = report_json(&report);
+    let report = ReportTable::from(&report);
     if as_json {
         let printed = json!({
             "out": out,
@@ -77,7 +78,7 @@ pub(crate) fn run(
             "instances": stats.instances,
             "triangles": stats.triangles,
             "report": report,
-            "fits": fits_json(built.site.fits()),
+            "fits": fit_rows(built.site.fits()),
         });
         println!("{}", serde_json::to_string_pretty(&printed)?);
         return Ok(());
@@ -90,11 +91,17 @@ pub(crate) fn run(
         stats.triangles,
         stats.bytes as f64 * 1e-6
     );
-    for (measured, value) in report["measurements"].as_object().into_iter().flatten() {
-        println!("  {measured} = {value}");
+    for (measured, value) in &report.measurements {
+        println!("  {measured} = {}", value.map_or("not a number".into(), |value| value.to_string()));
     }
-    for entry in report["entries"].as_array().into_iter().flatten() {
-        println!("  {} {}× {}, such as {}", entry["outcome"], entry["count"], entry["what"], entry["examples"][0]);
-    }
+    print_entries(&report, "  ");
     Ok(())
+}
+
+/// Prints what was dropped, substituted or guessed, a line a kind, behind an indentation.
+pub(crate) fn print_entries(report: &ReportTable, indentation: &str) {
+    for EntryRow { outcome, what, count, examples } in &report.entries {
+        let example = examples.first().map_or("", String::as_str);
+        println!("{indentation}{} {count}× {what}, such as {example}", outcome.name());
+    }
 }

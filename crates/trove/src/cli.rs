@@ -10,9 +10,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
 use trove_read::drive_source::DATASETS;
 use trove_render::KernelChoice;
+use trove_write::ExportFormat;
 
 use crate::assets::{self, AssetsCommand};
-use crate::judge::curate::{Curate, Curated};
+use crate::judge::curate::{Curate, frames_of};
 use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
 use crate::overview::Overview;
@@ -149,7 +150,7 @@ impl Machine {
             Kernel::Embree => KernelChoice::Embree,
             Kernel::Obvhs => KernelChoice::Obvhs,
         };
-        RunOptions { kernel, search: libraries::search(site_packages), frames: None }
+        RunOptions { kernel, search: libraries::search(site_packages), frames: None, format: ExportFormat::default() }
     }
 }
 
@@ -189,7 +190,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             produce(recipe, &out, &machine, machine.options(site_packages), json)
         }
         Command::Generate { recipe, out, frames, labels_only, machine, json } => {
-            let frames = frames.as_deref().map(Curated::read).transpose()?;
+            let frames = frames.as_deref().map(frames_of).transpose()?;
             let options = RunOptions { frames, ..machine.options(site_packages) };
             let mut recipe = Recipe::read(&recipe)?;
             if labels_only {

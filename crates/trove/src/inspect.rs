@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
-use serde_json::json;
+use serde::Serialize;
+use trove_format::ReportTable;
 use trove_model::Report;
 use trove_read::drive_source::{DATASETS, DriveDescription};
 
+use crate::build::print_entries;
 use crate::cache;
 use crate::recipe::{DriveSection, Keyframes};
-use crate::run::report_json;
 
 /// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map. Without a name the dataset is
 /// the one whose root the folder looks like; `options` are the dataset's own keys as a recipe has them (`version=v1.0-mini`).
@@ -34,16 +35,22 @@ pub(crate) fn run(root: &Path, dataset: Option<String>, options: &[String], as_j
             Err(error) => eprintln!("{}: {error}", listing.name),
         }
     }
-    let report = report_json(&report);
+    let report = ReportTable::from(&report);
     if as_json {
-        let printed = json!({ "root": root, "drives": drives, "report": report });
+        let printed = Inspected { root, drives, report };
         println!("{}", serde_json::to_string_pretty(&printed)?);
     } else {
-        for entry in report["entries"].as_array().into_iter().flatten() {
-            println!("{} {}× {}, such as {}", entry["outcome"], entry["count"], entry["what"], entry["examples"][0]);
-        }
+        print_entries(&report, "");
     }
     Ok(())
+}
+
+/// What `trove inspect --json` prints.
+#[derive(Serialize)]
+struct Inspected<'a> {
+    root: &'a Path,
+    drives: Vec<DriveDescription>,
+    report: ReportTable,
 }
 
 /// The dataset whose root a folder looks like.

@@ -14,7 +14,7 @@ use trove_build::{PictureSize, Weather};
 use trove_model::Season;
 use trove_read::drive_source::{DATASETS, Opener};
 use trove_render::Denoising;
-use trove_write::FrameFile;
+use trove_format::FrameFile;
 
 pub use camera::CameraSection;
 pub use light::LightSection;

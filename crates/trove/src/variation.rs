@@ -1,10 +1,10 @@
 //! One variation of a scene: its seeds, and what was drawn for it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Result;
-use serde_json::{Value, json};
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings};
+use trove_format::{Factors, LightFactor};
 use trove_model::{Drive, Environment, ExposureRule, MapProjection, Random, Season, Seed, drives_on_left};
 
 use crate::recipe::{Factor, Range, Recipe};
@@ -47,7 +47,7 @@ impl Variation {
         let base = Seed(recipe.seed).child(&drive.id);
         let seed = |factor: Factor| base.nth(if section.varies(factor) { number.into() } else { 0 });
         let is_drawn = |factor: Factor| section.varies(factor) && (number > 0 || !section.first_as_recorded);
-        let random = |factor: Factor| is_drawn(factor).then(|| seed(factor).child(&factor.name()).random());
+        let random = |factor: Factor| is_drawn(factor).then(|| seed(factor).child(factor.name()).random());
 
         let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
         let on_left = drives_on_left(origin_lat_deg, origin_lon_deg);
@@ -131,48 +131,44 @@ impl Variation {
 
     /// Its row in the manifest: of a factor without a quantity the variation that its seed is of, of others what was
     /// drawn, or what stands in the recipe or the recording.
-    pub(crate) fn factors(&self, recipe: &Recipe, site: &Site) -> Value {
-        let mut row = serde_json::Map::new();
-        let drawn_alone = [
-            Factor::Assets,
-            Factor::Paint,
-            Factor::People,
-            Factor::Facades,
-            Factor::Materials,
-            Factor::Furniture,
-            Factor::Vegetation,
-        ];
-        for factor in drawn_alone {
-            let number = if recipe.variations.varies(factor) { self.number } else { 0 };
-            row.insert(factor.name(), json!(number));
+    pub(crate) fn factors(&self, recipe: &Recipe, site: &Site) -> Factors {
+        let number = |factor: Factor| if recipe.variations.varies(factor) { self.number } else { 0 };
+        Factors {
+            assets: number(Factor::Assets),
+            paint: number(Factor::Paint),
+            people: number(Factor::People),
+            facades: number(Factor::Facades),
+            materials: number(Factor::Materials),
+            furniture: number(Factor::Furniture),
+            vegetation: number(Factor::Vegetation),
+            place: self.place,
+            season: site.season(),
+            light: self.light_factor(recipe, site),
+            traffic: self.traffic.density,
+            wetness: self.wetness,
+            exposure_ev: self.exposure_ev,
+            camera_height_m: self.lift_m,
+            camera_pitch_deg: self.pitch_deg,
+            other_vehicles: self.other_vehicles as u32,
         }
-        row.insert("place".into(), json!(self.place));
-        row.insert("season".into(), json!(format!("{:?}", site.season()).to_lowercase()));
-        row.insert("light".into(), self.light_row(recipe, site));
-        row.insert("traffic".into(), json!(self.traffic.density));
-        row.insert("wetness".into(), json!(self.wetness));
-        row.insert("exposure_ev".into(), json!(self.exposure_ev));
-        row.insert("camera_height_m".into(), json!(self.lift_m));
-        row.insert("camera_pitch_deg".into(), json!(self.pitch_deg));
-        row.insert("other_vehicles".into(), json!(self.other_vehicles));
-        Value::Object(row)
     }
 
-    fn light_row(&self, recipe: &Recipe, site: &Site) -> Value {
-        let picture = |file: &Path, rotation_deg: f64| json!({ "environment": file, "rotation_deg": rotation_deg });
+    fn light_factor(&self, recipe: &Recipe, site: &Site) -> LightFactor {
         match (&self.light, &site.light().environment) {
-            (_, Environment::Sky(sky)) => {
-                let azimuth_deg = sky.to_sun.x.atan2(sky.to_sun.y).to_degrees().rem_euclid(360.0);
-                json!({
-                    "environment": crate::recipe::COMPUTED_SKY,
-                    "sun_elevation_deg": sky.to_sun.z.clamp(-1.0, 1.0).asin().to_degrees(),
-                    "sun_azimuth_deg": azimuth_deg,
-                    "turbidity": sky.turbidity,
-                    "clouds": sky.cloud_cover,
-                })
+            (_, Environment::Sky(sky)) => LightFactor::Sky {
+                environment: crate::recipe::COMPUTED_SKY.into(),
+                sun_elevation_deg: sky.to_sun.z.clamp(-1.0, 1.0).asin().to_degrees(),
+                sun_azimuth_deg: sky.to_sun.x.atan2(sky.to_sun.y).to_degrees().rem_euclid(360.0),
+                turbidity: sky.turbidity,
+                clouds: sky.cloud_cover,
+            },
+            (Light::Picture(file, rotation_deg), _) => {
+                LightFactor::Picture { environment: file.to_string_lossy().into_owned(), rotation_deg: *rotation_deg }
             }
-            (Light::Picture(file, rotation_deg), _) => picture(file, *rotation_deg),
-            _ => picture(Path::new(&recipe.light.environment), recipe.light.rotation_deg),
+            _ => LightFactor::Picture {
+                environment: recipe.light.environment.clone(),
+                rotation_deg: recipe.light.rotation_deg,
+            },
         }
     }
 }

@@ -1,8 +1,8 @@
 //! A scene of a recipe, built as one of its variations.
 
 use anyhow::Result;
-use serde_json::Value;
 use trove_build::{Seeds, Site, ViewSettings};
+use trove_format::Factors;
 use trove_model::{AssetLibrary, Drive, Report, Scene, Shot, StreetMap};
 
 use crate::recipe::Recipe;
@@ -15,7 +15,7 @@ pub(crate) struct VirtualScene<'a> {
     pub(crate) drive: &'a Drive,
     pub(crate) site: Site,
     /// What the variation differs in, for the manifest.
-    pub(crate) factors: Value,
+    pub(crate) factors: Factors,
     views: ViewSettings,
     seeds: Seeds,
 }

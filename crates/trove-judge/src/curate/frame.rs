@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
-use serde::Deserialize;
+use trove_format::{FrameFile, FrameTable, ObjectRow};
 use trove_model::CLASSES;
 
 use super::hash::{difference_hash, luma};
@@ -15,14 +15,14 @@ use crate::pictures::read_labels;
 const SEEN: f64 = 6e-4;
 
 /// An object in a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenObject {
     /// Id of its class.
     pub class_id: u8,
     /// Pixels that show it.
-    pub visible_px: u64,
-    /// From the camera, metres.
-    pub distance_m: f64,
+    pub visible_px: u32,
+    /// From the camera to the middle of its box, metres.
+    pub range_m: f32,
 }
 
 /// A frame as far as its worth for training goes.
@@ -46,38 +46,11 @@ pub struct CandidateFrame {
     pub has_picture: bool,
 }
 
-/// The fields of `frame.json` that are needed.
-#[derive(Deserialize)]
-struct FrameFile {
-    scene: String,
-    #[serde(default)]
-    place: String,
-    #[serde(default)]
-    variation: u32,
-    world_from_camera_translation_m: [f64; 3],
-    projection: Projection,
-    objects: Vec<SeenObject>,
-}
-
-#[derive(Deserialize)]
-struct Projection {
-    anchor_m: [f64; 2],
-}
-
 impl CandidateFrame {
     /// Reads a frame's folder.
     pub(super) fn read(root: &Path, folder: &Path) -> Result<Self, JudgeError> {
-        let file = folder.join("frame.json");
-        let bytes = fs::read(&file).map_err(JudgeError::io(&file))?;
-        let frame: FrameFile = serde_json::from_slice(&bytes).map_err(|e| {
-            JudgeError::unexpected(
-                &file,
-                "a frame of trove generate",
-                e.to_string(),
-                "remove the folder and run trove generate again",
-            )
-        })?;
-        let file = folder.join("class.png");
+        let frame = FrameTable::read(folder)?;
+        let file = folder.join(FrameFile::Class.name());
         let labels = read_labels(&file)?;
         let mut counts = [0; 256];
         labels.ids.iter().for_each(|id| counts[usize::from(*id)] += 1);
@@ -87,7 +60,7 @@ impl CandidateFrame {
             let remedy = "remove the folder and run trove generate again";
             return Err(JudgeError::unexpected(&file, "ids of the 20 classes", id.to_string(), remedy));
         }
-        let picture = folder.join("rgb.png");
+        let picture = folder.join(FrameFile::Rgb.name());
         let has_picture = picture.exists();
         let hash = if has_picture {
             difference_hash(&crate::pictures::read(&picture)?.into_luma8())
@@ -99,7 +72,8 @@ impl CandidateFrame {
         let place = if frame.place.is_empty() { frame.scene } else { frame.place };
         let path = folder.strip_prefix(root).unwrap_or(folder).to_string_lossy().replace('\\', "/");
         let position_m = DVec2::from_array(frame.projection.anchor_m) + DVec2::new(x, y);
-        let objects = frame.objects.into_iter().filter(|o| o.visible_px > 0).collect();
+        let seen = |o: &ObjectRow| SeenObject { class_id: o.class_id, visible_px: o.visible_px, range_m: o.range_m };
+        let objects = frame.objects.iter().filter(|o| o.visible_px > 0).map(seen).collect();
         Ok(Self { path, variation: frame.variation, place, position_m, pixels, objects, hash, has_picture })
     }
 
@@ -134,7 +108,7 @@ pub(super) fn entropy(shares: &[f64]) -> f64 {
 pub(super) fn folders(root: &Path) -> Result<Vec<PathBuf>, JudgeError> {
     let (mut found, mut open) = (Vec::new(), vec![root.to_owned()]);
     while let Some(folder) = open.pop() {
-        if folder.join("frame.json").is_file() {
+        if folder.join(FrameTable::NAME).is_file() {
             found.push(folder);
             continue;
         }

@@ -9,6 +9,7 @@ mod split;
 
 use std::path::Path;
 
+use trove_format::Manifest;
 use trove_model::Seed;
 
 use crate::JudgeError;
@@ -35,7 +36,7 @@ pub struct Curation {
 /// Looks at the finished frames below a folder of `trove generate`, with or without pictures, and chooses among them.
 ///
 /// # Errors
-/// A folder without frames, or a frame that cannot be read.
+/// A folder without frames or of another version of the format, or a frame that cannot be read.
 pub fn curate(
     root: &Path,
     rules: Rules,
@@ -43,6 +44,7 @@ pub fn curate(
     seed: Seed,
     progress: OnProgress,
 ) -> Result<Curation, JudgeError> {
+    Manifest::read(root)?; // says so where the folder is of another version
     let folders = frame::folders(root)?;
     if folders.is_empty() {
         return Err(JudgeError::unexpected(root, "frames of trove generate", "none", "give the folder that it wrote"));

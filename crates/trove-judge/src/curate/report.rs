@@ -73,9 +73,9 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
              <span class=\"gap\">●</span> near to both <span class=\"rest\">●</span> dropped</p>";
     page += &places(curation);
     page += "<h2>Objects kept, by distance</h2>";
-    page += &objects(&kept, &DISTANCES_M, "m", |object| object.distance_m);
+    page += &objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into());
     page += "<h2>Objects kept, by visible pixels</h2>";
-    page += &objects(&kept, &SIZES_PX, "px", |object| object.visible_px as f64);
+    page += &objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into());
     page += "<h2>The frames that are worth most</h2><div class=\"frames\">";
     let shown: Vec<String> = kept
         .par_iter()

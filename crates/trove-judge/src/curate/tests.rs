@@ -1,9 +1,68 @@
 use super::*;
 use crate::LabelSet;
 use image::GrayImage;
+use trove_format::{FrameTable, LensModel, ObjectRow, Projection};
+use trove_model::{Class, Kind};
 
 fn classes() -> [Option<u8>; 20] {
     LabelSet::named("trove20").unwrap().of_ours()
+}
+
+/// A frame 60 m further on than the last, with a car in sight and a person behind something.
+fn frame(i: u32) -> FrameTable {
+    let object = |id, class: Class, kind, visible_px, range_m| ObjectRow {
+        id,
+        class,
+        class_id: class.id(),
+        kind,
+        category: String::new(),
+        token: String::new(),
+        track_token: String::new(),
+        asset: String::new(),
+        world_from_body: [[0.0; 4]; 4],
+        size_m: [1.0; 3],
+        velocity_mps: None,
+        visible_px,
+        amodal_px: 300,
+        visible_box: None,
+        amodal_box: None,
+        truncation: 0.0,
+        occlusion: 0.0,
+        range_m,
+    };
+    FrameTable {
+        scene: "scene".into(),
+        dataset: "made".into(),
+        place: "town".into(),
+        variation: 0,
+        keyframe: i,
+        keyframe_token: String::new(),
+        keyframe_time_ns: 0,
+        view: "ego.CAM_FRONT".into(),
+        time_ns: 0,
+        source_token: String::new(),
+        source_image: String::new(),
+        width_px: 72,
+        height_px: 40,
+        intrinsics: [[0.0; 3]; 3],
+        lens_model: LensModel::Pinhole,
+        distortion: vec![],
+        exposure_s: 0.0,
+        readout_s: 0.0,
+        world_from_camera: [[0.0; 4]; 4],
+        world_from_camera_rotation_wxyz: [1.0, 0.0, 0.0, 0.0],
+        world_from_camera_translation_m: [60.0 * f64::from(i), 0.0, 1.5],
+        world_from_camera_previous: None,
+        world_from_camera_next: None,
+        world_from_ego: None,
+        carrier: None,
+        projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2] },
+        exposure_ev: None,
+        spp: 1,
+        denoised: false,
+        seed: 0,
+        objects: vec![object(2, Class::Car, Kind::Car, 300, 15.5), object(3, Class::Human, Kind::Adult, 0, 5.0)],
+    }
 }
 
 /// A dataset of frames along a street, some of them poor, two alike.
@@ -16,12 +75,7 @@ fn dataset(root: &Path) {
         let labels =
             GrayImage::from_fn(72, 40, |x, y| image::Luma([1 + ((x * bands / 72 + y * shift / 20) % 19) as u8]));
         labels.save(folder.join("class.png")).unwrap();
-        let frame = format!(
-            r#"{{"scene":"scene","place":"town","world_from_camera_translation_m":[{},0,1.5],"projection":{{"anchor_m":[0,0]}},
-            "objects":[{{"id":2,"class_id":2,"visible_px":300,"distance_m":15.5}},{{"id":3,"class_id":7,"visible_px":0,"distance_m":5}}]}}"#,
-            i * 60
-        );
-        std::fs::write(folder.join("frame.json"), frame).unwrap();
+        std::fs::write(folder.join(FrameTable::NAME), frame(i).to_json()).unwrap();
     }
 }
 
@@ -48,6 +102,9 @@ fn what_is_no_dataset_is_named() {
     assert!(message(folder.path()).contains("frames of trove generate"));
     dataset(folder.path());
     let frame = folder.path().join("scene/v00/k000/ego.CAM_FRONT/frame.json");
-    std::fs::write(&frame, "{").unwrap();
-    assert!(message(folder.path()).contains("frame.json"));
+    std::fs::write(&frame, "{\n\"scene\":7").unwrap();
+    assert!(message(folder.path()).contains("frame.json:2:"), "{}", message(folder.path()));
+    std::fs::write(folder.path().join(Manifest::NAME), r#"{"format": 1, "frames": []}"#).unwrap();
+    let found = message(folder.path());
+    assert!(found.contains("manifest.json: expected format 2, found format 1"), "{found}");
 }

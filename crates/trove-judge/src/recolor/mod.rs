@@ -10,13 +10,12 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
-use serde_json::json;
 use trove_model::{CLASSES, Seed};
 
 use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
 use crate::{JudgeError, LabelSet};
 pub use histogram::{Histograms, Matching};
-use output::OutputFolder;
+use output::{Identity, OutputFolder};
 pub use space::Space;
 pub use statistics::Statistics;
 
@@ -98,15 +97,15 @@ pub fn recolor(
             return Err(JudgeError::unexpected(target, "labels for histograms by class", "none", "name their folder"));
         }
     };
-    let identity = json!({
-        "method": format!("{:?}", settings.method),
-        "space": format!("{:?}", settings.space),
-        "strength": settings.strength,
-        "source": before.map(|s| format!("{s:?}")),
-        "target": format!("{wanted:?}"),
-        "classes": counted,
-    });
-    let output = OutputFolder::open(out, &format!("{identity:#}"))?;
+    let identity = Identity {
+        classes: counted,
+        method: format!("{:?}", settings.method),
+        source: before.map(|s| format!("{s:?}")),
+        space: format!("{:?}", settings.space),
+        strength: settings.strength.into(),
+        target: format!("{wanted:?}"),
+    };
+    let output = OutputFolder::open(out, &identity.text())?;
     let recolored = |path: &PathBuf| {
         let below = path.strip_prefix(source).unwrap_or(path);
         let written = || Ok(read(&output.path(below))?.into_rgb8());

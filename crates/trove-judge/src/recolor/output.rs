@@ -1,12 +1,36 @@
 //! The folder that pictures are written to: of one source, one target and one method.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
+
+use serde::Serialize;
 
 use crate::JudgeError;
 
 /// Holds what the pictures were made of, and the lock.
 const PRIVATE: &str = ".trove";
+
+/// Everything that decides the pictures.
+#[derive(Serialize)]
+pub(super) struct Identity {
+    /// Pixels by class id, of the source and the target, for histograms.
+    pub(super) classes: Option<[BTreeMap<u8, u64>; 2]>,
+    pub(super) method: String,
+    /// Statistics of the whole source, where they count.
+    pub(super) source: Option<String>,
+    pub(super) space: String,
+    pub(super) strength: f64,
+    /// Statistics of the whole target.
+    pub(super) target: String,
+}
+
+impl Identity {
+    /// One line a value.
+    pub(super) fn text(&self) -> String {
+        serde_json::to_string_pretty(self).expect("keys are strings or numbers")
+    }
+}
 
 /// An output folder that this process alone writes to.
 pub(super) struct OutputFolder {

@@ -18,7 +18,7 @@ fn snake(name: &str) -> String {
 
 /// A kind as `library.toml` writes it.
 pub(super) fn kind_name(kind: Option<Kind>) -> String {
-    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
+    kind.map_or("none", Kind::name).into()
 }
 
 /// A surface's kind as `library.toml` writes it.

@@ -17,7 +17,7 @@ pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
         println!(
             "{:36} {:22} {l:6.2} × {w:5.2} × {h:5.2} m  {:6} triangles",
             a.id,
-            format!("{:?}", a.kind),
+            a.kind.name(),
             a.mesh.triangles.len()
         );
     }
@@ -31,7 +31,7 @@ pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
 fn asset(a: &Asset) -> Value {
     json!({
         "id": a.id,
-        "kind": format!("{:?}", a.kind),
+        "kind": a.kind.name(),
         "class": a.class.row().name,
         "tags": a.tags.iter().collect::<Vec<_>>(),
         "size_m": a.size_m.to_array(),

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
-use serde::{Deserialize, Serialize};
 use serde_json::json;
+use trove_format::Curated;
 use trove_judge::LabelSet;
 use trove_judge::curate::{Curation, Rules, Split, curate, report};
 use trove_model::{CLASSES, Seed};
@@ -48,34 +48,18 @@ pub(crate) struct Curate {
     json: bool,
 }
 
-/// Frames by what they serve for, as paths below the dataset's folder.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Curated {
-    /// Training, the most worth first.
-    train: Vec<String>,
-    /// Validation.
-    val: Vec<String>,
-    /// Kept, but too near to both sides' places.
-    #[serde(default)]
-    gap: Vec<String>,
+/// The frames of a list that trove curate wrote.
+pub(crate) fn frames_of(list: &Path) -> Result<BTreeSet<String>> {
+    let Curated { train, val, .. } = Curated::read(list)?;
+    Ok(train.into_iter().chain(val).collect())
 }
 
-impl Curated {
-    /// The frames of a list that trove curate wrote.
-    pub(crate) fn read(path: &Path) -> Result<BTreeSet<String>> {
-        let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-        let Self { train, val, .. } = serde_json::from_slice(&bytes)
-            .with_context(|| format!("{}: expected a list that trove curate wrote", path.display()))?;
-        Ok(train.into_iter().chain(val).collect())
-    }
-
-    fn of(curation: &Curation) -> Self {
-        let of = |wanted: Split| {
-            let kept = curation.selection.kept.iter().zip(&curation.splits);
-            kept.filter(|(_, split)| **split == wanted).map(|(i, _)| curation.frames[*i].path.clone()).collect()
-        };
-        Self { train: of(Split::Train), val: of(Split::Val), gap: of(Split::Gap) }
-    }
+fn list_of(curation: &Curation) -> Curated {
+    let of = |wanted: Split| {
+        let kept = curation.selection.kept.iter().zip(&curation.splits);
+        kept.filter(|(_, split)| **split == wanted).map(|(i, _)| curation.frames[*i].path.clone()).collect()
+    };
+    Curated { train: of(Split::Train), val: of(Split::Val), gap: of(Split::Gap) }
 }
 
 impl Curate {
@@ -86,10 +70,10 @@ impl Curate {
         let progress = Pictures::default();
         let seed = Seed(self.seed);
         let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;
-        let list = Curated::of(&curation);
-        let out = self.out.clone().unwrap_or_else(|| self.dir.join("curated.json"));
+        let list = list_of(&curation);
+        let out = self.out.clone().unwrap_or_else(|| self.dir.join(Curated::NAME));
         let page = self.page.clone().unwrap_or_else(|| self.dir.join("curated.html"));
-        write_atomically(&out, &serde_json::to_vec_pretty(&list)?)?;
+        write_atomically(&out, &list.to_json())?;
         write_atomically(&page, report(&self.dir, &curation)?.as_bytes())?;
         let selection = &curation.selection;
         if self.json {

@@ -52,8 +52,24 @@ impl Factor {
     ];
 
     /// Its name in recipes.
-    pub fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Place => "place",
+            Self::Assets => "assets",
+            Self::Paint => "paint",
+            Self::People => "people",
+            Self::Facades => "facades",
+            Self::Materials => "materials",
+            Self::Furniture => "furniture",
+            Self::Vegetation => "vegetation",
+            Self::Season => "season",
+            Self::Light => "light",
+            Self::Traffic => "traffic",
+            Self::Wetness => "wetness",
+            Self::Exposure => "exposure",
+            Self::Camera => "camera",
+            Self::Rigs => "rigs",
+        }
     }
 }
 

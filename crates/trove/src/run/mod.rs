@@ -13,19 +13,19 @@ use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
-use serde_json::{Value, json};
 use trove_build::ALL_CAMERAS;
+use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, Versions, WrittenFile};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
-use trove_write::{FrameFile, FrameMeta, WriteError, WrittenFile, contact_sheet, frame_files, write_frame};
+use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
 
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::{interrupt, library, message};
-use manifest::{FrameKey, SiteFile, SiteSummary, drive_row, frame_row, variation_folder, write_manifest, write_report};
-pub(crate) use manifest::{fits_json, report_json};
+pub(crate) use manifest::fit_rows;
+use manifest::{FrameKey, SiteSummary, variation_folder};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, refuse_foreign};
 use worker::Worker;
@@ -41,6 +41,8 @@ pub struct RunOptions {
     pub search: Vec<PathBuf>,
     /// Paths of the only frames to render (`scene-0103/v00/k005/ego.CAM_FRONT`); `None`: all that the recipe asks for.
     pub frames: Option<BTreeSet<String>>,
+    /// The form in which frames are written.
+    pub format: ExportFormat,
 }
 
 /// What a run did.
@@ -92,7 +94,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         sources,
         library: library::gather(recipe, &options.search, &report)?,
         output,
-        writer: Worker::new(write),
+        writer: Worker::new(options.format.exporter(out), write),
+        format: options.format,
         progress: Progress::new(planned),
         report,
         frames,
@@ -113,21 +116,19 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
             };
         }
     }
-    run.finish(&identity)
+    run.finish(identity)
 }
 
 /// Everything that decides the output's bytes: a folder holds the frames of one identity.
-fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Result<Value> {
+fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Result<RunIdentity> {
     let found = renderer.capabilities();
-    Ok(json!({
-        "recipe": serde_json::to_value(recipe)?,
-        "versions": {
-            "trove": env!("CARGO_PKG_VERSION"),
-            "assets": library::fingerprints(recipe, &options.search)?,
-            "kernel": found.kernel,
-            "denoiser": found.denoiser.ok(),
-        },
-    }))
+    let versions = Versions {
+        trove: env!("CARGO_PKG_VERSION").into(),
+        assets: library::fingerprints(recipe, &options.search)?,
+        kernel: found.kernel,
+        denoiser: found.denoiser.ok(),
+    };
+    Ok(RunIdentity::new(serde_json::to_value(recipe)?, versions))
 }
 
 /// Frames of each variation of a scene with so many keyframes, before its drive has been read.
@@ -165,7 +166,8 @@ struct Run<'a> {
     library: AssetLibrary,
     output: OutputFolder,
     /// Encodes and writes frames while the next ones are rendered.
-    writer: Worker<Frame, Written>,
+    writer: Worker<Box<dyn Exporter>, Job, Written>,
+    format: ExportFormat,
     progress: Progress,
     report: Report,
     frames: Option<&'a BTreeSet<String>>,
@@ -174,10 +176,9 @@ struct Run<'a> {
 }
 
 /// A rendered frame, for the writer.
-struct Frame {
+struct Job {
     /// Below the output folder.
     path: String,
-    folder: PathBuf,
     scene: Arc<Scene>,
     shot: Shot,
     capture: Capture,
@@ -188,9 +189,10 @@ struct Frame {
 /// A frame's path and files.
 type Written = Result<(String, Vec<WrittenFile>), WriteError>;
 
-fn write(Frame { path, folder, scene, shot, capture, meta, pictures }: Frame) -> Written {
-    let files = write_frame(&folder, &scene, &shot, &capture, &meta, &pictures)?;
-    Ok((path, files))
+fn write(exporter: &mut Box<dyn Exporter>, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
+    let frame = Frame::of(path, &scene, &shot, capture, &meta)?;
+    let files = exporter.frame(&frame, &pictures)?;
+    Ok((frame.path, files))
 }
 
 /// A scene as it was read: the same for all its variations.
@@ -204,7 +206,7 @@ struct Read {
 struct Built<'a> {
     scene: VirtualScene<'a>,
     /// Shots of each chosen keyframe.
-    shots: Vec<(usize, Vec<Shot>)>,
+    shots: Vec<(u32, Vec<Shot>)>,
 }
 
 /// A keyframe's scene, made ready.
@@ -234,8 +236,8 @@ impl Run<'_> {
             if frames_hint == 0 && self.frames.is_some() {
                 continue;
             }
-            let folder = self.output.root().join(variation_folder(scene, variation));
-            let known = SiteFile::read(&folder);
+            let folder = variation_folder(scene, variation);
+            let known = self.output.site(&folder)?;
             let missing = match &known {
                 Some(site) => self.missing(scene, variation, site)?,
                 None => true,
@@ -246,7 +248,7 @@ impl Run<'_> {
                     self.progress.say(&format!("building {scene} v{variation:02}"));
                     match build(self, variation) {
                         Ok((file, built)) => {
-                            file.write(&folder)?;
+                            self.output.write_site(&folder, &file)?;
                             (file, Some(built))
                         }
                         Err(error) => {
@@ -293,7 +295,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), &frame_files(&self.recipe.pictures(key.variation)))
+        self.output.finished(&key.path(), &self.format.files(&self.recipe.pictures(key.variation)))
     }
 
     fn read(&self, scene: &str) -> Result<Read> {
@@ -310,13 +312,14 @@ impl Run<'_> {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
         };
-        let shots: Vec<(usize, Vec<Shot>)> = keyframes.into_iter().map(|k| (k, built.shots(k, &report))).collect();
+        let shots: Vec<(u32, Vec<Shot>)> =
+            keyframes.into_iter().map(|k| (k as u32, built.shots(k, &report))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
-            drive: drive_row(drive),
+            drive: drive.into(),
             sources: built.site.provenance().iter().map(Into::into).collect(),
-            report: report_json(&report),
-            fits: fits_json(built.site.fits()),
+            report: (&report).into(),
+            fits: fit_rows(built.site.fits()),
             factors: built.factors.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
@@ -345,7 +348,7 @@ impl Run<'_> {
         built: Option<&Built<'_>>,
         base: Option<&Built<'_>>,
     ) -> Result<(), Stop> {
-        let mut missing: Vec<(usize, Vec<FrameKey>)> = Vec::new();
+        let mut missing: Vec<(u32, Vec<FrameKey>)> = Vec::new();
         for (keyframe, view) in &file.frames {
             let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
             if !self.wants(&key) {
@@ -409,14 +412,14 @@ impl Run<'_> {
         let after = (&**scene, prepared);
         capture.change = before.map(|b| self.renderer.changes((&b.scene, &b.prepared), after, shot));
         let render_s = started.elapsed().as_secs_f64();
-        let moment = &drive.keyframes[key.keyframe];
+        let moment = &drive.keyframes[key.keyframe as usize];
         let exposure = moment.exposures.iter().find(|e| shot.view == format!("ego.{}", drive.rig[e.camera].name));
         let meta = FrameMeta {
             scene: key.scene.clone(),
             dataset: drive.dataset.clone(),
             place: drive.place.clone(),
             variation: key.variation,
-            keyframe: key.keyframe as u32,
+            keyframe: key.keyframe,
             keyframe_token: moment.token.clone(),
             keyframe_time_ns: moment.time_ns,
             source_token: exposure.map(|e| e.token.clone()).unwrap_or_default(),
@@ -425,8 +428,7 @@ impl Run<'_> {
             projection: drive.projection,
         };
         let path = key.path();
-        self.writer.give(Frame {
-            folder: self.output.root().join(&path),
+        self.writer.give(Job {
             path: path.clone(),
             scene: scene.clone(),
             shot: shot.clone(),
@@ -447,7 +449,7 @@ impl Run<'_> {
     fn record(&mut self, written: Vec<Written>) -> Result<()> {
         for frame in written {
             let (path, files) = frame?;
-            self.output.record(&path, &files)?;
+            self.output.record(&path, files)?;
         }
         Ok(())
     }
@@ -459,20 +461,28 @@ impl Run<'_> {
     }
 
     /// The manifest's rows of all frames.
-    fn rows(&mut self) -> Result<Vec<Value>> {
+    fn rows(&mut self) -> Result<Vec<FrameRow>> {
         let mut rows = Vec::new();
         for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
             for (keyframe, view) in &file.frames {
                 let key = FrameKey { scene: scene.clone(), variation, keyframe: *keyframe, view: view.clone() };
                 if self.wants(&key) {
-                    let files = self.finished(&key)?;
-                    let files = files.with_context(|| format!("{}: vanished during the run", key.path()))?;
-                    let mut row = frame_row(&key.path(), &key, &file.factors, &files);
-                    if let Some(factor) = self.recipe.variations.counterfactual.filter(|_| variation > 0) {
-                        let base = FrameKey { variation: 0, ..key }.path();
-                        row["counterfactual"] = json!({ "factor": factor.name(), "base": base });
-                    }
-                    rows.push(row);
+                    let path = key.path();
+                    let files = self.finished(&key)?.with_context(|| format!("{path}: vanished during the run"))?;
+                    let counterfactual = self.recipe.variations.counterfactual.filter(|_| variation > 0);
+                    rows.push(FrameRow {
+                        path,
+                        scene: key.scene.clone(),
+                        variation,
+                        keyframe: key.keyframe,
+                        view: key.view.clone(),
+                        factors: file.factors.clone(),
+                        files: files.into_iter().map(|file| (file.name, file.sha256)).collect(),
+                        counterfactual: counterfactual.map(|factor| Counterfactual {
+                            factor: factor.name().into(),
+                            base: FrameKey { variation: 0, ..key }.path(),
+                        }),
+                    });
                 }
             }
             self.sites.push(SiteSummary { scene, variation, file });
@@ -481,25 +491,19 @@ impl Run<'_> {
     }
 
     /// Writes what sums the run up.
-    fn finish(mut self, identity: &Value) -> Result<Summary> {
+    fn finish(mut self, identity: RunIdentity) -> Result<Summary> {
         self.record_rest()?;
         self.progress.finish();
         let rows = self.rows()?;
-        let given: BTreeSet<&str> = rows.iter().filter_map(|row| row["path"].as_str()).collect();
+        let given: BTreeSet<&str> = rows.iter().map(|row| row.path.as_str()).collect();
         for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
             self.report.note(Outcome::Dropped, "frame that the recipe does not give", frame.clone());
         }
         ensure!(!rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
-        let root = self.output.root().to_owned();
-        let sheet: Vec<contact_sheet::Frame> = rows
-            .iter()
-            .filter_map(|row| row["path"].as_str())
-            .map(|path| contact_sheet::Frame { name: path.to_owned(), dir: root.join(path) })
-            .collect();
-        contact_sheet::write(&root.join("contact_sheet.png"), &sheet)?;
-        write_report(&root.join("report.json"), &self.report, &self.sites)?;
         let frames = rows.len();
-        write_manifest(&root.join("manifest.json"), identity, &self.sites, rows)?;
+        let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
+        let report = manifest::report(&self.report, &self.sites);
+        self.writer.end().finish(&manifest, &report)?;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false })
     }
 
@@ -511,13 +515,13 @@ impl Run<'_> {
 }
 
 impl Built<'_> {
-    fn photographed(&self, renderer: &Renderer, keyframe: usize) -> Result<Photographed> {
-        let scene = Arc::new(self.scene.at(keyframe));
+    fn photographed(&self, renderer: &Renderer, keyframe: u32) -> Result<Photographed> {
+        let scene = Arc::new(self.scene.at(keyframe as usize));
         let prepared = renderer.prepare(&scene)?;
         Ok(Photographed { scene, prepared })
     }
 
-    fn shot(&self, keyframe: usize, view: &str) -> Option<&Shot> {
+    fn shot(&self, keyframe: u32, view: &str) -> Option<&Shot> {
         let (_, shots) = self.shots.iter().find(|(k, _)| *k == keyframe)?;
         shots.iter().find(|shot| shot.view == view)
     }

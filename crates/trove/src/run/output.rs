@@ -1,13 +1,12 @@
 //! The folder that a run writes to: one recipe, one run at a time, and which frames are finished.
 
-use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use serde::{Deserialize, Serialize};
-use trove_write::{WrittenFile, sha256_file, write_atomically};
+use trove_format::{FrameLine, Journal, RunIdentity, SiteFile, WrittenFile};
+use trove_write::{sha256_file, write_atomically};
 
 /// Holds what only trove reads: the run's identity, its lock and the journal of finished frames.
 pub(crate) const PRIVATE: &str = ".trove";
@@ -16,36 +15,22 @@ pub(crate) const PRIVATE: &str = ".trove";
 pub(super) struct OutputFolder {
     root: PathBuf,
     journal: File,
-    finished: BTreeMap<String, Vec<WrittenFile>>,
+    finished: Journal,
     _lock: File,
-}
-
-/// A line of the journal.
-#[derive(Serialize, Deserialize)]
-struct Row {
-    frame: String,
-    files: Vec<FileRow>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct FileRow {
-    name: String,
-    sha256: String,
-    bytes: u64,
 }
 
 impl OutputFolder {
     /// Opens or makes the folder. `identity` is everything that decides the output's bytes: a folder that was begun
     /// with another one is refused, and so is one that holds something else, or that another run is writing to.
-    pub(super) fn open(root: &Path, identity: &serde_json::Value) -> Result<Self> {
+    pub(super) fn open(root: &Path, identity: &RunIdentity) -> Result<Self> {
         let private = root.join(PRIVATE);
         refuse_foreign(root)?;
         std::fs::create_dir_all(&private)
             .with_context(|| format!("{}: expected a folder that can be made and written to", root.display()))?;
         let lock = lock(&private.join("lock"))?;
-        check_identity(root, &private.join("run.json"), identity)?;
-        let path = private.join("frames.jsonl");
-        let finished = read_journal(&path)?;
+        check_identity(root, &private, identity)?;
+        let path = private.join(FrameLine::JOURNAL);
+        let finished = FrameLine::journal(&private)?;
         let mut journal = OpenOptions::new()
             .create(true)
             .append(true)
@@ -57,6 +42,19 @@ impl OutputFolder {
 
     pub(super) fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// What was built for a variation of a scene by an earlier run; `None` where nothing was.
+    pub(super) fn site(&self, folder: &str) -> Result<Option<SiteFile>> {
+        Ok(SiteFile::read(&self.root.join(folder))?)
+    }
+
+    /// Writes down what was built for a variation of a scene.
+    pub(super) fn write_site(&self, folder: &str, site: &SiteFile) -> Result<()> {
+        let folder = self.root.join(folder);
+        std::fs::create_dir_all(&folder)
+            .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
+        Ok(write_atomically(&folder.join(SiteFile::NAME), &site.to_json())?)
     }
 
     /// The files of a frame that is finished, whole and on disk; `None` where it has to be rendered.
@@ -79,19 +77,17 @@ impl OutputFolder {
             files.push(WrittenFile { name: (*name).to_owned(), sha256: sha256_file(&path)?, bytes: found.len() });
         }
         files.sort_by(|a, b| a.name.cmp(&b.name));
-        self.record(frame, &files)?;
+        self.record(frame, files.clone())?;
         Ok(Some(files))
     }
 
     /// Writes down that a frame is finished.
-    pub(super) fn record(&mut self, frame: &str, files: &[WrittenFile]) -> Result<()> {
-        let row = |f: &WrittenFile| FileRow { name: f.name.clone(), sha256: f.sha256.clone(), bytes: f.bytes };
-        let row = Row { frame: frame.to_owned(), files: files.iter().map(row).collect() };
-        let line = serde_json::to_string(&row)? + "\n";
+    pub(super) fn record(&mut self, frame: &str, files: Vec<WrittenFile>) -> Result<()> {
+        let line = FrameLine { frame: frame.to_owned(), files };
         self.journal
-            .write_all(line.as_bytes())
+            .write_all(&line.to_json())
             .with_context(|| format!("{}: the journal of finished frames cannot be written", self.root.display()))?;
-        self.finished.insert(frame.to_owned(), files.to_vec());
+        self.finished.insert(line.frame, line.files);
         Ok(())
     }
 }
@@ -131,45 +127,42 @@ fn lock(path: &Path) -> Result<File> {
     }
 }
 
-fn check_identity(root: &Path, path: &Path, identity: &serde_json::Value) -> Result<()> {
-    let text = serde_json::to_string_pretty(identity)?;
-    match std::fs::read_to_string(path) {
-        Err(_) => Ok(write_atomically(path, text.as_bytes())?),
-        Ok(found) if found == text => Ok(()),
-        Ok(found) => {
-            let differs = found.lines().zip(text.lines()).find(|(a, b)| a != b);
-            let (was, is) = differs.unwrap_or(("", ""));
-            bail!(
-                "{}: expected the recipe and program that this folder was begun with, found others (it was {}, it is \
-                 {}); choose another --out",
-                root.display(),
-                was.trim().trim_end_matches(','),
-                is.trim().trim_end_matches(',')
-            )
-        }
+fn check_identity(root: &Path, private: &Path, identity: &RunIdentity) -> Result<()> {
+    let path = private.join(RunIdentity::NAME);
+    let Ok(found) = std::fs::read(&path) else { return Ok(write_atomically(&path, &identity.to_json())?) };
+    if found == identity.to_json() {
+        return Ok(());
     }
-}
-
-/// Rows of the journal; a torn or foreign line is passed over, for its frame is then looked at on disk.
-fn read_journal(path: &Path) -> Result<BTreeMap<String, Vec<WrittenFile>>> {
-    if !path.exists() {
-        return Ok(BTreeMap::new());
-    }
-    let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-    let rows = bytes.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Row>(line).ok());
-    let file = |f: FileRow| WrittenFile { name: f.name, sha256: f.sha256, bytes: f.bytes };
-    Ok(rows.map(|row| (row.frame, row.files.into_iter().map(file).collect())).collect())
+    // Another version of the format is told as such, rather than by the first line that differs.
+    RunIdentity::read(private).context("the folder cannot be gone on with; choose another --out")?;
+    let [found, expected] = [found, identity.to_json()].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let differs = found.lines().zip(expected.lines()).find(|(a, b)| a != b);
+    let (was, is) = differs.unwrap_or(("", ""));
+    bail!(
+        "{}: expected the recipe and program that this folder was begun with, found others (it was {}, it is {}); \
+         choose another --out",
+        root.display(),
+        was.trim().trim_end_matches(','),
+        is.trim().trim_end_matches(',')
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
+    use trove_format::Versions;
+
+    fn identity(seed: u64) -> RunIdentity {
+        let versions =
+            Versions { trove: "0".into(), assets: vec!["a".into()], kernel: "obvhs".into(), denoiser: None };
+        RunIdentity::new(json!({ "seed": seed }), versions)
+    }
 
     #[test]
     fn a_frame_that_was_put_in_place_but_not_written_down_is_finished() {
         let dir = tempfile::tempdir().unwrap();
-        let mut out = OutputFolder::open(&dir.path().join("out"), &json!({"seed": 1})).unwrap();
+        let mut out = OutputFolder::open(&dir.path().join("out"), &identity(1)).unwrap();
         assert_eq!(out.finished("s/v00/k000/ego.A", &["a"]).unwrap().map(|f| f.len()), None);
         let folder = out.root().join("s/v00/k000/ego.A");
         std::fs::create_dir_all(&folder).unwrap();
@@ -184,14 +177,17 @@ mod tests {
     fn another_recipe_another_run_and_foreign_files_are_refused() {
         let dir = tempfile::tempdir().unwrap();
         let root = dir.path().join("out");
-        let first = OutputFolder::open(&root, &json!({"seed": 1})).unwrap();
-        let message = OutputFolder::open(&root, &json!({"seed": 1})).err().unwrap().to_string();
+        let first = OutputFolder::open(&root, &identity(1)).unwrap();
+        let message = OutputFolder::open(&root, &identity(1)).err().unwrap().to_string();
         assert!(message.contains("another run"), "{message}");
         drop(first);
-        let message = OutputFolder::open(&root, &json!({"seed": 2})).err().unwrap().to_string();
+        let message = OutputFolder::open(&root, &identity(2)).err().unwrap().to_string();
         assert!(message.contains("\"seed\": 1") && message.contains("\"seed\": 2"), "{message}");
-        assert!(OutputFolder::open(&root, &json!({"seed": 1})).is_ok());
+        assert!(OutputFolder::open(&root, &identity(1)).is_ok());
+        std::fs::write(root.join(PRIVATE).join(RunIdentity::NAME), r#"{"recipe": {}, "versions": {}}"#).unwrap();
+        let message = format!("{:#}", OutputFolder::open(&root, &identity(1)).err().unwrap());
+        assert!(message.contains("expected format 2, found none") && message.contains("--out"), "{message}");
         std::fs::write(dir.path().join("note.txt"), "mine").unwrap();
-        assert!(OutputFolder::open(dir.path(), &json!({"seed": 1})).is_err());
+        assert!(OutputFolder::open(dir.path(), &identity(1)).is_err());
     }
 }

@@ -1,0 +1,253 @@
+//! `frame.json`: the camera and one row an object.
+
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::ser::Formatter;
+use trove_model::{Class, Distortion, Kind, MapProjection};
+
+use crate::{FormatError, file, names};
+
+/// A 4×4 matrix, rows first, which takes a point with a 1 behind it.
+pub type Matrix4 = [[f64; 4]; 4];
+
+/// The whole of `frame.json`. World is x east, y north, z up, in metres from the drive's anchor; Camera is x right,
+/// y down, z forward; Ego and Body are x forward, y left, z up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct FrameTable {
+    /// The drive (`scene-0103`).
+    pub scene: String,
+    /// The dataset (`nuscenes`).
+    pub dataset: String,
+    /// The dataset's name of the place (`boston-seaport`); empty where unknown.
+    #[serde(default)]
+    pub place: String,
+    /// Number of the variation, from 0.
+    #[serde(default)]
+    pub variation: u32,
+    /// Index of the keyframe in its drive, from 0.
+    pub keyframe: u32,
+    /// The dataset's token of the keyframe; empty where there is none.
+    #[serde(default)]
+    pub keyframe_token: String,
+    /// Time of the keyframe, nanoseconds since 1970 UTC.
+    pub keyframe_time_ns: i64,
+    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`).
+    pub view: String,
+    /// Time of the middle of the exposure, nanoseconds since 1970 UTC; it differs from the keyframe's.
+    pub time_ns: i64,
+    /// The dataset's token of the recorded picture that the view clones; empty where it clones none.
+    #[serde(default)]
+    pub source_token: String,
+    /// Path of that picture below the dataset's root; empty where it clones none.
+    #[serde(default)]
+    pub source_image: String,
+    /// Width of the pictures, pixels.
+    pub width_px: u32,
+    /// Height of the pictures, pixels.
+    pub height_px: u32,
+    /// The camera matrix K, rows first, pixels; pixel centres are at .5.
+    pub intrinsics: [[f64; 3]; 3],
+    /// How the lens distorts.
+    pub lens_model: LensModel,
+    /// The model's coefficients: none of a pinhole; k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ of Brown-Conrady, in OpenCV's order;
+    /// k₁ k₂ k₃ k₄ of Kannala-Brandt.
+    #[serde(default)]
+    pub distortion: Vec<f64>,
+    /// For how long a row is exposed, seconds; 0 is a moment.
+    #[serde(default)]
+    pub exposure_s: f64,
+    /// How long after the first row the last one is exposed, seconds; 0 is a global shutter.
+    #[serde(default)]
+    pub readout_s: f64,
+    /// From Camera to World, at the middle of the exposure, to which all labels belong.
+    pub world_from_camera: Matrix4,
+    /// The rotation of `world_from_camera` as a unit quaternion, w first.
+    pub world_from_camera_rotation_wxyz: [f64; 4],
+    /// The camera's position in World, metres.
+    pub world_from_camera_translation_m: [f64; 3],
+    /// The same camera at the previous keyframe, which `flow_backward.exr` leads to; null where there is none.
+    pub world_from_camera_previous: Option<Matrix4>,
+    /// The same camera at the next keyframe, which `flow_forward.exr` leads to; null where there is none.
+    pub world_from_camera_next: Option<Matrix4>,
+    /// From Ego to World, of the vehicle that carries the camera, at `time_ns`; null where it stands on its own.
+    pub world_from_ego: Option<Matrix4>,
+    /// Id of that vehicle where it is one of the scene's objects, which the camera does not see; null otherwise.
+    pub carrier: Option<u32>,
+    /// From latitude and longitude to World.
+    pub projection: Projection,
+    /// Radiance was multiplied by 2 to this power; null without a picture.
+    pub exposure_ev: Option<f64>,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Whether the picture was denoised.
+    pub denoised: bool,
+    /// The seed of its noise.
+    pub seed: u64,
+    /// Every object of which a pixel would be seen if nothing else were there, in the order of ids.
+    pub objects: Vec<ObjectRow>,
+}
+
+/// How a lens distorts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum LensModel {
+    /// Not at all.
+    Pinhole,
+    /// Radial (rational) and tangential, as in OpenCV.
+    BrownConrady,
+    /// Equidistant with a polynomial of the angle: a fisheye.
+    KannalaBrandt,
+}
+
+/// World = (Δlon·R·cos lat₀, Δlat·R) − `anchor_m`, R = 6,378,137 m, angles in radians from the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Projection {
+    /// Latitude of the origin, degrees north.
+    pub origin_lat_deg: f64,
+    /// Longitude of the origin, degrees east.
+    pub origin_lon_deg: f64,
+    /// World's origin in the dataset's own plane, metres east and north.
+    pub anchor_m: [f64; 2],
+}
+
+/// An object.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ObjectRow {
+    /// Its value in `instance.png`, the same in all views and keyframes of a scene.
+    pub id: u32,
+    /// Its class, by name.
+    #[serde(with = "names::class")]
+    #[cfg_attr(test, schemars(schema_with = "names::class::schema"))]
+    pub class: Class,
+    /// The class's value in `class.png`.
+    pub class_id: u8,
+    /// What it is, finer than its class.
+    #[serde(with = "names::kind")]
+    #[cfg_attr(test, schemars(schema_with = "names::kind::schema"))]
+    pub kind: Kind,
+    /// The dataset's category; empty for scenery and for road users whom nobody recorded.
+    #[serde(default)]
+    pub category: String,
+    /// The dataset's token of the annotation; empty as for `category`.
+    #[serde(default)]
+    pub token: String,
+    /// The dataset's token of the track; empty as for `category`.
+    #[serde(default)]
+    pub track_token: String,
+    /// Id of the model that stands for it; empty for what was built for this place.
+    #[serde(default)]
+    pub asset: String,
+    /// From Body to World; Body's origin is the middle of the object's box.
+    pub world_from_body: Matrix4,
+    /// Length, width and height of its box, metres.
+    pub size_m: [f64; 3],
+    /// Its velocity in World, metres a second; null where unknown.
+    pub velocity_mps: Option<[f64; 3]>,
+    /// How many pixels show it.
+    pub visible_px: u32,
+    /// How many pixels would show it if nothing else were there.
+    pub amodal_px: u32,
+    /// First column, first row, last column and last row of the pixels that show it, both included; null without any.
+    pub visible_box: Option<[u32; 4]>,
+    /// The same of those that would; null without any.
+    pub amodal_box: Option<[u32; 4]>,
+    /// Share of it that is outside the picture, 0 to 1.
+    pub truncation: f32,
+    /// Share of its amodal pixels that other things hide, 0 to 1.
+    pub occlusion: f32,
+    /// Distance from the camera to the middle of its box, metres.
+    pub range_m: f32,
+}
+
+impl From<&Distortion> for LensModel {
+    fn from(distortion: &Distortion) -> Self {
+        match distortion {
+            Distortion::None => Self::Pinhole,
+            Distortion::BrownConrady(_) => Self::BrownConrady,
+            Distortion::KannalaBrandt(_) => Self::KannalaBrandt,
+        }
+    }
+}
+
+impl From<&MapProjection> for Projection {
+    fn from(projection: &MapProjection) -> Self {
+        Self {
+            origin_lat_deg: projection.origin_lat_deg,
+            origin_lon_deg: projection.origin_lon_deg,
+            anchor_m: projection.anchor_m.to_array(),
+        }
+    }
+}
+
+impl FrameTable {
+    /// The file's name.
+    pub const NAME: &str = "frame.json";
+
+    /// Reads it from a frame's folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn read(folder: &Path) -> Result<Self, FormatError> {
+        let path = folder.join(Self::NAME);
+        file::parsed(&path, &file::bytes(&path)?, "a frame of trove generate")
+    }
+
+    /// The file's bytes: one line a field and one line an object.
+    pub fn to_json(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, RowFormatter::default());
+        self.serialize(&mut serializer).expect("a frame has keys that are strings");
+        bytes.push(b'\n');
+        bytes
+    }
+}
+
+/// One line a field and one line an object: files that are read by people, by `grep` and by `diff`.
+#[derive(Default)]
+struct RowFormatter {
+    /// How many brackets are open.
+    depth: usize,
+}
+
+impl RowFormatter {
+    fn open<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth += 1;
+        writer.write_all(bracket)
+    }
+
+    fn close<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth -= 1;
+        writer.write_all(if self.depth == 0 { b"\n" } else { b"" })?;
+        writer.write_all(bracket)
+    }
+}
+
+impl Formatter for RowFormatter {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open(writer, b"[")
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"]")
+    }
+
+    fn begin_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        // An object in a list of the table's is a row.
+        self.open(writer, if self.depth == 2 { b"\n{" } else { b"{" })
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"}")
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(if first { b"" } else { b"," })?;
+        writer.write_all(if self.depth == 1 { b"\n" } else { b"" })
+    }
+}

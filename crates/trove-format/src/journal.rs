@@ -1,0 +1,108 @@
+//! What a run keeps in `.trove/` to go on from: its identity (`run.json`) and the journal of finished frames
+//! (`frames.jsonl`).
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{FORMAT, FormatError, file};
+
+/// Everything that decides an output folder's bytes (`.trove/run.json`): a folder holds the frames of one identity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct RunIdentity {
+    /// Version of the form of all the folder's files: 2.
+    pub format: u32,
+    /// The recipe, with its defaults filled in.
+    pub recipe: serde_json::Value,
+    /// Everything beside the recipe that decides the bytes.
+    pub versions: Versions,
+}
+
+/// What a run was made with.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Versions {
+    /// The program's version.
+    pub trove: String,
+    /// A fingerprint of each asset library, in the recipe's order.
+    pub assets: Vec<String>,
+    /// Name and version of the ray-tracing kernel.
+    pub kernel: String,
+    /// Name and version of the denoiser; null without one.
+    pub denoiser: Option<String>,
+}
+
+/// A file that lies on the disk.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct WrittenFile {
+    /// Name relative to its folder.
+    pub name: String,
+    /// SHA-256 of its bytes, lower-case hexadecimal.
+    pub sha256: String,
+    /// Length, bytes.
+    pub bytes: u64,
+}
+
+/// A line of the journal: a frame that is finished.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct FrameLine {
+    /// Its folder below the output folder, with `/` between the parts.
+    pub frame: String,
+    /// Its files.
+    pub files: Vec<WrittenFile>,
+}
+
+/// The files of finished frames, by the frame's path.
+pub type Journal = BTreeMap<String, Vec<WrittenFile>>;
+
+impl RunIdentity {
+    /// The file's name.
+    pub const NAME: &str = "run.json";
+
+    /// The identity of a run by this version of the format.
+    pub fn new(recipe: serde_json::Value, versions: Versions) -> Self {
+        Self { format: FORMAT, recipe, versions }
+    }
+
+    /// Reads it from a `.trove` folder; `None` where it is not there.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is damaged, or is of another version of the format.
+    pub fn read(folder: &Path) -> Result<Option<Self>, FormatError> {
+        let path = folder.join(Self::NAME);
+        let bytes = file::bytes_if_there(&path)?;
+        bytes.map(|bytes| file::of_this_format(&path, &bytes, "the identity of a run of trove generate")).transpose()
+    }
+
+    /// The file's bytes, a line a value.
+    pub fn to_json(&self) -> Vec<u8> {
+        file::pretty(self)
+    }
+}
+
+impl FrameLine {
+    /// The journal's name.
+    pub const JOURNAL: &str = "frames.jsonl";
+
+    /// The line's bytes, with the line break.
+    pub fn to_json(&self) -> Vec<u8> {
+        let mut line = serde_json::to_vec(self).expect("a line has keys that are strings");
+        line.push(b'\n');
+        line
+    }
+
+    /// Reads the journal in a `.trove` folder, empty where there is none. A line that a killed run left torn is passed
+    /// over: its frame is looked at on the disk instead.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn journal(folder: &Path) -> Result<Journal, FormatError> {
+        let bytes = file::bytes_if_there(&folder.join(Self::JOURNAL))?.unwrap_or_default();
+        let lines = bytes.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Self>(line).ok());
+        Ok(lines.map(|line| (line.frame, line.files)).collect())
+    }
+}

@@ -1,0 +1,145 @@
+//! `manifest.json`: what an output folder holds.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use trove_model::{CLASSES, ClassRow};
+
+use crate::{DriveRow, Factors, FormatError, Source, Versions, file};
+
+/// Version of the files' form. It rises when a reader of the last one would go wrong.
+pub const FORMAT: u32 = 2;
+
+/// The whole of `manifest.json`, which a finished run writes last.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Manifest {
+    /// Version of the form of all the folder's files: 2.
+    pub format: u32,
+    /// The recipe's seed.
+    pub seed: u64,
+    /// The recipe, with its defaults filled in.
+    pub recipe: serde_json::Value,
+    /// Everything beside the recipe that decides the bytes.
+    pub versions: Versions,
+    /// The class table, in the order of ids.
+    pub classes: Vec<ClassEntry>,
+    /// The drives that frames were made from.
+    pub drives: Vec<ManifestDrive>,
+    /// Every source of any drive, each once, in alphabetical order.
+    pub licences: Vec<Source>,
+    /// The finished frames, in the order of scene, variation and keyframe.
+    pub frames: Vec<FrameRow>,
+}
+
+/// A class in every numbering.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ClassEntry {
+    /// Value in `class.png`.
+    pub id: u8,
+    /// Its name (`cycle_rider`).
+    pub name: String,
+    /// Whether it is countable, with ids in `instance.png`.
+    pub thing: bool,
+    /// Colour in pictures of labels, 8-bit sRGB.
+    pub rgb: [u8; 3],
+    /// Id among the paper's 13 classes.
+    pub class13: u8,
+    /// Cityscapes' `id`.
+    pub cityscapes_id: u8,
+    /// Cityscapes' `trainId`, which KITTI-STEP shares; 255 is ignored.
+    pub train_id: u8,
+    /// COCO panoptic's category; 0 where COCO has none.
+    pub coco_id: u8,
+    /// CamVid's id in its 12-class form; 11 is unlabelled.
+    pub camvid_id: u8,
+}
+
+/// A drive, with the sources of what was built for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ManifestDrive {
+    /// The drive.
+    #[serde(flatten)]
+    pub drive: DriveRow,
+    /// Where the parts of its scenes came from.
+    pub sources: Vec<Source>,
+}
+
+/// A finished frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct FrameRow {
+    /// Its folder below the output folder, with `/` between the parts.
+    pub path: String,
+    /// The drive (`scene-0103`).
+    pub scene: String,
+    /// Number of the variation, from 0.
+    pub variation: u32,
+    /// Index of the keyframe in its drive, from 0.
+    pub keyframe: u32,
+    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`).
+    pub view: String,
+    /// What its variation differs in.
+    pub factors: Factors,
+    /// SHA-256 of each of its files, lower-case hexadecimal, by the file's name.
+    pub files: BTreeMap<String, String>,
+    /// What it is compared with; only frames of a counterfactual set but v00's have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counterfactual: Option<Counterfactual>,
+}
+
+/// What a frame of a counterfactual set is compared with.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Counterfactual {
+    /// The one factor that differs, as in the recipe's `variations.counterfactual`.
+    pub factor: String,
+    /// Path of v00's frame of the same view, as in `path`.
+    pub base: String,
+}
+
+impl From<&ClassRow> for ClassEntry {
+    fn from(row: &ClassRow) -> Self {
+        Self {
+            id: row.class.id(),
+            name: row.name.to_owned(),
+            thing: row.thing,
+            rgb: row.rgb,
+            class13: row.class13 as u8,
+            cityscapes_id: row.cityscapes_id,
+            train_id: row.train_id,
+            coco_id: row.coco_id,
+            camvid_id: row.camvid_id,
+        }
+    }
+}
+
+impl ClassEntry {
+    /// The class table, in the order of ids.
+    pub fn all() -> Vec<Self> {
+        CLASSES.iter().map(Self::from).collect()
+    }
+}
+
+impl Manifest {
+    /// The file's name.
+    pub const NAME: &str = "manifest.json";
+
+    /// Reads it from an output folder; `None` where it is not there, since the run has not finished.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is damaged, or is of another version of the format.
+    pub fn read(folder: &Path) -> Result<Option<Self>, FormatError> {
+        let path = folder.join(Self::NAME);
+        let bytes = file::bytes_if_there(&path)?;
+        bytes.map(|bytes| file::of_this_format(&path, &bytes, "a manifest of trove generate")).transpose()
+    }
+
+    /// The file's bytes.
+    pub fn to_json(&self) -> Vec<u8> {
+        file::pretty(self)
+    }
+}

@@ -1,0 +1,40 @@
+//! Nouns of the model by their names.
+
+/// A module for `#[serde(with = …)]` that writes a noun by its name and reads it back.
+macro_rules! by_name {
+    ($module:ident, $noun:ty, $all:expr, $name:expr) => {
+        pub(crate) mod $module {
+            use serde::de::{Deserialize, Deserializer, Error};
+            use serde::ser::Serializer;
+
+            fn names() -> impl Iterator<Item = (&'static str, $noun)> {
+                $all.into_iter().map(|noun| ($name(noun), noun))
+            }
+
+            pub(crate) fn serialize<S: Serializer>(noun: &$noun, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str($name(*noun))
+            }
+
+            pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<$noun, D::Error> {
+                let text = std::borrow::Cow::<'de, str>::deserialize(deserializer)?;
+                let found = names().find(|(name, _)| *name == text).map(|(_, noun)| noun);
+                found.ok_or_else(|| {
+                    let known: Vec<&str> = names().map(|(name, _)| name).collect();
+                    let what = stringify!($module);
+                    D::Error::custom(format_args!("expected a {what} out of {}, found {text:?}", known.join(", ")))
+                })
+            }
+
+            #[cfg(test)]
+            pub(crate) fn schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                let names: Vec<&str> = names().map(|(name, _)| name).collect();
+                schemars::json_schema!({ "type": "string", "enum": names })
+            }
+        }
+    };
+}
+
+by_name!(kind, trove_model::Kind, trove_model::Kind::ALL, trove_model::Kind::name);
+by_name!(class, trove_model::Class, trove_model::CLASSES.map(|row| row.class), |class: trove_model::Class| class.row().name);
+by_name!(outcome, trove_model::Outcome, trove_model::Outcome::ALL, trove_model::Outcome::name);
+by_name!(season, trove_model::Season, trove_model::Season::ALL, trove_model::Season::name);

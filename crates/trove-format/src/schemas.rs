@@ -1,0 +1,40 @@
+//! Holds `docs/schema` to the types.
+
+use std::fs;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+
+use crate::{Curated, FrameLine, FrameTable, Manifest, RunIdentity, RunReport, SiteFile};
+
+/// The schema of a file as it is written: as a name and a text.
+fn schema<T: JsonSchema>(file: &str) -> (&str, String) {
+    let mut schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>();
+    schema.insert("title".into(), file.into());
+    (file.split('.').next().unwrap(), serde_json::to_string_pretty(&schema).unwrap() + "\n")
+}
+
+#[test]
+fn the_schemas_are_those_of_the_types() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/schema");
+    let schemas = [
+        schema::<Manifest>(Manifest::NAME),
+        schema::<RunReport>(RunReport::NAME),
+        schema::<SiteFile>(SiteFile::NAME),
+        schema::<FrameTable>(FrameTable::NAME),
+        schema::<Curated>(Curated::NAME),
+        schema::<RunIdentity>(RunIdentity::NAME),
+        schema::<FrameLine>(FrameLine::JOURNAL),
+    ];
+    for (name, expected) in &schemas {
+        let path = folder.join(format!("{name}.schema.json"));
+        if std::env::var_os("TROVE_WRITE_SCHEMAS").is_some() {
+            fs::write(&path, expected).unwrap();
+        }
+        let found = fs::read_to_string(&path).unwrap_or_default();
+        let remedy = "TROVE_WRITE_SCHEMAS=1 cargo test -p trove-format schemas writes it anew";
+        assert!(found == *expected, "{}: expected the schema of the types; {remedy}", path.display());
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), schemas.len(), "a schema of a file that is not written");
+}

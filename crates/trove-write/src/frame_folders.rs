@@ -1,0 +1,111 @@
+//! A folder a frame, with a manifest, a report and a contact sheet above them.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
+use trove_model::{InstanceId, Labels};
+
+use crate::files::FolderInTheMaking;
+use crate::{Exporter, Frame, WriteError, contact_sheet, exr_file, png_file, write_atomically};
+
+/// Writes frames as docs/output.md tells.
+pub(crate) struct FrameFolders {
+    root: PathBuf,
+}
+
+impl FrameFolders {
+    /// Writes below `root`.
+    pub(crate) fn new(root: &Path) -> Self {
+        Self { root: root.to_owned() }
+    }
+}
+
+/// Names of the files in a finished frame's folder that holds these pictures.
+pub(crate) fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
+    pictures.iter().map(|file| file.name()).chain([FrameTable::NAME]).collect()
+}
+
+impl Exporter for FrameFolders {
+    /// Writes the folder under a hidden name beside it first, then renames it, so that it is never there in part. What an
+    /// interrupted run left under the hidden name, and a folder without all its files, is replaced; a finished frame is
+    /// not.
+    fn frame(&mut self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
+        let dir = self.root.join(&frame.path);
+        narrowed(&frame.labels)?;
+        let there = |file: &FrameFile| match file {
+            FrameFile::Change => frame.change.is_some(),
+            _ => frame.color.is_some() || !file.shows_light(),
+        };
+        let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
+        clear_unfinished(&dir, &frame_files(&pictures))?;
+
+        let mut folder = FolderInTheMaking::start(&dir)?;
+        for file in pictures {
+            folder.add(file.name(), &encode(file, frame)?)?;
+        }
+        folder.add(FrameTable::NAME, &frame.table.to_json())?;
+        folder.finish()
+    }
+
+    fn finish(&mut self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
+        let frame = |row: &trove_format::FrameRow| contact_sheet::Frame {
+            name: row.path.clone(),
+            dir: self.root.join(&row.path),
+        };
+        let sheet: Vec<contact_sheet::Frame> = manifest.frames.iter().map(frame).collect();
+        contact_sheet::write(&self.root.join("contact_sheet.png"), &sheet)?;
+        write_atomically(&self.root.join(RunReport::NAME), &report.to_json())?;
+        write_atomically(&self.root.join(Manifest::NAME), &manifest.to_json())
+    }
+}
+
+/// A picture's bytes.
+fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
+    let (name, width, height) = (file.name(), frame.table.width_px, frame.table.height_px);
+    let labels = &frame.labels;
+    let color = || frame.color.as_ref().ok_or_else(|| WriteError::Mismatch(format!("{name} without light")));
+    match file {
+        FrameFile::Radiance => exr_file::encode(name, &color()?.radiance, ["R", "G", "B"]),
+        FrameFile::Rgb => png_file::rgb(name, width, height, &color()?.srgb.data),
+        FrameFile::Class => png_file::grey(name, width, height, &labels.class.data),
+        FrameFile::Instance => png_file::grey16(name, width, height, &narrowed(labels)?),
+        FrameFile::Depth => exr_file::encode_scalar(name, &labels.depth_m),
+        FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),
+        FrameFile::FlowForward => exr_file::encode(name, &labels.flow_forward, ["R", "G"]),
+        FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
+        FrameFile::Change => {
+            let change = frame.change.as_ref();
+            let change = change.ok_or_else(|| WriteError::Mismatch(format!("{name} without another scene")))?;
+            png_file::grey(name, width, height, &change.map(|&differs| if differs { u8::MAX } else { 0 }).data)
+        }
+    }
+}
+
+fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
+    let narrow = |&id: &u32| u16::try_from(id).map_err(|_| WriteError::TooManyObjects(InstanceId(id)));
+    labels.instance.data.iter().map(narrow).collect()
+}
+
+/// Removes what lies at `dir` where that is a frame without all its files, and refuses where it is anything else.
+fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
+    let entries = match fs::read_dir(dir) {
+        Ok(entries) => entries,
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(e) => return Err(WriteError::storage(dir, "look into the folder")(e)),
+    };
+    let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
+    let mut present = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(WriteError::storage(dir, "look into the folder"))?.file_name();
+        match FrameFile::ALL.map(FrameFile::name).into_iter().chain([FrameTable::NAME]).find(|file| name == *file) {
+            Some(file) => present.push(file),
+            None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
+        }
+    }
+    if expected.iter().all(|file| present.contains(file)) {
+        return occupied("one".into());
+    }
+    fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))
+}
