@@ -12,6 +12,8 @@ import numpy as np
 import OpenEXR
 from PIL import Image
 
+from trove.format import read_frame, read_manifest
+
 LABELS = [
     "class.png",
     "instance.png",
@@ -48,7 +50,7 @@ def check_frame(folder, hashes):
     for name, expected in hashes.items():
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == expected, f"{folder / name}: hash differs"
 
-    frame = json.loads((folder / "frame.json").read_text())
+    frame = read_frame(folder)
     shape = (frame["height_px"], frame["width_px"])
     classes = np.asarray(Image.open(folder / "class.png"))
     instances = np.asarray(Image.open(folder / "instance.png"))
@@ -83,13 +85,15 @@ def check_frame(folder, hashes):
         assert pixel_box(mask) == row["visible_box"], f"{folder}: object {number}"
         assert (classes[mask] == row["class_id"]).all(), f"{folder}: object {number}"
         assert 0 <= row["truncation"] <= 1 and 0 <= row["occlusion"] <= 1
+        camera, middle = (np.array(m)[:3, 3] for m in (frame["world_from_camera"], row["world_from_body"]))
+        assert abs(np.linalg.norm(middle - camera) - row["range_m"]) < 0.01, f"{folder}: object {number}"
     return frame
 
 
 def check(root):
     """Checks a whole output folder and returns the frames' tables by their path."""
     root = Path(root)
-    manifest = json.loads((root / "manifest.json").read_text())
+    manifest = read_manifest(root)
     json.loads((root / "report.json").read_text())
     assert Image.open(root / "contact_sheet.png").size[0] > 0
     assert [row["id"] for row in manifest["classes"]] == list(range(CLASSES))

@@ -16,6 +16,8 @@ import pytest
 from conftest import files, trove
 from PIL import Image
 
+from trove.format import read_manifest
+
 # Cars, buses, jeeps, trucks, vans, construction machines, bicycles and motorcycles with their riders.
 VEHICLES = {2, 3, 4, 5, 6, 12, 13, 16}
 
@@ -88,7 +90,7 @@ def test_a_counterfactual_of_paint_differs_in_vehicles_alone_and_a_run_goes_on_w
     repainted.write_text(text + '[variations]\ncount = 2\ncounterfactual = "paint"\n')
     done = trove("generate", repainted, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    rows = json.loads((tmp_path / "out" / "manifest.json").read_text())["frames"]
+    rows = read_manifest(tmp_path / "out")["frames"]
     changed = [row for row in rows if row["variation"] == 1]
     assert changed and not any("change.png" in row["files"] for row in rows if row["variation"] == 0)
     marked = 0

@@ -12,6 +12,8 @@ import pytest
 from conftest import trove
 from PIL import Image
 
+from trove.format import read_curated
+
 WIDTH, HEIGHT = 2048, 1024
 
 
@@ -225,7 +227,7 @@ def labels(recipe):
 
 def test_light_is_rendered_for_the_chosen_frames_alone(recipe, labels, tmp_path):
     folder, found = labels
-    chosen = json.loads(Path(found["list"]).read_text())["train"]
+    chosen = read_curated(Path(found["list"]))["train"]
     assert found["frames"] > found["kept"] == len(chosen) == 3
     out = tmp_path / "chosen"
     for new in (3, 0):

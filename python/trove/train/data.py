@@ -1,6 +1,5 @@
 """Pictures with labels, from every dataset's own layout."""
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from trove.format import read_curated
 from trove.train.labels import CROWNS, lookup
 
 
@@ -28,7 +28,7 @@ def native(root: Path, pictures: Path | None = None, frames: Path | None = None,
     if frames is None:
         folders = sorted(path.parent.relative_to(root) for path in root.rglob("rgb.png"))
     else:
-        folders = [Path(path) for path in json.loads(frames.read_text())[split]]
+        folders = [Path(path) for path in read_curated(frames)[split]]
     return [Sample((pictures or root) / folder / "rgb.png", root / folder / "class.png") for folder in folders]
 
 

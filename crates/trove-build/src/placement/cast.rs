@@ -138,7 +138,7 @@ impl<'a> Casting<'a, '_> {
             ranked = choice::ranked(library.of_kind(track.kind), row_size_m, track.kind);
         }
         let Some(Candidate { asset, .. }) = draw(&ranked, top_k, row_seed) else {
-            report.note(Outcome::Dropped, &format!("object without an asset of kind {:?}", track.kind), &track.token);
+            report.note(Outcome::Dropped, &format!("object without an asset of kind {}", track.kind.name()), &track.token);
             return None;
         };
         let fit = Fit::new(asset.size_m, size_m, track.kind);
@@ -181,7 +181,7 @@ fn stays_up(track: &Track, boxes: &[(usize, Cuboid)], stand: &Stand, report: &Re
     let lift_m = lifts_m.get(lifts_m.len() / 2).copied().unwrap_or(0.0);
     let alive = matches!(track.kind.class(), Class::Human) || track.kind == Kind::Animal;
     let stays_up = lift_m > if alive { PLATFORM_M } else { STOREY_M };
-    let example = || format!("{} ({:?}), {lift_m:.1} m", track.token, track.kind);
+    let example = || format!("{} ({}), {lift_m:.1} m", track.token, track.kind.name());
     if stays_up {
         report.note(Outcome::Warned, "object stands above the ground as annotated", example());
     } else if lift_m.abs() > PLATFORM_M {

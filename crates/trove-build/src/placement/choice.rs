@@ -110,7 +110,7 @@ pub(super) fn measure(fits: &[ObjectFit], report: &Report) {
     for kind in Kind::ALL {
         let of_kind: Vec<&ObjectFit> = fits.iter().filter(|f| f.kind == kind).collect();
         if !of_kind.is_empty() {
-            report.measure(&format!("fit.mean_iou3d.{kind:?}"), mean(&of_kind, |f| f.iou3d));
+            report.measure(&format!("fit.mean_iou3d.{}", kind.name()), mean(&of_kind, |f| f.iou3d));
         }
     }
     for fit in fits.iter().filter(|f| f.chosen.iou3d < GOOD_IOU) {
@@ -119,6 +119,6 @@ pub(super) fn measure(fits: &[ObjectFit], report: &Report) {
             "{}: {length:.2} × {width:.2} × {height:.2} m, {} with an IoU of {:.2}",
             fit.track_token, fit.chosen.asset, fit.chosen.iou3d
         );
-        report.note(Outcome::Warned, &format!("no asset of kind {:?} fits well", fit.kind), example);
+        report.note(Outcome::Warned, &format!("no asset of kind {} fits well", fit.kind.name()), example);
     }
 }

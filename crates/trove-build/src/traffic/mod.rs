@@ -63,7 +63,7 @@ pub(crate) fn absent(drive: &Drive, density: f64, seed: Seed, report: &Report) -
     let tracks = drive.tracks.iter().enumerate().filter(|(_, track)| density < 1.0 && leaves(track));
     tracks
         .map(|(i, track)| {
-            let example = format!("{} ({:?})", track.token, track.kind);
+            let example = format!("{} ({})", track.token, track.kind.name());
             report.note(Outcome::Dropped, "recorded road user, for less traffic", example);
             i
         })

@@ -110,7 +110,7 @@ pub(crate) fn vegetation<'a>(
 ) -> Vec<Scenery<'a>> {
     let species = Species::new(library, climate);
     for kind in [Kind::Tree, Kind::Bush].into_iter().filter(|&kind| species.lacks(kind)) {
-        let what = format!("plants without an asset of kind {kind:?}");
+        let what = format!("plants without an asset of kind {}", kind.name());
         report.note(Outcome::Dropped, &what, kind.class().row().name);
     }
     let blue_noise = BlueNoise::new(seed.child("blue noise"));

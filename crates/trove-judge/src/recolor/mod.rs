@@ -108,7 +108,7 @@ pub fn recolor(
     let output = OutputFolder::open(out, &identity.text())?;
     let recolored = |path: &PathBuf| {
         let below = path.strip_prefix(source).unwrap_or(path);
-        let written = || Ok(read(&output.path(below))?.into_rgb8());
+        let written = || read(&output.path(below)).map(|picture| picture.into_rgb8());
         let kept = output.finished(below, path);
         if kept && let Some(before) = before {
             return Ok((kept, before, Statistics::of(&in_space(&written()?, settings.space))));

@@ -1,0 +1,64 @@
+"""Holds what is written, and the types that read it, to the schemas."""
+
+import json
+from pathlib import Path
+from typing import get_type_hints
+
+import jsonschema
+import pytest
+from conftest import trove
+
+from trove import format as form
+
+SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
+
+
+def schema(name):
+    return json.loads((SCHEMAS / f"{name}.schema.json").read_text())
+
+
+def test_every_file_is_as_its_schema_says(finished, tmp_path):
+    chosen = tmp_path / "curated.json"
+    done = trove("curate", finished, "--min-classes", 2, "--out", chosen, "--page", tmp_path / "curated.html")
+    assert done.returncode == 0, done.stderr
+    found = {
+        "manifest": [finished / "manifest.json"],
+        "report": [finished / "report.json"],
+        "site": sorted(finished.glob("*/v*/site.json")),
+        "frame": sorted(finished.glob("*/v*/k*/*/frame.json")),
+        "run": [finished / ".trove" / "run.json"],
+        "curated": [chosen],
+    }
+    assert set(found) | {"journal"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
+    for name, paths in found.items():
+        validator = jsonschema.Draft202012Validator(schema(name))
+        assert paths, name
+        for path in paths:
+            validator.validate(json.loads(path.read_text()))
+    lines = [line for line in (finished / ".trove" / "frames.jsonl").read_text().splitlines() if line]
+    assert len(lines) == len(found["frame"])
+    for line in lines:
+        jsonschema.validate(json.loads(line), schema("journal"))
+
+
+@pytest.mark.parametrize(
+    ("described", "typed"),
+    [
+        (schema("manifest"), form.Manifest),
+        (schema("manifest")["$defs"]["FrameRow"], form.FrameRow),
+        (schema("frame"), form.FrameTable),
+        (schema("frame")["$defs"]["ObjectRow"], form.ObjectRow),
+        (schema("curated"), form.Curated),
+    ],
+)
+def test_the_types_have_the_fields_of_the_schemas(described, typed):
+    assert sorted(get_type_hints(typed)) == sorted(described["required"])
+
+
+def test_another_version_and_a_damaged_file_are_told(tmp_path):
+    (tmp_path / "manifest.json").write_text('{"format": 1, "frames": []}')
+    with pytest.raises(ValueError, match="manifest.json: expected format 2, found 1"):
+        form.read_manifest(tmp_path)
+    (tmp_path / "frame.json").write_text('{"scene":')
+    with pytest.raises(ValueError, match="frame.json: expected JSON"):
+        form.read_frame(tmp_path)

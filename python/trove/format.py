@@ -1,0 +1,134 @@
+"""The JSON files of an output folder, typed and read; `docs/schema` describes every field."""
+
+import json
+from pathlib import Path
+from typing import Any, TypedDict
+
+FORMAT = 2
+"""Version of the files' form that this module reads."""
+
+Matrix4 = list[list[float]]
+"""A 4×4 matrix, rows first."""
+
+
+class Curated(TypedDict):
+    """`curated.json`: frames by what they serve for, as paths below the dataset's folder."""
+
+    train: list[str]
+    val: list[str]
+    gap: list[str]
+
+
+class FrameRow(TypedDict):
+    """A frame's row in the manifest; `counterfactual` is there only where it is compared with another frame."""
+
+    path: str
+    scene: str
+    variation: int
+    keyframe: int
+    view: str
+    factors: dict[str, Any]
+    files: dict[str, str]
+
+
+class Manifest(TypedDict):
+    """`manifest.json`."""
+
+    format: int
+    seed: int
+    recipe: dict[str, Any]
+    versions: dict[str, Any]
+    classes: list[dict[str, Any]]
+    drives: list[dict[str, Any]]
+    licences: list[dict[str, str]]
+    frames: list[FrameRow]
+
+
+# In this form since `class` is a word of the language.
+ObjectRow = TypedDict(
+    "ObjectRow",
+    {
+        "id": int,
+        "class": str,
+        "class_id": int,
+        "kind": str,
+        "category": str,
+        "token": str,
+        "track_token": str,
+        "asset": str,
+        "world_from_body": Matrix4,
+        "size_m": list[float],
+        "velocity_mps": list[float] | None,
+        "visible_px": int,
+        "amodal_px": int,
+        "visible_box": list[int] | None,
+        "amodal_box": list[int] | None,
+        "truncation": float,
+        "occlusion": float,
+        "range_m": float,
+    },
+)
+"""An object in `frame.json`."""
+
+
+class FrameTable(TypedDict):
+    """`frame.json`."""
+
+    scene: str
+    dataset: str
+    place: str
+    variation: int
+    keyframe: int
+    keyframe_token: str
+    keyframe_time_ns: int
+    view: str
+    time_ns: int
+    source_token: str
+    source_image: str
+    width_px: int
+    height_px: int
+    intrinsics: list[list[float]]
+    lens_model: str
+    distortion: list[float]
+    exposure_s: float
+    readout_s: float
+    world_from_camera: Matrix4
+    world_from_camera_rotation_wxyz: list[float]
+    world_from_camera_translation_m: list[float]
+    world_from_camera_previous: Matrix4 | None
+    world_from_camera_next: Matrix4 | None
+    world_from_ego: Matrix4 | None
+    carrier: int | None
+    projection: dict[str, Any]
+    exposure_ev: float | None
+    spp: int
+    denoised: bool
+    seed: int
+    objects: list[ObjectRow]
+
+
+def read_manifest(root: Path) -> Manifest:
+    """An output folder's manifest; another version of the format is an error."""
+    path = Path(root) / "manifest.json"
+    manifest = _read(path)
+    if manifest.get("format") != FORMAT:
+        found = manifest.get("format", "none")
+        raise ValueError(f"{path}: expected format {FORMAT}, found {found}: generate the folder anew, or use that version of trove")
+    return manifest
+
+
+def read_frame(folder: Path) -> FrameTable:
+    """A frame's table, by its folder."""
+    return _read(Path(folder) / "frame.json")
+
+
+def read_curated(path: Path) -> Curated:
+    """A list of frames that `trove curate` wrote."""
+    return {"gap": [], **_read(Path(path))}
+
+
+def _read(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as fault:
+        raise ValueError(f"{path}: expected JSON that trove wrote, found a fault ({fault})") from fault
