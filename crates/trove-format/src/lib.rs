@@ -45,4 +45,6 @@ pub use frame_file::FrameFile;
 pub use journal::{FrameLine, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FORMAT, FrameRow, Manifest, ManifestDrive};
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
-pub use site::{AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, ProjectionKind, SiteFile, Source};
+pub use site::{
+    AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, ProjectionKind, SiteFile, Source,
+};

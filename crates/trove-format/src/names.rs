@@ -35,6 +35,8 @@ macro_rules! by_name {
 }
 
 by_name!(kind, trove_model::Kind, trove_model::Kind::ALL, trove_model::Kind::name);
-by_name!(class, trove_model::Class, trove_model::CLASSES.map(|row| row.class), |class: trove_model::Class| class.row().name);
+by_name!(class, trove_model::Class, trove_model::CLASSES.map(|row| row.class), |class: trove_model::Class| class
+    .row()
+    .name);
 by_name!(outcome, trove_model::Outcome, trove_model::Outcome::ALL, trove_model::Outcome::name);
 by_name!(season, trove_model::Season, trove_model::Season::ALL, trove_model::Season::name);

@@ -53,7 +53,13 @@ impl Frame {
     ///
     /// # Errors
     /// A capture, a shot and a scene that do not belong together, or a picture that JPEG cannot hold.
-    pub fn of(path: String, scene: &Scene, shot: &Shot, capture: Capture, meta: &FrameMeta) -> Result<Self, WriteError> {
+    pub fn of(
+        path: String,
+        scene: &Scene,
+        shot: &Shot,
+        capture: Capture,
+        meta: &FrameMeta,
+    ) -> Result<Self, WriteError> {
         let (width, height) = (shot.lens.width_px, shot.lens.height_px);
         check_sizes(&capture, width, height)?;
         let table = frame_table(scene, shot, &capture, meta)?;

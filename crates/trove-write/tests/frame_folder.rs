@@ -6,11 +6,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
+use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
     Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels, Lens,
     Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
-use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_write::{ExportFormat, Frame, FrameMeta, WriteError, sha256_file, write_atomically};
 
 const W: u32 = 48;

@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
+use trove_format::FrameFile;
 use trove_model::Season;
 use trove_read::drive_source::{DATASETS, Opener};
 use trove_render::Denoising;
-use trove_format::FrameFile;
 
 pub use camera::CameraSection;
 pub use light::LightSection;

@@ -138,7 +138,11 @@ impl<'a> Casting<'a, '_> {
             ranked = choice::ranked(library.of_kind(track.kind), row_size_m, track.kind);
         }
         let Some(Candidate { asset, .. }) = draw(&ranked, top_k, row_seed) else {
-            report.note(Outcome::Dropped, &format!("object without an asset of kind {}", track.kind.name()), &track.token);
+            report.note(
+                Outcome::Dropped,
+                &format!("object without an asset of kind {}", track.kind.name()),
+                &track.token,
+            );
             return None;
         };
         let fit = Fit::new(asset.size_m, size_m, track.kind);

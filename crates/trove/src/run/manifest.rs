@@ -9,8 +9,7 @@ use trove_model::Report;
 
 /// How well assets fit, an object a row.
 pub(crate) fn fit_rows(fits: &[ObjectFit]) -> Vec<FitRow> {
-    let asset =
-        |fit: &AssetFit| AssetFitRow { asset: fit.asset.clone(), quality_m: fit.quality_m, iou3d: fit.iou3d };
+    let asset = |fit: &AssetFit| AssetFitRow { asset: fit.asset.clone(), quality_m: fit.quality_m, iou3d: fit.iou3d };
     let row = |fit: &ObjectFit| FitRow {
         track: fit.track_token.clone(),
         kind: fit.kind,

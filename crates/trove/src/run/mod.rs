@@ -312,8 +312,7 @@ impl Run<'_> {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
         };
-        let shots: Vec<(u32, Vec<Shot>)> =
-            keyframes.into_iter().map(|k| (k as u32, built.shots(k, &report))).collect();
+        let shots: Vec<(u32, Vec<Shot>)> = keyframes.into_iter().map(|k| (k as u32, built.shots(k, &report))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
             drive: drive.into(),

@@ -40,10 +40,6 @@ impl OutputFolder {
         Ok(Self { root: root.to_owned(), journal, finished, _lock: lock })
     }
 
-    pub(super) fn root(&self) -> &Path {
-        &self.root
-    }
-
     /// What was built for a variation of a scene by an earlier run; `None` where nothing was.
     pub(super) fn site(&self, folder: &str) -> Result<Option<SiteFile>> {
         Ok(SiteFile::read(&self.root.join(folder))?)
@@ -154,8 +150,7 @@ mod tests {
     use trove_format::Versions;
 
     fn identity(seed: u64) -> RunIdentity {
-        let versions =
-            Versions { trove: "0".into(), assets: vec!["a".into()], kernel: "obvhs".into(), denoiser: None };
+        let versions = Versions { trove: "0".into(), assets: vec!["a".into()], kernel: "obvhs".into(), denoiser: None };
         RunIdentity::new(json!({ "seed": seed }), versions)
     }
 
@@ -164,7 +159,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let mut out = OutputFolder::open(&dir.path().join("out"), &identity(1)).unwrap();
         assert_eq!(out.finished("s/v00/k000/ego.A", &["a"]).unwrap().map(|f| f.len()), None);
-        let folder = out.root().join("s/v00/k000/ego.A");
+        let folder = dir.path().join("out/s/v00/k000/ego.A");
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("a"), "abc").unwrap();
         let files = out.finished("s/v00/k000/ego.A", &["a"]).unwrap().unwrap();
