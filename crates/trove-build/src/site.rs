@@ -9,21 +9,22 @@ use trove_model::{
 };
 
 use crate::agreement::{OnDisagreement, agreed};
+use crate::assembly::Stock;
+use crate::assembly::Weather;
 use crate::assembly::{Actor, Assembly};
-use crate::clearance::Clearance;
 use crate::error::BuildError;
 use crate::furniture::furniture;
-use crate::kerbs::Kerbs;
 use crate::light::{LightChoice, light, switch_on};
-use crate::moments::{apart_s, next, previous};
+use crate::pieces::Scenery;
+use crate::place::Seeds;
+use crate::place::{Conditions, PLACE_DATASET};
+use crate::place::{apart_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
-use crate::scenery::Scenery;
-use crate::seeds::Seeds;
-use crate::stock::Stock;
+use crate::surroundings::Clearance;
+use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
 use crate::traffic::Traffic;
-use crate::vegetation::{Conditions, driven_path, undergrowth, vegetation};
-use crate::weather::Weather;
+use crate::vegetation::{driven_path, undergrowth, vegetation};
 use crate::{buildings, ground, roads, traffic};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
@@ -89,7 +90,7 @@ struct Added {
 /// A place without a recording ([`place_drive`](crate::place_drive)) is as wide as its views are spread.
 pub fn area(drive: &Drive) -> Option<Bounds> {
     let seen = drive.bounds(LIDAR_REACH_M)?.grown(MARGIN_M);
-    let least_m = if drive.dataset == crate::views::PLACE_DATASET { 0.0 } else { MIN_SIDE_M };
+    let least_m = if drive.dataset == PLACE_DATASET { 0.0 } else { MIN_SIDE_M };
     Some(Bounds::square(seen.centre(), seen.size_m().max_element().max(least_m)))
 }
 
@@ -111,7 +112,7 @@ pub fn build(
     let library = &library.in_season(conditions.season());
 
     // What lies and stands for good.
-    let ground = ground::height_field(drive, bounds, report);
+    let ground = ground::height_field(drive, roads::kerb_m(drive), bounds, report);
     let surfaces = roads::surfaces(drive, map, &ground, bounds, library, conditions, &seeds, report);
     let buildings = buildings::buildings(drive, map, &surfaces, &ground, bounds, library, &seeds, report);
 

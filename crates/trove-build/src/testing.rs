@@ -9,8 +9,8 @@ use trove_model::{
     Slot, StreetMap, Track,
 };
 
+use crate::place::Conditions;
 use crate::roads::{self, RoadSurfaces};
-use crate::vegetation::Conditions;
 
 /// A block that is its own bounding box, with three paints.
 pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {

@@ -8,7 +8,7 @@ use trove_model::{Bounds, Drive, Keyframe, Polygon, Road, StreetMap, drives_on_l
 
 use super::correction::Correction;
 use super::walls::{WallPiece, wall_pieces};
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
 
 /// Distance of places on a road, metres.
 const STEP_M: f64 = 4.0;

@@ -8,7 +8,7 @@ mod walls;
 use glam::DVec2;
 use trove_model::{Bounds, Drive, Outcome, Report, StreetMap};
 
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
 use evidence::{Evidence, Movable, Pulls};
 use fit::{Fit, fit, median_m};
 

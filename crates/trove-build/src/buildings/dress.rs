@@ -10,7 +10,7 @@ use trove_model::{
 use super::region::Region;
 use super::volumes::House;
 use super::walls::Grid;
-use crate::palette::{ANY, Palette};
+use crate::pieces::{ANY, Palette};
 
 /// From this height on a building is a tower.
 const TOWER_M: f64 = 45.0;

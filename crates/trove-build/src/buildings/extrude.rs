@@ -132,7 +132,7 @@ mod tests {
     /// A building 25 m beside a street with a car on it.
     fn built(footprint: Polygon, roof: RoofShape, bottom_m: f64, dress: &Dress) -> Mesh {
         let building = Building::new(1, Polygon::default(), None);
-        let footprint = crate::plane::union(&[footprint]).remove(0);
+        let footprint = crate::geometry::plane::union(&[footprint]).remove(0);
         let eaves_m = if roof == RoofShape::Flat { 18.0 } else { 14.0 };
         let volume = Volume { footprint, ..Volume::new(&building, bottom_m, eaves_m, 18.0, roof) };
         let house = House::alone(&building, vec![volume]);

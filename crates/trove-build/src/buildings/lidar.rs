@@ -10,10 +10,11 @@ use trove_model::{
 };
 
 use super::region::Region;
-use super::volumes::{Near, STOREY_M};
-use crate::clearance::recorded;
-use crate::plane::{difference, grown, strip, union};
+use super::volumes::STOREY_M;
+use crate::geometry::near::Near;
+use crate::geometry::plane::{difference, grown, strip, union};
 use crate::roads::{Footing, RoadSurfaces};
+use crate::surroundings::recorded;
 
 /// Ids of these buildings start here, far below those of any relation.
 pub(super) const FIRST_ID: i64 = i64::MIN / 2;

@@ -21,10 +21,10 @@ use trove_model::{
     StreetMap,
 };
 
-use crate::palette::Palette;
-use crate::piece::Piece;
+use crate::pieces::Palette;
+use crate::pieces::Piece;
+use crate::place::Seeds;
 use crate::roads::RoadSurfaces;
-use crate::seeds::Seeds;
 use facade::Sight;
 pub(crate) use region::Region;
 use volumes::House;

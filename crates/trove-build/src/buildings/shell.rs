@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Vec2};
 use trove_model::{Mesh, Polygon};
 
-use crate::plane;
+use crate::geometry::plane;
 
 /// Slots of every extruded building, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

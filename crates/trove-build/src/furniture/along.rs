@@ -4,8 +4,8 @@ use trove_model::{Kind, Random, Report, Road, RoadKind, Seed};
 
 use super::habits::words;
 use super::yard::{Source, Yard};
-use crate::kerbs::{KERB_STEP_M, KerbPoint};
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
+use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// A lamp on the other side is at least so far away as a share of the spacing.
 const ACROSS: f64 = 0.48;

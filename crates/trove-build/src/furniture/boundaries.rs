@@ -5,9 +5,9 @@ use trove_model::{Kind, Land, LandKind, LineKind, Outcome, Polygon, Report, Road
 
 use super::habits::words;
 use super::lines::{Layer, ROAD_REACH_M, Run};
-use crate::kerbs::{KERB_STEP_M, KerbPoint};
+use crate::geometry::segments::SegmentIndex;
 use crate::roads::Footing;
-use crate::segments::SegmentIndex;
+use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// A sidewalk is at least and at most this deep, kerb and all, metres; its end is looked for in such steps.
 const DEPTH_M: [f64; 2] = [0.8, 9.0];

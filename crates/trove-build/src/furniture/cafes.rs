@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Kind, Report, Seed};
 
 use super::yard::{Source, Wish, Yard};
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
 
 /// Share of the mapped shops that put tables out, and whose tables have parasols.
 const SHARE: f64 = 0.35;

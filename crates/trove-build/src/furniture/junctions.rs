@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{FurnitureKind, Outcome, Report, Road, RoadKind};
 
-use crate::kerbs::KerbPoint;
+use crate::surroundings::KerbPoint;
 use crate::surroundings::Surroundings;
 
 /// Meeting points nearer than this to each other are one junction, metres.

@@ -11,11 +11,11 @@ use trove_model::{
 
 use super::boundaries;
 use super::yard::Yard;
-use crate::clearance::Room;
-use crate::kerbs::{KERB_STEP_M, KerbPoint};
-use crate::piece::Piece;
-use crate::plane_raster::bucket;
-use crate::segments::SegmentIndex;
+use crate::geometry::plane_raster::bucket;
+use crate::geometry::segments::SegmentIndex;
+use crate::pieces::Piece;
+use crate::surroundings::Room;
+use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// One object is at most this long, metres.
 const OBJECT_M: f64 = 40.0;

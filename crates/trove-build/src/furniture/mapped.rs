@@ -6,8 +6,8 @@ use trove_model::{Furniture, FurnitureKind, Kind, LampMount, MappedSign, Outcome
 use super::habits::words;
 use super::junctions::kerb_side;
 use super::yard::{Source, Wish, Yard, facing};
-use crate::kerbs::KerbPoint;
 use crate::roads::Footing;
+use crate::surroundings::KerbPoint;
 
 /// Things drawn on the road are moved to a kerb within this, metres.
 const KERB_REACH_M: f64 = 15.0;

@@ -18,9 +18,9 @@ mod yard;
 
 use trove_model::{AssetLibrary, Report, Seed};
 
-use crate::clearance::Clearance;
-use crate::piece::Piece;
-use crate::scenery::Scenery;
+use crate::pieces::Piece;
+use crate::pieces::Scenery;
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use yard::Yard;
 

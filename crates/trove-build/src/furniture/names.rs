@@ -9,8 +9,8 @@ use trove_model::{Asset, ColorSpace, Kind, Lettering, Material, Outcome, Report,
 use super::habits::Signs;
 use super::junctions::Junction;
 use super::yard::{Source, Wish, Yard};
-use crate::piece::Piece;
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
+use crate::pieces::Piece;
 
 const TAGS: &[&str] = &["sign", "street-name"];
 /// Further from the driven path than this no one reads a name, metres.

@@ -8,8 +8,8 @@ use trove_model::{CrossingMarking, FurnitureKind, Kind, Parking, Random, Report,
 use super::habits::Signs;
 use super::junctions::{Arm, Junction, KerbSearch, kerb_side};
 use super::yard::{Source, Wish, Yard};
-use crate::kerbs::{KERB_STEP_M, KerbPoint};
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
+use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// A pole behind the kerb, metres.
 const OFF_KERB_M: f64 = 0.6;

@@ -9,11 +9,11 @@ use trove_model::{
 };
 
 use super::furniture;
-use crate::clearance::Clearance;
-use crate::kerbs::Kerbs;
-use crate::piece::Piece;
+use crate::pieces::Piece;
 use crate::placement::Stand;
 use crate::roads::{self, Footing};
+use crate::surroundings::Clearance;
+use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
 use crate::testing;
 

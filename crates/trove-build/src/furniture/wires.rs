@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec2, DVec3, Vec3};
 use trove_model::{Asset, Class, FurnitureKind, Kind, LineKind, Material, Mesh, Outcome, Report, Road, RoadKind, Seed};
 
 use super::yard::{Source, Wish, Yard};
-use crate::kerbs::KERB_STEP_M;
-use crate::piece::Piece;
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
+use crate::pieces::Piece;
+use crate::surroundings::KERB_STEP_M;
 
 /// Poles by rule are this far apart, metres.
 const SPACING_M: f64 = 36.0;

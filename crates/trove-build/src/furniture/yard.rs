@@ -6,12 +6,12 @@ use glam::{DVec2, DVec3};
 use trove_model::{Asset, AssetLibrary, Kind, Outcome, Report, RoadKind, Seed};
 
 use super::habits::Habits;
-use crate::clearance::{Clearance, Room};
-use crate::kerbs::KerbPoint;
-use crate::plane_raster::bucket;
-use crate::scenery::Scenery;
-use crate::segments::SegmentIndex;
+use crate::geometry::plane_raster::bucket;
+use crate::geometry::segments::SegmentIndex;
+use crate::pieces::Scenery;
+use crate::surroundings::KerbPoint;
 use crate::surroundings::Surroundings;
+use crate::surroundings::{Clearance, Room};
 
 /// Poles stand at least this far behind the kerb, metres, and wider things with this much before them.
 const OFF_KERB_M: f64 = 0.55;

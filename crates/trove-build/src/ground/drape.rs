@@ -9,8 +9,8 @@ use trove_model::{Bounds, HeightField, Mesh, Polygon};
 
 use super::blocks::{Blocks, middle};
 use super::ramps::{PARTS, Ramps};
-use super::rings::{self, Line, Ring};
-use crate::plane;
+use crate::geometry::plane;
+use crate::geometry::rings::{self, Line, Ring};
 
 /// Below this a triangle is rounding, m².
 const SLIVER_M2: f64 = 1e-7;

@@ -5,8 +5,6 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Drive, LidarClass, LidarSweep, ObjectBox};
 
-use crate::roads::kerb_m;
-
 /// Weight of the driven path against one box: the vehicle certainly stood on the ground.
 const PATH_WEIGHT: f64 = 4.0;
 /// At this range a box's weight is half: datasets with plane ego poses (nuScenes) carry the vehicle's pitch, so
@@ -27,28 +25,28 @@ pub(super) struct Observation {
     pub weight: f64,
 }
 
-/// Everything known, standing objects once.
-pub(super) fn observations(drive: &Drive) -> Vec<Observation> {
+/// Everything known, standing objects once; `kerb_m` is the height of the place's kerbs.
+pub(super) fn observations(drive: &Drive, kerb_m: f64) -> Vec<Observation> {
     let path = drive.keyframes.iter().map(|k| {
         let at = k.world_from_ego.translation;
         Observation { position: at.truncate(), height_m: at.z, weight: PATH_WEIGHT }
     });
     let sweeps = drive.keyframes.iter().filter_map(|k| k.lidar.as_ref()).flat_map(lidar_ground);
-    path.chain(standing_once(drive))
+    path.chain(standing_once(drive, kerb_m))
         .chain(sweeps)
         .filter(|o| o.position.is_finite() && o.height_m.is_finite())
         .collect()
 }
 
 /// The bottom of every annotated box, brought to the carriageway's level.
-pub(super) fn box_bottoms(drive: &Drive) -> impl Iterator<Item = Observation> + '_ {
+pub(super) fn box_bottoms(drive: &Drive, kerb_m: f64) -> impl Iterator<Item = Observation> + '_ {
     drive.keyframes.iter().flat_map(move |k| {
         let ego = k.world_from_ego.translation.truncate();
-        k.boxes.iter().map(move |b| box_bottom(drive, b, ego))
+        k.boxes.iter().map(move |b| box_bottom(drive, kerb_m, b, ego))
     })
 }
 
-fn box_bottom(drive: &Drive, object: &ObjectBox, ego: DVec2) -> Observation {
+fn box_bottom(drive: &Drive, kerb_m: f64, object: &ObjectBox, ego: DVec2) -> Observation {
     let down = glam::DVec3::new(0.0, 0.0, -object.cuboid.size_m.z / 2.0);
     let bottom = object.cuboid.world_from_body.point(down);
     let position = bottom.truncate();
@@ -56,17 +54,17 @@ fn box_bottom(drive: &Drive, object: &ObjectBox, ego: DVec2) -> Observation {
         m.walkways.iter().any(|p| p.contains(position)) && !m.drivable.iter().any(|p| p.contains(position))
     });
     let range = position.distance(ego) / HALF_WEIGHT_RANGE_M;
-    let height_m = bottom.z - if raised { kerb_m(drive) } else { 0.0 };
+    let height_m = bottom.z - if raised { kerb_m } else { 0.0 };
     Observation { position, height_m, weight: 1.0 / (1.0 + range * range) }
 }
 
 /// Box bottoms, those of one standing object averaged.
-fn standing_once(drive: &Drive) -> Vec<Observation> {
+fn standing_once(drive: &Drive, kerb_m: f64) -> Vec<Observation> {
     let mut by_track: BTreeMap<usize, Vec<Vec<Observation>>> = BTreeMap::new();
     for keyframe in &drive.keyframes {
         let ego = keyframe.world_from_ego.translation.truncate();
         for object in &keyframe.boxes {
-            let bottom = box_bottom(drive, object, ego);
+            let bottom = box_bottom(drive, kerb_m, object, ego);
             let groups = by_track.entry(object.track).or_default();
             match groups.last_mut() {
                 Some(group) if group[0].position.distance(bottom.position) < STANDING_M => group.push(bottom),

@@ -82,7 +82,7 @@ impl Ramps {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
     use trove_model::Bounds;
 
     #[test]

@@ -4,7 +4,7 @@ use glam::{Vec3, vec3};
 use trove_model::{Environment, Light, Material};
 
 use crate::assembly::Actor;
-use crate::stock::Stock;
+use crate::assembly::Stock;
 
 /// Lamps go on when the sun is this high, sine: street lamps do a quarter of an hour before sunset.
 const LAMPS_ON_BELOW: f64 = 0.04;

@@ -10,7 +10,7 @@ use super::fit::Fit;
 use super::gait::{Gait, Mode};
 use super::rows::rows;
 use super::stand::{Placement, Stand};
-use crate::seeds::Seeds;
+use crate::place::Seeds;
 
 /// A living thing annotated higher than this above the ground stands on something, metres.
 const PLATFORM_M: f64 = 0.6;

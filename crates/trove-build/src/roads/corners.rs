@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use trove_model::{Bounds, Polygon, Road, RoadKind};
 
 use super::network::Stretch;
-use crate::plane::{closed, difference, disc, intersection, rectangle, union};
+use crate::geometry::plane::{closed, difference, disc, intersection, rectangle, union};
 
 /// Vertices nearer than this are one, metres; ways that meet share a node.
 const SAME_M: f64 = 0.01;
@@ -94,7 +94,7 @@ pub(super) fn corners(nodes: &[Node], strips: &[Polygon]) -> Vec<Polygon> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane::strip;
+    use crate::geometry::plane::strip;
     use crate::roads::course::cross_section;
 
     fn stretch<'a>(road: &'a Road) -> Stretch<'a> {

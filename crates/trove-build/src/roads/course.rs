@@ -6,7 +6,7 @@ use trove_model::{Cycleway, Drive, Parking, ParkingOrientation, Polygon, Road, R
 use super::corners::Node;
 use super::layout::shifted;
 use super::network::Stretch;
-use crate::plane::strip;
+use crate::geometry::plane::strip;
 
 /// Between the outermost lane and the kerb, metres.
 pub(super) const GUTTER_M: f64 = 0.25;

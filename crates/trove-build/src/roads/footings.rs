@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DVec2, IVec2};
 use trove_model::{Bounds, Polygon};
 
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane_raster::PlaneRaster;
 
 const CELL_M: f64 = 0.5;
 /// The bit of cells that edges pass.
@@ -92,7 +92,7 @@ fn cells_along(a: DVec2, b: DVec2) -> Vec<IVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
     use trove_model::Seed;
 
     #[test]

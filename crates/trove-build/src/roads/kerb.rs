@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
 
 use super::network::Stretch;
-use crate::plane::strip;
+use crate::geometry::plane::strip;
 
 /// Width of a kerb stone.
 pub(super) const STONE_M: f64 = 0.15;

@@ -2,7 +2,7 @@
 
 use trove_model::{Bounds, LandKind, Polygon, StreetMap, SurfaceKind};
 
-use crate::plane::{difference, grown, intersection, union};
+use crate::geometry::plane::{difference, grown, intersection, union};
 
 /// Ground this near to a building is paved where the map says nothing.
 const YARD_M: f64 = 14.0;

@@ -12,9 +12,9 @@ use super::decks::{self, Deck, Trench};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
-use crate::distance_field::DistanceField;
-use crate::plane::{closed, difference, grown, intersection, rectangle, strip, union};
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::distance_field::DistanceField;
+use crate::geometry::plane::{closed, difference, grown, intersection, rectangle, strip, union};
+use crate::geometry::plane_raster::PlaneRaster;
 
 /// Width of a sidewalk that the map does not draw.
 const SIDEWALK_M: f64 = 2.5;

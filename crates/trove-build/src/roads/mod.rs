@@ -30,12 +30,12 @@ pub(crate) use path::Path;
 
 use footings::Footings;
 
-use crate::ground::{Drape, Ramps};
-use crate::palette::Palette;
-use crate::piece::Piece;
-use crate::plane;
-use crate::seeds::Seeds;
-use crate::vegetation::{Conditions, Lawn};
+use crate::geometry::plane;
+use crate::ground::{Drape, Lawn, Ramps};
+use crate::pieces::Palette;
+use crate::pieces::Piece;
+use crate::place::Conditions;
+use crate::place::Seeds;
 
 /// The lowest of kerbs: what stands on the ground beside the road begins here, metres.
 pub(crate) const KERB_M: f64 = 0.12;

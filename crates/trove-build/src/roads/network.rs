@@ -6,7 +6,7 @@ use glam::DVec2;
 use trove_model::{Outcome, Report, Road};
 
 use super::course::{CrossSection, cross_section};
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane_raster::PlaneRaster;
 
 /// Roads are looked at every so many metres.
 const STEP_M: f64 = 2.0;
@@ -141,7 +141,7 @@ fn beyond(points: &[DVec2], meets: [bool; 2], recorded: &PlaneRaster) -> Vec<Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
     use trove_model::{Bounds, RoadKind};
 
     fn road(points: &[(f64, f64)]) -> Road {

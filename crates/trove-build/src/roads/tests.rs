@@ -7,9 +7,9 @@ use trove_model::{
 
 use super::layout::layout;
 use super::{Footing, RoadSurfaces, land, surfaces};
+use crate::geometry::plane;
 use crate::ground::Drape;
-use crate::piece::Piece;
-use crate::plane;
+use crate::pieces::Piece;
 use crate::testing::{conditions, drive};
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.

@@ -13,8 +13,8 @@ use std::ops::Range;
 use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
 
 use crate::assembly::Assembly;
-use crate::clearance::Clearance;
-use crate::moments::{next, previous};
+use crate::place::{next, previous};
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use motion::Motion;
 use room::Room;

@@ -10,11 +10,11 @@ use trove_model::{Body, Cuboid, Drive, Instance, Kind, Mesh, Pose, World};
 use super::FEWEST_KEYFRAMES;
 use super::motion::{Motion, On};
 use crate::assembly::Assembly;
-use crate::clearance::Clearance;
-use crate::moments::next;
+use crate::geometry::plane_raster::bucket;
+use crate::place::next;
 use crate::placement::ego_cuboid;
-use crate::plane_raster::bucket;
 use crate::roads::{Footing, RoadSurfaces};
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
 /// Side of a bucket of what stands still, metres.

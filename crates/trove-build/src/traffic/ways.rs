@@ -7,9 +7,9 @@ use trove_model::{Kind, ParkingOrientation, Polygon, Random, RoadKind};
 
 use super::motion::{Motion, On, Place};
 use super::shares::{Doing, Shares};
-use crate::kerbs::KerbPoint;
+use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Lane, LaneUse, Path};
-use crate::segments::SegmentIndex;
+use crate::surroundings::KerbPoint;
 use crate::surroundings::Surroundings;
 
 /// People, and vehicles, are put so near to the recording vehicle, metres; behind it half as near.

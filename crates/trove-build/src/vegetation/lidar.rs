@@ -11,7 +11,7 @@ use trove_model::{Cuboid, Keyframe, Kind, LidarClass, LidarSweep, Seed};
 
 use super::columns::Columns;
 use super::{Wish, species_group};
-use crate::clearance::Clearance;
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
 /// Points further from the sensor are too few to tell, metres.
@@ -233,8 +233,8 @@ fn eigenvalues(diagonal: DVec3, off: DVec3) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kerbs::Kerbs;
     use crate::placement::Stand;
+    use crate::surroundings::Kerbs;
     use crate::testing;
     use trove_model::HeightField;
 

@@ -1,14 +1,11 @@
 //! Trees and bushes: where the LiDAR saw them, and beyond its reach where the map and the streets have them.
 
 mod blue_noise;
-mod climate;
 mod columns;
 mod crowns;
 mod hedges;
-mod lawn;
 mod lidar;
 mod map;
-mod noise;
 mod open_land;
 mod species;
 mod streets;
@@ -20,15 +17,13 @@ mod walls;
 use glam::DVec2;
 use trove_model::{AssetLibrary, Climate, Kind, MappedPlant, Outcome, PlantForm, Report, Seed};
 
-use crate::clearance::{Clearance, Room};
-use crate::plane_raster::PlaneRaster;
-use crate::scenery::Scenery;
+use crate::geometry::plane_raster::PlaneRaster;
+use crate::pieces::Scenery;
 use crate::surroundings::Surroundings;
+use crate::surroundings::{Clearance, Room};
 use blue_noise::BlueNoise;
 use species::{Space, Species};
 
-pub(crate) use climate::Conditions;
-pub(crate) use lawn::Lawn;
 pub(crate) use undergrowth::{driven_path, undergrowth};
 
 /// Side of the squares in which plants are of one species, metres.

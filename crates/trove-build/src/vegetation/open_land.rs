@@ -4,10 +4,10 @@ use glam::DVec2;
 use trove_model::{Kind, Polygon, Seed};
 
 use super::blue_noise::BlueNoise;
-use super::noise::noise;
 use super::{Wish, species_group};
-use crate::clearance::Clearance;
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane_raster::PlaneRaster;
+use crate::ground::noise;
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
 /// Places for plants are at least this far apart, metres.

@@ -5,7 +5,7 @@ use trove_model::{Asset, AssetLibrary, Climate, Kind, LeafType, MappedPlant, Pla
 
 use super::crowns::Crown;
 use super::{Form, Wish};
-use crate::scenery::Scenery;
+use crate::pieces::Scenery;
 
 /// A model is scaled at most by this, and at least by one over it.
 const MAX_SCALE: f64 = 1.6;

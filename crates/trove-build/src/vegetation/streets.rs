@@ -5,9 +5,9 @@ use trove_model::{Kind, Seed};
 
 use super::Wish;
 use super::hedges::{bed, hedge};
-use crate::clearance::Clearance;
-use crate::kerbs::{KERB_STEP_M, KerbPoint};
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
+use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// Streets are planted by such stretches, metres: beyond, another street's habits begin.
 const STRETCH_M: f64 = 120.0;

@@ -9,12 +9,12 @@ use trove_model::{
 };
 
 use super::{undergrowth, vegetation};
-use crate::clearance::Clearance;
-use crate::kerbs::Kerbs;
-use crate::piece::Piece;
+use crate::geometry::plane;
+use crate::pieces::Piece;
 use crate::placement::Stand;
-use crate::plane;
 use crate::roads::Footing;
+use crate::surroundings::Clearance;
+use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
 use crate::testing;
 
@@ -62,7 +62,7 @@ fn map() -> (StreetMap, Polygon) {
 }
 
 /// Calls with everything that grows on ground which rises eastwards by 6 %.
-fn on_a_slope(check: impl FnOnce(&Surroundings, &[crate::scenery::Scenery], &[Piece], &Polygon)) {
+fn on_a_slope(check: impl FnOnce(&Surroundings, &[crate::pieces::Scenery], &[Piece], &Polygon)) {
     let (drive, library, report) = (testing::drive(), library(), Report::default());
     let (map, house) = map();
     let bounds = crate::area(&drive).unwrap();

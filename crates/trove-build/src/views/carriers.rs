@@ -4,8 +4,8 @@ use glam::DVec3;
 use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, World};
 
 use super::{ViewSettings, shot_seed};
-use crate::moments::{next, previous};
-use crate::seeds::Seeds;
+use crate::place::Seeds;
+use crate::place::{next, previous};
 use crate::site::{Site, track_id};
 
 /// Cameras keep this far from everything but their carrier, metres.

@@ -1,7 +1,6 @@
 //! Where the pictures are taken from.
 
 mod carriers;
-mod place;
 
 use std::collections::BTreeMap;
 
@@ -10,14 +9,9 @@ use trove_model::{
     Camera, Distortion, Drive, Ego, Exposure, Film, Lens, Outcome, Pose, Report, Seed, Shot, Shutter, World,
 };
 
-pub use place::place_drive;
-
-use crate::moments::{next, previous};
-use crate::seeds::Seeds;
+use crate::place::Seeds;
+use crate::place::{next, previous};
 use crate::site::Site;
-
-/// The dataset's name of a drive that was made up from a map.
-pub(crate) const PLACE_DATASET: &str = "place";
 
 /// Which pictures are taken of a keyframe.
 #[derive(Clone, Debug, Default)]

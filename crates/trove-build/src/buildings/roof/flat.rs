@@ -4,8 +4,8 @@ use glam::DVec2;
 use trove_model::{Polygon, Random};
 
 use crate::buildings::shell::{Shell, Slot};
-use crate::ground::polygons_of_rings;
-use crate::plane::grown;
+use crate::geometry::plane::grown;
+use crate::geometry::rings;
 
 /// Thickness of a parapet.
 const PARAPET_THICK_M: f64 = 0.3;
@@ -30,7 +30,7 @@ pub(super) fn flat(
     }
     // The coping: the footprint less the deck, ring by ring so that walls and coping share their vertices.
     let reversed = inner.iter().flat_map(Polygon::rings).map(|r| r.iter().rev().copied().collect());
-    let coping = polygons_of_rings(footprint.rings().cloned().chain(reversed).collect());
+    let coping = rings::polygons(footprint.rings().cloned().chain(reversed).collect());
     shell.cover(Slot::Trim, &coping, |_| top, true);
     let reversed = inner.iter().flat_map(Polygon::edges).map(|(a, b)| (b, a));
     for (a, b) in footprint.edges().chain(reversed) {

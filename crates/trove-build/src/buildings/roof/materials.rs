@@ -5,7 +5,7 @@ use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofSh
 
 use crate::buildings::dress::tinted;
 use crate::buildings::region::Region;
-use crate::palette::Palette;
+use crate::pieces::Palette;
 
 /// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
 /// [`super::super::shell::Slot`]; `facade` are the tags of the facade's surface, whose wall

@@ -8,7 +8,7 @@ use crate::buildings::rectangle::base;
 use crate::buildings::region::Region;
 use crate::buildings::shell::{Shell, Slot};
 use crate::buildings::volumes::{House, Volume};
-use crate::plane::grown;
+use crate::geometry::plane::grown;
 
 /// Smaller decks carry nothing, m².
 const LEAST_M2: f64 = 30.0;

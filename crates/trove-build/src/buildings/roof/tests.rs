@@ -78,7 +78,7 @@ fn body(footprint: &Polygon, shape: RoofShape, path_m: f64) -> (Mesh, usize) {
 #[test]
 fn every_roof_closes_every_outline_and_looks_outwards() {
     for (name, footprint) in footprints() {
-        let footprint = crate::plane::union(&[footprint]).remove(0);
+        let footprint = crate::geometry::plane::union(&[footprint]).remove(0);
         let area_m2 = footprint.area_m2();
         for shape in SHAPES {
             let (mesh, _) = body(&footprint, shape, 400.0);
@@ -97,7 +97,7 @@ fn every_roof_closes_every_outline_and_looks_outwards() {
 #[test]
 fn what_is_put_on_a_roof_is_closed_too_and_only_near_the_path() {
     for (name, footprint) in footprints() {
-        let footprint = crate::plane::union(&[footprint]).remove(0);
+        let footprint = crate::geometry::plane::union(&[footprint]).remove(0);
         for shape in SHAPES {
             let (mesh, near) = body(&footprint, shape, 0.0);
             let open = open_edges_and_volume(&mesh).0.len();

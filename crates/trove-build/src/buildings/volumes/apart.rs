@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use trove_model::{Bounds, Outcome, Polygon, Report, RoofShape};
 
-use super::near::Near;
 use super::{House, LEAST_M2, Volume, name};
-use crate::plane::{difference, intersection};
+use crate::geometry::near::Near;
+use crate::geometry::plane::{difference, intersection};
 
 /// Overlaps that reach no deeper are left: walls that touch are told apart later, metres.
 const DEEP_M: f64 = 0.05;

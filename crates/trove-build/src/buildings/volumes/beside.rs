@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use trove_model::{Bounds, Polygon};
 
 use super::House;
-use super::near::Near;
+use crate::geometry::near::Near;
 
 /// Walls of two volumes that run along each other are at least this far apart, metres.
 const APART_M: f64 = 0.01;

@@ -3,7 +3,6 @@
 mod apart;
 mod beside;
 mod heights;
-mod near;
 #[cfg(test)]
 mod tests;
 
@@ -11,13 +10,13 @@ use rayon::prelude::*;
 use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
 
 use super::region::Region;
-use crate::clearance::recorded;
-use crate::plane::{difference, grown, intersection, union};
+use crate::geometry::near::Near;
+use crate::geometry::plane::{difference, grown, intersection, union};
+use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Footing, KERB_M, RoadSurfaces};
-use crate::segments::SegmentIndex;
+use crate::surroundings::recorded;
 pub(super) use beside::Beside;
 use heights::{Neighbourhood, heights};
-pub(super) use near::Near;
 
 /// Height of a storey that is not measured.
 pub(super) const STOREY_M: f64 = 3.2;

@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Bounds, LineKind, Road, StreetMap};
 
 use super::key;
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
 
 /// A road nearer than this to the middle of one below runs above it, metres.
 const ABOVE_M: f64 = 3.0;

@@ -16,8 +16,8 @@ use trove_model::{Bounds, Outcome, Polygon, Report, Road, StreetMap};
 use self::crossings::Crossings;
 use self::heights::Attempt;
 use super::network::{RECORDED, resampled};
-use crate::plane::strip;
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane::strip;
+use crate::geometry::plane_raster::PlaneRaster;
 
 pub(super) use self::sweep::meshes;
 pub(super) use self::trenches::Trench;

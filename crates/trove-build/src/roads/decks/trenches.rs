@@ -6,9 +6,9 @@ use glam::DVec2;
 use trove_model::{Outcome, Polygon, Report, Road, StreetMap};
 
 use super::{Deck, EDGE_M, Key, deck, key, split};
-use crate::plane::strip;
-use crate::plane_raster::PlaneRaster;
-use crate::segments::SegmentIndex;
+use crate::geometry::plane::strip;
+use crate::geometry::plane_raster::PlaneRaster;
+use crate::geometry::segments::SegmentIndex;
 
 /// How deep the road lies at the portal, and how steep it goes there.
 const DEPTH_M: f64 = 5.2;

@@ -6,7 +6,7 @@ use trove_model::{FurnitureKind, Outcome, Polygon, Report, RoadKind, Seed, Stree
 use super::crossings::Crossing;
 use super::legs::{Junction, Leg};
 use super::symbols::{arrow, laid, triangles, word};
-use crate::plane::{intersection, rectangle, strip};
+use crate::geometry::plane::{intersection, rectangle, strip};
 use crate::roads::course::Use;
 use crate::roads::customs::{Customs, Dash, GiveWay, Minor};
 
@@ -211,7 +211,7 @@ pub(super) fn box_junction(junction: &Junction) -> Vec<Polygon> {
             ));
         }
     }
-    let hatched = intersection(&crate::plane::union(&lines), &[square]);
+    let hatched = intersection(&crate::geometry::plane::union(&lines), &[square]);
     laid(&hatched, junction.position, axis)
 }
 

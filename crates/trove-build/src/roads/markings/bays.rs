@@ -4,7 +4,7 @@ use trove_model::{ParkingOrientation, Polygon, Seed};
 
 use super::legs::Leg;
 use super::symbols::{bicycle, laid};
-use crate::plane::strip;
+use crate::geometry::plane::strip;
 use crate::roads::course::{Band, Course, Use};
 use crate::roads::path::Path;
 

@@ -6,7 +6,7 @@ use glam::DVec2;
 use trove_model::{Bounds, CrossingMarking, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
 
 use super::lines::dashes;
-use crate::plane::{difference, grown, intersection, strip, union};
+use crate::geometry::plane::{difference, grown, intersection, strip, union};
 use crate::roads::customs::{CrossingStyle, Customs, Dash};
 
 /// Width of a crossing that the map draws as a line.
@@ -190,7 +190,7 @@ pub(in crate::roads) fn long_axis(polygon: &Polygon) -> Option<(DVec2, DVec2, DV
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
 
     fn crossing(style: CrossingStyle) -> Crossing {
         let outline = plane::rectangle(Bounds { min: DVec2::ZERO, max: DVec2::new(11.0, 3.0) });

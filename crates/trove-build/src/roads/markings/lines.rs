@@ -4,8 +4,8 @@ use glam::DVec2;
 use trove_model::{Polygon, RoadKind};
 
 use super::legs::Leg;
-use crate::plane::strip;
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane::strip;
+use crate::geometry::plane_raster::PlaneRaster;
 use crate::roads::course::{Band, Use};
 use crate::roads::customs::{Customs, Dash, Paint, Pattern};
 use crate::roads::layout::shifted;
@@ -117,7 +117,7 @@ pub(super) fn along_kerbs(
     from_kerb_m: &[f64],
     width_m: f64,
 ) -> Vec<Polygon> {
-    use crate::plane::{difference, grown, intersection};
+    use crate::geometry::plane::{difference, grown, intersection};
     let ring = |from_m: &f64| {
         let band = difference(&grown(carriageway, -from_m), &grown(carriageway, -from_m - width_m));
         intersection(&band, where_to)

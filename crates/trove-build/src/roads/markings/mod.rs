@@ -27,8 +27,8 @@ use super::course::Use;
 use super::customs::{Customs, KerbLines, Paint, Pattern};
 use super::layout::Layout;
 use super::network::RECORDED;
-use crate::plane::{difference, grown, intersection, strip, union};
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane::{difference, grown, intersection, strip, union};
+use crate::geometry::plane_raster::PlaneRaster;
 
 pub(super) use self::crossings::long_axis;
 

@@ -6,7 +6,7 @@ use trove_model::{Drive, Lane, Polygon, Turns};
 use super::approaches::{Control, shared_out};
 use super::crossings::Crossing;
 use super::symbols::{arrow, laid};
-use crate::plane::{intersection, strip};
+use crate::geometry::plane::{intersection, strip};
 use crate::roads::customs::Customs;
 use crate::roads::path::Path;
 

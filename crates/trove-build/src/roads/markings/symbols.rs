@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Polygon, Turns};
 
-use crate::plane::{strip, union};
+use crate::geometry::plane::{strip, union};
 
 /// Half of the width of an arrow's shaft.
 const SHAFT_M: f64 = 0.09;

@@ -37,7 +37,7 @@ fn junction() -> StreetMap {
 fn painted((lat_deg, lon_deg): (f64, f64), map: &StreetMap) -> (Markings, Vec<Polygon>) {
     let drive = drive(lat_deg, lon_deg);
     let layout = layout(&drive, Some(map), bounds(), &Report::default());
-    let near = [crate::plane::rectangle(bounds())];
+    let near = [crate::geometry::plane::rectangle(bounds())];
     let found = markings(&drive, Some(map), &layout, &near, customs(&drive.projection), Seed(3), &Report::default());
     (found, layout.carriageway.clone())
 }
@@ -52,7 +52,8 @@ fn all(markings: &Markings) -> Vec<Polygon> {
 
 /// Pieces of white paint within a rectangle.
 fn within(markings: &Markings, low: [f64; 2], high: [f64; 2]) -> Vec<Polygon> {
-    let window = crate::plane::rectangle(Bounds { min: DVec2::from_array(low), max: DVec2::from_array(high) });
+    let window =
+        crate::geometry::plane::rectangle(Bounds { min: DVec2::from_array(low), max: DVec2::from_array(high) });
     intersection(&markings.paints[&Paint::White], &[window])
 }
 
@@ -72,7 +73,10 @@ fn nothing_is_painted_beside_the_carriageway_or_twice() {
 fn directions_are_parted_by_yellow_in_boston_and_by_white_in_singapore() {
     let yellow = |place| {
         painted(place, &junction()).0.paints.get(&Paint::Yellow).map_or(0.0, |y| {
-            let middle = crate::plane::rectangle(Bounds { min: DVec2::new(-120.0, -1.0), max: DVec2::new(-40.0, 1.0) });
+            let middle = crate::geometry::plane::rectangle(Bounds {
+                min: DVec2::new(-120.0, -1.0),
+                max: DVec2::new(-40.0, 1.0),
+            });
             area_m2(&intersection(y, &[middle]))
         })
     };

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, Vec3};
 use trove_model::{Mesh, Polygon};
 
-use crate::segments::SegmentIndex;
+use crate::geometry::segments::SegmentIndex;
 
 /// Paving further from a road than this lies as the compass does, metres.
 const REACH_M: f64 = 25.0;
@@ -107,7 +107,8 @@ mod tests {
 
     #[test]
     fn a_kerbs_top_goes_on_where_its_face_is() {
-        let area = [crate::plane::rectangle(trove_model::Bounds { min: DVec2::ZERO, max: DVec2::new(10.0, 20.0) })];
+        let area =
+            [crate::geometry::plane::rectangle(trove_model::Bounds { min: DVec2::ZERO, max: DVec2::new(10.0, 20.0) })];
         let corners = [DVec2::new(10.0, 4.0), DVec2::new(10.15, 4.0), DVec2::new(10.0, 6.0)];
         let mut mesh = Mesh {
             positions: corners.map(|p| p.extend(0.12).as_vec3()).to_vec(),

@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Polygon, Random};
 
 use super::stretches::{Look, Region};
-use crate::plane::{difference, grown, intersection, strip, union};
+use crate::geometry::plane::{difference, grown, intersection, strip, union};
 use crate::roads::path::Path;
 
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
@@ -203,7 +203,7 @@ fn skid(region: &Region, random: &mut Random) -> Vec<Vec<Polygon>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
     use trove_model::Seed;
 
     fn region(seed: u64) -> Region {

@@ -4,8 +4,8 @@ use glam::{DVec2, Vec2};
 use trove_model::{FurnitureKind, Mesh, Polygon, Random, StreetMap};
 
 use super::stretches::Region;
+use crate::geometry::plane::rectangle;
 use crate::ground::Drape;
-use crate::plane::rectangle;
 use crate::roads::path::Path;
 
 /// Metres of road for one cover, and of kerb for one grating.

@@ -24,11 +24,11 @@ use super::customs::{Customs, Paint};
 use super::layout::Layout;
 use super::markings::Markings;
 use super::stuff;
+use crate::geometry::plane::{difference, grown, intersection, rectangle, strip};
+use crate::geometry::segments::SegmentIndex;
 use crate::ground::Drape;
-use crate::palette::Palette;
-use crate::piece::Piece;
-use crate::plane::{difference, grown, intersection, rectangle, strip};
-use crate::segments::SegmentIndex;
+use crate::pieces::Palette;
+use crate::pieces::Piece;
 
 /// Up to this distance from the driven path the road is more than one surface.
 const NEAR_M: f64 = 90.0;

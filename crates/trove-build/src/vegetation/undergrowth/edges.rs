@@ -4,9 +4,9 @@ use glam::DVec2;
 use trove_model::{Class, CoverKind, LineKind, Random};
 
 use super::{Lay, Sower};
-use crate::piece::Piece;
+use crate::ground::noise;
+use crate::pieces::Piece;
 use crate::roads::Footing;
-use crate::vegetation::noise::noise;
 
 /// Weeds are sought this far from the driven path, metres.
 const WEEDS_M: f64 = 24.0;

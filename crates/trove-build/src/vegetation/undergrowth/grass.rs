@@ -4,8 +4,8 @@ use glam::DVec2;
 use trove_model::{Class, CoverKind, GroundCover, Random};
 
 use super::{Lay, REACH_M, Sower};
-use crate::piece::Piece;
-use crate::vegetation::noise::noise;
+use crate::ground::noise;
+use crate::pieces::Piece;
 
 /// Blades are seen one by one up to the first distance from the driven path, some of them up to the second, metres.
 const NEAR_M: f64 = 9.0;

@@ -6,9 +6,9 @@ use glam::DVec2;
 use trove_model::{Bounds, CoverKind, GroundCover, Kind, LeafType, Random};
 
 use super::{Lay, Sower, class_of};
-use crate::piece::Piece;
+use crate::pieces::Piece;
+use crate::pieces::Scenery;
 use crate::roads::Footing;
-use crate::scenery::Scenery;
 
 /// Leaves are seen this far from the driven path, metres.
 const LEAVES_M: f64 = 24.0;

@@ -15,14 +15,14 @@ use trove_model::{
 };
 
 use super::blue_noise::BlueNoise;
-use super::climate::Conditions;
-use super::lawn::Lawn;
-use crate::clearance::Clearance;
-use crate::distance_field::DistanceField;
-use crate::piece::Piece;
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::distance_field::DistanceField;
+use crate::geometry::plane_raster::PlaneRaster;
+use crate::ground::Lawn;
+use crate::pieces::Piece;
+use crate::pieces::Scenery;
+use crate::place::Conditions;
 use crate::roads::Footing;
-use crate::scenery::Scenery;
+use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
 /// Nothing is laid farther from the driven path than this, metres.
@@ -87,7 +87,7 @@ pub(crate) fn driven_path(drive: &Drive) -> Vec<DVec2> {
 }
 
 fn square(middle: DVec2, side_m: f64) -> Polygon {
-    crate::plane::rectangle(Bounds::square(middle, side_m))
+    crate::geometry::plane::rectangle(Bounds::square(middle, side_m))
 }
 
 /// What undergrowth is laid by.

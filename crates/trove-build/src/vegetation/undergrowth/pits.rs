@@ -4,9 +4,9 @@ use glam::DVec2;
 use trove_model::{Class, CoverKind, Kind};
 
 use super::{Lay, Sower};
-use crate::piece::Piece;
+use crate::pieces::Piece;
+use crate::pieces::Scenery;
 use crate::roads::Footing;
-use crate::scenery::Scenery;
 
 /// A tree's kerb is looked for within this, metres.
 const KERB_M: f64 = 5.0;

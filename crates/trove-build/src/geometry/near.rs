@@ -8,14 +8,14 @@ use trove_model::Bounds;
 const BUCKET_M: f64 = 24.0;
 
 /// Rectangles in square buckets.
-pub(in crate::buildings) struct Near {
+pub(crate) struct Near {
     boxes: Vec<Option<Bounds>>,
     // Only looked up; what is found is sorted.
     buckets: HashMap<[i64; 2], Vec<usize>>,
 }
 
 impl Near {
-    pub(in crate::buildings) fn new(boxes: impl Iterator<Item = Option<Bounds>>) -> Self {
+    pub(crate) fn new(boxes: impl Iterator<Item = Option<Bounds>>) -> Self {
         let mut near = Self { boxes: boxes.collect(), buckets: HashMap::new() };
         for (i, bounds) in near.boxes.iter().enumerate() {
             for key in bounds.iter().flat_map(keys) {
@@ -26,7 +26,7 @@ impl Near {
     }
 
     /// Those that share a point with `bounds`, in the order given.
-    pub(in crate::buildings) fn at(&self, bounds: Bounds) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn at(&self, bounds: Bounds) -> impl Iterator<Item = usize> + '_ {
         let mut found: Vec<usize> = keys(&bounds).filter_map(|key| self.buckets.get(&key)).flatten().copied().collect();
         found.sort_unstable();
         found.dedup();

@@ -1,5 +1,8 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
+mod stock;
+mod weather;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -8,10 +11,11 @@ use trove_model::{
     Asset, Class, Cuboid, Drive, Instance, InstanceId, Kind, Mesh, Pose, Provenance, SceneObject, StreetMap,
 };
 
-use crate::piece::Piece;
+use crate::pieces::{Piece, Scenery};
 use crate::placement::Role;
-use crate::scenery::Scenery;
-use crate::stock::Stock;
+
+pub(crate) use stock::Stock;
+pub use weather::Weather;
 
 /// Motion from keyframe to keyframe that is no motion.
 const TREMOR_M: f64 = 0.02;

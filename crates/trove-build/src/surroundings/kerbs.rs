@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use glam::DVec2;
 use trove_model::{Bounds, Drive, StreetMap, drives_on_left};
 
-use crate::plane_raster::bucket;
+use crate::geometry::plane_raster::bucket;
+use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Footing, RoadSurfaces};
-use crate::segments::SegmentIndex;
 
 /// Distance of neighbouring kerb points, metres.
 pub(crate) const KERB_STEP_M: f64 = 1.0;

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use glam::DVec2;
 use trove_model::{Bounds, Cuboid, Drive, Keyframe, Polygon};
 
-use crate::distance_field::DistanceField;
+use crate::geometry::distance_field::DistanceField;
+use crate::geometry::plane_raster::bucket;
 use crate::placement::ego_cuboid;
-use crate::plane_raster::bucket;
 use crate::roads::{Footing, RoadSurfaces};
 
 /// Cells of the distance fields, metres.

@@ -10,7 +10,7 @@ pub(crate) type Ring = Vec<DVec2>;
 
 /// A directed line: points with `normal · p < offset` lie on its left hand side, all others on its right.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(crate) struct Line {
     pub normal: DVec2,
     pub offset: f64,
 }
@@ -21,7 +21,7 @@ impl Line {
     }
 
     /// Where the segment crosses the line; the same whichever way round it is given.
-    pub(super) fn crossing(&self, a: DVec2, b: DVec2) -> DVec2 {
+    pub(crate) fn crossing(&self, a: DVec2, b: DVec2) -> DVec2 {
         let (a, b) = if (a.x, a.y) <= (b.x, b.y) { (a, b) } else { (b, a) };
         let (da, db) = (self.distance(a), self.distance(b));
         let mut p = a + (b - a) * (da / (da - db)).clamp(0.0, 1.0);
@@ -34,7 +34,7 @@ impl Line {
         p
     }
 
-    pub(super) fn is_left(&self, p: DVec2) -> bool {
+    pub(crate) fn is_left(&self, p: DVec2) -> bool {
         self.distance(p) < 0.0
     }
 }
@@ -47,7 +47,7 @@ struct Chain {
 }
 
 /// The parts of an area on both sides of a line: (left, right).
-pub(super) fn split(rings: Vec<Ring>, line: Line) -> (Vec<Ring>, Vec<Ring>) {
+pub(crate) fn split(rings: Vec<Ring>, line: Line) -> (Vec<Ring>, Vec<Ring>) {
     let mut whole: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
     let mut chains: [Vec<Chain>; 2] = [Vec::new(), Vec::new()];
     for ring in rings {
@@ -161,7 +161,7 @@ pub(crate) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
     polygons
 }
 
-pub(super) fn signed_area(ring: &[DVec2]) -> f64 {
+pub(crate) fn signed_area(ring: &[DVec2]) -> f64 {
     let Some(&o) = ring.first() else { return 0.0 };
     (0..ring.len()).map(|i| (ring[i] - o).perp_dot(ring[(i + 1) % ring.len()] - o)).sum::<f64>() / 2.0
 }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Bounds, Polygon, Raster};
 
-use crate::plane_raster::PlaneRaster;
+use crate::geometry::plane_raster::PlaneRaster;
 
 /// Distance to the nearest covered cell, to about half a cell.
 #[derive(Clone, Debug)]

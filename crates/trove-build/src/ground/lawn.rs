@@ -4,9 +4,9 @@ use glam::{DVec2, Vec3, vec3};
 use rayon::prelude::*;
 use trove_model::{Mesh, Polygon, Seed};
 
-use super::climate::Conditions;
+use super::drape::Drape;
 use super::noise::noise;
-use crate::ground::Drape;
+use crate::place::Conditions;
 
 /// What dried grass and bare earth are to fresh grass: factors on its colour.
 const DRY: Vec3 = vec3(1.3, 1.1, 1.2);
@@ -26,13 +26,13 @@ impl Lawn {
     }
 
     /// 0 lush to 1 straw.
-    pub(super) fn dryness(&self, p: DVec2) -> f64 {
+    pub(crate) fn dryness(&self, p: DVec2) -> f64 {
         let at = |name: &str, feature_m: f64| noise(self.seed.child(name), p, feature_m) - 0.5;
         (self.dryness + 0.5 * at("broad", 33.0) + 0.5 * at("patch", 8.0) + 0.35 * at("spot", 2.2)).clamp(0.0, 1.0)
     }
 
     /// 0 grown over to 1 bare earth; more where it is dry.
-    pub(super) fn bareness(&self, p: DVec2) -> f64 {
+    pub(crate) fn bareness(&self, p: DVec2) -> f64 {
         let at = |name: &str, feature_m: f64| noise(self.seed.child(name), p, feature_m);
         let worn = 0.65 * at("worn", 9.0) + 0.35 * at("worn spot", 2.5) + 0.22 * (self.dryness(p) - 0.5);
         ((worn - 0.6) / 0.15).clamp(0.0, 1.0)
@@ -61,7 +61,7 @@ impl Lawn {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
     use trove_model::{Bounds, HeightField, Raster};
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use crate::plane_raster::bucket;
+use crate::geometry::plane_raster::bucket;
 
 /// Segments in square buckets.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::Seed;
 
 /// Value noise from 0 to 1 with features of about `feature_m`.
-pub(super) fn noise(seed: Seed, p: DVec2, feature_m: f64) -> f64 {
+pub(crate) fn noise(seed: Seed, p: DVec2, feature_m: f64) -> f64 {
     let node = |x: f64, y: f64| seed.nth(x as i64 as u64).nth(y as i64 as u64).random().unit();
     let cell = (p / feature_m).floor();
     let f = p / feature_m - cell;

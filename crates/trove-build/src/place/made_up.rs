@@ -6,8 +6,10 @@ use trove_model::{
     RigCamera, Road, Seed, StreetMap, World, drives_on_left,
 };
 
-use super::PLACE_DATASET;
 use crate::error::BuildError;
+
+/// The dataset's name of a drive that was made up from a map.
+pub(crate) const PLACE_DATASET: &str = "place";
 
 /// At most so many views' positions.
 const MAX_VIEWS: usize = 20;

@@ -10,7 +10,7 @@ use geo::{BooleanOps, Buffer, TriangulateEarcut};
 use glam::DVec2;
 use trove_model::{Bounds, Polygon};
 
-use crate::ground::clipped;
+use super::rings::clipped;
 
 /// A millimetre, as a power of two.
 const GRID_M: f64 = 1.0 / 1024.0;

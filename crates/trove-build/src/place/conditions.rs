@@ -30,7 +30,7 @@ impl Conditions {
     }
 
     /// How dry lawns are: 0 lush, 1 straw. Where it freezes grass pales in winter.
-    pub(super) fn dryness(self) -> f64 {
+    pub(crate) fn dryness(self) -> f64 {
         let dryness: f64 = match self.climate {
             Climate::Tropical => 0.42,
             Climate::Subtropical | Climate::Temperate => 0.3,
@@ -48,7 +48,7 @@ impl Conditions {
     }
 
     /// How much of the ground under a tree its leaves cover, 0 to 1, and how old they are, 0 (green) to 1 (brown).
-    pub(super) fn litter(self) -> [f64; 2] {
+    pub(crate) fn litter(self) -> [f64; 2] {
         match (self.season, self.climate) {
             (Season::Autumn, _) => [0.9, 0.45],
             (Season::Winter, _) => [0.4, 0.95],
@@ -61,7 +61,7 @@ impl Conditions {
     }
 
     /// How many flowers there are in lawns, 0 to 1.
-    pub(super) fn bloom(self) -> f64 {
+    pub(crate) fn bloom(self) -> f64 {
         let common = 0.75 - 0.7 * self.dryness();
         match self.season {
             Season::Spring => (common * 1.6).min(1.0),

@@ -1,9 +1,14 @@
 //! What made-up things are placed by.
 
+mod clearance;
+mod kerbs;
+
 use trove_model::{Bounds, Drive, StreetMap};
 
-use crate::kerbs::Kerbs;
 use crate::placement::Stand;
+
+pub(crate) use clearance::{Clearance, Room, recorded};
+pub(crate) use kerbs::{KERB_STEP_M, KerbPoint, Kerbs};
 
 /// The place as far as it is built when plants and furniture come.
 pub(crate) struct Surroundings<'a> {

@@ -84,7 +84,7 @@ pub(crate) fn bucket(p: DVec2, side_m: f64) -> [i64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane;
+    use crate::geometry::plane;
 
     #[test]
     fn a_filled_ring_is_empty_in_its_hole_and_outside() {
