@@ -9,7 +9,7 @@ use trove_model::{
 
 use super::region::Region;
 use super::volumes::House;
-use super::walls::Grid;
+use super::wall::Grid;
 use crate::pieces::{ANY, Palette};
 
 /// From this height on a building is a tower.

@@ -3,11 +3,12 @@
 use trove_model::{Mesh, Random, Report, Seed};
 
 use super::dress::Dress;
-use super::facade::{Detail, Sight};
 use super::roof::{canopy, roof};
 use super::shell::{Shell, Slot};
+use super::sight::{Detail, Sight};
 use super::volumes::{House, Volume};
-use super::walls::{Band, Grid, Wall, raise, walls_of};
+use super::wall::{Band, Grid, Wall};
+use super::walls::{raise, walls_of};
 
 /// Walls go this far into the ground.
 const FOOTING_M: f64 = 0.6;

@@ -10,14 +10,12 @@ use trove_model::{
 };
 
 use super::region::Region;
-use super::volumes::STOREY_M;
+use super::volumes::{FIRST_LIDAR_ID, STOREY_M};
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, strip, union};
 use crate::roads::{Footing, RoadSurfaces};
 use crate::surroundings::recorded;
 
-/// Ids of these buildings start here, far below those of any relation.
-pub(super) const FIRST_ID: i64 = i64::MIN / 2;
 /// Points further from the sensor are too few to tell, metres.
 const REACH_M: f64 = 100.0;
 /// Recorded objects are seen past buildings up to this distance, metres.
@@ -114,7 +112,7 @@ pub(super) fn unmapped(
         taken = union(&[taken, vec![footprint.clone()]].concat());
         // The beams do not reach the eaves.
         let height_m = Some((storeys * STOREY_M).max(facade.top_m));
-        built.push(Building { height_m, ..Building::new(FIRST_ID + built.len() as i64, footprint, Some(kind)) });
+        built.push(Building { height_m, ..Building::new(FIRST_LIDAR_ID + built.len() as i64, footprint, Some(kind)) });
     }
     report.measure("buildings.from_lidar", built.len() as f64);
     built

@@ -9,7 +9,9 @@ mod region;
 mod replace;
 mod roof;
 mod shell;
+mod sight;
 mod volumes;
+mod wall;
 mod walls;
 
 use std::sync::Arc;
@@ -25,8 +27,8 @@ use crate::pieces::Palette;
 use crate::pieces::Piece;
 use crate::place::Seeds;
 use crate::roads::RoadSurfaces;
-use facade::Sight;
 pub(crate) use region::Region;
+use sight::Sight;
 use volumes::House;
 
 /// The buildings of a place.

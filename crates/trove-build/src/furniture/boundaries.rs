@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Kind, Land, LandKind, LineKind, Outcome, Polygon, Report, Road, RoadKind, Seed};
 
 use super::habits::words;
-use super::lines::{Layer, ROAD_REACH_M, Run};
+use super::layer::{Layer, ROAD_REACH_M, Run};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::Footing;
 use crate::surroundings::{KERB_STEP_M, KerbPoint};

@@ -6,6 +6,7 @@ mod boundaries;
 mod cafes;
 mod habits;
 mod junctions;
+mod layer;
 mod lines;
 mod mapped;
 mod names;

@@ -21,3 +21,17 @@ pub(crate) struct Piece {
     /// Id of the asset that stands for it; empty for what was built for this place.
     pub asset: String,
 }
+
+impl Piece {
+    /// A surface that is no object of its own, in World.
+    pub(crate) fn stuff(mesh: Mesh, class: Class, material: Material) -> Self {
+        Self {
+            mesh: Arc::new(mesh),
+            world_from_mesh: DAffine3::IDENTITY,
+            class,
+            materials: vec![material],
+            kind: None,
+            asset: String::new(),
+        }
+    }
+}

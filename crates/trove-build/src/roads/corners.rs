@@ -95,7 +95,7 @@ pub(super) fn corners(nodes: &[Node], strips: &[Polygon]) -> Vec<Polygon> {
 mod tests {
     use super::*;
     use crate::geometry::plane::strip;
-    use crate::roads::course::cross_section;
+    use crate::roads::cross_section::cross_section;
 
     fn stretch<'a>(road: &'a Road) -> Stretch<'a> {
         let section = cross_section(road, Some(6.0), false);

@@ -7,11 +7,13 @@ use trove_model::{
 };
 
 use super::corners;
-use super::course::{self, Band, Bay, Course, CrossSection};
+use super::course::{self, Bay, Course};
+use super::cross_section::{Band, CrossSection, cross_section};
 use super::decks::{self, Deck, Trench};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
+use super::path::shifted;
 use crate::geometry::distance_field::DistanceField;
 use crate::geometry::plane::{closed, difference, grown, intersection, rectangle, strip, union};
 use crate::geometry::plane_raster::PlaneRaster;
@@ -97,7 +99,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
     let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), report)).unwrap_or_default();
     let stretches = network::stretches(levels.ground, &recorded, on_left, report);
-    let section = |road: &Road| course::cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
+    let section = |road: &Road| cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
     let decks: Vec<_> = levels.decks.into_iter().map(|d| (d.clone(), section(d.road))).collect();
     let trenches: Vec<_> = levels.trenches.into_iter().map(|t| (t.clone(), section(t.deck.road))).collect();
     let [ramps, above] = footprints(&decks, &trenches, &whole);
@@ -326,18 +328,6 @@ fn built_up(map: &StreetMap, bounds: Bounds) -> PlaneRaster {
         raster.fill(&[rectangle(bounds)], 1);
     }
     raster
-}
-
-/// The line moved to its left by `distance_m`.
-pub(super) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
-    let direction = |i: usize| (line[i + 1] - line[i]).normalize_or_zero();
-    (0..line.len())
-        .map(|i| {
-            let before = if i > 0 { direction(i - 1) } else { direction(0) };
-            let after = if i + 1 < line.len() { direction(i) } else { before };
-            line[i] + (before + after).normalize_or(after).perp() * distance_m
-        })
-        .collect()
 }
 
 /// Footpaths and cycleways away from what was recorded.

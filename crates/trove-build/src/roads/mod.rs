@@ -2,6 +2,7 @@
 
 mod corners;
 mod course;
+mod cross_section;
 mod customs;
 mod decks;
 mod evidence;
@@ -16,12 +17,8 @@ mod path;
 mod tests;
 mod wear;
 
-use std::sync::Arc;
-
-use glam::{DAffine3, DVec2};
-use trove_model::{
-    AssetLibrary, Bounds, Class, Drive, HeightField, Material, Mesh, Polygon, Report, StreetMap, SurfaceKind,
-};
+use glam::DVec2;
+use trove_model::{AssetLibrary, Bounds, Class, Drive, HeightField, Mesh, Polygon, Report, StreetMap, SurfaceKind};
 
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
@@ -157,7 +154,7 @@ pub(crate) fn surfaces(
     let mut pieces = surfacing.pieces();
     let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| {
         if !mesh.triangles.is_empty() {
-            pieces.push(stuff(mesh, class, material(kind)));
+            pieces.push(Piece::stuff(mesh, class, material(kind)));
         }
     };
     let on_border = |a: DVec2, b: DVec2| {
@@ -205,15 +202,4 @@ pub(crate) fn surfaces(
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
     let lanes = course::lanes(&layout.courses);
     RoadSurfaces { pieces, carriageway: layout.carriageway, lanes, lawns, lawn, kerb_m, ramps, footings, below }
-}
-
-fn stuff(mesh: Mesh, class: Class, material: Material) -> Piece {
-    Piece {
-        mesh: Arc::new(mesh),
-        world_from_mesh: DAffine3::IDENTITY,
-        class,
-        materials: vec![material],
-        kind: None,
-        asset: String::new(),
-    }
 }

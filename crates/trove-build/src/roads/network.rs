@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Outcome, Report, Road};
 
-use super::course::{CrossSection, cross_section};
+use super::cross_section::{CrossSection, cross_section};
 use crate::geometry::plane_raster::PlaneRaster;
 
 /// Roads are looked at every so many metres.

@@ -2,8 +2,6 @@
 
 use glam::DVec2;
 
-use super::layout::shifted;
-
 /// A line with the length up to each vertex.
 pub(crate) struct Path<'a> {
     line: &'a [DVec2],
@@ -63,4 +61,16 @@ impl<'a> Path<'a> {
         points.push(self.at(to_m).0);
         shifted(&points, offset_m)
     }
+}
+
+/// The line moved to its left by `distance_m`.
+pub(super) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
+    let direction = |i: usize| (line[i + 1] - line[i]).normalize_or_zero();
+    (0..line.len())
+        .map(|i| {
+            let before = if i > 0 { direction(i - 1) } else { direction(0) };
+            let after = if i + 1 < line.len() { direction(i) } else { before };
+            line[i] + (before + after).normalize_or(after).perp() * distance_m
+        })
+        .collect()
 }

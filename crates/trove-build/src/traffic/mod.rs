@@ -10,7 +10,7 @@ mod ways;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
+use trove_model::{AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
 
 use crate::assembly::Assembly;
 use crate::place::{next, previous};
@@ -40,9 +40,6 @@ impl Default for Traffic {
 const USUAL: usize = 20;
 /// Places that are looked at for someone before the place counts as full.
 const TRIES: usize = 40;
-/// Fewer keyframes than this are no visit, where there are more.
-const FEWEST_KEYFRAMES: usize = 3;
-
 /// Someone whom nobody recorded.
 pub(crate) struct RoadUser {
     /// Whose token is of no dataset: it tells road users of one place apart.
@@ -150,9 +147,4 @@ fn user(around: &Surroundings, motion: &Motion, visit: &room::Visit, number: usi
     let boxes = visit.at_keyframes().map(|(k, outline)| (k, cuboid(outline))).collect();
     let token = format!("added {number}");
     RoadUser { track: Track { token, kind: motion.kind, boxes }, speed_mps: motion.speed_mps }
-}
-
-/// Lots of an asset.
-fn commonness(asset: &Asset) -> f64 {
-    f64::from(asset.commonness.max(0.0))
 }

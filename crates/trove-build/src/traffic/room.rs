@@ -7,7 +7,6 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use trove_model::{Body, Cuboid, Drive, Instance, Kind, Mesh, Pose, World};
 
-use super::FEWEST_KEYFRAMES;
 use super::motion::{Motion, On};
 use crate::assembly::Assembly;
 use crate::geometry::plane_raster::bucket;
@@ -17,6 +16,8 @@ use crate::roads::{Footing, RoadSurfaces};
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
+/// Fewer keyframes than this are no visit, where there are more.
+pub(super) const FEWEST_KEYFRAMES: usize = 3;
 /// Side of a bucket of what stands still, metres.
 const BUCKET_M: f64 = 8.0;
 /// What begins higher than this is walked and driven under, metres.

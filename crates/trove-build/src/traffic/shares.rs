@@ -3,9 +3,8 @@
 use std::fmt;
 
 use glam::DVec3;
-use trove_model::{AssetLibrary, Kind, MapProjection, Posture, Random};
+use trove_model::{Asset, AssetLibrary, Kind, MapProjection, Posture, Random};
 
-use super::commonness;
 use crate::buildings::Region;
 
 /// What a made-up road user does.
@@ -103,6 +102,11 @@ impl<'a> Shares<'a> {
             .collect();
         Some((kind, drawn(&sizes, random)?))
     }
+}
+
+/// Lots of an asset.
+fn commonness(asset: &Asset) -> f64 {
+    f64::from(asset.commonness.max(0.0))
 }
 
 /// One of some, by their lots; `None` where there are none.

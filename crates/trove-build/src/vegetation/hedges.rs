@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Kind, MappedPlant, PlantForm, Seed};
 
-use super::{Form, Wish};
+use super::wish::{Form, Wish};
 
 /// Length of a piece, about, and the widths of hedges and of beds, metres.
 const PIECE_M: f64 = 2.0;

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use trove_model::{Cuboid, Keyframe, Kind, LidarClass, LidarSweep, Seed};
 
 use super::columns::Columns;
-use super::{Wish, species_group};
+use super::wish::{Wish, species_group};
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 

@@ -4,7 +4,7 @@ use trove_model::{Bounds, FurnitureKind, Kind, LandKind, LineKind, Seed};
 
 use super::blue_noise::BlueNoise;
 use super::hedges::hedge;
-use super::{Form, Wish, species_group};
+use super::wish::{Form, Wish, species_group};
 use crate::surroundings::Surroundings;
 
 /// How densely a piece of land is planted.

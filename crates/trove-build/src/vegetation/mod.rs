@@ -13,9 +13,10 @@ mod streets;
 mod tests;
 mod undergrowth;
 mod walls;
+mod wish;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Climate, Kind, MappedPlant, Outcome, PlantForm, Report, Seed};
+use trove_model::{AssetLibrary, Climate, Kind, Outcome, PlantForm, Report, Seed};
 
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::pieces::Scenery;
@@ -23,11 +24,9 @@ use crate::surroundings::Surroundings;
 use crate::surroundings::{Clearance, Room};
 use blue_noise::BlueNoise;
 use species::{Space, Species};
+use wish::{Form, Wish};
 
 pub(crate) use undergrowth::{driven_path, undergrowth};
-
-/// Side of the squares in which plants are of one species, metres.
-const SPECIES_SQUARE_M: f64 = 60.0;
 
 /// Cells of the raster that tells lawns from paved ground, metres.
 const LAWN_CELL_M: f64 = 0.5;
@@ -35,63 +34,6 @@ const LAWN_CELL_M: f64 = 0.5;
 const UNSURE_M: f64 = 0.25;
 /// Feet are sunk into a slope by at most this, metres.
 const MOST_SUNK_M: f64 = 0.025;
-
-/// A plant that is wanted somewhere.
-#[derive(Clone, Debug, PartialEq)]
-struct Wish {
-    /// Tree or bush.
-    kind: Kind,
-    /// Where.
-    position: DVec2,
-    /// How tall, metres.
-    height_m: f64,
-    /// Plants with the same number are of one species.
-    group: u64,
-    /// Species or genus and leaves, where the map says so.
-    mapped: MappedPlant,
-    /// Half the distance to its like, metres; `None`: as its size asks.
-    radius_m: Option<f64>,
-    /// How it stands.
-    form: Form,
-    /// It may stand in paving too.
-    paved: bool,
-}
-
-/// How a plant stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Form {
-    /// As it grows.
-    Free,
-    /// A piece of a row that runs along a direction, of plants of some form.
-    Row { planted: PlantForm, yaw_rad: f64, length_m: f64, width_m: f64 },
-}
-
-impl Wish {
-    /// A free plant of whatever grows there, on open land, with as much room as its size asks.
-    fn new(kind: Kind, position: DVec2, height_m: f64, group: u64) -> Self {
-        Self {
-            kind,
-            position,
-            height_m,
-            group,
-            mapped: MappedPlant::default(),
-            radius_m: None,
-            form: Form::Free,
-            paved: false,
-        }
-    }
-
-    /// Where it needs room for its width: a row's piece at both ends and in its middle.
-    fn spots(&self) -> [DVec2; 3] {
-        let reach = match self.form {
-            Form::Free => DVec2::ZERO,
-            Form::Row { yaw_rad, length_m, width_m, .. } => {
-                DVec2::from_angle(yaw_rad) * ((length_m - width_m) / 2.0).max(0.0)
-            }
-        };
-        [self.position - reach, self.position, self.position + reach]
-    }
-}
 
 /// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along walls, along streets, on
 /// open land.
@@ -173,10 +115,4 @@ fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
     let h = |offset: DVec2| around.stand.ground.height_m(wish.position + offset);
     let drop_m = corners.iter().map(|&c| h(DVec2::ZERO) - h(c * reach_m)).fold(0.0, f64::max);
     middle_m - drop_m.min(MOST_SUNK_M)
-}
-
-/// Plants in the same large square are of one species.
-fn species_group(seed: Seed, p: DVec2) -> u64 {
-    let cell = (p / SPECIES_SQUARE_M).floor();
-    seed.child("species").nth(cell.x as i64 as u64).nth(cell.y as i64 as u64).0
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Kind, Polygon, Seed};
 
 use super::blue_noise::BlueNoise;
-use super::{Wish, species_group};
+use super::wish::{Wish, species_group};
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::ground::noise;
 use crate::surroundings::Clearance;

@@ -4,7 +4,7 @@ use glam::DVec3;
 use trove_model::{Asset, AssetLibrary, Climate, Kind, LeafType, MappedPlant, PlantForm, Seed};
 
 use super::crowns::Crown;
-use super::{Form, Wish};
+use super::wish::{Form, Wish};
 use crate::pieces::Scenery;
 
 /// A model is scaled at most by this, and at least by one over it.

@@ -3,8 +3,8 @@
 use glam::DVec2;
 use trove_model::{Kind, Seed};
 
-use super::Wish;
 use super::hedges::{bed, hedge};
+use super::wish::Wish;
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use crate::surroundings::{KERB_STEP_M, KerbPoint};

@@ -3,9 +3,9 @@
 use glam::DVec2;
 use trove_model::{Kind, LandKind, Seed};
 
-use super::Wish;
 use super::blue_noise::BlueNoise;
 use super::hedges::{bed, hedge};
+use super::wish::Wish;
 use crate::surroundings::Surroundings;
 
 /// Shares of the walls with a flower bed, a hedge and single shrubs in front.

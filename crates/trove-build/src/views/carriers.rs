@@ -3,7 +3,7 @@
 use glam::DVec3;
 use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, World};
 
-use super::{ViewSettings, shot_seed};
+use super::settings::{ViewSettings, shot_seed};
 use crate::place::Seeds;
 use crate::place::{next, previous};
 use crate::site::{Site, track_id};

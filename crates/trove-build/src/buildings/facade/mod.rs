@@ -7,17 +7,15 @@ mod ink;
 mod ornament;
 mod scaffold;
 mod shop;
-mod sight;
 mod skin;
 mod window;
 
 use glam::{DVec2, DVec3};
 use trove_model::{FacadeDesign, Filling, Interior, Opening, Random, Seed};
 
-pub(super) use sight::{Detail, Sight};
-
 use super::shell::{Shell, Slot};
-use super::walls::{Band, Wall};
+use super::sight::Detail;
+use super::wall::{Band, Wall};
 use ink::{Ink, WallFrame};
 use skin::{Cell, Row, Vertex, skin};
 use window::{Hole, Room};

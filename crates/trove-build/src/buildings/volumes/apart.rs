@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use trove_model::{Bounds, Outcome, Polygon, Report, RoofShape};
 
-use super::{House, LEAST_M2, Volume, name};
+use super::house::{House, LEAST_M2, Volume, name};
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, intersection};
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{Bounds, Polygon};
 
-use super::House;
+use super::house::{Beside, Cover, House};
 use crate::geometry::near::Near;
 
 /// Walls of two volumes that run along each other are at least this far apart, metres.
@@ -16,38 +16,6 @@ const OVERLAP_M: f64 = 0.08;
 const ALONG: f64 = 0.035;
 /// What is further away is in nothing's way, metres.
 const ROOM_M: f64 = 1.6;
-/// A side is covered if this share of its length is.
-const COVERED_SHARE: f64 = 0.6;
-
-/// What stands beside one edge of a footprint.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::buildings) struct Beside {
-    /// Stretches of the edge that another wall hides.
-    pub covers: Vec<Cover>,
-    /// Length of the edge, metres.
-    pub length_m: f64,
-    /// Free distance before the edge, of which the half belongs to it, metres, at most 0.8.
-    pub room_m: f64,
-}
-
-/// A stretch of an edge that another wall hides from the ground, or from the bottom of the volume, up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::buildings) struct Cover {
-    /// From the start of the edge, metres.
-    pub from_m: f64,
-    pub to_m: f64,
-    /// Up to this level above the house's floor.
-    pub up_to_m: f64,
-}
-
-impl Beside {
-    /// Whether most of the edge is hidden nearly up to a level above the floor.
-    pub(in crate::buildings) fn is_covered(&self, level_m: f64) -> bool {
-        let hidden = self.covers.iter().filter(|c| c.up_to_m > level_m - 2.5);
-        hidden.map(|c| c.to_m - c.from_m).sum::<f64>() > COVERED_SHARE * self.length_m
-    }
-}
-
 /// A volume as others see it.
 struct Neighbour {
     floor_m: f64,

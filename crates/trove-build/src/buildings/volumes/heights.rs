@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 use trove_model::{Building, BuildingKind, Outcome, Polygon, Random, Report, RoofShape};
 
-use super::{Volume, kind, name};
+use super::house::{CANOPY_THICK_M, Volume, kind, name};
 use crate::buildings::region::Region;
 
 /// Buildings this near tell what is usual here, metres.
@@ -211,7 +211,7 @@ pub(super) fn heights<'a>(
         if roof == RoofShape::Flat { top_m } else { (top_m - roof_m).max((bottom_m + least_walls_m).min(top_m)) };
     let mut volume = Volume::new(source, bottom_m, eaves_m, top_m, roof);
     if is_canopy && !source.part {
-        volume.bottom_m = volume.bottom_m.max(eaves_m - super::CANOPY_THICK_M);
+        volume.bottom_m = volume.bottom_m.max(eaves_m - CANOPY_THICK_M);
         volume.is_canopy = true;
     }
     volume

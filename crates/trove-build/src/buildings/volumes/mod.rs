@@ -3,25 +3,25 @@
 mod apart;
 mod beside;
 mod heights;
+mod house;
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
 
+use self::house::{FAR_M, LEAST_M2};
 use super::region::Region;
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, intersection, union};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Footing, KERB_M, RoadSurfaces};
 use crate::surroundings::recorded;
-pub(super) use beside::Beside;
 use heights::{Neighbourhood, heights};
+#[cfg(test)]
+pub(super) use house::Beside;
+pub(super) use house::{FIRST_LIDAR_ID, House, STOREY_M, Volume, name};
 
-/// Height of a storey that is not measured.
-pub(super) const STOREY_M: f64 = 3.2;
-/// Ground that is left of a building must be at least this much to be built on, m².
-const LEAST_M2: f64 = 4.0;
 /// A building of which less than this share stands clear of the road is a mistake of one of the maps.
 const CLEAR_SHARE: f64 = 0.5;
 /// Walls are this far from what was recorded beside them, metres, and give way by at most this share of their building.
@@ -35,76 +35,13 @@ const UNDER_M: f64 = PASSAGE_M - 0.01;
 const PASSAGE_SIDE_SHARE: f64 = 0.08;
 /// An outline without a part on it is built only if it is this share of the whole.
 const REST_SHARE: f64 = 0.1;
-/// Thickness of a canopy's slab, metres.
-const CANOPY_THICK_M: f64 = 0.45;
 /// Posts of a canopy stand this far in from its edge and at most this far apart, metres.
 const POST_INSET_M: f64 = 0.5;
 const POSTS_APART_M: f64 = 6.0;
 /// Eaves are seen up to this distance from the driven path, metres.
 pub(super) const EAVES_SEEN_M: f64 = 250.0;
-/// Nothing is told apart further from the driven path, metres.
-const FAR_M: f64 = 400.0;
 /// The ground below a building is looked at in these steps, metres.
 const GROUND_STEP_M: f64 = 4.0;
-
-/// A prism of a building.
-#[derive(Clone, Debug)]
-pub(super) struct Volume<'a> {
-    pub building: &'a Building,
-    pub footprint: Polygon,
-    /// Above the floor of the house, metres.
-    pub bottom_m: f64,
-    /// Where the roof starts.
-    pub eaves_m: f64,
-    pub top_m: f64,
-    pub roof: RoofShape,
-    /// What stands beside each of the footprint's edges, in the order of [`Polygon::edges`].
-    pub sides: Vec<Beside>,
-    /// Another volume stands on it: no parapet, and nothing on its roof.
-    pub is_built_on: bool,
-    /// Roof without walls.
-    pub is_canopy: bool,
-    /// Feet of a canopy's posts.
-    pub posts: Vec<glam::DVec2>,
-}
-
-impl<'a> Volume<'a> {
-    /// Still without footprint and surroundings.
-    pub(super) fn new(building: &'a Building, bottom_m: f64, eaves_m: f64, top_m: f64, roof: RoofShape) -> Self {
-        Self {
-            building,
-            footprint: Polygon::default(),
-            bottom_m,
-            eaves_m,
-            top_m,
-            roof,
-            sides: Vec::new(),
-            is_built_on: false,
-            is_canopy: false,
-            posts: Vec::new(),
-        }
-    }
-}
-
-/// One building: an outline, or the parts that stand for it.
-#[derive(Clone, Debug)]
-pub(super) struct House<'a> {
-    pub building: &'a Building,
-    pub volumes: Vec<Volume<'a>>,
-    /// World height of its floor: the lowest ground around it, and a kerb.
-    pub floor_m: f64,
-    /// From the driven path, metres; [`FAR_M`] where it is further.
-    pub path_m: f64,
-    pub region: Region,
-}
-
-#[cfg(test)]
-impl<'a> House<'a> {
-    /// On level ground at 0, far from the path and from everything else.
-    pub(super) fn alone(building: &'a Building, volumes: Vec<Volume<'a>>) -> Self {
-        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, region: Region::Elsewhere }
-    }
-}
 
 /// What the buildings of a place are made in view of.
 pub(super) struct Plot<'a> {
@@ -237,14 +174,6 @@ fn shapes<'a>(
     volumes
 }
 
-/// `osm way 12`; `LiDAR building 3` for one that no map has.
-pub(super) fn name(building: &Building) -> String {
-    if building.id < super::lidar::FIRST_ID / 2 {
-        return format!("LiDAR building {}", building.id - super::lidar::FIRST_ID);
-    }
-    if building.id < 0 { format!("osm relation {}", -building.id) } else { format!("osm way {}", building.id) }
-}
-
 /// What of a footprint stands clear of the road.
 fn clear(footprint: Polygon, volume: &Volume<'_>, keep_clear: &RoadSurfaces, report: &Report) -> Vec<Polygon> {
     let source = volume.building;
@@ -353,9 +282,4 @@ fn without_straight_points(mut polygon: Polygon) -> Polygon {
     tidy(&mut polygon.exterior);
     polygon.holes.iter_mut().for_each(tidy);
     polygon
-}
-
-/// The kind that tells most: a part's own, else its building's.
-pub(super) fn kind(source: &Building, whole: &Building) -> Option<BuildingKind> {
-    source.kind.or(whole.kind)
 }

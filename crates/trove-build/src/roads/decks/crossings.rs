@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Bounds, LineKind, Road, StreetMap};
 
-use super::key;
+use super::deck::{key, split};
 use crate::geometry::segments::SegmentIndex;
 
 /// A road nearer than this to the middle of one below runs above it, metres.
@@ -65,7 +65,7 @@ impl Crossings {
 
 /// The position at some metres along a line.
 fn at(line: &[DVec2], along_m: f64) -> DVec2 {
-    super::split(line, along_m).0.last().copied().unwrap_or_default()
+    split(line, along_m).0.last().copied().unwrap_or_default()
 }
 
 /// Where two ways cross between their nodes, as metres along both; ways that meet on one level share a node.

@@ -6,7 +6,7 @@ use glam::DVec2;
 use trove_model::Road;
 
 use super::crossings::Crossings;
-use super::{Deck, Key, LEVEL_M, deck, key, split};
+use super::deck::{Deck, Key, LEVEL_M, deck, key, split};
 
 /// Slopes that are tried, with whether the roads that lead up rise too.
 const ATTEMPTS: [(f64, bool); 4] = [(0.06, false), (0.06, true), (0.09, true), (0.13, true)];

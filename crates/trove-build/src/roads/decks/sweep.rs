@@ -3,9 +3,10 @@
 use glam::{DVec2, DVec3, Vec2};
 use trove_model::Mesh;
 
-use super::{Deck, EDGE_M, SOLID_M, Trench};
+use super::deck::{Deck, EDGE_M, SOLID_M};
+use super::trenches::Trench;
 use crate::ground::Drape;
-use crate::roads::course::{CrossSection, Use};
+use crate::roads::cross_section::{CrossSection, Use};
 
 /// Thickness of a deck.
 const THICK_M: f64 = 0.9;
@@ -309,13 +310,13 @@ fn quad(mesh: &mut Mesh, corners: [DVec3; 4], u: [f64; 2], v: [f64; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::roads::course::cross_section;
+    use crate::roads::cross_section::cross_section;
     use trove_model::{Bounds, HeightField, Road, RoadKind};
 
     #[test]
     fn a_trench_is_seen_from_its_road_and_from_above() {
         let road = crate::testing::road(1, RoadKind::Secondary, &[[0.0, 0.0], [60.0, 0.0]]);
-        let deck = super::super::deck(&road, &road.centreline, |along_m| -(along_m * 0.11).min(5.2));
+        let deck = crate::roads::decks::deck::deck(&road, &road.centreline, |along_m| -(along_m * 0.11).min(5.2));
         let section = cross_section(&road, None, false);
         let field = HeightField::flat(Bounds::square(DVec2::ZERO, 600.0), 0.0);
         let trench = Trench { deck, portal: 24 };
@@ -335,7 +336,7 @@ mod tests {
     fn a_deck_faces_up_on_top_and_down_below_and_has_no_open_side() {
         let road = Road { bridge: true, ..crate::testing::road(1, RoadKind::Secondary, &[[0.0, 0.0], [200.0, 20.0]]) };
         let rise = |along_m: f64| (along_m * 0.06).min((201.0 - along_m) * 0.06).clamp(0.0, 5.6);
-        let deck = super::super::deck(&road, &road.centreline, rise);
+        let deck = crate::roads::decks::deck::deck(&road, &road.centreline, rise);
         let section = cross_section(&road, None, false);
         let field = HeightField::flat(Bounds::square(DVec2::ZERO, 600.0), 0.0);
         let meshes = meshes(&[(deck, section.clone())], &[], &Drape::new(&field), |_| true);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use trove_model::{Outcome, Polygon, Report, Road, StreetMap};
 
-use super::{Deck, EDGE_M, Key, deck, key, split};
+use super::deck::{Deck, EDGE_M, Key, deck, key, split};
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::geometry::segments::SegmentIndex;

@@ -7,7 +7,7 @@ use super::crossings::Crossing;
 use super::legs::{Junction, Leg};
 use super::symbols::{arrow, laid, triangles, word};
 use crate::geometry::plane::{intersection, rectangle, strip};
-use crate::roads::course::Use;
+use crate::roads::cross_section::Use;
 use crate::roads::customs::{Customs, Dash, GiveWay, Minor};
 
 /// Signals stand this near to their junction, signs this near to where they hold.

@@ -5,7 +5,8 @@ use trove_model::{ParkingOrientation, Polygon, Seed};
 use super::legs::Leg;
 use super::symbols::{bicycle, laid};
 use crate::geometry::plane::strip;
-use crate::roads::course::{Band, Course, Use};
+use crate::roads::course::Course;
+use crate::roads::cross_section::{Band, Use};
 use crate::roads::path::Path;
 
 /// Width of a bay's lines.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Road, RoadKind, StreetMap, Turns};
 
-use crate::roads::course::{Use, cross_section};
+use crate::roads::cross_section::{Use, cross_section};
 use crate::roads::network::Stretch;
 use crate::roads::path::Path;
 

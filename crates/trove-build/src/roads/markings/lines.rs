@@ -6,10 +6,10 @@ use trove_model::{Polygon, RoadKind};
 use super::legs::Leg;
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
-use crate::roads::course::{Band, Use};
+use crate::roads::cross_section::{Band, Use};
 use crate::roads::customs::{Customs, Dash, Paint, Pattern};
-use crate::roads::layout::shifted;
 use crate::roads::network::resampled;
+use crate::roads::path::shifted;
 
 /// Distance between the middles of a double line's lines, in widths of a line.
 const DOUBLE: f64 = 2.2;

@@ -23,7 +23,7 @@ use self::approaches::{Control, approach, box_junction};
 use self::crossings::Crossing;
 use self::legs::{Junction, Leg};
 use self::lines::Stroke;
-use super::course::Use;
+use super::cross_section::Use;
 use super::customs::{Customs, KerbLines, Paint, Pattern};
 use super::layout::Layout;
 use super::network::RECORDED;

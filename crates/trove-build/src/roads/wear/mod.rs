@@ -23,7 +23,6 @@ use self::tone::Tone;
 use super::customs::{Customs, Paint};
 use super::layout::Layout;
 use super::markings::Markings;
-use super::stuff;
 use crate::geometry::plane::{difference, grown, intersection, rectangle, strip};
 use crate::geometry::segments::SegmentIndex;
 use crate::ground::Drape;
@@ -111,7 +110,7 @@ impl Surfacing<'_> {
             .filter(|(_, mesh)| !mesh.triangles.is_empty())
             .map(|((_, look), mesh)| {
                 let (kind, tags) = look.surface();
-                stuff(mesh, Class::Road, self.material(kind, tags))
+                Piece::stuff(mesh, Class::Road, self.material(kind, tags))
             })
             .collect();
         pieces.extend(self.painted(tone));
@@ -119,7 +118,7 @@ impl Surfacing<'_> {
         for kind in CoverKind::ALL {
             let mesh = ironwork::mesh(&covers, kind, self.drape, COVER_M);
             if !mesh.triangles.is_empty() {
-                pieces.push(stuff(mesh, Class::Road, self.material(SurfaceKind::RoadCover, &[kind.tag()])));
+                pieces.push(Piece::stuff(mesh, Class::Road, self.material(SurfaceKind::RoadCover, &[kind.tag()])));
             }
         }
         pieces
@@ -198,7 +197,7 @@ impl Surfacing<'_> {
             let mut mesh = self.drape.surface(area, COAT_M);
             mesh.tints = vec![*tint; mesh.positions.len()];
             let (kind, tags) = Look::Aged.surface();
-            pieces.push(stuff(mesh, Class::Road, self.material(kind, tags)));
+            pieces.push(Piece::stuff(mesh, Class::Road, self.material(kind, tags)));
         }
         for (&paint, area) in &self.markings.paints {
             let mut mesh = self.drape.surface(area, PAINT_M);
@@ -210,7 +209,7 @@ impl Surfacing<'_> {
             // Paint is renewed street by street.
             let age = |p: &Vec3| (0.84 + 0.16 * tone.at(p.truncate().as_dvec2(), 31.0)) as f32;
             mesh.tints = mesh.positions.iter().map(|p| color * age(p)).collect();
-            pieces.push(stuff(mesh, Class::Road, self.material(kind, &[])));
+            pieces.push(Piece::stuff(mesh, Class::Road, self.material(kind, &[])));
         }
         pieces.retain(|piece| !piece.mesh.triangles.is_empty());
         pieces

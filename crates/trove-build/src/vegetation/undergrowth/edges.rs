@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Class, CoverKind, LineKind, Random};
 
-use super::{Lay, Sower};
+use super::sower::{Lay, Sower};
 use crate::ground::noise;
 use crate::pieces::Piece;
 use crate::roads::Footing;

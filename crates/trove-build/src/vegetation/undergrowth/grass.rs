@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Class, CoverKind, GroundCover, Random};
 
-use super::{Lay, REACH_M, Sower};
+use super::sower::{LAWN_CELL_M, Lay, REACH_M, Sower};
 use crate::ground::noise;
 use crate::pieces::Piece;
 
@@ -97,7 +97,7 @@ enum Share {
 
 /// How much of a square is lawn, as far as eight rows of places tell, or those of the raster.
 fn share(sower: &Sower, low: DVec2, side_m: f64) -> Share {
-    let step_m = (side_m / 8.0).max(super::LAWN_CELL_M);
+    let step_m = (side_m / 8.0).max(LAWN_CELL_M);
     let steps = (side_m / step_m) as u32;
     let wall_m = sower.clearance.building_distance_m(low + side_m / 2.0);
     let (mut any, mut all) = (false, wall_m >= OFF_WALL_M + side_m * std::f64::consts::FRAC_1_SQRT_2);

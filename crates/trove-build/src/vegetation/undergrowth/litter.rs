@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Bounds, CoverKind, GroundCover, Kind, LeafType, Random};
 
-use super::{Lay, Sower, class_of};
+use super::sower::{Lay, Sower, class_of};
 use crate::pieces::Piece;
 use crate::pieces::Scenery;
 use crate::roads::Footing;

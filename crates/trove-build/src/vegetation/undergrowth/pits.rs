@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trove_model::{Class, CoverKind, Kind};
 
-use super::{Lay, Sower};
+use super::sower::{Lay, Sower};
 use crate::pieces::Piece;
 use crate::pieces::Scenery;
 use crate::roads::Footing;

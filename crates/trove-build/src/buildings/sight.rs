@@ -14,7 +14,7 @@ const APART_M: f64 = 4.0;
 
 /// How much of a wall is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::buildings) enum Detail {
+pub(super) enum Detail {
     /// A texture.
     Flat,
     /// Holes for the openings, closed by the texture.
@@ -24,13 +24,13 @@ pub(in crate::buildings) enum Detail {
 }
 
 /// Where the cameras stand, and on which streets.
-pub(in crate::buildings) struct Sight<'a> {
+pub(super) struct Sight<'a> {
     standpoints: Vec<DVec2>,
     pub streets: &'a RoadSurfaces,
 }
 
 impl<'a> Sight<'a> {
-    pub(in crate::buildings) fn new(drive: &Drive, streets: &'a RoadSurfaces) -> Self {
+    pub(super) fn new(drive: &Drive, streets: &'a RoadSurfaces) -> Self {
         let mut standpoints: Vec<DVec2> = Vec::new();
         for keyframe in &drive.keyframes {
             let at = keyframe.world_from_ego.translation.truncate();
@@ -42,7 +42,7 @@ impl<'a> Sight<'a> {
     }
 
     /// What a wall from `a` to `b` (the building on its left) is worth.
-    pub(in crate::buildings) fn detail(&self, a: DVec2, b: DVec2) -> Detail {
+    pub(super) fn detail(&self, a: DVec2, b: DVec2) -> Detail {
         let out = -(b - a).perp();
         let along = (b - a) / (b - a).length_squared().max(1e-9);
         let distance_m = |p: &DVec2| a.lerp(b, (*p - a).dot(along).clamp(0.0, 1.0)).distance(*p);
