@@ -10,7 +10,7 @@ use trove_model::{
 use super::region::Region;
 use super::volumes::House;
 use super::wall::Grid;
-use crate::pieces::{ANY, Palette};
+use crate::pieces::{ANY, Palette, tinted};
 
 /// From this height on a building is a tower.
 const TOWER_M: f64 = 45.0;
@@ -279,12 +279,6 @@ fn shade(random: &mut Random) -> Vec3 {
 fn pick_shade(random: &mut Random) -> Vec3 {
     let colors = [Vec3::ONE, vec3(0.6, 0.8, 1.1), vec3(0.7, 1.0, 0.8), vec3(1.4, 1.3, 1.05)];
     random.pick(&colors).copied().unwrap_or(Vec3::ONE) * shade(random)
-}
-
-/// A texture's colour moved to a tagged one: its hue wins, half of the texture's own lightness stays.
-pub(super) fn tinted(base: Vec3, color: Vec3) -> Vec3 {
-    let hue = color / color.max_element().max(0.05);
-    (base * hue * (0.5 + color.max_element())).clamp(Vec3::splat(0.05), Vec3::splat(1.5))
 }
 
 #[cfg(test)]

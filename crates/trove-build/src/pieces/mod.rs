@@ -4,6 +4,6 @@ mod palette;
 mod piece;
 mod scenery;
 
-pub(crate) use palette::{ANY, Palette};
+pub(crate) use palette::{ANY, Palette, tinted};
 pub(crate) use piece::Piece;
 pub(crate) use scenery::Scenery;

@@ -67,3 +67,9 @@ fn plain(kind: SurfaceKind) -> Surface {
         design: None,
     }
 }
+
+/// A texture's colour moved to a tagged one: its hue wins, half of the texture's own lightness stays.
+pub(crate) fn tinted(base: Vec3, color: Vec3) -> Vec3 {
+    let hue = color / color.max_element().max(0.05);
+    (base * hue * (0.5 + color.max_element())).clamp(Vec3::splat(0.05), Vec3::splat(1.5))
+}

@@ -3,9 +3,8 @@
 use glam::{Vec3, vec3};
 use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofShape, SurfaceKind, Tags};
 
-use crate::buildings::dress::tinted;
 use crate::buildings::region::Region;
-use crate::pieces::Palette;
+use crate::pieces::{Palette, tinted};
 
 /// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
 /// [`super::super::shell::Slot`]; `facade` are the tags of the facade's surface, whose wall
