@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::osm::GeoExtent;
+use crate::geo_extent::GeoExtent;
 
 /// Why something could not be read, grouped by who must act.
 #[derive(Debug, thiserror::Error)]

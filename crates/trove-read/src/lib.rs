@@ -7,6 +7,7 @@ pub mod asset_files;
 pub mod drive_source;
 pub mod environment;
 mod error;
+mod geo_extent;
 pub mod human_body;
 pub mod nuscenes;
 pub mod osm;

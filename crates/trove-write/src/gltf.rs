@@ -4,6 +4,7 @@
 //! into glTF's y-up. A node's extras hold class, id, kind, asset and track. The sky is left out, because glTF has no
 //! word for it: [`write_environment`] puts it into a file of its own.
 
+mod binary;
 mod cameras;
 mod geometry;
 mod materials;
@@ -11,25 +12,16 @@ mod materials;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::DAffine3;
 use serde_json::{Value, json};
 use trove_model::{EnvironmentMap, Instance, Raster, Scene, Shot};
 
 use crate::{WriteError, exr_file, write_atomically};
+use binary::Binary;
 use geometry::Geometry;
 use materials::Materials;
 
-/// The sun, which a picture of the sky cannot hold: its disk is a thousand times as bright as the rest and half a
-/// degree wide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunLight {
-    /// Unit vector to its centre, World.
-    pub to_sun: DVec3,
-    /// Irradiance of a surface that faces it, linear Rec. 709 in the scale of [`trove_model::Light`].
-    pub irradiance: Vec3,
-    /// Angular radius of the disk.
-    pub radius_rad: f64,
-}
+pub use cameras::SunLight;
 
 /// What a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,27 +159,6 @@ fn node(instance: &Instance, mesh: usize) -> Result<Value, WriteError> {
         node["matrix"] = json!(glam::DMat4::from(placement).to_cols_array());
     }
     Ok(node)
-}
-
-/// The binary part and what lies where in it.
-#[derive(Default)]
-struct Binary {
-    bytes: Vec<u8>,
-    views: Vec<Value>,
-}
-
-impl Binary {
-    /// Appends data on the next multiple of four bytes; `target` is glTF's number for vertices or indices.
-    fn add(&mut self, data: &[u8], target: Option<u32>) -> usize {
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": data.len() });
-        if let Some(target) = target {
-            view["target"] = target.into();
-        }
-        self.bytes.extend_from_slice(data);
-        self.views.push(view);
-        self.views.len() - 1
-    }
 }
 
 /// Header, JSON chunk padded with spaces, binary chunk padded with zeros; `None` where the file would be too long.

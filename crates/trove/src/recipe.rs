@@ -1,11 +1,11 @@
 //! What a user asks for: the TOML recipe.
 
 mod camera;
+mod check;
 mod light;
 mod variations;
 
 use std::collections::BTreeSet;
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -16,6 +16,7 @@ use trove_model::Season;
 use trove_read::drive_source::{DATASETS, Opener};
 use trove_render::Denoising;
 
+use self::check::check;
 pub use camera::CameraSection;
 pub use light::LightSection;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
@@ -551,11 +552,6 @@ impl Keyframes {
             }
         }
     }
-}
-
-fn check(key: &str, value: impl Display, holds: bool, expected: &str) -> Result<()> {
-    ensure!(holds, "{key}: expected {expected}, found {value}");
-    Ok(())
 }
 
 /// The parser's error (which shows the place) and, for a key that is not known, the nearest one that is.

@@ -7,7 +7,6 @@ use glam::DVec2;
 use trove_model::CLASSES;
 
 use super::frame::{CandidateFrame, SeenObject};
-use super::report::escape;
 use super::{Curation, Split};
 
 /// Length of the longest bar of a class, and side of a map, pixels.
@@ -142,4 +141,8 @@ pub(super) fn objects(frames: &[&CandidateFrame], edges: &[f64], unit: &str, of:
         table += "</tr>";
     }
     table + "</table>"
+}
+
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

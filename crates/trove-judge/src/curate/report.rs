@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use trove_model::CLASSES;
 
 use super::frame::{CandidateFrame, entropy};
-use super::plots::{bars, class_bars, histogram, objects, places};
+use super::plots::{bars, class_bars, escape, histogram, objects, places};
 use super::{Curation, Split};
 use crate::JudgeError;
 use crate::pictures::{read, read_labels};
@@ -114,8 +114,4 @@ fn thumbnail(root: &Path, frame: &CandidateFrame) -> Result<String, JudgeError> 
         .encode_image(&small)
         .map_err(|e| JudgeError::unexpected(&folder, "a picture that can be encoded", e.to_string(), "report it"))?;
     Ok(STANDARD.encode(jpeg))
-}
-
-pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -1,6 +1,6 @@
 //! Boundary IoU (Cheng et al. 2021, Boundary IoU: Improving Object-Centric Image Segmentation Evaluation).
 
-use super::mean;
+use super::mean::mean;
 use crate::LabelSet;
 
 /// Width of the band along outlines as a share of the picture's diagonal, as in the paper.

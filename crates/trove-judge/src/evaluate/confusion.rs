@@ -1,6 +1,6 @@
 //! Which classes were taken for which.
 
-use super::mean;
+use super::mean::mean;
 use crate::LabelSet;
 
 /// Counts of pixels by what they are (rows) and what they were taken for (columns); the last column holds predictions

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod confusion;
+mod mean;
 mod panoptic;
 
 use std::path::{Path, PathBuf};
@@ -135,12 +136,6 @@ pub fn evaluate(
         set: settings.set.clone(),
         counts,
     })
-}
-
-/// The mean of the classes that have a value, added in their order; `None` where none has.
-fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
-    let (sum, count) = values.flatten().fold((0.0, 0u32), |(sum, count), value| (sum + value, count + 1));
-    (count > 0).then(|| sum / f64::from(count))
 }
 
 /// Pictures of both sides that belong together, in the order of their names, and how many predictions are left over.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::mean;
+use super::mean::mean;
 use crate::LabelSet;
 
 /// A segment's number: class in the upper half, object in the lower; `None` for ignored pixels.

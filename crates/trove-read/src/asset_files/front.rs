@@ -4,6 +4,7 @@ use glam::{Mat3, Vec2, Vec3};
 use trove_model::Kind;
 
 use super::axes::Axis;
+use super::evidence::Evidence;
 use super::model::Mark;
 use super::profile;
 use super::samples::{Sample, in_heights};
@@ -16,22 +17,6 @@ pub(super) struct Front {
     pub(super) front: Axis,
     pub(super) confidence: f32,
     pub(super) reason: String,
-}
-
-/// Something that speaks for a direction, seen from above in the file's axes turned upright: its length says how much.
-#[derive(Clone, Debug)]
-pub(super) struct Evidence {
-    pub(super) towards: Vec2,
-    /// It speaks for the opposite direction too.
-    pub(super) either: bool,
-    pub(super) reason: &'static str,
-}
-
-impl Evidence {
-    fn score(&self, direction: Vec2) -> f32 {
-        let score = self.towards.dot(direction);
-        if self.either { score.abs() } else { score }
-    }
 }
 
 const AHEAD: &str = "front|headlight|head light|hood|bonnet|windshield|windscreen|grille|steering|handlebar|handle|nose|face|eye|eyes|visor";

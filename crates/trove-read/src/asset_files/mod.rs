@@ -9,6 +9,7 @@
 mod asset;
 mod axes;
 mod check;
+mod evidence;
 mod fault;
 mod fbx;
 mod front;

@@ -4,7 +4,7 @@
 use glam::{Vec2, Vec3, vec2};
 use trove_model::Kind;
 
-use super::front::Evidence;
+use super::evidence::Evidence;
 use super::samples::Sample;
 
 /// Slices along a vehicle's length.

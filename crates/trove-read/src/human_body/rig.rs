@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use trove_model::BodyJoint;
 
 use super::base::Base;
-use super::{format, text};
+use super::file::{format, text};
 use crate::ReadError;
 
 const RIG: &str = "rig.game_engine.json";

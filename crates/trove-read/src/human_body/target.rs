@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::{format, from_makehuman, text};
+use super::file::{format, from_makehuman, text};
 use crate::ReadError;
 
 /// Vertices below `count` and how far they move.

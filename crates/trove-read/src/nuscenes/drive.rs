@@ -3,12 +3,13 @@
 use glam::{DVec2, DVec3};
 use trove_model::{Drive, EgoBody, Keyframe, Outcome, Report};
 
+use super::dataset::{LICENCE, NuScenes};
 use super::exposures::{self, GlobalFromEgo, Taken};
 use super::index::read_spans;
 use super::lidar::{self, SweepFiles};
 use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
 use super::tables::ByToken;
-use super::{LICENCE, NuScenes, boxes, keyframes, kinds, lane_map, levelling, place};
+use super::{boxes, keyframes, kinds, lane_map, levelling, place};
 use crate::ReadError;
 
 /// nuScenes' recording cars are Renault Zoes: published length, width without mirrors, and height. The origin of Ego
@@ -22,8 +23,21 @@ struct Moment<'a> {
     global_from_ego: GlobalFromEgo,
 }
 
+impl NuScenes {
+    /// Loads a scene by its name.
+    ///
+    /// # Errors
+    /// There is no such scene, or its tables or files cannot be read or are not what the dataset's are.
+    pub fn drive(&self, scene: &str, report: &Report) -> Result<Drive, ReadError> {
+        match self.tables.scenes.iter().position(|s| s.name == scene) {
+            Some(i) => load(self, i, report),
+            None => Err(self.no_such_scene(scene)),
+        }
+    }
+}
+
 /// Loads the scene at a place in the scene table.
-pub(super) fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, ReadError> {
+fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, ReadError> {
     let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
     let record = &tables.scenes[scene];
     let moments = moments(dataset, scene, report)?;

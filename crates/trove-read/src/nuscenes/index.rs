@@ -16,6 +16,9 @@ use super::table::{RawRecord, Table, records};
 use super::tables::{Tables, note_duplicate, parse, table_path};
 use crate::ReadError;
 
+/// The sensor whose time is the keyframe's time.
+const LIDAR: &str = "LIDAR_TOP";
+
 /// Bytes of a table that hold whole records with commas between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Span {
@@ -109,7 +112,7 @@ fn sample_data_spans(
     let mut scene_of_pose = HashMap::new();
     each::<SampleDataRecord>(folder, |raw| {
         let Some(key) = parse::<SampleDataKey>(SampleDataRecord::TABLE, raw, report) else { return };
-        let is_used = |s: &super::records::SensorRecord| s.modality == "camera" || s.channel == super::LIDAR;
+        let is_used = |s: &super::records::SensorRecord| s.modality == "camera" || s.channel == LIDAR;
         // A sensor that is not known stays, for the scene to report.
         if !key.is_key_frame || !tables.sensor(&key.calibrated_sensor_token).is_none_or(is_used) {
             return;

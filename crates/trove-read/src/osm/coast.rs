@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Bounds, Land, LandKind, Outcome, Polygon, Report, StreetMap};
 
-use super::Places;
+use super::places::Places;
 use super::raw::{Raw, RawWay};
 use super::rings::polygons;
 

@@ -3,7 +3,6 @@
 use trove_model::{FurnitureKind, LandKind, LineKind, RoadKind};
 
 use super::raw::Tags;
-use super::things::furniture_kind;
 
 /// What a thing's geometry can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,6 +171,50 @@ pub(super) fn line_kind(tags: &Tags) -> Option<LineKind> {
         }
         _ => return None,
     })
+}
+
+pub(super) fn furniture_kind(tags: &Tags) -> Option<FurnitureKind> {
+    let by_highway = match tags.get("highway") {
+        "street_lamp" => Some(FurnitureKind::StreetLamp),
+        "traffic_signals" => Some(FurnitureKind::TrafficSignal),
+        "stop" => Some(FurnitureKind::StopSign),
+        "give_way" => Some(FurnitureKind::GiveWaySign),
+        "traffic_sign" => Some(FurnitureKind::TrafficSign),
+        "crossing" => Some(FurnitureKind::Crossing),
+        "bus_stop" => Some(FurnitureKind::BusStop),
+        _ => None,
+    };
+    let by_amenity = || match tags.get("amenity") {
+        "bench" | "lounger" => Some(FurnitureKind::Bench),
+        "waste_basket" | "waste_disposal" | "recycling" => Some(FurnitureKind::Bin),
+        "bicycle_parking" | "bicycle_rental" => Some(FurnitureKind::BicycleParking),
+        "post_box" => Some(FurnitureKind::Mailbox),
+        "telephone" => Some(FurnitureKind::Telephone),
+        "fountain" => Some(FurnitureKind::Fountain),
+        _ => None,
+    };
+    let by_making = || match (tags.get("man_made"), tags.get("power")) {
+        ("street_cabinet", _) | (_, "cabinet") => Some(FurnitureKind::StreetCabinet),
+        ("flagpole", _) => Some(FurnitureKind::Flagpole),
+        ("manhole", _) => Some(FurnitureKind::Manhole),
+        ("utility_pole" | "telegraph_pole", _) | (_, "pole") => Some(FurnitureKind::UtilityPole),
+        ("tree", _) => Some(FurnitureKind::Tree),
+        _ => None,
+    };
+    let by_rest = || match (tags.get("natural"), tags.get("leisure"), tags.get("advertising"), tags.get("barrier")) {
+        ("tree", ..) => Some(FurnitureKind::Tree),
+        ("shrub", ..) => Some(FurnitureKind::Shrub),
+        (_, "picnic_table", ..) => Some(FurnitureKind::PicnicTable),
+        (_, _, "column", _) => Some(FurnitureKind::AdvertisingColumn),
+        (.., "bollard") => Some(FurnitureKind::Bollard),
+        _ if tags.get("emergency") == "fire_hydrant" && tags.get("fire_hydrant:type") != "underground" => {
+            Some(FurnitureKind::Hydrant)
+        }
+        _ if tags.get("public_transport") == "platform" && tags.get("bus") == "yes" => Some(FurnitureKind::BusStop),
+        _ if tags.has("traffic_sign") => Some(FurnitureKind::TrafficSign),
+        _ => None,
+    };
+    by_highway.or_else(by_amenity).or_else(by_making).or_else(by_rest)
 }
 
 #[cfg(test)]

@@ -6,8 +6,10 @@
 mod buildings;
 mod coast;
 mod colors;
+mod fault;
 mod meaning;
 mod pbf;
+mod places;
 mod protobuf;
 mod raw;
 mod relations;
@@ -26,11 +28,14 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use glam::DVec2;
-use trove_model::{Bounds, MapProjection, Report, StreetMap, drives_on_left};
+use trove_model::{Bounds, MapProjection, Report, StreetMap};
 
 use crate::ReadError;
+use fault::Fault;
+use places::Places;
 use raw::{Raw, RawNode};
+
+pub use crate::geo_extent::GeoExtent;
 
 const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
 
@@ -38,7 +43,7 @@ const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
 /// [`ReadError::Elsewhere`].
 pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Report) -> Result<StreetMap, ReadError> {
     let raw = parse_file(path, report)?;
-    let extent = GeoExtent::around(&raw.nodes).ok_or_else(|| without_nodes(path))?;
+    let extent = extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))?;
     if !extent.bounds(projection).overlaps(&area) {
         return Err(elsewhere(path, &extent, projection, area));
     }
@@ -61,109 +66,7 @@ pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Repo
 /// The latitudes and longitudes that a file's nodes lie in.
 pub fn extent(path: &Path) -> Result<GeoExtent, ReadError> {
     let raw = parse_file(path, &Report::default())?;
-    GeoExtent::around(&raw.nodes).ok_or_else(|| without_nodes(path))
-}
-
-/// A rectangle of latitudes and longitudes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GeoExtent {
-    /// Southern edge.
-    pub min_lat_deg: f64,
-    /// Northern edge.
-    pub max_lat_deg: f64,
-    /// Western edge, −180 to 180.
-    pub min_lon_deg: f64,
-    /// Eastern edge; above 180 where the rectangle crosses the antimeridian.
-    pub max_lon_deg: f64,
-}
-
-impl GeoExtent {
-    fn around(nodes: &[RawNode]) -> Option<Self> {
-        let box_of =
-            |lon_deg: fn(&RawNode) -> f64| Bounds::around(nodes.iter().map(|n| DVec2::new(lon_deg(n), n.lat_deg)));
-        let plain = box_of(|n| n.lon_deg)?;
-        // Across the antimeridian the narrower rectangle is the right one.
-        let across = box_of(|n| n.lon_deg.rem_euclid(360.0))?;
-        let narrow = if across.size_m().x < plain.size_m().x { across } else { plain };
-        Some(Self {
-            min_lat_deg: narrow.min.y,
-            max_lat_deg: narrow.max.y,
-            min_lon_deg: narrow.min.x,
-            max_lon_deg: narrow.max.x,
-        })
-    }
-
-    /// The rectangle in World, metres.
-    pub fn bounds(&self, projection: &MapProjection) -> Bounds {
-        let width_deg = self.max_lon_deg - self.min_lon_deg;
-        // From the middle, so that a wide rectangle is not taken for the rest of the earth.
-        let middle_lon_deg = self.min_lon_deg + width_deg / 2.0;
-        let min = projection.world_from_geo(self.min_lat_deg, middle_lon_deg);
-        let max = projection.world_from_geo(self.max_lat_deg, middle_lon_deg);
-        let metres_per_deg = projection.world_from_geo(0.0, projection.origin_lon_deg + 1.0).x
-            - projection.world_from_geo(0.0, projection.origin_lon_deg).x;
-        let half = DVec2::new(width_deg / 2.0 * metres_per_deg, 0.0);
-        Bounds { min: min - half, max: max + half }
-    }
-}
-
-impl std::fmt::Display for GeoExtent {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "latitude {:.4}° to {:.4}°, longitude {:.4}° to {:.4}°",
-            self.min_lat_deg, self.max_lat_deg, self.min_lon_deg, self.max_lon_deg
-        )
-    }
-}
-
-/// Where nodes are in World, and what part of it is wanted.
-struct Places<'a> {
-    nodes: &'a [RawNode],
-    world: Vec<DVec2>,
-    area: Bounds,
-    drives_on_left: bool,
-}
-
-impl<'a> Places<'a> {
-    fn new(raw: &'a Raw, projection: &MapProjection, area: Bounds) -> Self {
-        let world = raw.nodes.iter().map(|n| projection.world_from_geo(n.lat_deg, n.lon_deg)).collect();
-        let drives_on_left = drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg);
-        Self { nodes: &raw.nodes, world, area, drives_on_left }
-    }
-
-    /// A node's position; `None` where it is not in the file.
-    fn of(&self, id: i64) -> Option<DVec2> {
-        self.nodes.binary_search_by_key(&id, |n| n.id).ok().map(|i| self.world[i])
-    }
-
-    /// Whether the rectangle around some points shares a point with the area.
-    fn touched_by(&self, points: &[DVec2]) -> bool {
-        Bounds::around(points.iter().copied()).is_some_and(|bounds| bounds.overlaps(&self.area))
-    }
-}
-
-/// What is wrong with a file's bytes.
-#[derive(Debug)]
-enum Fault {
-    Io(io::Error),
-    Content { byte: u64, expected: String, found: String, remedy: String },
-}
-
-impl Fault {
-    fn new(expected: impl Into<String>, found: impl Into<String>, remedy: &str) -> Self {
-        Self::Content { byte: 0, expected: expected.into(), found: found.into(), remedy: remedy.into() }
-    }
-
-    /// The same with its place, where it has none yet.
-    fn at(self, place: u64) -> Self {
-        match self {
-            Self::Content { byte: 0, expected, found, remedy } => {
-                Self::Content { byte: place, expected, found, remedy }
-            }
-            fault => fault,
-        }
-    }
+    extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))
 }
 
 /// Reads either format, told apart by the first bytes.
@@ -201,6 +104,10 @@ fn line_of(file: impl Read, byte: u64) -> io::Result<u64> {
         buffer.clear();
     }
     Ok(lines)
+}
+
+fn extent_of(nodes: &[RawNode]) -> Option<GeoExtent> {
+    GeoExtent::around(nodes.iter().map(|n| [n.lat_deg, n.lon_deg]))
 }
 
 fn without_nodes(path: &Path) -> ReadError {

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use flate2::read::ZlibDecoder;
 use trove_model::Report;
 
-use super::Fault;
+use super::fault::Fault;
 use super::protobuf::{Fields, Malformed, running_sums, zigzag};
 use super::raw::{Raw, RawNode, RawRelation, RawWay, Tags};
 

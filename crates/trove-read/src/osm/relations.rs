@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 use trove_model::{Outcome, Report, StreetMap};
 
-use super::Places;
 use super::meaning::{Meaning, Outline, meaning};
+use super::places::Places;
 use super::raw::{Raw, RawRelation, RawWay, Tags};
 use super::rings::{polygons, trace};
 use super::ways::{add_areas, note_repairs};

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Furniture, FurnitureDetail, FurnitureKind, MappedPlant, Outcome, Report, StreetMap};
 
-use super::Places;
 use super::buildings::is_shop;
-use super::meaning::{Meaning, Outline, meaning};
+use super::meaning::{Meaning, Outline, furniture_kind, meaning};
+use super::places::Places;
 use super::raw::{Raw, RawThing, Tags};
 use super::roads::crossing_marking;
 use super::signs::sign;
@@ -70,50 +70,6 @@ fn plant(tagged: &Tagged) -> Option<MappedPlant> {
     let leaves = group.or_else(|| tagged.word(&["leaf_type"], &LEAVES));
     let species = (!species.is_empty()).then_some(species);
     (species.is_some() || leaves.is_some()).then_some(MappedPlant { species, leaves })
-}
-
-pub(super) fn furniture_kind(tags: &Tags) -> Option<FurnitureKind> {
-    let by_highway = match tags.get("highway") {
-        "street_lamp" => Some(FurnitureKind::StreetLamp),
-        "traffic_signals" => Some(FurnitureKind::TrafficSignal),
-        "stop" => Some(FurnitureKind::StopSign),
-        "give_way" => Some(FurnitureKind::GiveWaySign),
-        "traffic_sign" => Some(FurnitureKind::TrafficSign),
-        "crossing" => Some(FurnitureKind::Crossing),
-        "bus_stop" => Some(FurnitureKind::BusStop),
-        _ => None,
-    };
-    let by_amenity = || match tags.get("amenity") {
-        "bench" | "lounger" => Some(FurnitureKind::Bench),
-        "waste_basket" | "waste_disposal" | "recycling" => Some(FurnitureKind::Bin),
-        "bicycle_parking" | "bicycle_rental" => Some(FurnitureKind::BicycleParking),
-        "post_box" => Some(FurnitureKind::Mailbox),
-        "telephone" => Some(FurnitureKind::Telephone),
-        "fountain" => Some(FurnitureKind::Fountain),
-        _ => None,
-    };
-    let by_making = || match (tags.get("man_made"), tags.get("power")) {
-        ("street_cabinet", _) | (_, "cabinet") => Some(FurnitureKind::StreetCabinet),
-        ("flagpole", _) => Some(FurnitureKind::Flagpole),
-        ("manhole", _) => Some(FurnitureKind::Manhole),
-        ("utility_pole" | "telegraph_pole", _) | (_, "pole") => Some(FurnitureKind::UtilityPole),
-        ("tree", _) => Some(FurnitureKind::Tree),
-        _ => None,
-    };
-    let by_rest = || match (tags.get("natural"), tags.get("leisure"), tags.get("advertising"), tags.get("barrier")) {
-        ("tree", ..) => Some(FurnitureKind::Tree),
-        ("shrub", ..) => Some(FurnitureKind::Shrub),
-        (_, "picnic_table", ..) => Some(FurnitureKind::PicnicTable),
-        (_, _, "column", _) => Some(FurnitureKind::AdvertisingColumn),
-        (.., "bollard") => Some(FurnitureKind::Bollard),
-        _ if tags.get("emergency") == "fire_hydrant" && tags.get("fire_hydrant:type") != "underground" => {
-            Some(FurnitureKind::Hydrant)
-        }
-        _ if tags.get("public_transport") == "platform" && tags.get("bus") == "yes" => Some(FurnitureKind::BusStop),
-        _ if tags.has("traffic_sign") => Some(FurnitureKind::TrafficSign),
-        _ => None,
-    };
-    by_highway.or_else(by_amenity).or_else(by_making).or_else(by_rest)
 }
 
 /// Where it faces: as tagged, else against the traffic that it is for.

@@ -6,7 +6,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 use trove_model::{Outcome, Report};
 
-use super::Fault;
+use super::fault::Fault;
 use super::raw::{Raw, RawNode, RawRelation, RawWay, Tags};
 
 /// The element that is open below the root.

@@ -4,13 +4,23 @@ use glam::{DMat4, DQuat, DVec3, Vec3};
 use serde_json::{Value, json};
 use trove_model::Shot;
 
-use super::SunLight;
-
 /// Light's weight in lumens a watt at 555 nm: glTF counts in lux what others count in watts a square metre.
 const LUX_PER_WATT: f32 = 683.0;
 
 /// Nearest thing that a camera of the file shows, metres.
 const NEAR_M: f64 = 0.05;
+
+/// The sun, which a picture of the sky cannot hold: its disk is a thousand times as bright as the rest and half a
+/// degree wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunLight {
+    /// Unit vector to its centre, World.
+    pub to_sun: DVec3,
+    /// Irradiance of a surface that faces it, linear Rec. 709 in the scale of [`trove_model::Light`].
+    pub irradiance: Vec3,
+    /// Angular radius of the disk.
+    pub radius_rad: f64,
+}
 
 /// A camera and the node, in World, that carries it as camera number `index`.
 ///

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use trove_model::{Instance, Mesh, Scene};
 
-use super::Binary;
+use super::binary::Binary;
 use crate::WriteError;
 
 const FLOAT: u32 = 5126;

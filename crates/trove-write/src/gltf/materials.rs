@@ -6,7 +6,7 @@ use glam::Vec3;
 use serde_json::{Value, json};
 use trove_model::{ColorSpace, Mapping, Material, Scene, Texture};
 
-use super::Binary;
+use super::binary::Binary;
 use crate::{WriteError, png_file};
 
 /// glTF's lists, ready to be written.

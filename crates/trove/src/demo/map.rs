@@ -6,8 +6,8 @@ use glam::DVec2;
 use serde_json::{Value, json};
 use trove_model::{MapProjection, Random, Seed};
 
-use super::street::{self, MAIN_HALF_M, REACH_M, SIDE_HALF_M, SIDEWALK_M};
-use super::{CROSSING_M, LAT_DEG, LON_DEG, tables::token};
+use super::street::{self, CROSSING_M, LAT_DEG, LON_DEG, MAIN_HALF_M, REACH_M, SIDE_HALF_M, SIDEWALK_M};
+use super::tables::token;
 
 /// Buildings begin this far behind the sidewalk.
 const FRONT_GARDEN_M: f64 = 1.0;

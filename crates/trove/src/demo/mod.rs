@@ -11,16 +11,9 @@ use std::path::Path;
 use anyhow::Result;
 use trove_write::write_atomically;
 
+use self::street::PLACE;
 use crate::recipe::Recipe;
 use crate::run::{PRIVATE, refuse_foreign};
-
-/// The place's name in tables and map.
-const PLACE: &str = "trove-demo";
-/// Where the made-up crossing lies on earth; only the sun takes notice.
-const LAT_DEG: f64 = 47.37;
-const LON_DEG: f64 = 8.54;
-/// The crossing's position in the tables' global frame, metres.
-const CROSSING_M: [f64; 2] = [500.0, 500.0];
 
 const RECIPE: &str = r#"seed = 7
 

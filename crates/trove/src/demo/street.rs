@@ -2,6 +2,13 @@
 
 use glam::DVec2;
 
+/// The place's name in tables and map.
+pub(super) const PLACE: &str = "trove-demo";
+/// Where the made-up crossing lies on earth; only the sun takes notice.
+pub(super) const LAT_DEG: f64 = 47.37;
+pub(super) const LON_DEG: f64 = 8.54;
+/// The crossing's position in the tables' global frame, metres.
+pub(super) const CROSSING_M: [f64; 2] = [500.0, 500.0];
 /// Half the main street (east–west): two lanes a direction and parking on both sides.
 pub(super) const MAIN_HALF_M: f64 = 8.8;
 /// Half the side street (north–south): one lane a direction.

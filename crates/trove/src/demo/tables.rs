@@ -5,8 +5,7 @@ use serde_json::{Value, json};
 use trove_model::{Body, Pose, Seed, World};
 
 use super::road_users::{self, RoadUser};
-use super::street::EASTBOUND_M;
-use super::{CROSSING_M, LAT_DEG, LON_DEG, PLACE};
+use super::street::{CROSSING_M, EASTBOUND_M, LAT_DEG, LON_DEG, PLACE};
 
 /// Annotated moments, half a second apart as in nuScenes; the demo's picture is of the middle one.
 pub(super) const KEYFRAMES: usize = 5;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use trove_build::LensChange;
 use trove_model::{Distortion, ExposureRule, Film, SensorModel, WhiteBalance};
 
-use super::check;
+use super::check::check;
 
 /// `[camera]`
 #[derive(Clone, Debug, Deserialize, Serialize)]

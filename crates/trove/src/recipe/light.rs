@@ -4,7 +4,7 @@ use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{Moment, SkyChoice};
 
-use super::check;
+use super::check::check;
 
 /// `[light]`
 #[derive(Clone, Debug, Deserialize, Serialize)]

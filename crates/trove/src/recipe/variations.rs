@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 
-use super::{LightSection, SeasonChoice, check};
+use super::check::check;
+use super::{LightSection, SeasonChoice};
 
 /// What may differ between variations; each has a seed of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use super::json::Root;
-use super::packed;
 use crate::ReadError;
 use crate::asset_files::fault::Fault;
 
@@ -15,7 +14,7 @@ pub(super) struct Container {
     folder: PathBuf,
     buffers: Vec<Vec<u8>>,
     /// Views that were packed with meshopt, unpacked.
-    unpacked: Vec<Option<Vec<u8>>>,
+    pub(super) unpacked: Vec<Option<Vec<u8>>>,
 }
 
 /// What is done about the required extensions that are understood.
@@ -44,7 +43,7 @@ const UNDERSTOOD: [&str; 21] = [
 ];
 
 impl Container {
-    /// Reads a file's bytes; buffers beside it are read from `path`'s folder.
+    /// Reads a file's bytes, and leaves views that are packed as they are; buffers beside it are read from `path`'s folder.
     pub(super) fn open(path: &Path, bytes: &[u8]) -> Result<Self, ReadError> {
         let (json, binary) = chunks(bytes).map_err(|fault| fault.at(path))?;
         let root: Root = serde_json::from_slice(json)
@@ -72,9 +71,7 @@ impl Container {
             }
             buffers.push(bytes);
         }
-        let mut container = Self { root, path: path.to_owned(), folder, buffers, unpacked: Vec::new() };
-        container.unpacked = packed::views(&container).map_err(|fault| fault.at(path))?;
-        Ok(container)
+        Ok(Self { root, path: path.to_owned(), folder, buffers, unpacked: Vec::new() })
     }
 
     /// A slice of a buffer.

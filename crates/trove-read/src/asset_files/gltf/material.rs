@@ -9,7 +9,7 @@ use trove_model::{ColorSpace, Material, Outcome, Texture};
 
 use super::container::{Container, none};
 use super::json::{self, TextureRef};
-use super::texture::Textures;
+use super::texture::{Textures, moved};
 use crate::asset_files::fault::Fault;
 use crate::asset_files::looks::{self, Alpha};
 use crate::asset_files::model::{Model, Piece};
@@ -181,23 +181,6 @@ impl<'a> Looks<'a> {
         };
         vec![(Piece { positions, normals, uvs, tints, triangles: dark }, look.slot), (lit, slot)]
     }
-}
-
-/// Texture coordinates' set, scale with rotation, and offset (`KHR_texture_transform`).
-pub(super) fn moved(r: &TextureRef) -> (usize, Mat2, Vec2) {
-    let Some(ext) = r.extensions.get("KHR_texture_transform") else {
-        return (r.tex_coord, Mat2::IDENTITY, Vec2::ZERO);
-    };
-    let pair = |key: &str, otherwise: Vec2| {
-        let values = ext.get(key).and_then(Value::as_array);
-        let number = |i: usize| Some(values?.get(i)?.as_f64()? as f32);
-        number(0).zip(number(1)).map_or(otherwise, |(x, y)| vec2(x, y))
-    };
-    let angle = ext.get("rotation").and_then(Value::as_f64).unwrap_or(0.0) as f32;
-    let scale = pair("scale", Vec2::ONE);
-    let set = ext.get("texCoord").and_then(Value::as_u64).map_or(r.tex_coord, |set| set as usize);
-    // v runs down, so turning counter-clockwise in the picture is turning clockwise in numbers.
-    (set, Mat2::from_angle(-angle) * Mat2::from_diagonal(scale), pair("offset", Vec2::ZERO))
 }
 
 fn color(value: Option<&Value>) -> Option<Vec3> {

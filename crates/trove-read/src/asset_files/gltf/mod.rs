@@ -27,7 +27,7 @@ use crate::ReadError;
 
 /// Reads a file's bytes; with `part` only the node of that name and what hangs on it.
 pub(super) fn read(path: &Path, bytes: &[u8], part: Option<&str>, pictures: &Pictures) -> Result<Model, ReadError> {
-    let container = Container::open(path, bytes)?;
+    let container = packed::open(path, bytes)?;
     assemble(&container, part, pictures).map_err(|fault| fault.at(path))
 }
 

@@ -1,20 +1,29 @@
 //! Geometry packed with meshopt (`EXT_meshopt_compression`) or Draco (`KHR_draco_mesh_compression`).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 
 use draco_core::{DecoderBuffer, Mesh as DracoMesh, MeshDecoder};
 use meshopt::ffi;
 use serde_json::Value;
 
 use super::container::Container;
+use crate::ReadError;
 use crate::asset_files::fault::Fault;
 
 /// Unpacked data above this is a damaged count, bytes.
 const MOST_BYTES: usize = 1 << 30;
 const REMEDY: &str = "export the model without compression, or unpack it with `npx gltf-pipeline -i in.glb -o out.glb`";
 
+/// Opens a file and unpacks its views.
+pub(super) fn open(path: &Path, bytes: &[u8]) -> Result<Container, ReadError> {
+    let mut container = Container::open(path, bytes)?;
+    container.unpacked = views(&container).map_err(|fault| fault.at(path))?;
+    Ok(container)
+}
+
 /// Every view that is packed with meshopt, unpacked; `None` where a view is plain.
-pub(super) fn views(container: &Container) -> Result<Vec<Option<Vec<u8>>>, Fault> {
+fn views(container: &Container) -> Result<Vec<Option<Vec<u8>>>, Fault> {
     let unpack = |(i, view): (usize, &super::json::View)| {
         let ext = ["EXT_meshopt_compression", "KHR_meshopt_compression"].iter().find_map(|e| view.extensions.get(*e));
         ext.map(|ext| meshopt_view(container, ext, &format!("bufferViews[{i}]"))).transpose()

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::{Mat2, Vec2, vec2};
+use serde_json::Value;
 use trove_model::{ColorSpace, Outcome, Texture};
 
 use super::container::Container;
 use super::json::{self, TextureRef};
-use super::material::moved;
 use crate::asset_files::looks;
 use crate::asset_files::model::Model;
 use crate::asset_files::picture::{Pictures, Pixels, decode};
@@ -99,4 +100,21 @@ fn noticed(mut pixels: Pixels, name: &str, model: &mut Model) -> Pixels {
         model.notice(Outcome::Substituted, "a texture was scaled down", format!("{name}: {notice}"));
     }
     pixels
+}
+
+/// Texture coordinates' set, scale with rotation, and offset (`KHR_texture_transform`).
+pub(super) fn moved(r: &TextureRef) -> (usize, Mat2, Vec2) {
+    let Some(ext) = r.extensions.get("KHR_texture_transform") else {
+        return (r.tex_coord, Mat2::IDENTITY, Vec2::ZERO);
+    };
+    let pair = |key: &str, otherwise: Vec2| {
+        let values = ext.get(key).and_then(Value::as_array);
+        let number = |i: usize| Some(values?.get(i)?.as_f64()? as f32);
+        number(0).zip(number(1)).map_or(otherwise, |(x, y)| vec2(x, y))
+    };
+    let angle = ext.get("rotation").and_then(Value::as_f64).unwrap_or(0.0) as f32;
+    let scale = pair("scale", Vec2::ONE);
+    let set = ext.get("texCoord").and_then(Value::as_u64).map_or(r.tex_coord, |set| set as usize);
+    // v runs down, so turning counter-clockwise in the picture is turning clockwise in numbers.
+    (set, Mat2::from_angle(-angle) * Mat2::from_diagonal(scale), pair("offset", Vec2::ZERO))
 }
