@@ -13,6 +13,7 @@ mod facade;
 mod frames;
 mod height_field;
 mod human_body;
+mod in_season;
 mod kind;
 mod lane_map;
 mod lens;

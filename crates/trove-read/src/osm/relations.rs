@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 use trove_model::{Outcome, Report, StreetMap};
 
+use super::account::Account;
 use super::meaning::{Meaning, Outline, meaning};
 use super::places::Places;
 use super::raw::{Raw, RawRelation, RawWay, Tags};
@@ -18,33 +19,6 @@ pub(super) struct Edges {
     pub(super) used: BTreeSet<i64>,
     /// Those that are nothing else, although they carry tags.
     pub(super) spent: BTreeSet<i64>,
-}
-
-/// What became of the ways or relations in the area.
-#[derive(Debug, Default)]
-pub(super) struct Account {
-    pub(super) in_area: u32,
-    used: u32,
-    reported: u32,
-}
-
-impl Account {
-    /// Counts a thing that was used, or reports why it was not.
-    pub(super) fn add(&mut self, done: Result<(), String>, what: &str, id: i64, report: &Report) {
-        match done {
-            Ok(()) => self.used += 1,
-            Err(reason) => {
-                self.reported += 1;
-                report.note(Outcome::Dropped, &format!("osm: {what} not used: {reason}"), format!("{what} {id}"));
-            }
-        }
-    }
-
-    pub(super) fn measure(&self, what: &str, report: &Report) {
-        report.measure(&format!("osm.{what}s_in_area"), f64::from(self.in_area));
-        report.measure(&format!("osm.{what}s_used"), f64::from(self.used));
-        report.measure(&format!("osm.{what}s_accounted"), f64::from(self.used + self.reported));
-    }
 }
 
 /// Adds every area that a relation shapes.
