@@ -5,12 +5,12 @@ use trove_model::{
     BarrierStyle, Furniture, FurnitureKind, Land, LineKind, MapLine, Outcome, Polygon, Report, StreetMap,
 };
 
+use super::account::Account;
 use super::buildings::{building, is_shop};
 use super::coast::is_coastline;
 use super::meaning::{Meaning, Outline, line_kind, meaning};
 use super::places::Places;
 use super::raw::{Raw, RawWay, Tags};
-use super::account::Account;
 use super::relations::Edges;
 use super::rings::{Repaired, polygons};
 use super::roads::road;
