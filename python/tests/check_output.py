@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 from PIL import Image
-
 from trove.format import read_frame, read_manifest
 
 LABELS = [

@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 from conftest import files, trove
 from PIL import Image
-
 from trove.format import read_manifest
 
 # Cars, buses, jeeps, trucks, vans, construction machines, bicycles and motorcycles with their riders.

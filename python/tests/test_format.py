@@ -7,7 +7,6 @@ from typing import get_type_hints
 import jsonschema
 import pytest
 from conftest import trove
-
 from trove import format as form
 
 SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
@@ -48,7 +47,6 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         (schema("manifest")["$defs"]["FrameRow"], form.FrameRow),
         (schema("frame"), form.FrameTable),
         (schema("frame")["$defs"]["ObjectRow"], form.ObjectRow),
-        (schema("curated"), form.Curated),
     ],
 )
 def test_the_types_have_the_fields_of_the_schemas(described, typed):
@@ -57,8 +55,8 @@ def test_the_types_have_the_fields_of_the_schemas(described, typed):
 
 def test_another_version_and_a_damaged_file_are_told(tmp_path):
     (tmp_path / "manifest.json").write_text('{"format": 1, "frames": []}')
-    with pytest.raises(ValueError, match="manifest.json: expected format 2, found 1"):
+    with pytest.raises(ValueError, match=r"manifest\.json: expected format 2, found 1"):
         form.read_manifest(tmp_path)
     (tmp_path / "frame.json").write_text('{"scene":')
-    with pytest.raises(ValueError, match="frame.json: expected JSON"):
+    with pytest.raises(ValueError, match=r"frame\.json: expected JSON"):
         form.read_frame(tmp_path)

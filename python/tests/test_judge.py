@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from conftest import trove
 from PIL import Image
-
 from trove.format import read_curated
 
 WIDTH, HEIGHT = 2048, 1024

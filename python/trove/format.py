@@ -11,14 +11,6 @@ Matrix4 = list[list[float]]
 """A 4×4 matrix, rows first."""
 
 
-class Curated(TypedDict):
-    """`curated.json`: frames by what they serve for, as paths below the dataset's folder."""
-
-    train: list[str]
-    val: list[str]
-    gap: list[str]
-
-
 class FrameRow(TypedDict):
     """A frame's row in the manifest; `counterfactual` is there only where it is compared with another frame."""
 
@@ -109,22 +101,25 @@ class FrameTable(TypedDict):
 
 def read_manifest(root: Path) -> Manifest:
     """An output folder's manifest; another version of the format is an error."""
-    path = Path(root) / "manifest.json"
-    manifest = _read(path)
-    if manifest.get("format") != FORMAT:
-        found = manifest.get("format", "none")
-        raise ValueError(f"{path}: expected format {FORMAT}, found {found}: generate the folder anew, or use that version of trove")
+    path = root / "manifest.json"
+    manifest: Manifest = _read(path)
+    found = manifest.get("format", "none")
+    if found != FORMAT:
+        remedy = "generate the folder anew, or use that version of trove"
+        raise ValueError(f"{path}: expected format {FORMAT}, found {found}; {remedy}")
     return manifest
 
 
 def read_frame(folder: Path) -> FrameTable:
     """A frame's table, by its folder."""
-    return _read(Path(folder) / "frame.json")
+    table: FrameTable = _read(folder / "frame.json")
+    return table
 
 
-def read_curated(path: Path) -> Curated:
-    """A list of frames that `trove curate` wrote."""
-    return {"gap": [], **_read(Path(path))}
+def read_curated(path: Path) -> dict[str, list[str]]:
+    """A list of `trove curate`: the paths of frames for `train` and `val`, and those left out between them (`gap`)."""
+    frames: dict[str, list[str]] = _read(path)
+    return frames
 
 
 def _read(path: Path) -> Any:
