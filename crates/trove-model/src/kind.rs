@@ -4,6 +4,7 @@ use crate::Class;
 
 /// What an object or an asset is; readers turn a dataset's categories into it, and assets are chosen by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[allow(missing_docs)] // the names are the definition
 pub enum Kind {
     Adult,

@@ -19,6 +19,7 @@ mod lane_map;
 mod lens;
 mod lettering;
 mod light;
+mod locale;
 mod material;
 mod mesh;
 mod plant;
@@ -50,6 +51,12 @@ pub use lane_map::{Lane, LaneMap};
 pub use lens::{Distortion, Lens};
 pub use lettering::Lettering;
 pub use light::{Environment, EnvironmentMap, Light, PhysicalSky};
+pub use locale::{
+    BuildingCustoms, CentreLine, Covering, CrossingStyle, Dash, DrivingSide, FacadeRule, FacadeUse, GiveWayLine,
+    KerbCustoms, KerbLines, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale, MarkingCustoms, MinorRoad,
+    ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms, SignalSide, SpeedUnit,
+    StreetCustoms, TrafficMix, WarrantedSign,
+};
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};

@@ -133,6 +133,7 @@ pub enum RoofMaterial {
 
 /// A roof's form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 #[allow(missing_docs)] // OpenStreetMap's own names
 pub enum RoofShape {
     Flat,
