@@ -57,7 +57,10 @@ fn stages_know_the_model_and_not_each_other() {
 
 #[test]
 fn the_model_knows_glam_and_nothing_else() {
-    assert_eq!(dependencies("trove-model"), ["glam"]);
+    assert_eq!(dependencies("trove-model"), ["glam", "serde"]);
+    let text = std::fs::read_to_string(root().join("crates/trove-model/Cargo.toml")).unwrap();
+    let manifest: toml::Table = text.parse().unwrap();
+    assert_eq!(manifest["dependencies"]["serde"]["optional"].as_bool(), Some(true));
 }
 
 /// A string literal like `"lamp/curved"`, as ids of assets are.

@@ -12,9 +12,9 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use glam::DVec2;
-use trove_build::{BuildSettings, LightChoice, OnDisagreement, Site, SkyChoice, Weather};
-use trove_model::{AssetLibrary, Bounds, Drive, MapProjection, Report, Scene, Seed, StreetMap};
-use trove_read::{nuscenes::NuScenes, osm};
+use trove_build::{BuildSettings, LightChoice, OnDisagreement, PlacePlan, Site, SkyChoice, Weather};
+use trove_model::{AssetLibrary, Bounds, Drive, Locale, MapProjection, Report, Scene, Seed, StreetMap};
+use trove_read::{locale::Locales, nuscenes::NuScenes, osm};
 
 /// A place that has been built.
 struct Place {
@@ -26,6 +26,16 @@ struct Place {
     scene: Scene,
 }
 
+fn locale(projection: MapProjection) -> Locale {
+    static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
+    LOCALES.at(projection.origin_lat_deg, projection.origin_lon_deg, &Report::default())
+}
+
+fn plan(name: &str, lat_deg: f64, lon_deg: f64, size_m: f64) -> PlacePlan<'_> {
+    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
+    PlacePlan { name, projection, size_m, driving_side: locale(projection).driving_side, time_ns: 0 }
+}
+
 fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
     let settings = BuildSettings {
         seeds: Seed(7).into(),
@@ -34,6 +44,8 @@ fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
         light: LightChoice::Sky(SkyChoice::default()),
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
+        locale: locale(drive.projection),
+        borders: None,
     };
     static LIBRARY: LazyLock<AssetLibrary> =
         LazyLock::new(|| trove_assets::library(&trove_assets::Ingredients::default()));
@@ -67,9 +79,9 @@ fn assert_sound(place: &Place, also: Vec<String>) {
 }
 
 fn made_up_place(name: &str, lat_deg: f64, lon_deg: f64, slope: f64) -> Place {
-    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
     let (map, report) = (made_up::town(), Report::default());
-    let mut drive = trove_build::place_drive(&map, projection, name, 240.0, 0, Seed(3), &report).unwrap();
+    let plan = plan(name, lat_deg, lon_deg, 240.0);
+    let mut drive = trove_build::place_drive(&map, &plan, Seed(3), &report).unwrap();
     for keyframe in &mut drive.keyframes {
         let rise_m = slope * keyframe.world_from_ego.translation.x;
         keyframe.world_from_ego.translation.z += rise_m;
@@ -110,17 +122,18 @@ fn recorded_place(scene: &str, file: &str) -> Option<Place> {
     let dataset = NuScenes::open(&data.join("nuscenes"), "v1.0-mini", None, &report).unwrap();
     let drive = dataset.drive(scene, &report).unwrap();
     let area = trove_build::area(&drive).unwrap();
-    let map = osm::read(&data.join("osm").join(file), &drive.projection, area, &report).unwrap();
+    let driving_side = locale(drive.projection).driving_side;
+    let map = osm::read(&data.join("osm").join(file), &drive.projection, area, driving_side, &report).unwrap();
     Some(build(scene, drive, map, report))
 }
 
 fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Option<Place> {
     let data = data()?;
     let report = Report::default();
-    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
+    let plan = plan(name, lat_deg, lon_deg, 300.0);
     let area = Bounds::square(DVec2::ZERO, 300.0);
-    let map = osm::read(&data.join("osm").join(file), &projection, area, &report).unwrap();
-    let drive = trove_build::place_drive(&map, projection, name, 300.0, 0, Seed(7), &report).unwrap();
+    let map = osm::read(&data.join("osm").join(file), &plan.projection, area, plan.driving_side, &report).unwrap();
+    let drive = trove_build::place_drive(&map, &plan, Seed(7), &report).unwrap();
     Some(build(name, drive, map, report))
 }
 

@@ -27,7 +27,7 @@ pub use agreement::{OnDisagreement, agreed};
 pub use assembly::Weather;
 pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
-pub use place::{Seeds, place_drive};
+pub use place::{PlacePlan, Seeds, place_drive};
 pub use placement::{AssetFit, ObjectFit};
 pub use site::{BuildSettings, Site, area, build};
 pub use traffic::Traffic;

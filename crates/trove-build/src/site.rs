@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Outcome, Polygon, Provenance,
-    Report, Scene, SceneObject, Season, StreetMap,
+    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Locale, Outcome, Polygon,
+    Provenance, Report, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed};
@@ -54,6 +54,10 @@ pub struct BuildSettings {
     pub weather: Weather,
     /// What becomes of a street map that does not lie on the drive.
     pub on_disagreement: OnDisagreement,
+    /// Whose customs it follows.
+    pub locale: Locale,
+    /// Where the borders come from that tell so; `None` where a user does.
+    pub borders: Option<Provenance>,
 }
 
 /// The static place of one drive and variation: ground, roads, buildings, plants, furniture, with the objects' assets
@@ -167,7 +171,7 @@ pub fn build(
     Ok(Site {
         light,
         season: conditions.season(),
-        provenance: assembly.provenance(drive, map),
+        provenance: assembly.provenance(drive, map).into_iter().chain(settings.borders.clone()).collect(),
         ground,
         stock: assembly.stock,
         fixed: assembly.fixed,
@@ -358,6 +362,8 @@ mod tests {
             light: LightChoice::default(),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),
+            locale: testing::locale("SG"),
+            borders: None,
         }
     }
 

@@ -1,16 +1,24 @@
 //! Small made-up drives and libraries for tests.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane,
-    LaneMap, Lens, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed,
-    Slot, StreetMap, Track,
+    LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind,
+    Seed, Slot, StreetMap, Track,
 };
+use trove_read::locale::Locales;
 
 use crate::place::Conditions;
 use crate::roads::{self, RoadSurfaces};
+
+/// A country's customs, from the built-in table.
+pub(crate) fn locale(country: &str) -> Locale {
+    static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
+    LOCALES.country(country).unwrap().clone()
+}
 
 /// A block that is its own bounding box, with three paints.
 pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {

@@ -46,5 +46,5 @@ pub use journal::{FrameLine, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FORMAT, FrameRow, Manifest, ManifestDrive};
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{
-    AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, ProjectionKind, SiteFile, Source,
+    AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, LocaleRow, ProjectionKind, SiteFile, Source,
 };

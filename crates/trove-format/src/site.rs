@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use trove_model::{Drive, Kind, Provenance, Season};
+use trove_model::{Drive, Kind, Locale, Provenance, Season};
 
 use crate::{FormatError, Projection, ReportTable, file, names};
 
@@ -23,8 +23,33 @@ pub struct SiteFile {
     pub fits: Vec<FitRow>,
     /// What the variation differs in.
     pub factors: Factors,
+    /// Whose customs it follows; null in folders of earlier versions.
+    #[serde(default)]
+    pub locale: Option<LocaleRow>,
     /// The frames that were planned: index of the keyframe in the drive, from 0, and the view (`ego.CAM_FRONT`).
     pub frames: Vec<(u32, String)>,
+}
+
+/// Whose customs a place follows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct LocaleRow {
+    /// ISO 3166-1 code of the country (`GB`); null where none is known.
+    pub country: Option<String>,
+    /// The side of the road that traffic keeps to: `left` or `right`.
+    pub driving_side: String,
+    /// The unit of speed limits: `kmh` or `mph`.
+    pub speed_unit: String,
+}
+
+impl From<&Locale> for LocaleRow {
+    fn from(locale: &Locale) -> Self {
+        Self {
+            country: locale.country.clone(),
+            driving_side: locale.driving_side.name().to_owned(),
+            speed_unit: locale.signs.speed_unit.name().to_owned(),
+        }
+    }
 }
 
 /// A drive.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 use proptest::prelude::*;
 use trove_model::{
-    BarrierStyle, Bounds, BuildingKind, CrossingMarking, Cycleway, FurnitureDetail, FurnitureKind, LampMount, LandKind,
-    LeafType, LineKind, MapProjection, MappedPlant, MappedSign, Outcome, Parking, ParkingOrientation, Report, RoadKind,
-    RoadSurface, RoofMaterial, RoofShape, StreetMap, Turns, WallMaterial,
+    BarrierStyle, Bounds, BuildingKind, CrossingMarking, Cycleway, DrivingSide, FurnitureDetail, FurnitureKind,
+    LampMount, LandKind, LeafType, LineKind, MapProjection, MappedPlant, MappedSign, Outcome, Parking,
+    ParkingOrientation, Report, RoadKind, RoadSurface, RoofMaterial, RoofShape, StreetMap, Turns, WallMaterial,
 };
 use trove_read::{ReadError, osm};
 
@@ -58,7 +58,7 @@ fn read_bytes(bytes: &[u8]) -> (Result<StreetMap, ReadError>, Report) {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let path = file(&dir, "map.osm", bytes);
     let area = Bounds::square(DVec2::ZERO, 2000.0);
-    (osm::read(&path, &ORIGIN, area, &report), report)
+    (osm::read(&path, &ORIGIN, area, DrivingSide::Right, &report), report)
 }
 
 fn read(content: &str) -> (StreetMap, Report) {
@@ -369,7 +369,7 @@ fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let path = file(&dir, "map.osm", format!("<osm>{}</osm>", squares()).as_bytes());
     let boston = MapProjection { origin_lat_deg: 42.3368, origin_lon_deg: -71.0579, anchor_m: DVec2::ZERO };
-    let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), &report).unwrap_err();
+    let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), DrivingSide::Right, &report).unwrap_err();
     assert!(matches!(error, ReadError::Elsewhere { .. }), "{error:?}");
     let error = error.to_string();
     assert!(error.contains("42.33") && error.contains("latitude 0.0000°") && error.contains("km away"), "{error}");
@@ -400,7 +400,7 @@ fn a_place_at_the_antimeridian_is_whole() {
     for origin_lon_deg in [180.0, -180.0, 179.9999, -179.9999] {
         let projection = MapProjection { origin_lon_deg, ..ORIGIN };
         let area = Bounds::square(DVec2::ZERO, 500.0);
-        let map = osm::read(&path, &projection, area, &Report::default()).unwrap();
+        let map = osm::read(&path, &projection, area, DrivingSide::Right, &Report::default()).unwrap();
         assert!((map.buildings[0].footprint.area_m2() - 80.0 * 30.0).abs() < 1e-3, "{origin_lon_deg}");
         assert!((map.roads[0].centreline[0].distance(map.roads[0].centreline[1]) - 80.0).abs() < 1e-6);
     }
@@ -550,7 +550,7 @@ fn read_real(path: &Path) -> (StreetMap, Report) {
         anchor_m: DVec2::ZERO,
     };
     let report = Report::default();
-    let map = osm::read(path, &projection, extent.bounds(&projection).grown(1.0), &report).unwrap();
+    let map = osm::read(path, &projection, extent.bounds(&projection).grown(1.0), DrivingSide::Right, &report).unwrap();
     (map, report)
 }
 
@@ -595,7 +595,7 @@ fn every_odd_file_gives_a_sound_map_or_a_clear_error() {
         };
         for side_m in [600.0, 3000.0] {
             let report = Report::default();
-            match osm::read(&path, &projection, Bounds::square(DVec2::ZERO, side_m), &report) {
+            match osm::read(&path, &projection, Bounds::square(DVec2::ZERO, side_m), DrivingSide::Right, &report) {
                 Ok(map) => assert_sound(&map, &report, &path),
                 Err(error) => assert!(error.to_string().contains("expected"), "{error}"),
             }

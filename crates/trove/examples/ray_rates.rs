@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use trove_build::{BuildSettings, LightChoice, OnDisagreement, PictureSize, SkyChoice, ViewSettings, Weather};
-use trove_model::{Report, Seed};
-use trove_read::{nuscenes::NuScenes, osm};
+use trove_model::{MapProjection, Report, Seed};
+use trove_read::{locale::Locales, nuscenes::NuScenes, osm};
 use trove_render::{Denoising, KernelChoice, RaySeconds, Renderer, RendererOptions};
 
 fn main() -> Result<()> {
@@ -22,7 +22,9 @@ fn main() -> Result<()> {
     for (name, place) in [("scene-0103", "boston-seaport.osm"), ("scene-0061", "singapore-onenorth.osm")] {
         let drive = dataset.drive(name, &report)?;
         let area = trove_build::area(&drive).context("nothing was recorded")?;
-        let map = osm::read(&data.join("osm").join(place), &drive.projection, area, &report)?;
+        let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
+        let locale = Locales::built_in().at(origin_lat_deg, origin_lon_deg, &report);
+        let map = osm::read(&data.join("osm").join(place), &drive.projection, area, locale.driving_side, &report)?;
         let settings = BuildSettings {
             seeds: Seed(7).into(),
             top_k: 3,
@@ -30,6 +32,8 @@ fn main() -> Result<()> {
             light: LightChoice::Sky(SkyChoice::default()),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),
+            locale,
+            borders: None,
         };
         let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
         let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(0.5));

@@ -2,10 +2,10 @@
 
 use anyhow::{Context, Result};
 use glam::DVec2;
+use trove_build::PlacePlan;
 use trove_model::{Bounds, Drive, MapProjection, Report, Seed, StreetMap};
 
-use crate::recipe::Recipe;
-use crate::sources::street_map;
+use crate::sources::{Sources, street_map};
 
 /// Name of the scene in the output.
 pub(crate) const NAME: &str = "place";
@@ -15,16 +15,21 @@ pub(crate) const KEYFRAMES_HINT: usize = 20;
 const SOLSTICE_NS: i64 = 1_718_928_000_000_000_000; // 2024-06-21 00:00 UTC
 
 /// Keyframes on the roads around a position, and the map that they come from.
-pub(crate) fn drive(recipe: &Recipe, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
+pub(crate) fn drive(sources: &Sources, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
+    let recipe = sources.recipe();
     let place = recipe.place.as_ref().context("the recipe has no [place]")?;
     let projection =
         MapProjection { origin_lat_deg: place.lat_deg, origin_lon_deg: place.lon_deg, anchor_m: DVec2::ZERO };
-    let map = street_map(recipe, &projection, Bounds::square(DVec2::ZERO, place.size_m), report)?;
+    let locale = sources.locale(place.lat_deg, place.lon_deg, &Report::default());
+    let area = Bounds::square(DVec2::ZERO, place.size_m);
+    let map = street_map(recipe, &projection, area, locale.driving_side, report)?;
     let (extract, map) = map.context("the recipe has no map.osm")?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;
     let time_ns = SOLSTICE_NS + (solar_hours * 3600e9) as i64;
     let seed = Seed(recipe.seed).child("place");
-    let drive = trove_build::place_drive(&map, projection, NAME, place.size_m, time_ns, seed, report)
+    let (size_m, driving_side) = (place.size_m, locale.driving_side);
+    let plan = PlacePlan { name: NAME, projection, size_m, driving_side, time_ns };
+    let drive = trove_build::place_drive(&map, &plan, seed, report)
         .with_context(|| format!("{}: around {}, {}", extract.display(), place.lat_deg, place.lon_deg))?;
     Ok((drive, Some(map)))
 }
@@ -32,6 +37,7 @@ pub(crate) fn drive(recipe: &Recipe, report: &Report) -> Result<(Drive, Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recipe::Recipe;
 
     /// An extract whose nodes are the corners of a square of half a degree, without a way.
     fn square(lat_deg: f64, lon_deg: f64) -> String {
@@ -54,7 +60,10 @@ mod tests {
             let path = folder.path().join("recipe.toml");
             let place = "[place]\nlat_deg = 1.3\nlon_deg = 103.8\nsize_m = 200\n";
             std::fs::write(&path, format!("{place}[map]\nosm = {extracts:?}\n")).unwrap();
-            format!("{:#}", drive(&Recipe::read(&path).unwrap(), &Report::default()).unwrap_err())
+            format!("{:#}", {
+                let (recipe, report) = (Recipe::read(&path).unwrap(), Report::default());
+                drive(&Sources::open(&recipe, &report).unwrap(), &report).unwrap_err()
+            })
         };
         let found = error(["far.osm", "here.osm"]);
         assert!(found.starts_with("here.osm: around 1.3, 103.8: ") && found.contains("road"), "{found}");

@@ -141,7 +141,7 @@ pub struct PlaceSection {
 }
 
 /// `[map]`
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapSection {
     /// OpenStreetMap extracts, `.osm` or `.osm.pbf`; each scene takes the first that covers it.
@@ -150,6 +150,31 @@ pub struct MapSection {
     /// What becomes of it where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
+    /// Whose customs the place follows: `auto`, the country that it lies in, or an ISO 3166-1 code.
+    #[serde(default = "auto")]
+    pub country: String,
+    /// A table of customs over the built-in one.
+    #[serde(default)]
+    pub locales: Option<PathBuf>,
+}
+
+const AUTO: &str = "auto";
+
+fn auto() -> String {
+    AUTO.into()
+}
+
+impl Default for MapSection {
+    fn default() -> Self {
+        Self { osm: Extracts::default(), on_disagreement: OnDisagreement::default(), country: auto(), locales: None }
+    }
+}
+
+impl MapSection {
+    /// The country that the recipe tells; `None` where it is that which the place lies in.
+    pub fn country(&self) -> Option<&str> {
+        Some(self.country.as_str()).filter(|country| *country != AUTO)
+    }
 }
 
 /// One path or a list of them.

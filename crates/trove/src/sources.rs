@@ -4,8 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_model::{Bounds, Drive, EnvironmentMap, MapProjection, Outcome, Report, StreetMap};
+use trove_model::{
+    Bounds, Drive, DrivingSide, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap,
+};
 use trove_read::drive_source::DriveSource;
+use trove_read::locale::{self, Locales};
 use trove_read::{ReadError, environment, osm};
 
 use crate::recipe::Recipe;
@@ -17,6 +20,7 @@ pub(crate) struct Sources<'a> {
     dataset: Option<Box<dyn DriveSource>>,
     /// The picture of the sky, where one is asked for.
     environment: Option<Arc<EnvironmentMap>>,
+    locales: Locales,
 }
 
 impl<'a> Sources<'a> {
@@ -36,7 +40,18 @@ impl<'a> Sources<'a> {
                 file.display()
             );
         }
-        Ok(Self { recipe, dataset, environment })
+        let locales = match &recipe.map.locales {
+            Some(file) => Locales::with_file(&recipe.at(file))?,
+            None => Locales::built_in(),
+        };
+        if let Some(code) = recipe.map.country()
+            && locales.country(code).is_none()
+        {
+            let nearest = locales.codes().min_by_key(|known| strsim::damerau_levenshtein(known, &code.to_uppercase()));
+            let hint = nearest.map(|known| format!("; did you mean {known:?}?")).unwrap_or_default();
+            bail!("map.country: expected \"auto\" or the ISO 3166-1 code of a country, found {code:?}{hint}");
+        }
+        Ok(Self { recipe, dataset, environment, locales })
     }
 
     pub(crate) fn recipe(&self) -> &'a Recipe {
@@ -51,6 +66,22 @@ impl<'a> Sources<'a> {
     /// Another picture of a sky by its path in the recipe, turned counter-clockwise seen from above.
     pub(crate) fn picture(&self, file: &Path, rotation_deg: f64) -> Result<Arc<EnvironmentMap>> {
         Ok(Arc::new(environment::read(&self.recipe.at(file))?.turned(rotation_deg)))
+    }
+
+    /// Whose customs the recorded place follows: the recipe's country, else that which it lies in.
+    pub(crate) fn locale(&self, lat_deg: f64, lon_deg: f64, report: &Report) -> Locale {
+        let told = self.recipe.map.country().and_then(|code| self.locales.country(code));
+        told.cloned().unwrap_or_else(|| self.locales.at(lat_deg, lon_deg, report))
+    }
+
+    /// Whose customs another place follows.
+    pub(crate) fn locale_elsewhere(&self, lat_deg: f64, lon_deg: f64, report: &Report) -> Locale {
+        self.locales.at(lat_deg, lon_deg, report)
+    }
+
+    /// Where the borders come from that tell the recorded place's country; `None` where the recipe does.
+    pub(crate) fn borders(&self) -> Option<Provenance> {
+        self.recipe.map.country().is_none().then(locale::provenance)
     }
 
     /// Names of the scenes that the recipe asks for, with the number of their keyframes as far as it is known.
@@ -81,10 +112,13 @@ impl<'a> Sources<'a> {
 
     /// One scene's drive and the map around it.
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
-        let Some(dataset) = &self.dataset else { return place::drive(self.recipe, report) };
+        let Some(dataset) = &self.dataset else { return place::drive(self, report) };
         let drive = dataset.read(scene, report)?;
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
-        let map = street_map(self.recipe, &drive.projection, area, report)?;
+        let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
+        // What is guessed is reported when the place is built.
+        let driving_side = self.locale(origin_lat_deg, origin_lon_deg, &Report::default()).driving_side;
+        let map = street_map(self.recipe, &drive.projection, area, driving_side, report)?;
         if map.is_none() {
             report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
         }
@@ -98,11 +132,12 @@ pub(crate) fn street_map<'r>(
     recipe: &'r Recipe,
     projection: &MapProjection,
     area: Bounds,
+    driving_side: DrivingSide,
     report: &Report,
 ) -> Result<Option<(&'r Path, StreetMap)>> {
     let mut elsewhere = None;
     for path in recipe.map.osm.paths() {
-        match osm::read(&recipe.at(path), projection, area, report) {
+        match osm::read(&recipe.at(path), projection, area, driving_side, report) {
             Ok(map) => return Ok(Some((path, map))),
             Err(error @ ReadError::Elsewhere { .. }) => elsewhere = Some(error),
             Err(error) => return Err(error.into()),

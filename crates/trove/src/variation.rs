@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use anyhow::Result;
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings};
 use trove_format::{Factors, LightFactor};
-use trove_model::{Drive, Environment, ExposureRule, MapProjection, Random, Season, Seed, drives_on_left};
+use trove_model::{Drive, Environment, ExposureRule, Locale, MapProjection, Provenance, Random, Report, Season, Seed};
+use trove_read::locale;
 
 use crate::recipe::{Factor, Range, Recipe};
 use crate::sources::Sources;
@@ -19,6 +20,8 @@ pub(crate) struct Variation {
     seeds: Seeds,
     /// Latitude and longitude of the place whose customs, climate and sun it has, degrees.
     place: [f64; 2],
+    locale: Locale,
+    borders: Option<Provenance>,
     season: Option<Season>,
     wetness: f64,
     traffic: Traffic,
@@ -42,7 +45,8 @@ enum Light {
 impl Variation {
     /// Draws a variation of a scene; each factor that differs has a seed of its own, by its name and the variation's
     /// number, and one that does not has that of variation 0.
-    pub(crate) fn draw(recipe: &Recipe, drive: &Drive, number: u32) -> Result<Self> {
+    pub(crate) fn draw(sources: &Sources, drive: &Drive, number: u32, report: &Report) -> Result<Self> {
+        let recipe = sources.recipe();
         let section = &recipe.variations;
         let base = Seed(recipe.seed).child(&drive.id);
         let seed = |factor: Factor| base.nth(if section.varies(factor) { number.into() } else { 0 });
@@ -50,11 +54,17 @@ impl Variation {
         let random = |factor: Factor| is_drawn(factor).then(|| seed(factor).child(factor.name()).random());
 
         let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
-        let on_left = drives_on_left(origin_lat_deg, origin_lon_deg);
-        let mut places = section.places.clone().unwrap_or_default();
-        places.retain(|[lat_deg, lon_deg]| drives_on_left(*lat_deg, *lon_deg) == on_left);
-        let place = random(Factor::Place).and_then(|mut random| random.pick(&places).copied());
-        let place = place.unwrap_or([origin_lat_deg, origin_lon_deg]);
+        let recorded = sources.locale(origin_lat_deg, origin_lon_deg, report);
+        let elsewhere = section
+            .places
+            .iter()
+            .flatten()
+            .map(|&[lat_deg, lon_deg]| ([lat_deg, lon_deg], sources.locale_elsewhere(lat_deg, lon_deg, report)));
+        let same_side = |(_, locale): &([f64; 2], Locale)| locale.driving_side == recorded.driving_side;
+        let places: Vec<([f64; 2], Locale)> = elsewhere.filter(same_side).collect();
+        let drawn = random(Factor::Place).and_then(|mut random| random.pick(&places).cloned());
+        let borders = if drawn.is_some() { Some(locale::provenance()) } else { sources.borders() };
+        let (place, locale) = drawn.unwrap_or(([origin_lat_deg, origin_lon_deg], recorded));
         let weather = recipe.weather();
         let season = random(Factor::Season).and_then(|mut random| random.pick(&section.seasons()).copied());
         let wetness = random(Factor::Wetness).map(|mut random| {
@@ -84,6 +94,8 @@ impl Variation {
                 noise: base.nth(if section.counterfactual.is_some() { 0 } else { number.into() }),
             },
             place,
+            locale,
+            borders,
             season: season.map_or(weather.season, Into::into),
             wetness: wetness.unwrap_or(weather.wetness),
             traffic: traffic.unwrap_or_default(),
@@ -116,6 +128,8 @@ impl Variation {
             light,
             weather: trove_build::Weather { season: self.season, wetness: self.wetness, ..recipe.weather() },
             on_disagreement: recipe.map.on_disagreement.into(),
+            locale: self.locale.clone(),
+            borders: self.borders.clone(),
         })
     }
 

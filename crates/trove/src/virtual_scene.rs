@@ -3,7 +3,7 @@
 use anyhow::Result;
 use trove_build::{Seeds, Site, ViewSettings};
 use trove_format::Factors;
-use trove_model::{AssetLibrary, Drive, Report, Scene, Shot, StreetMap};
+use trove_model::{AssetLibrary, Drive, Locale, Report, Scene, Shot, StreetMap};
 
 use crate::recipe::Recipe;
 use crate::sources::Sources;
@@ -16,6 +16,8 @@ pub(crate) struct VirtualScene<'a> {
     pub(crate) site: Site,
     /// What the variation differs in, for the manifest.
     pub(crate) factors: Factors,
+    /// Whose customs it follows.
+    pub(crate) locale: Locale,
     views: ViewSettings,
     seeds: Seeds,
 }
@@ -30,14 +32,14 @@ impl<'a> VirtualScene<'a> {
         report: &Report,
     ) -> Result<Self> {
         let recipe = sources.recipe();
-        let variation = Variation::draw(recipe, drive, number)?;
+        let variation = Variation::draw(sources, drive, number, report)?;
         let settings = variation.build_settings(recipe, sources)?;
         let mut views = view_settings(recipe)?;
         variation.change(&mut views);
         let there = Drive { projection: variation.projection(drive.projection), ..drive.clone() };
         let site = trove_build::build(&there, map, library, &settings, report)?;
         let factors = variation.factors(recipe, &site);
-        Ok(Self { drive, site, factors, views, seeds: settings.seeds })
+        Ok(Self { drive, site, factors, locale: settings.locale, views, seeds: settings.seeds })
     }
 
     /// The scene at a keyframe.

@@ -60,6 +60,8 @@ mod tests {
             light: LightChoice::default(),
             weather,
             on_disagreement: OnDisagreement::default(),
+            locale: testing::locale("SG"),
+            borders: None,
         };
         let drive = testing::drive();
         build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)

@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
-    Bounds, Camera, Distortion, Drive, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome, Pose, Report,
-    RigCamera, Road, Seed, StreetMap, World, drives_on_left,
+    Bounds, Camera, Distortion, Drive, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome,
+    Pose, Report, RigCamera, Road, Seed, StreetMap, World,
 };
 
 use crate::error::BuildError;
@@ -24,25 +24,33 @@ const LANE_OFFSET_M: f64 = 1.75;
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
 const STEP_NS: i64 = 60_000_000_000;
 
+/// A place without a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacePlan<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Where on earth its middle, World's origin, is.
+    pub projection: MapProjection,
+    /// Side of the square around the origin.
+    pub size_m: f64,
+    /// The side of the road that views stand on.
+    pub driving_side: DrivingSide,
+    /// Time of the first keyframe, nanoseconds since 1970 UTC.
+    pub time_ns: i64,
+}
+
 /// A drive without boxes whose keyframes stand on the map's roads, spaced, with six cameras around the roof.
 ///
-/// `place` names it; `size_m` is the side of the square around World's origin; `time_ns` is the first keyframe's.
-pub fn place_drive(
-    map: &StreetMap,
-    projection: MapProjection,
-    place: &str,
-    size_m: f64,
-    time_ns: i64,
-    seed: Seed,
-    report: &Report,
-) -> Result<Drive, BuildError> {
+/// # Errors
+/// A place in which no road runs.
+pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &Report) -> Result<Drive, BuildError> {
+    let PlacePlan { name: place, projection, size_m, driving_side, time_ns } = *plan;
     let inner = Bounds::square(DVec2::ZERO, size_m * (1.0 - 2.0 * BORDER));
-    let on_left = drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg);
     let mut candidates: Vec<Pose<World, Ego>> = map
         .roads
         .iter()
         .filter(|r| r.kind.is_for_cars() && !r.tunnel && !r.bridge && r.layer == 0)
-        .flat_map(|road| standpoints(road, on_left))
+        .flat_map(|road| standpoints(road, driving_side))
         .filter(|pose| inner.contains(pose.translation.truncate()))
         .collect();
     if candidates.is_empty() {
@@ -97,14 +105,14 @@ pub fn place_drive(
 }
 
 /// Poses along a road in a lane of its own, in both directions where it has both.
-fn standpoints(road: &Road, on_left: bool) -> Vec<Pose<World, Ego>> {
+fn standpoints(road: &Road, driving_side: DrivingSide) -> Vec<Pose<World, Ego>> {
     let lanes = f64::from(road.lanes.unwrap_or(0).max(1));
     let offset_m = match (road.oneway, road.width_m) {
         (true, _) => 0.0,
         (false, Some(width_m)) => width_m / 4.0,
         (false, None) => LANE_OFFSET_M * (lanes / 2.0).max(1.0).round(),
     };
-    let side = if on_left { 1.0 } else { -1.0 };
+    let side = if driving_side.is_left() { 1.0 } else { -1.0 };
     let mut poses = Vec::new();
     for segment in road.centreline.windows(2) {
         let Some(along) = (segment[1] - segment[0]).try_normalize() else { continue };
@@ -165,25 +173,30 @@ mod tests {
         }
     }
 
+    fn plan(driving_side: DrivingSide) -> PlacePlan<'static> {
+        let projection = MapProjection { origin_lat_deg: 60.17, origin_lon_deg: 24.94, anchor_m: DVec2::ZERO };
+        PlacePlan { name: "p", projection, size_m: 400.0, driving_side, time_ns: 0 }
+    }
+
     #[test]
     fn views_stand_spaced_in_the_right_lane_within_the_place() {
-        let helsinki = MapProjection { origin_lat_deg: 60.17, origin_lon_deg: 24.94, anchor_m: DVec2::ZERO };
-        let drive = place_drive(&map(), helsinki, "p", 400.0, 0, Seed(1), &Report::default()).unwrap();
-        assert!(drive.keyframes.len() >= 8);
-        for (i, a) in drive.keyframes.iter().enumerate() {
-            let position = a.world_from_ego.translation;
-            assert!(position.abs().max_element() <= 140.0);
-            let right = a.world_from_ego.vector(-DVec3::Y);
-            assert!((position * right.abs()).length() < 2.0 && position.dot(right) > 1.0, "{position}");
-            let near = |b: &Keyframe| b.world_from_ego.translation.distance(position) < SPACING_M;
-            assert!(!drive.keyframes[i + 1..].iter().any(near));
+        for (driving_side, sign) in [(DrivingSide::Right, 1.0), (DrivingSide::Left, -1.0)] {
+            let drive = place_drive(&map(), &plan(driving_side), Seed(1), &Report::default()).unwrap();
+            assert!(drive.keyframes.len() >= 8);
+            for (i, a) in drive.keyframes.iter().enumerate() {
+                let position = a.world_from_ego.translation;
+                assert!(position.abs().max_element() <= 140.0);
+                let own = a.world_from_ego.vector(-DVec3::Y) * sign;
+                assert!((position * own.abs()).length() < 2.0 && position.dot(own) > 1.0, "{position}");
+                let near = |b: &Keyframe| b.world_from_ego.translation.distance(position) < SPACING_M;
+                assert!(!drive.keyframes[i + 1..].iter().any(near));
+            }
         }
     }
 
     #[test]
     fn a_place_without_roads_is_an_error() {
-        let nowhere = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
-        let error = place_drive(&StreetMap::default(), nowhere, "p", 400.0, 0, Seed(1), &Report::default());
+        let error = place_drive(&StreetMap::default(), &plan(DrivingSide::Right), Seed(1), &Report::default());
         assert!(matches!(error, Err(BuildError::NoRoads { .. })));
     }
 }

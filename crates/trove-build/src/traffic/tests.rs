@@ -26,6 +26,8 @@ fn site_with(traffic: Traffic, seed: u64, report: &Report) -> Site {
         light: LightChoice::default(),
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
+        locale: testing::locale("SG"),
+        borders: None,
     };
     crate::build(&testing::drive(), None, &library(), &settings, report).unwrap()
 }

@@ -77,6 +77,8 @@ mod tests {
             light: LightChoice::default(),
             weather,
             on_disagreement: OnDisagreement::default(),
+            locale: testing::locale("SG"),
+            borders: None,
         };
         build(&testing::drive(), None, &testing::library(), &settings, &Report::default()).unwrap()
     }

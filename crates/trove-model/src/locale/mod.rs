@@ -10,8 +10,8 @@ mod traffic;
 
 pub use buildings::{BuildingCustoms, Covering, FacadeRule, FacadeUse, LidarBuildings, RoofShare};
 pub use markings::{
-    CentreLine, CrossingStyle, Dash, GiveWayLine, KerbCustoms, KerbLines, LinePattern, MarkingCustoms, MinorRoad, Paint,
-    RoadSurfaceCustoms,
+    CentreLine, CrossingStyle, Dash, GiveWayLine, KerbCustoms, KerbLines, LinePattern, MarkingCustoms, MinorRoad,
+    Paint, RoadSurfaceCustoms,
 };
 pub use street::{
     LampCustoms, LampRow, ModelShare, NamePlate, SignCustoms, SignalCustoms, SignalSide, SpeedUnit, StreetCustoms,

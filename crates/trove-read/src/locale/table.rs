@@ -159,7 +159,8 @@ impl Table {
             let place = format!("[{name}.{section}] {LIKE}");
             let like = like.as_str().ok_or_else(|| Fault::new(&place, "the name of a row", like.to_string()))?;
             let mut other = self.resolved(like, through)?;
-            let other = other.remove(section).ok_or_else(|| Fault::new(place, "a section of a row", section.as_str()))?;
+            let other =
+                other.remove(section).ok_or_else(|| Fault::new(place, "a section of a row", section.as_str()))?;
             keys.insert(section.clone(), other);
         }
         merge(&mut keys, own);

@@ -153,10 +153,16 @@ fn towns_are_painted_as_their_countries_do() {
         ("Cairo", 30.04, 31.24, 3.0, Paint::White, Paint::White),
     ] {
         let markings = at(lat_deg, lon_deg).markings;
-        assert_eq!((markings.lane.dash_m, markings.centre.paint, markings.crossing_paint), (dash_m, centre, crossing), "{town}");
+        assert_eq!(
+            (markings.lane.dash_m, markings.centre.paint, markings.crossing_paint),
+            (dash_m, centre, crossing),
+            "{town}"
+        );
     }
     // France's lines between lanes are broken by gaps of ten metres, and solid between directions of wide roads.
-    for (town, lat_deg, lon_deg) in [("Boulogne", 50.726, 1.614), ("Strasbourg", 48.573, 7.752), ("Monaco", 43.738, 7.424)] {
+    for (town, lat_deg, lon_deg) in
+        [("Boulogne", 50.726, 1.614), ("Strasbourg", 48.573, 7.752), ("Monaco", 43.738, 7.424)]
+    {
         let markings = at(lat_deg, lon_deg).markings;
         assert_eq!((markings.lane.gap_m, markings.centre.wide), (10.0, LinePattern::Solid), "{town}");
     }
@@ -265,7 +271,11 @@ fn mistakes_in_a_user_s_table_are_named() {
         ("[SE]\nmarkings.like = \"britan\"\n", "[SE]", "did you mean \"britain\"?"),
         ("[SE]\nlike = \"NO\"\n[NO]\nlike = \"SE\"\n", "like", "not like itself"),
         ("[north]\nlike = \"vienna\"\ncountries = [\"se\"]\n", "[north] countries", "\"se\""),
-        ("[a]\nlike = \"vienna\"\ncountries = [\"SE\"]\n[b]\nlike = \"vienna\"\ncountries = [\"SE\"]\n", "countries", "SE"),
+        (
+            "[a]\nlike = \"vienna\"\ncountries = [\"SE\"]\n[b]\nlike = \"vienna\"\ncountries = [\"SE\"]\n",
+            "countries",
+            "SE",
+        ),
         ("[SE]\nkerb.height_m = \"high\"\n", "[SE]", "expected"),
         ("[SE\n", "line 1", "a table of locales"),
         ("SE = 1\n", "SE", "a row"),

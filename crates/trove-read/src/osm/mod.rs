@@ -29,7 +29,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use trove_model::{Bounds, MapProjection, Report, StreetMap};
+use trove_model::{Bounds, DrivingSide, MapProjection, Report, StreetMap};
 
 use crate::ReadError;
 use fault::Fault;
@@ -40,16 +40,22 @@ pub use crate::geo_extent::GeoExtent;
 
 const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
 
-/// Reads what lies in `area` or crosses it; ways are kept whole. An extract of another place is
-/// [`ReadError::Elsewhere`].
-pub fn read(path: &Path, projection: &MapProjection, area: Bounds, report: &Report) -> Result<StreetMap, ReadError> {
+/// Reads what lies in `area` or crosses it, where traffic keeps to the `driving_side`; ways are kept whole. An extract
+/// of another place is [`ReadError::Elsewhere`].
+pub fn read(
+    path: &Path,
+    projection: &MapProjection,
+    area: Bounds,
+    driving_side: DrivingSide,
+    report: &Report,
+) -> Result<StreetMap, ReadError> {
     let raw = parse_file(path, report)?;
     let extent = extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))?;
     if !extent.bounds(projection).overlaps(&area) {
         return Err(elsewhere(path, &extent, projection, area));
     }
     let mut map = StreetMap { licence: LICENCE.into(), ..StreetMap::default() };
-    let places = Places::new(&raw, projection, area);
+    let places = Places::new(&raw, projection, area, driving_side);
     let mut shops = Vec::new();
     let edges = relations::add(&raw, &places, &mut map, report);
     ways::add(&raw, &edges, &places, &mut map, &mut shops, report);

@@ -1,7 +1,7 @@
 //! Where a file's nodes are in World.
 
 use glam::DVec2;
-use trove_model::{Bounds, MapProjection, drives_on_left};
+use trove_model::{Bounds, DrivingSide, MapProjection};
 
 use super::raw::{Raw, RawNode};
 
@@ -10,14 +10,13 @@ pub(super) struct Places<'a> {
     pub nodes: &'a [RawNode],
     pub world: Vec<DVec2>,
     pub area: Bounds,
-    pub drives_on_left: bool,
+    pub driving_side: DrivingSide,
 }
 
 impl<'a> Places<'a> {
-    pub(super) fn new(raw: &'a Raw, projection: &MapProjection, area: Bounds) -> Self {
+    pub(super) fn new(raw: &'a Raw, projection: &MapProjection, area: Bounds, driving_side: DrivingSide) -> Self {
         let world = raw.nodes.iter().map(|n| projection.world_from_geo(n.lat_deg, n.lon_deg)).collect();
-        let drives_on_left = drives_on_left(projection.origin_lat_deg, projection.origin_lon_deg);
-        Self { nodes: &raw.nodes, world, area, drives_on_left }
+        Self { nodes: &raw.nodes, world, area, driving_side }
     }
 
     /// A node's position; `None` where it is not in the file.

@@ -126,7 +126,7 @@ fn add_way(
         Meaning::Road(kind) => {
             let before = map.roads.len();
             for run in line.runs.iter().filter(|run| run.len() > 1 && places.touched_by(run)) {
-                map.roads.push(road(way.id, kind, run.clone(), &way.tags, places.drives_on_left, report));
+                map.roads.push(road(way.id, kind, run.clone(), &way.tags, places.driving_side.is_left(), report));
             }
             if map.roads.len() > before { Ok(()) } else { Err("road of a single place".into()) }
         }

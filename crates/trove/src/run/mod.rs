@@ -320,6 +320,7 @@ impl Run<'_> {
             report: (&report).into(),
             fits: fit_rows(built.site.fits()),
             factors: built.factors.clone(),
+            locale: Some((&built.locale).into()),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { scene: built, shots }))
