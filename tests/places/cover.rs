@@ -30,7 +30,15 @@ pub(crate) fn road(scene: &Scene, drive: &Drive) -> Vec<String> {
 /// The mapped footprints, moved as the recording asks for, against those that were built.
 pub(crate) fn buildings(site: &Site, drive: &Drive, map: &StreetMap) -> Vec<String> {
     let area = trove_build::area(drive).unwrap();
-    let map = trove_build::agreed(drive, map, area, OnDisagreement::Warn, &Report::default()).unwrap();
+    let map = trove_build::agreed(
+        drive,
+        map,
+        crate::locale(drive.projection).driving_side,
+        area,
+        OnDisagreement::Warn,
+        &Report::default(),
+    )
+    .unwrap();
     let mapped = map.buildings.into_iter().map(|b| b.footprint).filter(|f| area.contains(f.centroid()));
     let (mapped, built) = (Footprints::new(mapped), Footprints::new(site.footprints().iter().cloned()));
     if mapped.0.is_empty() {

@@ -107,8 +107,8 @@ pub fn build(
     report: &Report,
 ) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
-    let seeds = settings.seeds;
-    let map = map.and_then(|map| agreed(drive, map, bounds, settings.on_disagreement, report));
+    let (seeds, locale) = (settings.seeds, &settings.locale);
+    let map = map.and_then(|map| agreed(drive, map, locale.driving_side, bounds, settings.on_disagreement, report));
     let map = map.as_ref();
 
     // Plants are those of the season.
@@ -116,9 +116,10 @@ pub fn build(
     let library = &library.in_season(conditions.season());
 
     // What lies and stands for good.
-    let ground = ground::height_field(drive, roads::kerb_m(drive), bounds, report);
-    let surfaces = roads::surfaces(drive, map, &ground, bounds, library, conditions, &seeds, report);
-    let buildings = buildings::buildings(drive, map, &surfaces, &ground, bounds, library, &seeds, report);
+    let ground = ground::height_field(drive, locale.kerb.height_m, bounds, report);
+    let surfaces = roads::surfaces(drive, map, locale, &ground, bounds, library, conditions, &seeds, report);
+    let buildings =
+        buildings::buildings(drive, map, &locale.buildings, &surfaces, &ground, bounds, library, &seeds, report);
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
@@ -129,7 +130,7 @@ pub fn build(
     // What is made up keeps clear of everything recorded; poles come before plants.
     let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
     let kerbs = Kerbs::new(drive, map, &surfaces, bounds);
-    let around = Surroundings { drive, map, bounds, kerbs: &kerbs, stand };
+    let around = Surroundings { drive, map, locale, bounds, kerbs: &kerbs, stand };
     let furniture = furniture(&around, library, &mut clearance, seeds.furniture.child("furniture"), report);
     let seed = seeds.vegetation;
     let mut plants =

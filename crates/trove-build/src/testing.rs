@@ -5,19 +5,25 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField, Keyframe, Kind, Lane,
-    LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report, RigCamera, Road, RoadKind,
-    Seed, Slot, StreetMap, Track,
+    Asset, AssetLibrary, BuildingCustoms, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField,
+    Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report,
+    RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
 };
 use trove_read::locale::Locales;
 
 use crate::place::Conditions;
 use crate::roads::{self, RoadSurfaces};
 
+static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
+
 /// A country's customs, from the built-in table.
 pub(crate) fn locale(country: &str) -> Locale {
-    static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
     LOCALES.country(country).unwrap().clone()
+}
+
+/// How a country builds.
+pub(crate) fn building_customs(country: &str) -> &'static BuildingCustoms {
+    &LOCALES.country(country).unwrap().buildings
 }
 
 /// A block that is its own bounding box, with three paints.
@@ -81,7 +87,17 @@ fn street() -> LaneMap {
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
-    roads::surfaces(drive, None, ground, bounds, &library(), conditions(), &Seed(0).into(), &Report::default())
+    roads::surfaces(
+        drive,
+        None,
+        &locale("SG"),
+        ground,
+        bounds,
+        &library(),
+        conditions(),
+        &Seed(0).into(),
+        &Report::default(),
+    )
 }
 
 /// The climate and season of the made-up drive.

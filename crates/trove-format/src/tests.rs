@@ -49,11 +49,7 @@ fn site() -> SiteFile {
             camera_pitch_deg: 0.0,
             other_vehicles: 1,
         },
-        locale: Some(LocaleRow {
-            country: Some("US".into()),
-            driving_side: "right".into(),
-            speed_unit: "mph".into(),
-        }),
+        locale: Some(LocaleRow { country: Some("US".into()), driving_side: "right".into(), speed_unit: "mph".into() }),
         frames: vec![(0, "ego.CAM_FRONT".into())],
     }
 }

@@ -37,7 +37,8 @@ const ARID: [[f64; 4]; 5] = [
 ];
 
 impl Climate {
-    /// The climate of a place, as far as its position tells.
+    /// The climate of a place, as far as its position tells; climate keeps to no border, so it is no part of a
+    /// [`Locale`](crate::Locale).
     pub fn at(lat_deg: f64, lon_deg: f64) -> Self {
         let within = |areas: &[[f64; 4]]| {
             let inside = |a: &[f64; 4]| (a[0]..a[2]).contains(&lat_deg) && (a[1]..a[3]).contains(&lon_deg);

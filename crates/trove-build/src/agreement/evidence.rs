@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Bounds, Drive, Keyframe, Polygon, Road, StreetMap, drives_on_left};
+use trove_model::{Bounds, Drive, DrivingSide, Keyframe, Polygon, Road, StreetMap};
 
 use super::correction::Correction;
 use super::walls::{WallPiece, wall_pieces};
@@ -102,7 +102,7 @@ fn closed(ring: &[DVec2]) -> Vec<DVec2> {
 }
 
 impl Evidence {
-    pub(super) fn new(drive: &Drive, bounds: Bounds) -> Self {
+    pub(super) fn new(drive: &Drive, driving_side: DrivingSide, bounds: Bounds) -> Self {
         let lanes = drive.lane_map.iter().flat_map(|map| &map.lanes);
         let drivable = drive.lane_map.iter().flat_map(|map| &map.drivable);
         let edges: Vec<Vec<DVec2>> = drivable.flat_map(Polygon::rings).map(|ring| closed(ring)).collect();
@@ -117,7 +117,7 @@ impl Evidence {
             path: drive.keyframes.iter().filter_map(pose).collect(),
             walls: drive.keyframes.iter().flat_map(walls).collect(),
             bounds,
-            on_left: drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg),
+            on_left: driving_side.is_left(),
         }
     }
 

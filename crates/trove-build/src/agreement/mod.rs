@@ -6,7 +6,7 @@ mod fit;
 mod walls;
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, Outcome, Report, StreetMap};
+use trove_model::{Bounds, Drive, DrivingSide, Outcome, Report, StreetMap};
 
 use crate::geometry::segments::SegmentIndex;
 use evidence::{Evidence, Movable, Pulls};
@@ -36,11 +36,12 @@ pub enum OnDisagreement {
 pub fn agreed(
     drive: &Drive,
     map: &StreetMap,
+    driving_side: DrivingSide,
     bounds: Bounds,
     on_disagreement: OnDisagreement,
     report: &Report,
 ) -> Option<StreetMap> {
-    let (evidence, movable) = (Evidence::new(drive, bounds), Movable::new(map));
+    let (evidence, movable) = (Evidence::new(drive, driving_side, bounds), Movable::new(map));
     let corrected = match fit(&evidence, &movable) {
         Fit::Stays => map.clone(),
         Fit::Moves(correction) => {

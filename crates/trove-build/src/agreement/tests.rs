@@ -54,7 +54,7 @@ fn moved(map: &StreetMap, east_m: f64, north_m: f64, turn_deg: f64) -> StreetMap
 fn checked(drive: &Drive, map: &StreetMap) -> (StreetMap, Report) {
     let report = Report::default();
     let bounds = crate::area(drive).unwrap();
-    (agreed(drive, map, bounds, OnDisagreement::default(), &report).unwrap(), report)
+    (agreed(drive, map, DrivingSide::Right, bounds, OnDisagreement::default(), &report).unwrap(), report)
 }
 
 fn measured(report: &Report, name: &str) -> Option<f64> {
@@ -153,7 +153,8 @@ fn what_becomes_of_a_map_that_does_not_agree_is_the_users_choice() {
     let bounds = crate::area(&drive).unwrap();
     let check = |on_disagreement| {
         let report = Report::default();
-        let kept = agreed(&drive, &map, bounds, on_disagreement, &report).map(|m| (m.roads.len(), m.buildings.len()));
+        let kept = agreed(&drive, &map, DrivingSide::Right, bounds, on_disagreement, &report)
+            .map(|m| (m.roads.len(), m.buildings.len()));
         let said = report.entries().iter().any(|e: &Entry| e.what.contains("do not lie on each other"));
         (kept, said)
     };

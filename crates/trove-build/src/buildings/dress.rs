@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::{Vec3, vec3};
 use trove_model::{
-    Building, BuildingKind, FacadeDesign, Mapping, Material, Mesh, Random, Surface, SurfaceKind, Tags, WallMaterial,
+    Building, BuildingCustoms, BuildingKind, FacadeDesign, FacadeRule, FacadeUse, Mapping, Material, Mesh, Random,
+    Surface, SurfaceKind, Tags, WallMaterial,
 };
 
-use super::region::Region;
 use super::volumes::House;
 use super::wall::Grid;
 use crate::pieces::{ANY, Palette, tinted};
@@ -55,14 +55,14 @@ impl Dress {
     }
 }
 
-/// Draws what a building wears by its tags, its kind, its height and its part of the world.
+/// Draws what a building wears by its tags, its kind, its height and its country.
 pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, random: &mut Random) -> Dress {
     let building = house.building;
     // A garage is a ground floor and nothing else.
     let facade = if matches!(building.kind, Some(BuildingKind::Garage | BuildingKind::Carport)) {
         palette.fitting(SurfaceKind::FacadeGroundFloor, &["garage"], random)
     } else {
-        palette.fitting(SurfaceKind::Facade, facade_tags(house, height_m, random), random)
+        palette.fitting(SurfaceKind::Facade, &facade_tags(house, height_m, random), random)
     };
     let tags = ground_floor_tags(house, height_m, &facade.tags, random);
     let ground_floor = tags.map(|tags| palette.fitting(SurfaceKind::FacadeGroundFloor, tags, random));
@@ -77,7 +77,7 @@ pub(super) fn dress(house: &House<'_>, height_m: f64, palette: &Palette<'_>, ran
     let ground_paint = if ground_floor.as_ref().is_none_or(alike) { paint } else { shade(random) };
     flat_ground.base_color *= ground_paint;
     let trim = palette.fitting(SurfaceKind::Concrete, ANY, random).material;
-    let mut roof = super::roof::materials(building, house.region, &facade.tags, flat.base_color, palette, random);
+    let mut roof = super::roof::materials(building, house.customs, &facade.tags, flat.base_color, palette, random);
     let bare = |surface: &Surface, paint: Vec3, random: &mut Random| {
         let design = surface.design.as_ref()?;
         let mut wall = palette.fitting(SurfaceKind::Wall, &[design.wall.as_str()], random).material;
@@ -179,57 +179,56 @@ fn fittings(
     ]
 }
 
-fn facade_tags(house: &House<'_>, height_m: f64, random: &mut Random) -> &'static [&'static str] {
+fn facade_tags<'h>(house: &House<'h>, height_m: f64, random: &mut Random) -> Vec<&'h str> {
     use BuildingKind as K;
-    let building = house.building;
+    let (building, customs) = (house.building, house.customs);
     let old = building.year.is_none_or(|year| year < PLAIN_FROM);
     match (building.kind, building.material) {
-        (Some(K::Construction), _) => return &["carcass"],
-        (_, Some(WallMaterial::Brick)) => return &["brick", "victorian"],
-        (_, Some(WallMaterial::Glass)) => return &["glass"],
-        (_, Some(WallMaterial::Metal)) => return &["metal"],
-        (_, Some(WallMaterial::Concrete)) => return &["slab", "ribbon", "panel"],
-        (_, Some(WallMaterial::Plaster)) => return stucco(house.region, old && height_m > 9.0),
-        (_, Some(WallMaterial::Stone)) => return &["victorian", "hotel", "ornate"],
-        (_, Some(WallMaterial::Wood)) => return &["wood"],
-        (_, Some(WallMaterial::Tiles)) => return &["tiled"],
+        (Some(K::Construction), _) => return vec!["carcass"],
+        (_, Some(WallMaterial::Brick)) => return vec!["brick", "victorian"],
+        (_, Some(WallMaterial::Glass)) => return vec!["glass"],
+        (_, Some(WallMaterial::Metal)) => return vec!["metal"],
+        (_, Some(WallMaterial::Concrete)) => return vec!["slab", "ribbon", "panel"],
+        (_, Some(WallMaterial::Plaster)) => return rendered(customs, old && height_m > 9.0),
+        (_, Some(WallMaterial::Stone)) => return vec!["victorian", "hotel", "ornate"],
+        (_, Some(WallMaterial::Wood)) => return vec!["wood"],
+        (_, Some(WallMaterial::Tiles)) => return vec!["tiled"],
         (_, None) => {}
     }
     let home = matches!(building.kind, Some(K::Apartments | K::Residential | K::Terrace) | None);
     match building.kind {
-        Some(kind) if kind.is_works() => return &["warehouse", "mill"],
-        Some(K::Shed) => return &["wood", "plaster-plain"],
-        Some(K::Hotel) => return &["hotel", "panel"],
-        Some(K::Parking) => return &["ribbon"],
-        Some(K::Office | K::Commercial) => return &["glass", "ribbon", "panel", "mill"],
-        Some(K::Retail | K::Supermarket) if height_m < LOW_M => return &["mixed", "panel", "brick"],
-        Some(kind) if kind.is_house() && house.region == Region::NorthAmerica => return &["wood", "wood", "brick-row"],
-        Some(kind) if kind.is_house() => return stucco(house.region, false),
+        Some(kind) if kind.is_works() => return vec!["warehouse", "mill"],
+        Some(K::Shed) => return vec!["wood", "plaster-plain"],
+        Some(K::Hotel) => return vec!["hotel", "panel"],
+        Some(K::Parking) => return vec!["ribbon"],
+        Some(K::Office | K::Commercial) => return vec!["glass", "ribbon", "panel", "mill"],
+        Some(K::Retail | K::Supermarket) if height_m < LOW_M => return vec!["mixed", "panel", "brick"],
+        Some(kind) if kind.is_house() => return strs(&customs.house_facades),
         _ => {}
     }
-    match house.region {
-        _ if height_m > TOWER_M && !home => &["glass", "hotel", "ribbon", "panel"],
-        Region::NorthernEurope if home && height_m < 28.0 => stucco(house.region, old && random.chance(0.7)),
-        Region::Mediterranean if height_m < 28.0 => stucco(house.region, random.chance(0.3)),
-        Region::Mediterranean => &["plaster-shutters", "slab", "hotel", "plaster-plain"],
-        Region::EastAsia if home => &["tiled", "tiled", "tiled", "slab", "mixed"],
-        Region::EastAsia => &["tiled", "glass", "ribbon", "panel"],
-        Region::TropicalAsia if home && height_m > LOW_M => &["public-flats", "public-flats", "slab", "mixed"],
-        Region::TropicalAsia => &["plaster-plain", "mixed", "tiled", "panel"],
-        _ if building.kind == Some(K::Terrace) => &["brick-row", "victorian"],
-        _ if home && height_m > 28.0 => &["slab", "panel", "mixed", "hotel", "brick-row"],
-        _ if height_m > LOW_M => &["mill", "ribbon", "panel", "glass", "mixed", "brick-row"],
-        _ => &["brick", "victorian", "mixed", "brick-row"],
+    if height_m > TOWER_M && !home {
+        return vec!["glass", "hotel", "ribbon", "panel"];
     }
+    let fits = |rule: &&FacadeRule| {
+        let is_of = match rule.of {
+            FacadeUse::Any => true,
+            FacadeUse::Homes => home,
+            FacadeUse::Terrace => building.kind == Some(K::Terrace),
+        };
+        is_of && height_m > rule.above_m && rule.below_m.is_none_or(|below_m| height_m < below_m)
+    };
+    let Some(rule) = customs.facades.iter().find(fits) else { return Vec::new() };
+    let may_be_ornate = rule.ornate_share > 0.0 && (old || !rule.ornate_if_old);
+    if may_be_ornate && random.chance(rule.ornate_share) { rendered(customs, true) } else { strs(&rule.tags) }
 }
 
-/// Rendered walls of a part of the world.
-fn stucco(region: Region, ornate: bool) -> &'static [&'static str] {
-    match region {
-        _ if ornate => &["ornate"],
-        Region::Mediterranean => &["plaster-shutters"],
-        _ => &["plaster-plain"],
-    }
+/// Rendered walls of a country.
+fn rendered(customs: &BuildingCustoms, ornate: bool) -> Vec<&str> {
+    if ornate { vec!["ornate"] } else { strs(&customs.rendered) }
+}
+
+fn strs(tags: &[String]) -> Vec<&str> {
+    tags.iter().map(String::as_str).collect()
 }
 
 fn ground_floor_tags(
@@ -259,7 +258,7 @@ fn ground_floor_tags(
         Some(K::Office | K::Commercial | K::Hotel) => Some(&["lobby"]),
         Some(K::Retail | K::Supermarket) => Some(&["shops"]),
         _ if is("public-flats") => Some(&["void-deck"]),
-        _ if is("tiled") || (house.region == Region::EastAsia && height_m < TOWER_M) => Some(&["arcade"]),
+        _ if is("tiled") || (house.customs.arcades && height_m < TOWER_M) => Some(&["arcade"]),
         _ if is("ornate") => Some(&["rusticated"]),
         _ if is("plaster") && !shop => None,
         _ if is("brick") && !shop => Some(&["entrances"]),
@@ -285,9 +284,10 @@ fn pick_shade(random: &mut Random) -> Vec3 {
 mod tests {
     use super::*;
     use crate::buildings::shell::Slot;
+    use crate::testing;
 
-    fn house(building: &Building, region: Region) -> House<'_> {
-        House { region, ..House::alone(building, Vec::new()) }
+    fn house<'a>(building: &'a Building, country: &str) -> House<'a> {
+        House { customs: testing::building_customs(country), ..House::alone(building, Vec::new()) }
     }
 
     #[test]
@@ -305,7 +305,7 @@ mod tests {
         let building = Building::new(1, trove_model::Polygon::default(), Some(BuildingKind::Apartments));
         let (library, report) = (trove_model::AssetLibrary::default(), trove_model::Report::default());
         let palette = Palette { library: &library, report: &report };
-        let dress = dress(&house(&building, Region::EastAsia), 20.0, &palette, &mut trove_model::Seed(1).random());
+        let dress = dress(&house(&building, "TW"), 20.0, &palette, &mut trove_model::Seed(1).random());
         assert_eq!(dress.materials.len(), Slot::Plank as usize + 1);
         assert_eq!(dress.materials[Slot::Glass as usize].name, "window glass");
         assert_eq!(dress.materials[Slot::Lamp as usize].name, "wall lamp");
@@ -315,14 +315,14 @@ mod tests {
     #[test]
     fn the_same_flats_wear_what_people_build_there() {
         let building = Building::new(1, trove_model::Polygon::default(), Some(BuildingKind::Apartments));
-        let worn = |region, random: &mut Random| {
-            let words = facade_tags(&house(&building, region), 20.0, random);
-            (0..8).map(|_| *random.pick(words).unwrap()).collect::<Vec<&str>>()
+        let worn = |country, random: &mut Random| {
+            let words = facade_tags(&house(&building, country), 20.0, random);
+            (0..8).map(|_| random.pick(&words).unwrap().to_string()).collect::<Vec<String>>()
         };
         let mut random = trove_model::Seed(3).random();
-        assert!(worn(Region::EastAsia, &mut random).contains(&"tiled"));
-        assert!(worn(Region::TropicalAsia, &mut random).contains(&"public-flats"));
-        assert!(worn(Region::Mediterranean, &mut random).iter().all(|w| w.contains("plaster") || *w == "ornate"));
-        assert!(worn(Region::NorthAmerica, &mut random).iter().all(|w| *w != "tiled" && *w != "ornate"));
+        assert!(worn("TW", &mut random).contains(&"tiled".to_owned()));
+        assert!(worn("SG", &mut random).contains(&"public-flats".to_owned()));
+        assert!(worn("ES", &mut random).iter().all(|w| w.contains("plaster") || *w == "ornate"));
+        assert!(worn("US", &mut random).iter().all(|w| *w != "tiled" && *w != "ornate"));
     }
 }

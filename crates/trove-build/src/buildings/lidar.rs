@@ -6,10 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3, IVec3};
 use trove_model::{
-    Bounds, Building, BuildingKind, Drive, HeightField, LidarClass, Outcome, Polygon, Random, Report, Seed,
+    Bounds, Building, BuildingKind, Drive, HeightField, LidarBuildings, LidarClass, Outcome, Polygon, Random, Report,
+    Seed,
 };
 
-use super::region::Region;
 use super::volumes::{FIRST_LIDAR_ID, STOREY_M};
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, strip, union};
@@ -80,6 +80,7 @@ struct Facade {
 pub(super) fn unmapped(
     drive: &Drive,
     mapped: &[Building],
+    usual: &LidarBuildings,
     streets: &RoadSurfaces,
     ground: &HeightField,
     seed: Seed,
@@ -94,10 +95,9 @@ pub(super) fn unmapped(
     let points = structures(drive, ground).filter(|p| is_unknown(p) && off_road(p));
     let mut taken = kept_free(drive);
     let mut random = seed.child("lidar").random();
-    let region = Region::of(&drive.projection);
     let mut built = Vec::new();
     for facade in facades(points.collect()) {
-        let (kind, storeys, depth_m) = guess(facade.from.distance(facade.to), region, &mut random);
+        let (kind, storeys, depth_m) = guess(facade.from.distance(facade.to), usual, &mut random);
         let footprint = facade.behind(depth_m);
         let road = streets.carriageway_near(&footprint);
         let left = difference(&difference(&[footprint], &road), &taken);
@@ -119,9 +119,8 @@ pub(super) fn unmapped(
 }
 
 /// Kind, storeys and depth of a building of which only a facade of some length is known.
-fn guess(length_m: f64, region: Region, random: &mut Random) -> (BuildingKind, f64, f64) {
+fn guess(length_m: f64, usual: &LidarBuildings, random: &mut Random) -> (BuildingKind, f64, f64) {
     let (drawn, storeys, depth) = (random.unit(), random.unit(), random.unit());
-    let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::NorthAmerica);
     if length_m < LARGE_M {
         return (
             if drawn < 0.6 { BuildingKind::Commercial } else { BuildingKind::Apartments },
@@ -129,9 +128,10 @@ fn guess(length_m: f64, region: Region, random: &mut Random) -> (BuildingKind, f
             8.0 + 6.0 * depth,
         );
     }
-    let is_office = drawn < if is_dense { 0.85 } else { 0.4 };
+    let is_office = drawn < usual.office_share;
     let kind = if is_office { BuildingKind::Office } else { BuildingKind::Apartments };
-    let storeys = if is_dense { 5.0 + 6.0 * storeys } else { 4.0 + 3.0 * storeys };
+    let [least, most] = usual.storeys;
+    let storeys = least + (most - least) * storeys;
     (kind, storeys.round(), 14.0 + 10.0 * depth)
 }
 
@@ -307,7 +307,15 @@ mod tests {
         });
         let ground = HeightField::flat(crate::area(&drive).unwrap(), 0.0);
         let streets = testing::surfaces(&drive, &ground);
-        unmapped(&drive, mapped, &streets, &ground, Seed(1), &Report::default())
+        unmapped(
+            &drive,
+            mapped,
+            &testing::building_customs("SG").from_lidar,
+            &streets,
+            &ground,
+            Seed(1),
+            &Report::default(),
+        )
     }
 
     fn wall() -> [DVec3; 2] {

@@ -5,7 +5,6 @@ mod extrude;
 mod facade;
 mod lidar;
 mod rectangle;
-mod region;
 mod replace;
 mod roof;
 mod shell;
@@ -19,15 +18,14 @@ use std::sync::Arc;
 use glam::DAffine3;
 use rayon::prelude::*;
 use trove_model::{
-    AssetLibrary, Bounds, Building, Class, Drive, HeightField, Kind, Material, Outcome, Polygon, Random, Report, Slot,
-    StreetMap,
+    AssetLibrary, Bounds, Building, BuildingCustoms, Class, Drive, HeightField, Kind, Material, Outcome, Polygon,
+    Random, Report, Slot, StreetMap,
 };
 
 use crate::pieces::Palette;
 use crate::pieces::Piece;
 use crate::place::Seeds;
 use crate::roads::RoadSurfaces;
-pub(crate) use region::Region;
 use sight::Sight;
 use volumes::House;
 
@@ -45,6 +43,7 @@ pub(crate) struct BuiltBuildings {
 pub(crate) fn buildings(
     drive: &Drive,
     map: Option<&StreetMap>,
+    customs: &BuildingCustoms,
     keep_clear: &RoadSurfaces,
     ground: &HeightField,
     bounds: Bounds,
@@ -55,10 +54,10 @@ pub(crate) fn buildings(
     let mapped = map.map_or(&[][..], |m| &m.buildings);
     let seed = seeds.facades.child("buildings");
     let plan_seed = seeds.place.child("buildings");
-    let unmapped = lidar::unmapped(drive, mapped, keep_clear, ground, plan_seed, report);
+    let unmapped = lidar::unmapped(drive, mapped, &customs.from_lidar, keep_clear, ground, plan_seed, report);
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
     let seen_m = lidar::seen_walls(drive, &all, ground);
-    let plot = volumes::Plot { drive, streets: keep_clear, ground, bounds, seen_m: &seen_m };
+    let plot = volumes::Plot { drive, customs, streets: keep_clear, ground, bounds, seen_m: &seen_m };
     let houses = volumes::houses(&all, &plot, seed, report);
     let palette = Palette { library, report };
     let sight = Sight::new(drive, keep_clear);

@@ -1,10 +1,9 @@
 //! Building assets in place of plain rectangular buildings.
 
 use glam::{DAffine3, DQuat, DVec2, DVec3};
-use trove_model::{Asset, AssetLibrary, BuildingKind, Kind, Random, Tags};
+use trove_model::{Asset, AssetLibrary, BuildingCustoms, BuildingKind, Kind, Random, Tags};
 
 use super::rectangle::{Base, base};
-use super::region::Region;
 use super::volumes::House;
 use crate::roads::{Footing, RoadSurfaces};
 
@@ -61,7 +60,7 @@ pub(super) fn replacement<'a>(
         misfit(asset.size_m, size_m).map(|misfit| (misfit, asset, front, size_m))
     };
     let best = |front: DVec2| {
-        let suitable = |a: &&Asset| suits(&a.tags, building.kind, house.region);
+        let suitable = |a: &&Asset| suits(&a.tags, building.kind, house.customs);
         let fitting = library.of_kind(Kind::Building).filter(suitable).filter_map(|a| candidate(a, front));
         fitting.min_by(|a, b| a.0.total_cmp(&b.0))
     };
@@ -74,18 +73,17 @@ pub(super) fn replacement<'a>(
     Some(Replacement { asset, world_from_mesh })
 }
 
-/// Whether a model with these tags may stand for a kind of building in a region; one without any of them may for all.
-fn suits(tags: &Tags, kind: Option<BuildingKind>, region: Region) -> bool {
+/// Whether a model with these tags may stand for a kind of building in a country; one without any of them may for all.
+fn suits(tags: &Tags, kind: Option<BuildingKind>, customs: &BuildingCustoms) -> bool {
     use BuildingKind as K;
-    let is_dense = matches!(region, Region::EastAsia | Region::TropicalAsia);
     let is_unknown = kind.is_none();
     let is = |kinds: &[K]| kind.is_some_and(|kind| kinds.contains(&kind));
     if tags.has("house") {
-        kind.is_some_and(K::is_house) || (is(&[K::Terrace]) && tags.has("row")) || (is_unknown && !is_dense)
+        kind.is_some_and(K::is_house) || (is(&[K::Terrace]) && tags.has("row")) || (is_unknown && customs.family_houses)
     } else if tags.has("apartments") {
         is(&[K::Apartments, K::Residential]) || is_unknown
     } else if tags.has("office") {
-        is(&[K::Office, K::Commercial, K::Public]) || (is_unknown && is_dense)
+        is(&[K::Office, K::Commercial, K::Public]) || (is_unknown && customs.unknown_offices)
     } else if tags.has("warehouse") {
         kind.is_some_and(K::is_works)
     } else if tags.has("hotel") {
@@ -119,25 +117,26 @@ fn street_distance_m(base: &Base, side: DVec2, streets: &RoadSurfaces) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing;
 
     #[test]
     fn no_country_house_stands_in_a_business_park() {
-        let suits = |tags: &[&str], kind, region| suits(&Tags::new(tags), kind, region);
-        assert!(suits(&["house", "detached"], Some(BuildingKind::House), Region::TropicalAsia));
-        assert!(suits(&["house", "detached"], None, Region::NorthernEurope));
-        assert!(!suits(&["house", "detached"], None, Region::TropicalAsia));
-        assert!(suits(&["house", "row"], Some(BuildingKind::Terrace), Region::TropicalAsia));
-        assert!(!suits(&["house", "row"], Some(BuildingKind::Office), Region::NorthAmerica));
-        assert!(suits(&["office", "ribbon"], Some(BuildingKind::Office), Region::TropicalAsia));
-        assert!(suits(&["building"], Some(BuildingKind::Office), Region::Elsewhere));
+        let suits = |tags: &[&str], kind, country| suits(&Tags::new(tags), kind, testing::building_customs(country));
+        assert!(suits(&["house", "detached"], Some(BuildingKind::House), "SG"));
+        assert!(suits(&["house", "detached"], None, "DE"));
+        assert!(!suits(&["house", "detached"], None, "SG"));
+        assert!(suits(&["house", "row"], Some(BuildingKind::Terrace), "SG"));
+        assert!(!suits(&["house", "row"], Some(BuildingKind::Office), "US"));
+        assert!(suits(&["office", "ribbon"], Some(BuildingKind::Office), "SG"));
+        assert!(suits(&["building"], Some(BuildingKind::Office), "KE"));
     }
 
     #[test]
     fn what_a_library_is_called_says_nothing_of_its_buildings() {
-        let asset = crate::testing::asset("houses/tower", Kind::Building, [20.0, 15.0, 20.0]);
+        let asset = testing::asset("houses/tower", Kind::Building, [20.0, 15.0, 20.0]);
         use BuildingKind::{Apartments, Hotel, House, Office, Retail};
         for kind in [Apartments, Hotel, House, Office, Retail] {
-            assert!(suits(&asset.tags, Some(kind), Region::TropicalAsia), "{kind:?}");
+            assert!(suits(&asset.tags, Some(kind), testing::building_customs("SG")), "{kind:?}");
         }
     }
 

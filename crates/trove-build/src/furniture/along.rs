@@ -1,9 +1,8 @@
 //! Furniture by rule along the kerbs: lamps, and now and then something that the region has on its sidewalks.
 
-use trove_model::{Kind, Random, Report, Road, RoadKind, Seed};
+use trove_model::{Kind, LampRow, Random, Report, Road, RoadKind, Seed};
 
-use super::habits::words;
-use super::yard::{Source, Yard};
+use super::yard::{Source, Yard, as_often, words};
 use crate::geometry::segments::SegmentIndex;
 use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
@@ -51,26 +50,26 @@ fn lamps<'r>(
     seed: Seed,
     report: &Report,
 ) {
-    let habits = yard.habits;
+    let customs = &yard.locale.lamps;
     let mut since_m = f64::INFINITY;
     for kerb in run {
         since_m += KERB_STEP_M;
-        if since_m < habits.lamp_spacing_m[1] {
+        if since_m < customs.side.spacing_m {
             continue;
         }
         let road = road(kerb);
         let main = road.is_none_or(|r| r.kind <= RoadKind::Tertiary);
-        let spacing_m = habits.lamp_spacing_m[usize::from(!main)];
+        let LampRow { models, spacing_m } = if main { &customs.main } else { &customs.side };
+        let spacing_m = *spacing_m;
         let dark = road.is_some_and(|r| r.lit == Some(false) || r.kind == RoadKind::Service);
         // Main roads are lit from both sides in turn, side streets from one.
-        let across_m = if main || habits.lamps_on_both_sides { spacing_m * ACROSS } else { spacing_m * 0.8 };
+        let across_m = if main || customs.both_sides { spacing_m * ACROSS } else { spacing_m * 0.8 };
         if dark || since_m < spacing_m || yard.has_near(Kind::StreetLamp, kerb.position, across_m) {
             continue;
         }
-        let models = habits.lamps[usize::from(!main)];
         // A street's lamps are alike on both its sides.
         let draw = seed.child(road.map_or("", |r| &r.name)).random().index(models.len());
-        if yard.place_at_kerb(Kind::StreetLamp, &words(models[draw]), kerb, Source::MadeUp, report) {
+        if yard.place_at_kerb(Kind::StreetLamp, &words(&models[draw]), kerb, Source::MadeUp, report) {
             since_m = 0.0;
         }
     }
@@ -83,31 +82,20 @@ fn small_things(
     random: &mut Random,
     report: &Report,
 ) {
+    let models = as_often(&yard.locale.street.small);
     let mut at_m = random.range(0.0, SMALL_SPACING_M[1]);
     while let Some(kerb) = run.get((at_m / KERB_STEP_M) as usize) {
-        let model = yard.habits.small[random.index(yard.habits.small.len())];
-        let count = if model == "bollard" { BOLLARDS[0] + random.index(BOLLARDS[1] - BOLLARDS[0]) } else { 1 };
-        let kind = kind(model);
+        let Some(model) = random.pick(&models).copied() else { return };
+        let kind = model.kind;
+        let count = if kind == Kind::Bollard { BOLLARDS[0] + random.index(BOLLARDS[1] - BOLLARDS[0]) } else { 1 };
         let alone = !yard.has_near(kind, kerb.position, if kind == Kind::StreetFurniture { 5.0 } else { ALIKE_M });
         let step = (BOLLARD_STEP_M / KERB_STEP_M) as usize;
         if alone && is_seen(kerb) {
             let row = run[(at_m / KERB_STEP_M) as usize..].iter().step_by(step).take(count);
             for kerb in row.filter(|k| k.sidewalk) {
-                yard.place_at_kerb(kind, &words(model), kerb, Source::MadeUp, report);
+                yard.place_at_kerb(kind, &words(&model.tags), kerb, Source::MadeUp, report);
             }
         }
         at_m += random.range(SMALL_SPACING_M[0], SMALL_SPACING_M[1]) + count as f64 * BOLLARD_STEP_M;
-    }
-}
-
-/// What a model of the sidewalk is.
-fn kind(model: &str) -> Kind {
-    match model.split('/').next() {
-        Some("hydrant") => Kind::Hydrant,
-        Some("bollard") => Kind::Bollard,
-        Some("bin") => Kind::Bin,
-        Some("bench") => Kind::Bench,
-        Some("bicycle-rack") => Kind::BicycleRack,
-        _ => Kind::StreetFurniture,
     }
 }

@@ -1,10 +1,10 @@
 //! Walls, railings and fences between sidewalks and the open land behind them, where the map has none.
 
 use glam::DVec2;
-use trove_model::{Kind, Land, LandKind, LineKind, Outcome, Polygon, Report, Road, RoadKind, Seed};
+use trove_model::{Land, LandKind, LineKind, Outcome, Polygon, Report, Road, RoadKind, Seed};
 
-use super::habits::words;
 use super::layer::{Layer, ROAD_REACH_M, Run};
+use super::yard::{as_often, words};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::Footing;
 use crate::surroundings::{KERB_STEP_M, KerbPoint};
@@ -31,7 +31,7 @@ const HEIGHTS: [f64; 2] = [0.85, 1.1];
 
 /// Lays what bounds the land along all sidewalks of streets.
 pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
-    let (around, habits) = (layer.yard.around, layer.yard.habits);
+    let (around, customs) = (layer.yard.around, &layer.yard.locale.street);
     let Some(map) = around.map else { return };
     let streets: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel).collect();
     let index = SegmentIndex::new(streets.iter().map(|r| r.centreline.as_slice()));
@@ -39,6 +39,7 @@ pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, rep
     let mapped = map.lines.iter().filter(|l| is_boundary(l.kind)).map(|l| l.line.as_slice());
     // Squares are walked on, and building sites have their hoardings.
     let open: Vec<&Polygon> = map.land.iter().filter(|l| is_walked_on(l)).map(|l| &l.polygon).collect();
+    let boundaries = as_often(&customs.boundaries);
     let plan = Plan { mapped: SegmentIndex::new(mapped), open };
     for (i, kerbs) in around.kerbs.runs.iter().enumerate() {
         let mut random = seed.nth(i as u64).random();
@@ -47,7 +48,7 @@ pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, rep
             let points = (random.range(LENGTH_M[0], LENGTH_M[1]) / KERB_STEP_M) as usize;
             let gate = (random.range(GATE_M[0], GATE_M[1]) / KERB_STEP_M) as usize;
             let scale = random.range(HEIGHTS[0], HEIGHTS[1]);
-            let model = random.pick(habits.boundaries).copied().filter(|_| random.chance(habits.boundary_share));
+            let model = random.pick(&boundaries).copied().filter(|_| random.chance(customs.boundary_share));
             let stretch = &kerbs[at..(at + points).min(kerbs.len())];
             at += points + gate;
             let (Some(model), Some(middle)) = (model, stretch.get(stretch.len() / 2)) else { continue };
@@ -57,9 +58,9 @@ pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, rep
             }
             for line in plan.lines(stretch, layer) {
                 let line = layer.traffic_on_the_right(line);
-                let tags = &words(model);
-                layer.lay(&Run { kind: kind(model), tags, line: &line, scale, in_sight_m: Some(0.0) }, report);
-                report.note(Outcome::Guessed, "boundary behind a sidewalk", model);
+                let tags = &words(&model.tags);
+                layer.lay(&Run { kind: model.kind, tags, line: &line, scale, in_sight_m: Some(0.0) }, report);
+                report.note(Outcome::Guessed, "boundary behind a sidewalk", model.tags.join("/"));
             }
         }
     }
@@ -67,10 +68,6 @@ pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, rep
 
 fn is_walked_on(land: &Land) -> bool {
     matches!(land.kind, LandKind::Paved | LandKind::Construction)
-}
-
-fn kind(model: &str) -> Kind {
-    if model.starts_with("wall/") { Kind::Wall } else { Kind::Fence }
 }
 
 /// What keeps boundaries away.

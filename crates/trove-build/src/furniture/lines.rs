@@ -61,7 +61,8 @@ fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
             let Some(kind) = index.nearest(middle.position, ROAD_REACH_M).map(|n| roads[n.line].kind) else { continue };
             let sidewalk = stretch.iter().all(|k| k.sidewalk);
             let fast = kind <= RoadKind::Trunk;
-            let railed = layer.yard.habits.railings && kind <= RoadKind::Secondary && random.chance(RAILING_SHARE);
+            let railed =
+                layer.yard.locale.street.railings && kind <= RoadKind::Secondary && random.chance(RAILING_SHARE);
             let (tags, off_m): (&[&str], f64) = match (sidewalk, fast, railed) {
                 (false, true, _) => (&["guard-rail", "w-beam"], GUARD_OFF_KERB_M),
                 (true, false, true) => (&["guard-rail", "railing", "painted"], RAILING_OFF_KERB_M),

@@ -3,9 +3,8 @@
 use glam::DVec2;
 use trove_model::{Furniture, FurnitureKind, Kind, LampMount, MappedSign, Outcome, Report};
 
-use super::habits::words;
 use super::junctions::kerb_side;
-use super::yard::{Source, Wish, Yard, facing};
+use super::yard::{Source, Wish, Yard, facing, words};
 use crate::roads::Footing;
 use crate::surroundings::KerbPoint;
 
@@ -36,7 +35,7 @@ fn stand(thing: &Furniture, kind: Kind, tags: &[&str], yard: &mut Yard<'_, '_, '
     let around = yard.around;
     let p = thing.position;
     let kerbs = around.kerbs.near(p, LOOK_REACH_M);
-    let side = |k: &KerbPoint| kerb_side(k.traffic, yard.habits.on_left);
+    let side = |k: &KerbPoint| kerb_side(k.traffic, yard.locale.driving_side.is_left());
     let is_sign = matches!(kind, Kind::TrafficSign | Kind::TrafficSignal);
     // A sign on the road's line stands where those whom it faces drive.
     let seen = thing.heading_rad.map(|yaw_rad| -DVec2::from_angle(yaw_rad)).filter(|_| is_sign);
@@ -58,14 +57,14 @@ fn stand(thing: &Furniture, kind: Kind, tags: &[&str], yard: &mut Yard<'_, '_, '
 
 /// What stands for a thing; a bus stop is a sign and, where there is room, a shelter.
 fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(Kind, Vec<String>)> {
-    let habits = yard.habits;
+    let locale = yard.locale;
     let one = |kind: Kind, tags: &[&str]| vec![(kind, owned(tags))];
     match thing.kind {
         FurnitureKind::StreetLamp => {
             lamp(thing.lamp()).map(|make| one(Kind::StreetLamp, &["lamp", make])).unwrap_or_default()
         }
-        FurnitureKind::StopSign => one(Kind::TrafficSign, &habits.sign("stop", "stop")),
-        FurnitureKind::GiveWaySign => one(Kind::TrafficSign, &habits.sign("yield", "give-way")),
+        FurnitureKind::StopSign => one(Kind::TrafficSign, &locale.signs.tags("stop")),
+        FurnitureKind::GiveWaySign => one(Kind::TrafficSign, &locale.signs.tags("give-way")),
         FurnitureKind::TrafficSign => {
             let tags = thing.sign().and_then(|said| sign(said, yard));
             if tags.is_none() {
@@ -80,10 +79,10 @@ fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(K
         FurnitureKind::Hydrant => one(Kind::Hydrant, &["hydrant"]),
         FurnitureKind::Bollard => one(Kind::Bollard, &["bollard"]),
         FurnitureKind::BusStop => {
-            [one(Kind::TrafficSign, &words(habits.bus_stop)), one(Kind::Shelter, &["shelter"])].concat()
+            [one(Kind::TrafficSign, &words(&locale.signs.bus_stop)), one(Kind::Shelter, &["shelter"])].concat()
         }
         FurnitureKind::BicycleParking => one(Kind::BicycleRack, &["bicycle-rack"]),
-        FurnitureKind::Mailbox => one(Kind::StreetFurniture, &words(habits.mailbox)),
+        FurnitureKind::Mailbox => one(Kind::StreetFurniture, &words(&locale.street.mailbox)),
         FurnitureKind::StreetCabinet => one(Kind::StreetFurniture, &["cabinet"]),
         FurnitureKind::Telephone => one(Kind::StreetFurniture, &["telephone"]),
         FurnitureKind::AdvertisingColumn => one(Kind::StreetFurniture, &["advertising"]),
@@ -115,20 +114,20 @@ fn owned(tags: &[&str]) -> Vec<String> {
 
 /// The tags of a sign; `None` where the library has none that says the same.
 fn sign(said: MappedSign, yard: &Yard<'_, '_, '_>) -> Option<Vec<String>> {
-    let habits = yard.habits;
+    let signs = &yard.locale.signs;
     let tags = match said {
-        MappedSign::Stop => habits.sign("stop", "stop"),
-        MappedSign::GiveWay => habits.sign("yield", "give-way"),
+        MappedSign::Stop => signs.tags("stop"),
+        MappedSign::GiveWay => signs.tags("give-way"),
         MappedSign::OneWay => ["sign", "vienna", "one-way"],
-        MappedSign::NoEntry => habits.sign("do-not-enter", "no-entry"),
+        MappedSign::NoEntry => signs.tags("no-entry"),
         MappedSign::NoStopping => ["sign", "vienna", "no-stopping"],
         MappedSign::NoParking => ["sign", "vienna", "no-parking"],
         MappedSign::Parking => ["sign", "vienna", "parking"],
         MappedSign::PedestrianCrossing => ["sign", "vienna", "crossing"],
         MappedSign::Danger => ["sign", "vienna", "warning"],
         MappedSign::SpeedLimit { limit_kmh } => {
-            let name = habits.speed_sign(limit_kmh);
-            let tags = habits.sign(&name, &name);
+            let limit = signs.speed_limit(limit_kmh);
+            let tags = signs.tags(&limit);
             return yard.has(Kind::TrafficSign, &tags).then(|| owned(&tags));
         }
         MappedSign::Other => return None,

@@ -4,7 +4,6 @@
 mod along;
 mod boundaries;
 mod cafes;
-mod habits;
 mod junctions;
 mod layer;
 mod lines;

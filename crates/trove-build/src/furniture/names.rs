@@ -6,7 +6,6 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec2, Vec2, Vec3, vec2};
 use trove_model::{Asset, ColorSpace, Kind, Lettering, Material, Outcome, Report, Texture};
 
-use super::habits::Signs;
 use super::junctions::Junction;
 use super::yard::{Source, Wish, Yard};
 use crate::geometry::segments::SegmentIndex;
@@ -26,20 +25,6 @@ const PLATE_M: Vec2 = vec2(0.96, 0.2);
 const LETTER_M: f32 = 0.1;
 const STROKE: f32 = 0.085;
 const LINE_SHARE: f32 = 0.9;
-/// What Americans shorten.
-const SHORT: [(&str, &str); 11] = [
-    ("STREET", "ST"),
-    ("AVENUE", "AVE"),
-    ("BOULEVARD", "BLVD"),
-    ("DRIVE", "DR"),
-    ("ROAD", "RD"),
-    ("PLACE", "PL"),
-    ("LANE", "LN"),
-    ("COURT", "CT"),
-    ("SQUARE", "SQ"),
-    ("HIGHWAY", "HWY"),
-    ("PARKWAY", "PKWY"),
-];
 
 /// A sign at one corner of every junction of named streets that is near enough to be read.
 pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &Report) -> Vec<Piece> {
@@ -105,14 +90,14 @@ fn corner<'a>(
 
 /// A plate with a name on it; `None` where the name cannot be written.
 fn plate(name: &str, yard: &Yard<'_, '_, '_>, written: &mut BTreeMap<String, Option<Material>>) -> Option<Material> {
-    let american = yard.habits.signs == Signs::American;
+    let customs = &yard.locale.signs.name_plate;
     let shortened = |word: &str| {
         let word = word.to_uppercase();
-        SHORT.iter().find(|(long, _)| american && *long == word).map_or(word, |(_, short)| (*short).to_owned())
+        customs.short.iter().find(|[long, _]| *long == word).map_or(word, |[_, short]| short.clone())
     };
     let text: Vec<String> = name.split_whitespace().map(shortened).collect();
     let text = text.join(" ");
-    let colors = yard.habits.name_plate;
+    let colors = [customs.ground, customs.ink].map(Vec3::from_array);
     written.entry(text.clone()).or_insert_with(|| paint(&text, colors)).clone()
 }
 

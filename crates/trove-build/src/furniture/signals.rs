@@ -2,11 +2,10 @@
 //! junction in one phase.
 
 use glam::DVec2;
-use trove_model::{Drive, Kind, Outcome, Report, Seed};
+use trove_model::{Drive, Kind, Outcome, Report, Seed, SignalSide};
 
-use super::habits::{SignalSide, words};
 use super::junctions::{Arm, Junction, KerbSearch, kerb_side};
-use super::yard::{Source, Wish, Yard};
+use super::yard::{Source, Wish, Yard, words};
 
 /// Signals before a junction stand within this of its middle, those behind it too, metres.
 const NEAR_M: [f64; 2] = [-3.0, -30.0];
@@ -55,10 +54,10 @@ fn approach(
     heads: &mut Vec<(DVec2, DVec2)>,
     report: &Report,
 ) -> bool {
-    let habits = yard.habits;
-    let side = kerb_side(arm.inward, habits.on_left);
+    let customs = &yard.locale.signals;
+    let side = kerb_side(arm.inward, yard.locale.driving_side.is_left());
     let search = |along_m: [f64; 2]| KerbSearch { traffic: arm.inward, on_road: arm.end, side, along_m };
-    let (first, second) = match habits.signal_side {
+    let (first, second) = match customs.side {
         SignalSide::Near => (NEAR_M, FAR_M),
         SignalSide::Far => (FAR_M, NEAR_M),
     };
@@ -69,10 +68,11 @@ fn approach(
         return true;
     }
     let beside_m = (kerb.position - arm.end).dot(side);
-    let make = habits.signals[WIDE_M.iter().filter(|wide_m| beside_m > **wide_m).count()];
-    let hand = if habits.on_left { "left" } else { "right" };
+    let models = [&customs.narrow, &customs.wide, &customs.very_wide];
+    let model = models[WIDE_M.iter().filter(|wide_m| beside_m > **wide_m).count()];
+    let hand = yard.locale.driving_side.name();
     let state = if green { "green" } else { "red" };
-    let tags = [words(make).as_slice(), &[hand, state]].concat();
+    let tags = [words(model).as_slice(), &[hand, state]].concat();
     // Where a crossing is in the way, a little further from the junction.
     let away = arm.inward * (kerb.position - junction.centre).dot(arm.inward).signum();
     let placed = [0.0, 1.5, 3.0, 4.5].into_iter().any(|back_m| {

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{CrossingMarking, FurnitureKind, Kind, Parking, Random, Report, Road, RoadKind, Seed};
+use trove_model::{CrossingMarking, FurnitureKind, Kind, Parking, Random, Report, Road, RoadKind, Seed, WarrantedSign};
 
-use super::habits::Signs;
 use super::junctions::{Arm, Junction, KerbSearch, kerb_side};
 use super::yard::{Source, Wish, Yard};
 use crate::geometry::segments::SegmentIndex;
@@ -60,48 +59,44 @@ fn at_kerb(
     yard.place(&Wish { kind: Kind::TrafficSign, tags, position, yaw_rad, source: Source::MadeUp }, report)
 }
 
-/// Who comes from a lesser road stops or gives way; among equals America stops, and Europe gives way to the right.
+/// Who comes from a lesser road stops or gives way; among equals some stop, and others give way to the right.
 fn priority(junction: &Junction<'_>, yard: &mut Yard<'_, '_, '_>, report: &Report) {
-    let american = yard.habits.signs == Signs::American;
+    let signs = &yard.locale.signs;
     let Some(main) = junction.arms.iter().map(|a| a.road.kind).min() else { return };
     // A road goes straight on over the junction or ends at it.
     let ends = |arm: &Arm<'_>| !junction.arms.iter().any(|other| other.inward.dot(arm.inward) < -0.8);
     for arm in junction.arms.iter().filter(|a| a.enters) {
         let lesser = arm.road.kind > main;
-        let name = match (american, lesser) {
-            (true, _) if arm.road.link => "yield",
-            (true, _) if lesser || ends(arm) => "stop",
-            (false, true) => "give-way",
+        let says = match signs.priority {
+            WarrantedSign::Stop if arm.road.link => "give-way",
+            WarrantedSign::Stop if lesser || ends(arm) => "stop",
+            WarrantedSign::GiveWay if lesser => "give-way",
             _ => continue,
         };
-        let side = kerb_side(arm.inward, yard.habits.on_left);
+        let side = kerb_side(arm.inward, yard.locale.driving_side.is_left());
         let search = KerbSearch { traffic: arm.inward, on_road: arm.end, side, along_m: BEFORE_M };
-        let tags = yard.habits.sign(name, name);
-        at_kerb(yard, junction, &search, arm.inward, &tags, report);
+        at_kerb(yard, junction, &search, arm.inward, &signs.tags(says), report);
     }
 }
 
 /// Where a one-way street begins it says so, and where it ends nobody may enter.
 fn one_way(junction: &Junction<'_>, arm: &Arm<'_>, yard: &mut Yard<'_, '_, '_>, report: &Report) {
-    let on_left = yard.habits.on_left;
+    let on_left = yard.locale.driving_side.is_left();
     let outward = -arm.inward;
     let side = kerb_side(outward, on_left);
     let search = KerbSearch { traffic: outward, on_road: arm.end, side, along_m: BEHIND_M };
-    let tags = if arm.enters {
-        yard.habits.sign("do-not-enter", "no-entry")
-    } else {
-        yard.habits.sign("one-way-right", "one-way")
-    };
-    if arm.enters || yard.habits.signs == Signs::Vienna {
-        at_kerb(yard, junction, &search, outward, &tags, report);
+    let signs = &yard.locale.signs;
+    if arm.enters || !signs.one_way_arrows {
+        let says = if arm.enters { "no-entry" } else { "one-way" };
+        at_kerb(yard, junction, &search, outward, &signs.tags(says), report);
         return;
     }
-    // America's arrow looks at those who would turn, and points along the street.
+    // The arrow looks at those who would turn, and points along the street.
     let crossing = junction.arms.iter().find(|a| a.enters && a.inward.dot(outward).abs() < 0.5);
     let Some(crossing) = crossing else { return };
     let to_left = crossing.inward.perp_dot(outward) > 0.0;
-    let tags = if to_left { ["sign", "us", "one-way-left"] } else { tags };
-    at_kerb(yard, junction, &search, crossing.inward, &tags, report);
+    let says = if to_left { "one-way-left" } else { "one-way" };
+    at_kerb(yard, junction, &search, crossing.inward, &signs.tags(says), report);
 }
 
 /// Both directions of traffic see a crossing without signals.
@@ -113,7 +108,7 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
     let lines = map.roads.iter().filter(|r| r.kind == RoadKind::Crossing && is_marked(r.crossing));
     let middles = lines.map(|r| r.centreline.iter().sum::<DVec2>() / r.centreline.len() as f64);
     let nodes = map.furniture.iter().filter(|f| f.kind == FurnitureKind::Crossing && is_marked(f.crossing()));
-    let tags = yard.habits.sign("crossing", "crossing");
+    let tags = yard.locale.signs.tags("crossing");
     for middle in middles.chain(nodes.map(|f| f.position)) {
         let signalled = junctions.iter().any(|j| j.signalled && j.centre.distance(middle) < MAPPED_REACH_M);
         if signalled || !yard.around.bounds.contains(middle) {
@@ -121,7 +116,7 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
         }
         for kerb in yard.around.kerbs.near(middle, CROSSING_REACH_M) {
             let ahead_m = (middle - kerb.position).dot(kerb.traffic);
-            let on_side = kerb.outward.dot(kerb_side(kerb.traffic, yard.habits.on_left)) > 0.7;
+            let on_side = kerb.outward.dot(kerb_side(kerb.traffic, yard.locale.driving_side.is_left())) > 0.7;
             let before = (BEFORE_CROSSING_M..BEFORE_CROSSING_M + 2.0).contains(&ahead_m);
             if on_side && before && !yard.has_near(Kind::TrafficSign, kerb.position, 3.0) {
                 yard.place_at_kerb(Kind::TrafficSign, &tags, &kerb, Source::MadeUp, report);
@@ -146,9 +141,9 @@ fn along(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
                 continue;
             }
             let to_left = (kerb.position - nearest.position).dot(nearest.along.perp()) > 0.0;
-            let name = limit(road, kerb, yard, &mut shown).or_else(|| parking(road, to_left, yard, &mut random));
+            let name = limit(road, kerb, yard, &mut shown).or_else(|| parking(road, to_left, &mut random));
             if let Some(name) = name {
-                let tags = yard.habits.sign(&name, &name);
+                let tags = yard.locale.signs.tags(&name);
                 yard.place_at_kerb(Kind::TrafficSign, &tags, kerb, Source::MadeUp, report);
             }
         }
@@ -162,14 +157,14 @@ fn limit(
     yard: &Yard<'_, '_, '_>,
     shown: &mut BTreeMap<String, Vec<KerbPoint>>,
 ) -> Option<String> {
-    if kerb.outward.dot(kerb_side(kerb.traffic, yard.habits.on_left)) < 0.7 {
+    if kerb.outward.dot(kerb_side(kerb.traffic, yard.locale.driving_side.is_left())) < 0.7 {
         return None;
     }
-    let name = yard.habits.speed_sign(road.speed_limit_kmh?);
+    let name = yard.locale.signs.speed_limit(road.speed_limit_kmh?);
     let before = shown.entry(name.clone()).or_default();
     let again =
         before.iter().any(|b| b.position.distance(kerb.position) < LIMIT_AGAIN_M && b.traffic.dot(kerb.traffic) > 0.7);
-    if again || !yard.has(Kind::TrafficSign, &yard.habits.sign(&name, &name)) {
+    if again || !yard.has(Kind::TrafficSign, &yard.locale.signs.tags(&name)) {
         return None;
     }
     before.push(*kerb);
@@ -177,21 +172,12 @@ fn limit(
 }
 
 /// Whether one may park on a side of a road, where the map says it; main roads forbid it here and there.
-fn parking(road: &Road, to_left: bool, yard: &Yard<'_, '_, '_>, random: &mut Random) -> Option<String> {
+fn parking(road: &Road, to_left: bool, random: &mut Random) -> Option<String> {
     let parking = if to_left { road.parking.left } else { road.parking.right };
-    let american = yard.habits.signs == Signs::American;
-    let forbidden = if american { "no-parking" } else { "no-stopping" };
-    let name = match parking {
-        Some(Parking::No) => forbidden,
-        Some(_) => {
-            if american {
-                "no-parking"
-            } else {
-                "parking"
-            }
-        }
-        None if road.kind <= RoadKind::Residential && random.chance(0.4) => forbidden,
-        None => return None,
-    };
-    Some(name.to_owned())
+    match parking {
+        Some(Parking::No) => Some("no-stopping".into()),
+        Some(_) => Some("parking".into()),
+        None if road.kind <= RoadKind::Residential && random.chance(0.4) => Some("no-stopping".into()),
+        None => None,
+    }
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, MapLine, MapProjection, Mesh, Polygon,
-    Report, Road, RoadKind, Seed, SidewalkSides, Slot, StreetMap,
+    Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, MapLine, Mesh, Polygon, Report, Road,
+    RoadKind, Seed, SidewalkSides, Slot, StreetMap,
 };
 
 use super::furniture;
@@ -17,10 +17,10 @@ use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
 use crate::testing;
 
-const CAMBRIDGE: [f64; 2] = [52.2, 0.12];
-const BERLIN: [f64; 2] = [52.5, 13.4];
-const SINGAPORE: [f64; 2] = [1.3, 103.8];
-const BOSTON: [f64; 2] = [42.35, -71.05];
+const BRITAIN: &str = "GB";
+const GERMANY: &str = "DE";
+const SINGAPORE: &str = "SG";
+const UNITED_STATES: &str = "US";
 
 /// What a test looks at: models with their places, and what was built.
 struct Furnished {
@@ -30,23 +30,32 @@ struct Furnished {
     off_ground_m: f64,
 }
 
-/// Furnishes a map of roads, buildings and lines somewhere on earth.
-fn furnished([origin_lat_deg, origin_lon_deg]: [f64; 2], map: &StreetMap) -> Furnished {
+/// Furnishes a map of roads, buildings and lines in a country.
+fn furnished(country: &str, map: &StreetMap) -> Furnished {
     let mut drive = Drive { lane_map: None, tracks: Vec::new(), ..testing::drive() };
-    drive.projection = MapProjection { origin_lat_deg, origin_lon_deg, anchor_m: DVec2::ZERO };
+    let locale = &testing::locale(country);
     for keyframe in &mut drive.keyframes {
         keyframe.boxes.clear();
     }
     let (library, report) = (library(), Report::default());
     let bounds = Bounds::square(DVec2::ZERO, 400.0);
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
-    let surfaces =
-        roads::surfaces(&drive, Some(map), &ground, bounds, &library, testing::conditions(), &Seed(0).into(), &report);
+    let surfaces = roads::surfaces(
+        &drive,
+        Some(map),
+        locale,
+        &ground,
+        bounds,
+        &library,
+        testing::conditions(),
+        &Seed(0).into(),
+        &report,
+    );
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
     let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let around = Surroundings { drive: &drive, map: Some(map), bounds, kerbs: &kerbs, stand };
+    let around = Surroundings { drive: &drive, map: Some(map), locale, bounds, kerbs: &kerbs, stand };
     let found = furniture(&around, &library, &mut clearance, Seed(1), &report);
     let feet = || found.scenery.iter().map(|s| s.foot_world);
     Furnished {
@@ -123,7 +132,7 @@ fn line(kind: LineKind, line: &[[f64; 2]]) -> MapLine {
 
 #[test]
 fn a_sign_faces_its_traffic_where_traffic_keeps_right_and_where_it_keeps_left() {
-    for (place, side) in [(BERLIN, 1.0), (SINGAPORE, -1.0)] {
+    for (place, side) in [(GERMANY, 1.0), (SINGAPORE, -1.0)] {
         let found = furnished(place, &junction(RoadKind::Primary, RoadKind::Residential));
         let gives_way: Vec<_> = found.scenery.iter().filter(|(id, ..)| id == "gives way").collect();
         assert_eq!(gives_way.len(), 1, "{:?}", found.scenery);
@@ -136,7 +145,7 @@ fn a_sign_faces_its_traffic_where_traffic_keeps_right_and_where_it_keeps_left() 
 
 #[test]
 fn signals_of_one_axis_are_green_while_the_other_s_are_red() {
-    for place in [BERLIN, SINGAPORE, BOSTON] {
+    for place in [GERMANY, SINGAPORE, UNITED_STATES] {
         let found = furnished(place, &junction(RoadKind::Primary, RoadKind::Secondary));
         let along_x = |yaw_rad: f64| yaw_rad.cos().abs() > 0.7;
         let states: Vec<(bool, bool)> = found
@@ -152,7 +161,8 @@ fn signals_of_one_axis_are_green_while_the_other_s_are_red() {
 
 #[test]
 fn limits_are_in_the_country_s_unit_and_nothing_stands_on_the_carriageway_or_off_the_ground() {
-    for (place, main, sign) in [(BERLIN, RoadKind::Primary, "50 km/h"), (BOSTON, RoadKind::Tertiary, "25 mph")] {
+    for (place, main, sign) in [(GERMANY, RoadKind::Primary, "50 km/h"), (UNITED_STATES, RoadKind::Tertiary, "25 mph")]
+    {
         let found = furnished(place, &junction(main, RoadKind::Residential));
         let limits: Vec<&str> =
             found.scenery.iter().map(|(id, ..)| id.as_str()).filter(|id| ["25 mph", "50 km/h"].contains(id)).collect();
@@ -173,7 +183,7 @@ fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
         lines: vec![power],
         ..junction(RoadKind::Secondary, RoadKind::Residential)
     };
-    let found = furnished(BERLIN, &map);
+    let found = furnished(GERMANY, &map);
     let poles = found.scenery.iter().filter(|(id, ..)| id == "pole").count();
     assert_eq!(poles, 4, "{:?}", found.scenery);
     let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
@@ -190,7 +200,7 @@ fn wires_hang_from_pole_to_pole_above_five_metres_and_through_no_building() {
 fn a_tram_s_wire_follows_its_track_between_poles_on_both_sides() {
     let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
     map.lines = vec![line(LineKind::Tram, &[[-150.0, 0.0], [150.0, 0.0]])];
-    let found = furnished(BERLIN, &map);
+    let found = furnished(GERMANY, &map);
     let poles: Vec<DVec3> = found.scenery.iter().filter(|(id, ..)| id == "pole").map(|s| s.1).collect();
     assert!(poles.iter().any(|p| p.y > 3.0) && poles.iter().any(|p| p.y < -3.0), "{poles:?}");
     let wires = found.pieces.iter().find(|p| p.kind.is_none()).unwrap();
@@ -204,7 +214,7 @@ fn a_fence_stands_along_its_line_and_is_open_where_a_path_crosses_it() {
     let mut map = junction(RoadKind::Secondary, RoadKind::Residential);
     map.lines = vec![line(LineKind::Fence, &[[-60.0, 40.0], [60.0, 40.0], [60.0, 80.0]])];
     map.roads.push(testing::road(3, RoadKind::Footway, &[[10.0, 5.0], [10.0, 90.0]]));
-    let found = furnished(BERLIN, &map);
+    let found = furnished(GERMANY, &map);
     let fences: Vec<&Piece> = found.pieces.iter().filter(|p| p.kind == Some(Kind::Fence)).collect();
     assert!(fences.len() >= 3);
     let points =
@@ -226,7 +236,7 @@ fn open_land_behind_a_sidewalk_is_bounded_but_not_before_houses_nor_across_paths
         buildings: vec![Building::new(9, Polygon::simple(house.to_vec()), Some(trove_model::BuildingKind::House))],
         ..StreetMap::default()
     };
-    let found = furnished(CAMBRIDGE, &map);
+    let found = furnished(BRITAIN, &map);
     let lines = found.pieces.iter().filter(|p| matches!(p.kind, Some(Kind::Fence | Kind::Wall)));
     let points: Vec<DVec3> = lines
         .flat_map(|f| f.mesh.positions.iter().map(|p| f.world_from_mesh.transform_point3(p.as_dvec3())))

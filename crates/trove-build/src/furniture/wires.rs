@@ -66,7 +66,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
             pole(thing.position, kerb.map_or(DVec2::X, |k| k.traffic), Source::Mapped, yard, report);
         }
     }
-    if yard.habits.overhead_wires {
+    if yard.locale.street.overhead_wires {
         pieces.extend(by_rule(yard, seed, report));
     }
     pieces

@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use glam::{DVec2, DVec3};
-use trove_model::{Asset, AssetLibrary, Kind, Outcome, Report, RoadKind, Seed};
+use trove_model::{Asset, AssetLibrary, Kind, Locale, ModelShare, Outcome, Report, RoadKind, Seed};
 
-use super::habits::Habits;
 use crate::geometry::plane_raster::bucket;
 use crate::geometry::segments::SegmentIndex;
 use crate::pieces::Scenery;
@@ -74,7 +73,7 @@ pub(super) struct Yard<'a, 'b, 'c> {
     pub library: &'a AssetLibrary,
     pub around: &'b Surroundings<'b>,
     pub clearance: &'b mut Clearance<'c>,
-    pub habits: Habits,
+    pub locale: &'b Locale,
     pub placed: Vec<Scenery<'a>>,
     seed: Seed,
     plans: BTreeMap<&'a str, Plan>,
@@ -108,7 +107,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             library,
             around,
             clearance,
-            habits: Habits::of(&around.drive.projection),
+            locale: around.locale,
             placed: Vec::new(),
             seed,
             plans: BTreeMap::new(),
@@ -228,6 +227,16 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
     fn plan(&mut self, asset: &'a Asset) -> Plan {
         self.plans.entry(&asset.id).or_insert_with(|| plan(asset)).clone()
     }
+}
+
+/// Models, each as often as its share says.
+pub(super) fn as_often(models: &[ModelShare]) -> Vec<&ModelShare> {
+    models.iter().flat_map(|model| std::iter::repeat_n(model, model.share as usize)).collect()
+}
+
+/// Tags as they are asked for.
+pub(super) fn words(tags: &[String]) -> Vec<&str> {
+    tags.iter().map(String::as_str).collect()
 }
 
 /// Signs and signals look at the traffic that comes, racks lie along the kerb, everything else looks at the road.

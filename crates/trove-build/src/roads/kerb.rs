@@ -19,17 +19,6 @@ const BEYOND_M: f64 = 1.2;
 /// Half of a crossing's length where the road's width is not at hand.
 const HALF_LENGTH_M: f64 = 9.0;
 
-/// Height of a place's kerbs, metres.
-///
-/// Americas and East Asia: 15 cm (AASHTO's *Green Book*, Taiwan's and Japan's road structure rules); elsewhere 12 cm
-/// (Germany's RASt 06: 10–12, Britain's and Singapore's standard details: 10–12.5).
-pub(crate) fn kerb_m(drive: &Drive) -> f64 {
-    let (lat_deg, lon_deg) = (drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
-    let americas = (-170.0..-30.0).contains(&lon_deg);
-    let east_asia = (116.0..150.0).contains(&lon_deg) && lat_deg > 20.0;
-    if americas || east_asia { 0.15 } else { 0.12 }
-}
-
 /// A stone's front from the road to its top, as distance into the carriageway and height.
 pub(super) fn profile(kerb_m: f64) -> [DVec2; 3] {
     [

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{
-    Bounds, Cycleway, Drive, LandKind, Outcome, Polygon, Report, Road, RoadKind, StreetMap, drives_on_left,
+    Bounds, Cycleway, Drive, DrivingSide, LandKind, Outcome, Polygon, Report, Road, RoadKind, StreetMap,
 };
 
 use super::corners;
@@ -60,6 +60,7 @@ const TRACK_OFF_M: f64 = 0.6;
 
 /// The plane, divided; no two areas overlap.
 pub(super) struct Layout<'a> {
+    pub driving_side: DrivingSide,
     /// What the dataset's map says; within the carriageway.
     pub recorded: PlaneRaster,
     /// Road beyond it.
@@ -86,7 +87,13 @@ pub(super) struct Layout<'a> {
 }
 
 /// Divides the plane within `bounds`.
-pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Bounds, report: &Report) -> Layout<'a> {
+pub(super) fn layout<'a>(
+    drive: &Drive,
+    map: Option<&'a StreetMap>,
+    driving_side: DrivingSide,
+    bounds: Bounds,
+    report: &Report,
+) -> Layout<'a> {
     let whole = vec![rectangle(bounds)];
     let lanes = drive.lane_map.as_ref();
     let drivable = lanes.map(|m| union(&[m.drivable.clone(), m.carparks.clone()].concat())).unwrap_or_default();
@@ -96,7 +103,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     recorded.fill(&drivable, RECORDED);
 
     // Roads of the map where the recording ends, their corners rounded.
-    let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
+    let on_left = driving_side.is_left();
     let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), report)).unwrap_or_default();
     let stretches = network::stretches(levels.ground, &recorded, on_left, report);
     let section = |road: &Road| cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
@@ -158,6 +165,7 @@ pub(super) fn layout<'a>(drive: &Drive, map: Option<&'a StreetMap>, bounds: Boun
     let car_parks = closed(&grown(&union(&parked), CAR_PARK_M), CAR_PARK_M);
     let courses = course::courses(drive, &stretches, &bays);
     Layout {
+        driving_side,
         recorded,
         stretches,
         courses,

@@ -3,7 +3,6 @@
 mod corners;
 mod course;
 mod cross_section;
-mod customs;
 mod decks;
 mod evidence;
 mod footings;
@@ -18,11 +17,12 @@ mod tests;
 mod wear;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Bounds, Class, Drive, HeightField, Mesh, Polygon, Report, StreetMap, SurfaceKind};
+use trove_model::{
+    AssetLibrary, Bounds, Class, Drive, DrivingSide, HeightField, Locale, Mesh, Polygon, Report, StreetMap, SurfaceKind,
+};
 
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
-pub(crate) use kerb::kerb_m;
 pub(crate) use path::Path;
 
 use footings::Footings;
@@ -54,6 +54,8 @@ pub(crate) struct RoadSurfaces {
     pub lawns: Vec<Polygon>,
     /// How that grass looks.
     pub lawn: Lawn,
+    /// The side of the road that traffic keeps to.
+    pub driving_side: DrivingSide,
     /// Height of a kerb: sidewalks and land lie this much above the carriageway, but for ramps, metres.
     pub kerb_m: f64,
     ramps: Ramps,
@@ -98,6 +100,7 @@ impl RoadSurfaces {
 pub(crate) fn surfaces(
     drive: &Drive,
     map: Option<&StreetMap>,
+    locale: &Locale,
     ground: &HeightField,
     bounds: Bounds,
     library: &AssetLibrary,
@@ -106,22 +109,22 @@ pub(crate) fn surfaces(
     report: &Report,
 ) -> RoadSurfaces {
     let seed = seeds.materials.child("roads");
-    let kerb_m = kerb_m(drive);
+    let kerb_m = locale.kerb.height_m;
     // Up to the end of the height field, where the apron begins.
     let field = Drape::new(ground).bounds();
     let bounds = Bounds { min: bounds.min.min(field.min), max: bounds.max.max(field.max) };
-    let layout = layout::layout(drive, map, bounds, report);
-    let (customs, near) = (customs::customs(&drive.projection), wear::near(drive));
+    let layout = layout::layout(drive, map, locale.driving_side, bounds, report);
+    let near = wear::near(drive);
     let (markings, covers) = rayon::join(
-        || markings::markings(drive, map, &layout, &near, customs, seed.child("markings"), report),
+        || markings::markings(drive, map, &layout, &near, &locale.markings, seed.child("markings"), report),
         || land::covers(layout.land.clone(), &layout.car_parks, map, bounds),
     );
     let palette = Palette { library, report };
     // One surface of a kind in the whole place; kerbs of plain stone where the library has them.
     let material = |kind: SurfaceKind| {
-        let tags: &[&str] = match kind {
-            SurfaceKind::Kerb => customs.kerb,
-            SurfaceKind::Paving => customs.sidewalk,
+        let tags: &[String] = match kind {
+            SurfaceKind::Kerb => &locale.kerb.tags,
+            SurfaceKind::Paving => &locale.surfaces.sidewalk,
             _ => &[],
         };
         palette.fitting(kind, tags, &mut seed.child(&format!("{kind:?}")).random()).material
@@ -146,7 +149,7 @@ pub(crate) fn surfaces(
         layout: &layout,
         markings: &markings,
         near: &near,
-        customs,
+        customs: &locale.surfaces,
         palette: &palette,
         drape: &drape,
         seed: seed.child("surfacing"),
@@ -201,5 +204,17 @@ pub(crate) fn surfaces(
 
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
     let lanes = course::lanes(&layout.courses);
-    RoadSurfaces { pieces, carriageway: layout.carriageway, lanes, lawns, lawn, kerb_m, ramps, footings, below }
+    let driving_side = locale.driving_side;
+    RoadSurfaces {
+        driving_side,
+        pieces,
+        carriageway: layout.carriageway,
+        lanes,
+        lawns,
+        lawn,
+        kerb_m,
+        ramps,
+        footings,
+        below,
+    }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use trove_model::{
-    AssetLibrary, Bounds, Class, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
+    AssetLibrary, Bounds, Class, DrivingSide, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
 };
 
 use super::layout::layout;
@@ -10,7 +10,7 @@ use super::{Footing, RoadSurfaces, land, surfaces};
 use crate::geometry::plane;
 use crate::ground::Drape;
 use crate::pieces::Piece;
-use crate::testing::{conditions, drive};
+use crate::testing::{conditions, drive, locale};
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.
 fn map() -> StreetMap {
@@ -37,6 +37,7 @@ fn built() -> RoadSurfaces {
     surfaces(
         &drive(),
         Some(&map()),
+        &locale("SG"),
         &hilly(),
         bounds(),
         &AssetLibrary::default(),
@@ -62,7 +63,7 @@ fn is_apron(piece: &Piece) -> bool {
 fn the_plane_is_covered_once() {
     let report = Report::default();
     let (drive, map, bounds) = (drive(), map(), bounds());
-    let layout = layout(&drive, Some(&map), bounds, &report);
+    let layout = layout(&drive, Some(&map), DrivingSide::Left, bounds, &report);
     let covers = land::covers(layout.land.clone(), &layout.car_parks, Some(&map), bounds);
     let mut areas = vec![layout.carriageway, layout.kerb, layout.pavement, layout.tracks];
     areas.extend(covers.into_iter().map(|cover| cover.area));
@@ -132,6 +133,7 @@ fn a_drive_without_any_map_has_a_road_under_it() {
     let built = surfaces(
         &drive,
         None,
+        &locale("SG"),
         &flat,
         bounds(),
         &AssetLibrary::default(),
@@ -155,8 +157,17 @@ fn a_patchy_recording_is_closed_where_vehicles_drove() {
     drive.lane_map = Some(LaneMap { drivable, ..LaneMap::default() });
     let flat = HeightField::flat(bounds(), 0.0);
     let report = Report::default();
-    let built =
-        surfaces(&drive, None, &flat, bounds(), &AssetLibrary::default(), conditions(), &Seed(7).into(), &report);
+    let built = surfaces(
+        &drive,
+        None,
+        &locale("SG"),
+        &flat,
+        bounds(),
+        &AssetLibrary::default(),
+        conditions(),
+        &Seed(7).into(),
+        &report,
+    );
     assert_eq!(built.footing(DVec2::new(15.0, 0.0)), Footing::Carriageway);
     assert!(report.entries().iter().any(|e| e.what.contains("gaps")));
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, StreetMap, drives_on_left};
+use trove_model::{Bounds, Drive, StreetMap};
 
 use crate::geometry::plane_raster::bucket;
 use crate::geometry::segments::SegmentIndex;
@@ -70,7 +70,7 @@ fn runs(drive: &Drive, map: Option<&StreetMap>, surfaces: &RoadSurfaces, bounds:
     let lanes = drive.lane_map.iter().flat_map(|m| &m.lanes).map(|l| l.centreline.as_slice());
     let oneways = map.iter().flat_map(|m| &m.roads).filter(|r| r.oneway && r.kind.is_for_cars());
     let directed = SegmentIndex::new(lanes.chain(oneways.map(|r| r.centreline.as_slice())));
-    let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
+    let on_left = surfaces.driving_side.is_left();
     let inner = bounds.grown(-2.0 * BEYOND_M);
 
     let mut runs = Vec::new();

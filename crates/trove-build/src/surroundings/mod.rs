@@ -3,7 +3,7 @@
 mod clearance;
 mod kerbs;
 
-use trove_model::{Bounds, Drive, StreetMap};
+use trove_model::{Bounds, Drive, Locale, StreetMap};
 
 use crate::placement::Stand;
 
@@ -16,6 +16,8 @@ pub(crate) struct Surroundings<'a> {
     pub drive: &'a Drive,
     /// The map.
     pub map: Option<&'a StreetMap>,
+    /// Whose customs it follows.
+    pub locale: &'a Locale,
     /// The area that is built.
     pub bounds: Bounds,
     /// Edges of the carriageway.

@@ -93,7 +93,7 @@ pub(crate) fn added(
     if wanted == 0 {
         return users;
     }
-    let shares = Shares::of(&drive.projection, library, traffic.cyclists);
+    let shares = Shares::of(&around.locale.traffic, library, traffic.cyclists);
     let ways = Ways::new(around);
     let mut room = Room::new(around, absent, clearance, assembly);
     // Some find no place, and some come together.

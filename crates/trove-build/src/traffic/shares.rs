@@ -1,11 +1,9 @@
-//! Who is on the road in which part of the world.
+//! Who is on the road.
 
 use std::fmt;
 
 use glam::DVec3;
-use trove_model::{Asset, AssetLibrary, Kind, MapProjection, Posture, Random};
-
-use crate::buildings::Region;
+use trove_model::{Asset, AssetLibrary, Kind, Posture, Random, TrafficMix};
 
 /// What a made-up road user does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,27 +26,16 @@ impl fmt::Display for Doing {
     }
 }
 
-/// How often each is met, in the order of [`Doing`]. Guesses: cyclists follow the shares of trips in Pucher and Buehler
-/// (2008, Transport Reviews), motorcycles what is registered; people on foot are half, since pictures are to show them.
-#[rustfmt::skip]
-const SHARES: [(Region, [(Doing, f64); 7]); 6] = [
-    (Region::NorthAmerica,   shares([0.34, 0.12, 0.06, 0.08, 0.02, 0.18, 0.20])),
-    (Region::NorthernEurope, shares([0.34, 0.11, 0.05, 0.20, 0.02, 0.12, 0.16])),
-    (Region::Mediterranean,  shares([0.34, 0.12, 0.06, 0.09, 0.11, 0.12, 0.16])),
-    (Region::EastAsia,       shares([0.34, 0.11, 0.06, 0.11, 0.14, 0.12, 0.12])),
-    (Region::TropicalAsia,   shares([0.32, 0.12, 0.06, 0.08, 0.18, 0.14, 0.10])),
-    (Region::Elsewhere,      shares([0.34, 0.12, 0.06, 0.10, 0.10, 0.13, 0.15])),
-];
-
-const fn shares([walk, stand, wait, cycle, motorcycle, drive, park]: [f64; 7]) -> [(Doing, f64); 7] {
+/// How often each is met.
+fn doings(mix: &TrafficMix) -> [(Doing, f64); 7] {
     [
-        (Doing::Walking, walk),
-        (Doing::Standing, stand),
-        (Doing::Waiting, wait),
-        (Doing::Cycling, cycle),
-        (Doing::Motorcycling, motorcycle),
-        (Doing::Driving, drive),
-        (Doing::Parked, park),
+        (Doing::Walking, mix.walking),
+        (Doing::Standing, mix.standing),
+        (Doing::Waiting, mix.waiting),
+        (Doing::Cycling, mix.cycling),
+        (Doing::Motorcycling, mix.motorcycling),
+        (Doing::Driving, mix.driving),
+        (Doing::Parked, mix.parked),
     ]
 }
 
@@ -71,13 +58,11 @@ pub(super) struct Shares<'a> {
 }
 
 impl<'a> Shares<'a> {
-    pub(super) fn of(projection: &MapProjection, library: &'a AssetLibrary, cyclists: f64) -> Self {
-        let region = Region::of(projection);
-        let row = SHARES.iter().find(|(of, _)| *of == region).map_or(&[][..], |(_, row)| row);
+    pub(super) fn of(mix: &TrafficMix, library: &'a AssetLibrary, cyclists: f64) -> Self {
         let has = |doing: Doing| kinds(doing).iter().any(|(kind, _)| library.of_kind(*kind).next().is_some());
         let lots = |doing, share| if doing == Doing::Cycling { share * cyclists } else { share };
-        let doings = row.iter().filter(|(doing, _)| has(*doing));
-        Self { library, doings: doings.map(|&(doing, share)| (doing, lots(doing, share))).collect() }
+        let doings = doings(mix).into_iter().filter(|(doing, _)| has(*doing));
+        Self { library, doings: doings.map(|(doing, share)| (doing, lots(doing, share))).collect() }
     }
 
     /// What the next one does; `None` where the library has nobody.

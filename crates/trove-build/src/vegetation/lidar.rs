@@ -266,7 +266,8 @@ mod tests {
             let clearance = Clearance::new(&drive, &surfaces, &[], bounds);
             let kerbs = Kerbs::new(&drive, None, &surfaces, bounds);
             let stand = Stand { ground: &ground, surfaces: &surfaces };
-            let around = Surroundings { drive: &drive, map: None, bounds, kerbs: &kerbs, stand };
+            let around =
+                Surroundings { drive: &drive, map: None, locale: &testing::locale("SG"), bounds, kerbs: &kerbs, stand };
             let seen = Seen::new(&around, &clearance);
             let wishes = seen.wishes(Seed(1));
             assert!(wishes.iter().any(|w| w.kind == Kind::Tree));

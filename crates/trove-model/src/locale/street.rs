@@ -1,5 +1,7 @@
 //! What stands along streets.
 
+use std::collections::BTreeMap;
+
 use crate::Kind;
 
 /// The unit of speed limits.
@@ -54,10 +56,25 @@ pub struct SignCustoms {
     pub priority: WarrantedSign,
     /// Whether one-way signs are arrows that point along the street, for those who would turn into it.
     pub one_way_arrows: bool,
+    /// What signs are called in this style where that is not what they say: a stop is a `stop` everywhere, but who gives
+    /// way (`give-way`) may be told to `yield`.
+    pub called: BTreeMap<String, String>,
     /// Tags of the sign of a bus stop.
     pub bus_stop: Vec<String>,
     /// Plates with the names of streets.
     pub name_plate: NamePlate,
+}
+
+impl SignCustoms {
+    /// The tags of the sign that says something: `stop`, `give-way`, `no-entry`, `one-way`, `speed-50` and so on.
+    pub fn tags<'s>(&'s self, says: &'s str) -> [&'s str; 3] {
+        ["sign", &self.style, self.called.get(says).map_or(says, String::as_str)]
+    }
+
+    /// What the sign for a speed limit says, in the country's own unit.
+    pub fn speed_limit(&self, limit_kmh: f64) -> String {
+        format!("speed-{}", self.speed_unit.written(limit_kmh))
+    }
 }
 
 /// A plate with the name of a street.

@@ -4,7 +4,6 @@ use glam::{DVec2, DVec3};
 use trove_model::{BuildingKind, Random, RoofShape};
 
 use super::pitched::Pitched;
-use crate::buildings::region::Region;
 use crate::buildings::shell::{Shell, Slot};
 use crate::buildings::volumes::{House, Volume};
 
@@ -26,8 +25,7 @@ pub(super) fn fittings(shell: &mut Shell, roof: &Pitched, volume: &Volume<'_>, h
         k.is_works() || k.is_canopy() || matches!(k, K::Garage | K::Shed | K::Greenhouse)
     };
     let is_lived_in = !house.building.kind.is_some_and(is_shelter);
-    let is_old_world = matches!(house.region, Region::NorthernEurope | Region::Mediterranean | Region::NorthAmerica);
-    if is_lived_in && is_old_world && volume.top_m > 4.0 {
+    if is_lived_in && house.customs.chimneys && volume.top_m > 4.0 {
         chimneys(shell, roof, random);
     }
     if house.path_m > WINDOWS_SEEN_M || !is_lived_in || volume.is_canopy {
@@ -49,7 +47,7 @@ pub(super) fn fittings(shell: &mut Shell, roof: &Pitched, volume: &Volume<'_>, h
         let faces_sun = own.along.perp().y > 0.4;
         if style > 0.9 && faces_sun {
             panels(shell, roof, side, random);
-        } else if style > 0.3 && is_old_world {
+        } else if style > 0.3 && house.customs.chimneys {
             skylights(shell, roof, side, random);
         }
     }

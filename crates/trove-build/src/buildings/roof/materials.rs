@@ -1,9 +1,10 @@
 //! What roofs are made of.
 
 use glam::{Vec3, vec3};
-use trove_model::{Building, BuildingKind, Material, Random, RoofMaterial, RoofShape, SurfaceKind, Tags};
+use trove_model::{
+    Building, BuildingCustoms, BuildingKind, Covering, Material, Random, RoofMaterial, RoofShape, SurfaceKind, Tags,
+};
 
-use crate::buildings::region::Region;
 use crate::pieces::{Palette, tinted};
 
 /// Materials of flat roofs, pitched roofs, gables, metal, boards and glazing, in the order of
@@ -11,14 +12,15 @@ use crate::pieces::{Palette, tinted};
 /// goes on in gables.
 pub(in crate::buildings) fn materials(
     building: &Building,
-    region: Region,
+    customs: &BuildingCustoms,
     facade: &Tags,
     wall: Vec3,
     palette: &Palette<'_>,
     random: &mut Random,
 ) -> Vec<Material> {
-    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_tags(building, region, random), random).material;
-    let mut pitched = palette.fitting(SurfaceKind::RoofTiles, pitched_tags(building, region, random), random).material;
+    let mut flat = palette.fitting(SurfaceKind::FlatRoof, flat_tags(building, customs, random), random).material;
+    let mut pitched =
+        palette.fitting(SurfaceKind::RoofTiles, &pitched_tags(building, customs, random), random).material;
     let mut gable = palette.fitting(SurfaceKind::Wall, &gable_tags(facade, palette), random).material;
     // Roofs of one material differ a little in age.
     let age = random.range(0.85, 1.12) as f32;
@@ -37,7 +39,7 @@ pub(in crate::buildings) fn materials(
     vec![flat, pitched, gable, metal, boards, glazing]
 }
 
-fn flat_tags(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn flat_tags(building: &Building, customs: &BuildingCustoms, random: &mut Random) -> &'static [&'static str] {
     let drawn = random.unit();
     let is_hall =
         building.kind.is_some_and(|k| k.is_works() || matches!(k, BuildingKind::Retail | BuildingKind::Supermarket));
@@ -48,7 +50,7 @@ fn flat_tags(building: &Building, region: Region, random: &mut Random) -> &'stat
         Some(RoofMaterial::Plants) => &["green"],
         _ => match () {
             _ if is_hall && drawn < 0.7 => &["membrane"],
-            _ if drawn < 0.07 && region != Region::NorthAmerica => &["green"],
+            _ if drawn < customs.green_roof_share => &["green"],
             _ if drawn < 0.4 => &["bitumen"],
             _ if drawn < 0.7 => &["gravel"],
             _ => &["membrane"],
@@ -56,49 +58,42 @@ fn flat_tags(building: &Building, region: Region, random: &mut Random) -> &'stat
     }
 }
 
-fn pitched_tags(building: &Building, region: Region, random: &mut Random) -> &'static [&'static str] {
+fn pitched_tags<'c>(building: &Building, customs: &'c BuildingCustoms, random: &mut Random) -> Vec<&'c str> {
     let drawn = random.unit();
     let is_crowned = matches!(building.roof, Some(RoofShape::Dome | RoofShape::Onion));
     match building.roof_material {
         Some(RoofMaterial::Tiles) => match building.roof_color {
-            Some(color) if color.max_element() < 0.12 => &["dark"],
-            _ => &["red"],
+            Some(color) if color.max_element() < 0.12 => vec!["dark"],
+            _ => vec!["red"],
         },
-        Some(RoofMaterial::Slate | RoofMaterial::Stone | RoofMaterial::Glass) => &["slate"],
-        Some(RoofMaterial::Metal) => &["metal"],
-        Some(RoofMaterial::Copper) => &["copper"],
-        Some(RoofMaterial::Bitumen | RoofMaterial::Shingle) => &["shingle"],
-        _ if is_crowned && drawn < 0.6 => &["copper"],
-        _ if is_crowned => &["slate", "metal"],
-        _ => match (building.kind, region) {
-            (Some(kind), _)
-                if kind.is_works() || kind.is_canopy() || matches!(kind, BuildingKind::Garage | BuildingKind::Shed) =>
-            {
-                &["metal"]
-            }
-            (_, Region::NorthAmerica) if drawn < 0.8 => &["shingle"],
-            (_, Region::NorthAmerica) => &["slate", "metal"],
-            (_, Region::Mediterranean) => &["red"],
-            (_, Region::EastAsia) => {
-                if drawn < 0.6 {
-                    &["dark"]
-                } else {
-                    &["metal"]
-                }
-            }
-            (_, Region::TropicalAsia) => {
-                if drawn < 0.7 {
-                    &["red"]
-                } else {
-                    &["metal"]
-                }
-            }
-            (Some(kind), _) if kind.is_house() && drawn < 0.3 => &["dark"],
-            _ if drawn < 0.65 => &["red"],
-            _ if drawn < 0.85 => &["dark"],
-            _ => &["slate"],
-        },
+        Some(RoofMaterial::Slate | RoofMaterial::Stone | RoofMaterial::Glass) => vec!["slate"],
+        Some(RoofMaterial::Metal) => vec!["metal"],
+        Some(RoofMaterial::Copper) => vec!["copper"],
+        Some(RoofMaterial::Bitumen | RoofMaterial::Shingle) => vec!["shingle"],
+        _ if is_crowned && drawn < 0.6 => vec!["copper"],
+        _ if is_crowned => vec!["slate", "metal"],
+        _ if building.kind.is_some_and(has_metal_roof) => vec!["metal"],
+        _ => {
+            let is_house = building.kind.is_some_and(BuildingKind::is_house);
+            let own = if is_house { &customs.house_coverings } else { &customs.coverings };
+            covering(if own.is_empty() { &customs.coverings } else { own }, drawn)
+        }
     }
+}
+
+fn has_metal_roof(kind: BuildingKind) -> bool {
+    kind.is_works() || kind.is_canopy() || matches!(kind, BuildingKind::Garage | BuildingKind::Shed)
+}
+
+/// The tags of the covering that a number from 0 to 1 falls on.
+fn covering(coverings: &[Covering], drawn: f64) -> Vec<&str> {
+    let mut left = drawn;
+    let found = coverings.iter().find(|covering| {
+        let is_it = left < covering.share;
+        left -= covering.share;
+        is_it
+    });
+    found.or(coverings.last()).map_or(Vec::new(), |covering| covering.tags.iter().map(String::as_str).collect())
 }
 
 /// The tags that a facade shares with walls: it has such a one between its windows.

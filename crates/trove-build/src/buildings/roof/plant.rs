@@ -2,10 +2,9 @@
 //! railings. All of it is sunk a little into the deck, so that it shares no plane with it.
 
 use glam::{DVec2, DVec3};
-use trove_model::{BuildingKind, Polygon, Random};
+use trove_model::{BuildingCustoms, BuildingKind, Polygon, Random};
 
 use crate::buildings::rectangle::base;
-use crate::buildings::region::Region;
 use crate::buildings::shell::{Shell, Slot};
 use crate::buildings::volumes::{House, Volume};
 use crate::geometry::plane::grown;
@@ -95,7 +94,7 @@ pub(super) fn plant(
     if house.path_m > SMALL_SEEN_M {
         return;
     }
-    tank(shell, &mut deck, house.region, volume.top_m, random);
+    tank(shell, &mut deck, house.customs, volume.top_m, random);
     for _ in 0..(area_m2 / 60.0 + random.unit()).min(9.0) as usize {
         vent(shell, &mut deck, random);
     }
@@ -145,10 +144,11 @@ fn vent(shell: &mut Shell, deck: &mut Deck<'_>, random: &mut Random) {
     shell.cylinder(Slot::Metal, at + DVec3::Z * (height_m - 0.02), [radius_m * 1.6, radius_m * 0.9], 0.14, 8);
 }
 
-/// Water tanks of wood on a stand in North America, of steel or plastic, in numbers, where the mains are weak.
-fn tank(shell: &mut Shell, deck: &mut Deck<'_>, region: Region, top_m: f64, random: &mut Random) {
-    match region {
-        Region::NorthAmerica if top_m > 18.0 && random.chance(0.12) => {
+/// A water tank of wood on a stand, or tanks of steel or plastic, in numbers, where the mains are weak.
+fn tank(shell: &mut Shell, deck: &mut Deck<'_>, customs: &BuildingCustoms, top_m: f64, random: &mut Random) {
+    let has = |share: f64, random: &mut Random| share > 0.0 && random.chance(share);
+    match () {
+        () if top_m > 18.0 && has(customs.wooden_tank_share, random) => {
             let Some(at) = deck.place(DVec2::splat(3.4), 8, random) else { return };
             for turn in 0..4 {
                 let leg = DVec2::from_angle(f64::from(turn) * std::f64::consts::FRAC_PI_2 + 0.8) * 1.2;
@@ -157,7 +157,7 @@ fn tank(shell: &mut Shell, deck: &mut Deck<'_>, region: Region, top_m: f64, rand
             shell.cylinder(Slot::Boards, at + DVec3::Z * 2.5, [1.6, 1.6], 3.0, 14);
             shell.cylinder(Slot::Boards, at + DVec3::Z * 5.45, [1.75, 0.05], 1.1, 14);
         }
-        Region::EastAsia | Region::TropicalAsia | Region::Mediterranean if random.chance(0.45) => {
+        () if has(customs.steel_tank_share, random) => {
             for _ in 0..1 + random.index(3) {
                 let radius_m = random.range(0.5, 0.85);
                 let Some(at) = deck.place(DVec2::splat(radius_m * 2.0), 6, random) else { return };
@@ -167,7 +167,7 @@ fn tank(shell: &mut Shell, deck: &mut Deck<'_>, region: Region, top_m: f64, rand
                 shell.cylinder(Slot::Metal, at + DVec3::Z * (0.53 + height_m), [radius_m, 0.2], 0.25, 12);
             }
         }
-        _ => {}
+        () => {}
     }
 }
 

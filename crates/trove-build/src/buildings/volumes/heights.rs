@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Building, BuildingKind, Outcome, Polygon, Random, Report, RoofShape};
+use trove_model::{Building, BuildingCustoms, BuildingKind, Outcome, Polygon, Random, Report, RoofShape, RoofShare};
 
 use super::house::{CANOPY_THICK_M, Volume, kind, name};
-use crate::buildings::region::Region;
 
 /// Buildings this near tell what is usual here, metres.
 const NEAR_M: f64 = 130.0;
@@ -23,8 +22,8 @@ const THINNEST_M: f64 = 0.2;
 const LOWEST_M: f64 = 2.2;
 
 /// Heights that the map tells, to guess the others from.
-pub(super) struct Neighbourhood {
-    pub region: Region,
+pub(super) struct Neighbourhood<'c> {
+    customs: &'c BuildingCustoms,
     // Only looked up; what is found is sorted.
     cells: HashMap<[i64; 2], Vec<Known>>,
 }
@@ -67,9 +66,9 @@ impl Group {
     }
 }
 
-impl Neighbourhood {
+impl<'c> Neighbourhood<'c> {
     /// What the map tells of these buildings.
-    pub(super) fn new(buildings: &[&Building], region: Region) -> Self {
+    pub(super) fn new(buildings: &[&Building], customs: &'c BuildingCustoms) -> Self {
         let mut cells: HashMap<[i64; 2], Vec<Known>> = HashMap::new();
         for building in buildings {
             let Some(walls_m) = known_walls_m(building) else { continue };
@@ -77,7 +76,7 @@ impl Neighbourhood {
             let area_m2 = building.footprint.area_m2();
             cells.entry(cell(at)).or_default().push(Known { at, group: Group::of(building.kind), area_m2, walls_m });
         }
-        Self { region, cells }
+        Self { customs, cells }
     }
 
     /// The usual height of walls of buildings of like kind and size nearby, and half the spread of their middle half;
@@ -153,7 +152,7 @@ pub(super) fn heights<'a>(
                 (usual_m + spread_m * (2.0 * drawn - 1.0), "height of a building, from its neighbours")
             }
             None => {
-                let [low, high] = usual_walls_m(kind, source.footprint.area_m2(), around.region);
+                let [low, high] = usual_walls_m(kind, source.footprint.area_m2(), around.customs);
                 (low + (high - low) * drawn, "height of a building, from its kind")
             }
         };
@@ -178,7 +177,7 @@ pub(super) fn heights<'a>(
         let shape = if source.part || is_canopy {
             RoofShape::Flat
         } else {
-            usual_roof(kind, source, walls_m, around.region, shape_drawn)
+            usual_roof(kind, source, walls_m, around.customs, shape_drawn)
         };
         if shape != RoofShape::Flat {
             report.note(Outcome::Guessed, "roof of a building, from its kind and region", name(source));
@@ -226,9 +225,9 @@ fn width_m(footprint: &Polygon) -> f64 {
 }
 
 /// Walls' height of a building of which nothing is known, from and to, metres.
-fn usual_walls_m(kind: Option<BuildingKind>, area_m2: f64, region: Region) -> [f64; 2] {
+fn usual_walls_m(kind: Option<BuildingKind>, area_m2: f64, customs: &BuildingCustoms) -> [f64; 2] {
     use BuildingKind as K;
-    let dense = matches!(region, Region::EastAsia | Region::TropicalAsia | Region::Mediterranean);
+    let dense = customs.tall_homes;
     match kind {
         Some(K::Carport) => [2.5, 2.9],
         Some(K::Canopy) => [4.4, 5.2],
@@ -255,37 +254,36 @@ fn usual_walls_m(kind: Option<BuildingKind>, area_m2: f64, region: Region) -> [f
 }
 
 /// The roof that a building of some kind usually has where it stands.
-fn usual_roof(kind: Option<BuildingKind>, source: &Building, walls_m: f64, region: Region, drawn: f64) -> RoofShape {
-    use RoofShape::{Flat, Gabled, Gambrel, HalfHipped, Hipped, Mansard};
+fn usual_roof(
+    kind: Option<BuildingKind>,
+    source: &Building,
+    walls_m: f64,
+    customs: &BuildingCustoms,
+    drawn: f64,
+) -> RoofShape {
     let (area_m2, width_m) = (source.footprint.area_m2(), width_m(&source.footprint));
-    let pick = |shares: &[(f64, RoofShape)]| {
+    let pick = |shares: &[RoofShare]| {
         let mut left = drawn;
-        for &(share, shape) in shares {
+        for &RoofShare { shape, share } in shares {
             if left < share {
                 return shape;
             }
             left -= share;
         }
-        Flat
+        RoofShape::Flat
     };
-    if !source.footprint.holes.is_empty() && region != Region::NorthernEurope || width_m < 3.0 {
-        return Flat;
+    let gabled = |share| pick(&[RoofShare { shape: RoofShape::Gabled, share }]);
+    if !source.footprint.holes.is_empty() && !customs.pitched_courtyards || width_m < 3.0 {
+        return RoofShape::Flat;
     }
     match Group::of(kind) {
-        Group::House => match region {
-            Region::NorthAmerica | Region::Elsewhere => pick(&[(0.55, Gabled), (0.35, Hipped), (0.06, Gambrel)]),
-            Region::NorthernEurope => pick(&[(0.62, Gabled), (0.2, Hipped), (0.12, HalfHipped), (0.04, Mansard)]),
-            Region::Mediterranean | Region::TropicalAsia => pick(&[(0.5, Hipped), (0.3, Gabled)]),
-            Region::EastAsia => pick(&[(0.35, Hipped), (0.3, Gabled)]),
-        },
-        Group::Dwelling | Group::Any if walls_m < 24.0 && width_m < 18.0 && area_m2 > 60.0 => match region {
-            Region::NorthernEurope => pick(&[(0.6, Gabled), (0.12, Mansard), (0.1, Hipped)]),
-            Region::Mediterranean => pick(&[(0.4, Hipped), (0.12, Gabled)]),
-            Region::NorthAmerica if walls_m < 8.0 && area_m2 < 200.0 => pick(&[(0.4, Gabled), (0.2, Hipped)]),
-            _ => Flat,
-        },
-        Group::Hall if width_m < 30.0 && kind.is_some_and(BuildingKind::is_works) => pick(&[(0.3, Gabled)]),
-        Group::Special => pick(&[(0.8, Gabled)]),
-        _ => Flat,
+        Group::House => pick(&customs.house_roofs),
+        Group::Dwelling | Group::Any if walls_m < 24.0 && width_m < 18.0 && area_m2 > 60.0 => {
+            let is_small = walls_m < 8.0 && area_m2 < 200.0;
+            pick(if is_small { &customs.small_home_roofs } else { &customs.home_roofs })
+        }
+        Group::Hall if width_m < 30.0 && kind.is_some_and(BuildingKind::is_works) => gabled(0.3),
+        Group::Special => gabled(0.8),
+        _ => RoofShape::Flat,
     }
 }

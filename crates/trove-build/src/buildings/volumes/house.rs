@@ -1,8 +1,6 @@
 //! A building that is to be built: its volumes, and what stands beside each of their sides.
 
-use trove_model::{Building, BuildingKind, Polygon, RoofShape};
-
-use crate::buildings::region::Region;
+use trove_model::{Building, BuildingCustoms, BuildingKind, Polygon, RoofShape};
 
 /// Ids of buildings that only the LiDAR saw start here, far below those of any relation.
 pub(in crate::buildings) const FIRST_LIDAR_ID: i64 = i64::MIN / 2;
@@ -70,14 +68,14 @@ pub(in crate::buildings) struct House<'a> {
     pub floor_m: f64,
     /// From the driven path, metres; [`FAR_M`] where it is further.
     pub path_m: f64,
-    pub region: Region,
+    pub customs: &'a BuildingCustoms,
 }
 
 #[cfg(test)]
 impl<'a> House<'a> {
     /// On level ground at 0, far from the path and from everything else.
     pub(in crate::buildings) fn alone(building: &'a Building, volumes: Vec<Volume<'a>>) -> Self {
-        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, region: Region::Elsewhere }
+        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, customs: crate::testing::building_customs("KE") }
     }
 }
 

@@ -8,10 +8,9 @@ mod house;
 mod tests;
 
 use rayon::prelude::*;
-use trove_model::{Bounds, Building, BuildingKind, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
+use trove_model::{Bounds, Building, BuildingCustoms, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
 
 use self::house::{FAR_M, LEAST_M2};
-use super::region::Region;
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, intersection, union};
 use crate::geometry::segments::SegmentIndex;
@@ -46,6 +45,7 @@ const GROUND_STEP_M: f64 = 4.0;
 /// What the buildings of a place are made in view of.
 pub(super) struct Plot<'a> {
     pub drive: &'a Drive,
+    pub customs: &'a BuildingCustoms,
     pub streets: &'a RoadSurfaces,
     pub ground: &'a HeightField,
     pub bounds: Bounds,
@@ -54,8 +54,8 @@ pub(super) struct Plot<'a> {
 }
 
 /// The buildings within the plot, standing clear of the road and of each other.
-pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed, report: &Report) -> Vec<House<'a>> {
-    let around = Neighbourhood::new(buildings, Region::of(&plot.drive.projection));
+pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'a>, seed: Seed, report: &Report) -> Vec<House<'a>> {
+    let around = Neighbourhood::new(buildings, plot.customs);
     let path: Vec<_> = plot.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([[path.as_slice(), &path[path.len().saturating_sub(1)..]].concat().as_slice()]);
     let recorded: Vec<Polygon> = recorded(plot.drive).collect();
@@ -93,7 +93,7 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'_>, seed: Seed
             let near = path.nearest(whole.footprint.centroid(), FAR_M + 100.0);
             let reach_m = whole.footprint.bounds().map_or(0.0, |b| b.size_m().length() / 2.0);
             let path_m = near.map_or(FAR_M, |n| (n.distance_m - reach_m).max(0.0));
-            (!volumes.is_empty()).then_some(House { building: whole, volumes, floor_m, path_m, region: around.region })
+            (!volumes.is_empty()).then_some(House { building: whole, volumes, floor_m, path_m, customs: plot.customs })
         })
         .collect();
     apart::apart(&mut houses, report);

@@ -17,7 +17,14 @@ fn built(buildings: &[Building]) -> Vec<(i64, f64, f64, Polygon, Vec<Beside>)> {
     let bounds = crate::area(&drive).unwrap();
     let ground = HeightField::flat(bounds, 0.0);
     let streets = testing::surfaces(&drive, &ground);
-    let plot = Plot { drive: &drive, streets: &streets, ground: &ground, bounds, seen_m: &[] };
+    let plot = Plot {
+        drive: &drive,
+        customs: testing::building_customs("SG"),
+        streets: &streets,
+        ground: &ground,
+        bounds,
+        seen_m: &[],
+    };
     let all: Vec<&Building> = buildings.iter().collect();
     let houses = houses(&all, &plot, Seed(1), &Report::default());
     let volumes = houses.into_iter().flat_map(|h| h.volumes);
@@ -82,13 +89,23 @@ fn an_unmapped_height_is_that_of_the_neighbours() {
 
 #[test]
 fn a_carport_is_a_slab_on_posts() {
-    let carport =
-        Building { kind: Some(BuildingKind::Carport), height_m: Some(2.8), ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8) };
+    let carport = Building {
+        kind: Some(trove_model::BuildingKind::Carport),
+        height_m: Some(2.8),
+        ..square(1, 0.0, 0.0, [6.0, 6.0], 2.8)
+    };
     let drive = testing::drive();
     let bounds = crate::area(&drive).unwrap();
     let ground = HeightField::flat(bounds, 0.0);
     let streets = testing::surfaces(&drive, &ground);
-    let plot = Plot { drive: &drive, streets: &streets, ground: &ground, bounds, seen_m: &[] };
+    let plot = Plot {
+        drive: &drive,
+        customs: testing::building_customs("SG"),
+        streets: &streets,
+        ground: &ground,
+        bounds,
+        seen_m: &[],
+    };
     let houses = houses(&[&carport], &plot, Seed(1), &Report::default());
     let volume = &houses[0].volumes[0];
     assert!(volume.is_canopy && volume.bottom_m > 2.2 && volume.posts.len() >= 4, "{volume:?}");

@@ -1,14 +1,16 @@
 //! Where traffic waits for a junction: stop lines, give ways, arrows, boxes.
 
 use glam::DVec2;
-use trove_model::{FurnitureKind, Outcome, Polygon, Report, RoadKind, Seed, StreetMap, Turns};
+use trove_model::{
+    Dash, FurnitureKind, GiveWayLine, MarkingCustoms, MinorRoad, Outcome, Polygon, Report, RoadKind, Seed, StreetMap,
+    Turns,
+};
 
 use super::crossings::Crossing;
 use super::legs::{Junction, Leg};
 use super::symbols::{arrow, laid, triangles, word};
 use crate::geometry::plane::{intersection, rectangle, strip};
 use crate::roads::cross_section::Use;
-use crate::roads::customs::{Customs, Dash, GiveWay, Minor};
 
 /// Signals stand this near to their junction, signs this near to where they hold.
 const SIGNAL_M: f64 = 30.0;
@@ -64,7 +66,7 @@ pub(super) fn approach(
     usage: Use,
     control: &Control,
     crossings: &[Crossing],
-    customs: &Customs,
+    customs: &MarkingCustoms,
     seed: Seed,
     report: &Report,
 ) -> Vec<Polygon> {
@@ -102,8 +104,8 @@ pub(super) fn approach(
     let minor = junction.is_minor(leg.road().kind, along(0.0)) && leg.road().kind < RoadKind::Service;
     let signalised = control.is_signalised(junction.position);
     let gives_way = control.gives_way(at);
-    let stops = signalised || control.stops(at) || (minor && !gives_way && customs.minor == Minor::Stop);
-    if minor && !signalised && !gives_way && !control.stops(at) && customs.minor != Minor::Unmarked {
+    let stops = signalised || control.stops(at) || (minor && !gives_way && customs.minor == MinorRoad::Stop);
+    if minor && !signalised && !gives_way && !control.stops(at) && customs.minor != MinorRoad::Unmarked {
         let what = "who gives way at a junction, by the classes of its roads";
         report.note(Outcome::Guessed, what, format_args!("osm way {}", leg.road().id));
     }
@@ -121,7 +123,7 @@ pub(super) fn approach(
                 paint.extend(laid(&word("STOP"), place(before_m, (a_m + b_m) / 2.0), along(before_m)));
             }
         }
-    } else if gives_way || (minor && customs.minor == Minor::GiveWay) {
+    } else if gives_way || (minor && customs.minor == MinorRoad::GiveWay) {
         paint.extend(give_way(customs, at, along(stop_m), left_m - right_m));
     }
 
@@ -176,16 +178,16 @@ pub(super) fn shared_out(turns: Turns, lanes: usize) -> Vec<Turns> {
         .collect()
 }
 
-fn give_way(customs: &Customs, at: DVec2, along: DVec2, width_m: f64) -> Vec<Polygon> {
+fn give_way(customs: &MarkingCustoms, at: DVec2, along: DVec2, width_m: f64) -> Vec<Polygon> {
     let half = along.perp() * width_m / 2.0;
     let row = |back_m: f64, dash: Dash, half_m: f64| -> Vec<Polygon> {
         let middle = at - along * back_m;
         super::lines::dashes(&[middle - half, middle + half], dash).iter().flat_map(|d| strip(d, half_m)).collect()
     };
     match customs.give_way {
-        GiveWay::Triangles => laid(&triangles(-width_m / 2.0, width_m / 2.0), at - along * 0.8, along),
-        GiveWay::Bars => row(0.25, Dash { dash_m: 0.5, gap_m: 0.25 }, 0.25),
-        GiveWay::DoubleBars => {
+        GiveWayLine::Triangles => laid(&triangles(-width_m / 2.0, width_m / 2.0), at - along * 0.8, along),
+        GiveWayLine::Bars => row(0.25, Dash { dash_m: 0.5, gap_m: 0.25 }, 0.25),
+        GiveWayLine::DoubleBars => {
             let dash = Dash { dash_m: 0.6, gap_m: 0.3 };
             [row(0.1, dash, 0.1), row(0.5, dash, 0.1)].concat()
         }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
-use trove_model::{Bounds, CrossingMarking, Drive, FurnitureKind, Polygon, RoadKind, StreetMap};
+use trove_model::{
+    Bounds, CrossingMarking, CrossingStyle, Dash, Drive, FurnitureKind, MarkingCustoms, Polygon, RoadKind, StreetMap,
+};
 
 use super::lines::dashes;
 use crate::geometry::plane::{difference, grown, intersection, strip, union};
-use crate::roads::customs::{CrossingStyle, Customs, Dash};
 
 /// Width of a crossing that the map draws as a line.
 const CROSSING_M: f64 = 3.2;
@@ -39,7 +40,7 @@ pub(super) fn crossings(
     map: Option<&StreetMap>,
     carriageway: &[Polygon],
     bounds: Bounds,
-    customs: &Customs,
+    customs: &MarkingCustoms,
 ) -> Vec<Crossing> {
     let furniture = map.map_or(&[][..], |m| &m.furniture);
     let signals: Vec<DVec2> =
@@ -104,7 +105,7 @@ impl Crossing {
     }
 
     /// What is white, cut off at the kerbs.
-    pub(super) fn painted(&self, customs: &Customs) -> Vec<Polygon> {
+    pub(super) fn painted(&self, customs: &MarkingCustoms) -> Vec<Polygon> {
         let Some(style) = self.style else { return Vec::new() };
         let half_m = self.half.y;
         let sides = |line: &dyn Fn(&[DVec2]) -> Vec<Polygon>| -> Vec<Polygon> {
@@ -198,9 +199,8 @@ mod tests {
         Crossing { area: vec![outline], walk, middle, half, style: Some(style) }
     }
 
-    fn customs(dash_m: f64, gap_m: f64) -> Customs {
-        let projection = trove_model::MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
-        Customs { bar: Dash { dash_m, gap_m }, ..*crate::roads::customs::customs(&projection) }
+    fn customs(dash_m: f64, gap_m: f64) -> MarkingCustoms {
+        MarkingCustoms { bar: trove_model::Dash { dash_m, gap_m }, ..crate::testing::locale("BE").markings }
     }
 
     #[test]

@@ -1,13 +1,12 @@
 //! Lines along the road.
 
 use glam::DVec2;
-use trove_model::{Polygon, RoadKind};
+use trove_model::{CentreLine, Dash, LinePattern, MarkingCustoms, Paint, Polygon, RoadKind};
 
 use super::legs::Leg;
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::roads::cross_section::{Band, Use};
-use crate::roads::customs::{Customs, Dash, Paint, Pattern};
 use crate::roads::network::resampled;
 use crate::roads::path::shifted;
 
@@ -26,7 +25,7 @@ const CYCLE_LINE: f64 = 1.6;
 pub(super) struct Stroke {
     pub(super) line: Vec<DVec2>,
     pub(super) paint: Paint,
-    pub(super) pattern: Pattern,
+    pub(super) pattern: LinePattern,
     pub(super) width_m: f64,
 }
 
@@ -37,9 +36,9 @@ impl Stroke {
         fresh(&self.line, painted)
             .iter()
             .flat_map(|line| match self.pattern {
-                Pattern::Solid => strip(line, half_m),
-                Pattern::Dashed(dash) => dashes(line, dash).iter().flat_map(|d| strip(d, half_m)).collect(),
-                Pattern::Double => [-0.5, 0.5]
+                LinePattern::Solid => strip(line, half_m),
+                LinePattern::Dashed(dash) => dashes(line, dash).iter().flat_map(|d| strip(d, half_m)).collect(),
+                LinePattern::Double => [-0.5, 0.5]
                     .iter()
                     .flat_map(|side| strip(&shifted(line, side * DOUBLE * self.width_m), half_m))
                     .collect(),
@@ -49,10 +48,10 @@ impl Stroke {
 }
 
 /// The lines of a road between two junctions.
-pub(super) fn strokes(leg: &Leg<'_>, customs: &Customs) -> Vec<Stroke> {
+pub(super) fn strokes(leg: &Leg<'_>, customs: &MarkingCustoms) -> Vec<Stroke> {
     let bands = &leg.stretch.section.bands;
     let mut strokes = Vec::new();
-    let mut add = |from_m: f64, to_m: f64, offset_m: f64, paint: Paint, pattern: Pattern, width: f64| {
+    let mut add = |from_m: f64, to_m: f64, offset_m: f64, paint: Paint, pattern: LinePattern, width: f64| {
         let line = leg.path.part(from_m, to_m, offset_m);
         if line.len() > 1 {
             strokes.push(Stroke { line, paint, pattern, width_m: customs.line_m * width });
@@ -69,19 +68,19 @@ pub(super) fn strokes(leg: &Leg<'_>, customs: &Customs) -> Vec<Stroke> {
                 // Solid where traffic waits.
                 let waits = leg.ends[usize::from(a == Use::Forward)].is_some();
                 let solid_m = if waits { SOLID_M.min(leg.length_m() / 2.0) } else { 0.0 };
-                let dashed = Pattern::Dashed(lane_dash(leg, customs));
+                let dashed = LinePattern::Dashed(lane_dash(leg, customs));
                 let (a_m, b_m) = if a == Use::Forward { (from_m, to_m - solid_m) } else { (from_m + solid_m, to_m) };
                 add(a_m, b_m, offset_m, Paint::White, dashed, 1.0);
-                add(from_m, a_m, offset_m, Paint::White, Pattern::Solid, 1.0);
-                add(b_m, to_m, offset_m, Paint::White, Pattern::Solid, 1.0);
+                add(from_m, a_m, offset_m, Paint::White, LinePattern::Solid, 1.0);
+                add(b_m, to_m, offset_m, Paint::White, LinePattern::Solid, 1.0);
             }
             (Use::Forward, Use::Backward) | (Use::Backward, Use::Forward) if is_marked_out(leg, pair, customs) => {
                 let lanes = bands.iter().filter(|b| matches!(b.usage, Use::Forward | Use::Backward)).count();
-                let (paint, narrow, wide) = customs.centre;
+                let CentreLine { paint, narrow, wide, .. } = customs.centre;
                 add(from_m, to_m, offset_m, paint, if lanes > 2 { wide } else { narrow }, 1.0);
             }
             (Use::Cycle, _) | (_, Use::Cycle) => {
-                add(from_m, to_m, offset_m, Paint::White, Pattern::Solid, CYCLE_LINE);
+                add(from_m, to_m, offset_m, Paint::White, LinePattern::Solid, CYCLE_LINE);
             }
             _ => {}
         }
@@ -91,22 +90,22 @@ pub(super) fn strokes(leg: &Leg<'_>, customs: &Customs) -> Vec<Stroke> {
             bands.first().map(|b| b.left_m - customs.line_m).zip(bands.last().map(|b| b.right_m + customs.line_m));
         if let Some((left_m, right_m)) = edges {
             // Where the line between directions is yellow, so is the one beside the median.
-            let median = if leg.road().oneway { customs.centre.0 } else { Paint::White };
-            add(from_m, to_m, left_m, median, Pattern::Solid, 1.2);
-            add(from_m, to_m, right_m, Paint::White, Pattern::Solid, 1.2);
+            let median = if leg.road().oneway { customs.centre.paint } else { Paint::White };
+            add(from_m, to_m, left_m, median, LinePattern::Solid, 1.2);
+            add(from_m, to_m, right_m, Paint::White, LinePattern::Solid, 1.2);
         }
     }
     strokes
 }
 
-fn is_marked_out(leg: &Leg<'_>, lanes: &[Band], customs: &Customs) -> bool {
+fn is_marked_out(leg: &Leg<'_>, lanes: &[Band], customs: &MarkingCustoms) -> bool {
     let road = leg.road();
     let busy = road.kind <= RoadKind::Tertiary || road.lanes.is_some_and(|l| l > 2);
-    let quiet = customs.marks_quiet_streets && road.kind < RoadKind::Service;
+    let quiet = customs.centre.on_quiet_streets && road.kind < RoadKind::Service;
     (busy || quiet) && lanes.iter().all(|b| b.width_m() >= NARROWEST_M)
 }
 
-fn lane_dash(leg: &Leg<'_>, customs: &Customs) -> Dash {
+fn lane_dash(leg: &Leg<'_>, customs: &MarkingCustoms) -> Dash {
     if leg.road().kind <= RoadKind::Trunk { customs.fast_lane } else { customs.lane }
 }
 

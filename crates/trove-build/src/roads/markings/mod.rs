@@ -1,7 +1,7 @@
 //! Paint on the road.
 //!
 //! The dataset's lines first, the map's where it has none; what countries do differently stands in
-//! [`super::customs`].
+//! [`MarkingCustoms`].
 
 mod approaches;
 mod bays;
@@ -17,14 +17,16 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
-use trove_model::{Bounds, Drive, Polygon, Report, RoadKind, Seed, StreetMap, drives_on_left};
+use trove_model::{
+    Bounds, CentreLine, Drive, KerbLines, LinePattern, MarkingCustoms, Paint, Polygon, Report, RoadKind, Seed,
+    StreetMap,
+};
 
 use self::approaches::{Control, approach, box_junction};
 use self::crossings::Crossing;
 use self::legs::{Junction, Leg};
 use self::lines::Stroke;
 use super::cross_section::Use;
-use super::customs::{Customs, KerbLines, Paint, Pattern};
 use super::layout::Layout;
 use super::network::RECORDED;
 use crate::geometry::plane::{difference, grown, intersection, strip, union};
@@ -59,13 +61,13 @@ pub(super) fn markings(
     map: Option<&StreetMap>,
     layout: &Layout<'_>,
     near: &[Polygon],
-    customs: &Customs,
+    customs: &MarkingCustoms,
     seed: Seed,
     report: &Report,
 ) -> Markings {
     let bounds = Bounds::around(layout.carriageway.iter().flat_map(|p| p.exterior.iter().copied()));
     let Some(bounds) = bounds else { return Markings::default() };
-    let on_left = drives_on_left(drive.projection.origin_lat_deg, drive.projection.origin_lon_deg);
+    let on_left = layout.driving_side.is_left();
     let crossings = crossings::crossings(drive, map, &layout.carriageway, bounds, customs);
     let junctions = map.map(|m| legs::junctions(m, on_left)).unwrap_or_default();
     let legs = legs::legs(&layout.stretches, &junctions);
@@ -121,7 +123,7 @@ pub(super) fn markings(
         below = union(&[below, area.clone()].concat());
         paints.insert(paint, area);
     }
-    paints.entry(Paint::White).or_default().extend(union(&bars));
+    paints.entry(customs.crossing_paint).or_default().extend(union(&bars));
     let coats = if coated.is_empty() {
         Vec::new()
     } else {
@@ -135,7 +137,7 @@ fn details(
     leg: &Leg<'_>,
     control: &Control,
     crossings: &[Crossing],
-    customs: &Customs,
+    customs: &MarkingCustoms,
     on_left: bool,
     seed: Seed,
     report: &Report,
@@ -174,13 +176,13 @@ fn limit(leg: &Leg<'_>, seed: Seed) -> Vec<Polygon> {
     ends.into_iter().filter_map(entrance).flatten().collect()
 }
 
-fn recorded_strokes(drive: &Drive, customs: &Customs) -> Vec<Stroke> {
+fn recorded_strokes(drive: &Drive, customs: &MarkingCustoms) -> Vec<Stroke> {
     let Some(map) = &drive.lane_map else { return Vec::new() };
-    let (paint, _, wide) = customs.centre;
+    let CentreLine { paint, wide, .. } = customs.centre;
     let stroke =
         |line: &Vec<DVec2>, paint, pattern| Stroke { line: line.clone(), paint, pattern, width_m: customs.line_m };
     let dividers = map.road_dividers.iter().map(|line| stroke(line, paint, wide));
-    let lanes = map.lane_dividers.iter().map(|line| stroke(line, Paint::White, Pattern::Dashed(customs.lane)));
+    let lanes = map.lane_dividers.iter().map(|line| stroke(line, Paint::White, LinePattern::Dashed(customs.lane)));
     dividers.chain(lanes).collect()
 }
 

@@ -1,13 +1,12 @@
 //! Lanes of the dataset's map at junctions, which the map tells no road for: stop lines and arrows.
 
 use glam::DVec2;
-use trove_model::{Drive, Lane, Polygon, Turns};
+use trove_model::{Drive, Lane, MarkingCustoms, Polygon, Turns};
 
 use super::approaches::{Control, shared_out};
 use super::crossings::Crossing;
 use super::symbols::{arrow, laid};
 use crate::geometry::plane::{intersection, strip};
-use crate::roads::customs::Customs;
 use crate::roads::path::Path;
 
 /// A lane that starts this near to another one's end, and not behind it, can follow it; datasets may leave out the
@@ -33,7 +32,7 @@ pub(super) fn at_junctions(
     drive: &Drive,
     control: &Control,
     crossings: &[Crossing],
-    customs: &Customs,
+    customs: &MarkingCustoms,
 ) -> Vec<Polygon> {
     let Some(map) = &drive.lane_map else { return Vec::new() };
     let lanes: Vec<(&Lane, Path<'_>)> =

@@ -1,12 +1,9 @@
 //! What holds of the paint on made-up streets.
 
 use glam::DVec2;
-use trove_model::{
-    Bounds, Drive, Furniture, FurnitureKind, MapProjection, Polygon, Report, RoadKind, Seed, Sides, StreetMap, Turns,
-};
+use trove_model::{Bounds, Drive, Furniture, FurnitureKind, Polygon, Report, RoadKind, Seed, Sides, StreetMap, Turns};
 
 use super::*;
-use crate::roads::customs::customs;
 use crate::roads::layout::layout;
 use crate::testing;
 
@@ -14,14 +11,8 @@ fn bounds() -> Bounds {
     Bounds::square(DVec2::ZERO, 400.0)
 }
 
-/// A drive somewhere without a map of its own.
-fn drive(lat_deg: f64, lon_deg: f64) -> Drive {
-    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
-    Drive { projection, lane_map: None, ..testing::drive() }
-}
-
-const BOSTON: (f64, f64) = (42.35, -71.05);
-const SINGAPORE: (f64, f64) = (1.29, 103.78);
+const UNITED_STATES: &str = "US";
+const SINGAPORE: &str = "SG";
 
 /// A road of four lanes along x that ends at a road along y, with signals.
 fn junction() -> StreetMap {
@@ -34,11 +25,11 @@ fn junction() -> StreetMap {
     StreetMap { roads: vec![main, across], furniture: vec![signal], ..StreetMap::default() }
 }
 
-fn painted((lat_deg, lon_deg): (f64, f64), map: &StreetMap) -> (Markings, Vec<Polygon>) {
-    let drive = drive(lat_deg, lon_deg);
-    let layout = layout(&drive, Some(map), bounds(), &Report::default());
+fn painted(country: &str, map: &StreetMap) -> (Markings, Vec<Polygon>) {
+    let (drive, locale) = (Drive { lane_map: None, ..testing::drive() }, testing::locale(country));
+    let layout = layout(&drive, Some(map), locale.driving_side, bounds(), &Report::default());
     let near = [crate::geometry::plane::rectangle(bounds())];
-    let found = markings(&drive, Some(map), &layout, &near, customs(&drive.projection), Seed(3), &Report::default());
+    let found = markings(&drive, Some(map), &layout, &near, &locale.markings, Seed(3), &Report::default());
     (found, layout.carriageway.clone())
 }
 
@@ -59,7 +50,7 @@ fn within(markings: &Markings, low: [f64; 2], high: [f64; 2]) -> Vec<Polygon> {
 
 #[test]
 fn nothing_is_painted_beside_the_carriageway_or_twice() {
-    for place in [BOSTON, SINGAPORE, (52.47, 13.44), (25.05, 121.52)] {
+    for place in [UNITED_STATES, SINGAPORE, "DE", "TW"] {
         let (markings, carriageway) = painted(place, &junction());
         let paint = all(&markings);
         let sum_m2 = area_m2(&paint);
@@ -81,14 +72,14 @@ fn directions_are_parted_by_yellow_in_boston_and_by_white_in_singapore() {
         })
     };
     // Two lines of 12 cm over 80 m.
-    assert!((yellow(BOSTON) - 2.0 * 0.12 * 80.0).abs() < 0.5, "{}", yellow(BOSTON));
+    assert!((yellow(UNITED_STATES) - 2.0 * 0.12 * 80.0).abs() < 0.5, "{}", yellow(UNITED_STATES));
     assert_eq!(yellow(SINGAPORE), 0.0);
 }
 
 #[test]
 fn arrows_stand_in_their_lanes_and_point_ahead_on_both_sides_of_the_road() {
     // Traffic towards +x has the lanes south of the line where it keeps right, and north of it where it keeps left.
-    for (place, side) in [(BOSTON, -1.0), (SINGAPORE, 1.0)] {
+    for (place, side) in [(UNITED_STATES, -1.0), (SINGAPORE, 1.0)] {
         let (markings, _) = painted(place, &junction());
         // Seen towards +x, the left lane is the northern one; its arrow leans north.
         let (left_y, right_y) = if side < 0.0 { (-1.7, -5.1) } else { (5.1, 1.7) };
@@ -105,7 +96,7 @@ fn arrows_stand_in_their_lanes_and_point_ahead_on_both_sides_of_the_road() {
 
 #[test]
 fn the_stop_line_crosses_the_lanes_that_wait_and_no_others() {
-    for (place, side, depth_m) in [(BOSTON, -1.0, 0.45), (SINGAPORE, 1.0, 0.3)] {
+    for (place, side, depth_m) in [(UNITED_STATES, -1.0, 0.45), (SINGAPORE, 1.0, 0.3)] {
         let (markings, _) = painted(place, &junction());
         let lines = |sign: f64| -> f64 {
             let (low, high) = if sign < 0.0 { (-6.5, -0.5) } else { (0.5, 6.5) };
@@ -120,8 +111,8 @@ fn the_stop_line_crosses_the_lanes_that_wait_and_no_others() {
 #[test]
 fn cycle_lanes_have_a_line_and_bicycles() {
     let mut map = junction();
-    let without = area_m2(&all(&painted(BOSTON, &map).0));
+    let without = area_m2(&all(&painted(UNITED_STATES, &map).0));
     map.roads[0].cycleway = Sides { left: None, right: Some(trove_model::Cycleway::Lane) };
-    let with = area_m2(&all(&painted(BOSTON, &map).0));
+    let with = area_m2(&all(&painted(UNITED_STATES, &map).0));
     assert!(with > without + 15.0, "{with} {without}");
 }

@@ -14,13 +14,14 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
-use trove_model::{Class, Drive, FurnitureKind, Material, Mesh, Polygon, Seed, StreetMap, SurfaceKind};
+use trove_model::{
+    Class, Drive, FurnitureKind, Material, Mesh, Paint, Polygon, RoadSurfaceCustoms, Seed, StreetMap, SurfaceKind,
+};
 
 use self::damage::{Damage, Spot, damage};
 use self::ironwork::CoverKind;
 use self::stretches::{Look, Region};
 use self::tone::Tone;
-use super::customs::{Customs, Paint};
 use super::layout::Layout;
 use super::markings::Markings;
 use crate::geometry::plane::{difference, grown, intersection, rectangle, strip};
@@ -60,7 +61,7 @@ pub(super) struct Surfacing<'a> {
     pub layout: &'a Layout<'a>,
     pub markings: &'a Markings,
     pub near: &'a [Polygon],
-    pub customs: &'a Customs,
+    pub customs: &'a RoadSurfaceCustoms,
     pub palette: &'a Palette<'a>,
     pub drape: &'a Drape<'a>,
     pub seed: Seed,
