@@ -22,7 +22,7 @@ use crate::recipe::Recipe;
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message};
 
-/// Turns recordings of real roads into photorealistic virtual scenes with perfect labels.
+/// Turn recordings of real roads into photorealistic virtual scenes with perfect labels.
 #[derive(Parser)]
 #[command(name = "trove", version, arg_required_else_help = true)]
 struct Cli {
@@ -32,26 +32,26 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Runs the whole pipeline on a made-up drive: six annotated cameras and a contact sheet.
+    /// Run the whole pipeline on a built-in drive: six annotated cameras and a contact sheet.
     #[command(after_help = "Example:\n  trove demo --out demo-out")]
     Demo {
-        /// Folder to write to; an earlier demo in it is finished, not redone.
+        /// Output folder; a demo already there is resumed.
         #[arg(long, default_value = "demo-out")]
         out: PathBuf,
         #[command(flatten)]
         machine: Machine,
-        /// Prints a summary as JSON.
+        /// Print a summary as JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Says what this machine has: ray kernel, denoiser, threads, memory, GPU; what is missing and how to get it.
+    /// Check this machine and explain how to install what is missing.
     #[command(after_help = "Example:\n  trove doctor --json")]
     Doctor {
-        /// Prints JSON.
+        /// Print JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Lists the drives in a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
+    /// List the drives in a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
     #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes")]
     Inspect {
         /// The dataset's root folder.
@@ -62,76 +62,76 @@ enum Command {
         /// A key of the dataset's own, as in a recipe's [drive], such as version=v1.0-mini.
         #[arg(long = "option", value_name = "KEY=VALUE")]
         options: Vec<String>,
-        /// Prints JSON.
+        /// Print JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Builds the virtual scene alone, as glTF 2.0 binary, with a report.
+    /// Build the virtual scene only and write it as binary glTF 2.0, with a report.
     #[command(after_help = "Example:\n  trove build recipe.toml --out scene.glb --keyframe 10")]
     Build {
-        /// The recipe.
+        /// Recipe (TOML).
         recipe: PathBuf,
         /// The .glb file to write.
         #[arg(long)]
         out: PathBuf,
-        /// The keyframe whose objects are placed; without it the recipe's first.
+        /// Keyframe whose road users are placed [default: the recipe's first].
         #[arg(long)]
         keyframe: Option<usize>,
-        /// An .exr file to write the sky to, as a latitude-longitude picture without the sun, which is in the .glb.
+        /// Also write the sky as a latitude-longitude .exr file, without the sun, which is in the .glb.
         #[arg(long)]
         environment: Option<PathBuf>,
         #[command(flatten)]
         overview: Overview,
-        /// Prints the report as JSON.
+        /// Print the report as JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Shows what there is to build with.
+    /// List, import, check or draw the models and materials to build with.
     #[command(after_help = "Example:\n  trove assets sheet --out sheet.png")]
     Assets {
         #[command(subcommand)]
         command: AssetsCommand,
     },
-    /// Chooses the frames that are worth training on, from labels alone, and shows what they hold.
+    /// Select the frames most worth training on, from labels alone.
     #[command(
         after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
     )]
     Curate(Curate),
-    /// Gives pictures the colours of others.
+    /// Match the colours of images to real footage.
     #[command(after_help = "Example:\n  trove recolor out/boston --to camvid/images/train --out out/boston-recolored")]
     Recolor(Recolor),
-    /// Says what predicted labels are worth: IoU, accuracy, boundary IoU, panoptic quality, with intervals.
+    /// Score predicted labels against ground truth: IoU, accuracy, boundary IoU, panoptic quality, with intervals.
     #[command(after_help = "Example:\n  trove evaluate predictions labels --classes cityscapes --boundary --json")]
     Evaluate(Evaluate),
-    /// Does everything; running it again on the same folder finishes what is missing and redoes nothing.
+    /// Generate a dataset. Rerun to resume; finished frames are kept.
     #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
     Generate {
-        /// The recipe.
+        /// Recipe (TOML).
         recipe: PathBuf,
-        /// Folder to write to.
+        /// Output folder.
         #[arg(long)]
         out: PathBuf,
-        /// Renders only the frames in a list that trove curate wrote.
+        /// Render only the frames in a list written by `trove curate`.
         #[arg(long, value_name = "FILE.json")]
         frames: Option<PathBuf>,
-        /// Labels without light, whatever the recipe says: cheap, and enough for trove curate.
+        /// Write labels without rendering images, whatever the recipe says: fast, and enough for `trove curate`.
         #[arg(long)]
         labels_only: bool,
         #[command(flatten)]
         machine: Machine,
-        /// Prints a summary as JSON.
+        /// Print a summary as JSON.
         #[arg(long)]
         json: bool,
     },
 }
 
-/// What to use of this machine.
+/// How to use this machine.
 #[derive(Args)]
 struct Machine {
-    /// Threads, in place of the recipe's; 0 is all.
+    /// Number of threads, overriding the recipe; 0 uses all.
     #[arg(long)]
     threads: Option<usize>,
-    /// Ray kernel; obvhs is built in and gives the same bytes on every machine.
+    /// Ray-tracing kernel; obvhs is built in and gives the same bytes on every machine.
     #[arg(long, value_enum, default_value = "auto")]
     kernel: Kernel,
 }
@@ -234,13 +234,13 @@ fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<(
         println!("{}", serde_json::to_string_pretty(&printed)?);
     } else if summary.interrupted {
         eprintln!(
-            "interrupted after {} frames of {}; the same command goes on from here",
+            "interrupted after {} of {} frames; run the same command to resume",
             summary.rendered.len(),
             summary.frames
         );
     } else {
         let rate = if !summary.rendered.is_empty() {
-            format!(", {} a frame", duration(seconds / summary.rendered.len() as f64))
+            format!(", {} per frame", duration(seconds / summary.rendered.len() as f64))
         } else {
             String::new()
         };

@@ -19,13 +19,13 @@ const SPP: u32 = 16;
 /// A picture that is asked for beside a scene.
 #[derive(Args)]
 pub(crate) struct Overview {
-    /// A .png file to write a picture of the place from above to; north is up.
+    /// Also write a PNG of the place from above, north up.
     #[arg(long, value_name = "FILE.png")]
     overview: Option<PathBuf>,
-    /// Side of the square that it shows, metres; without it the whole place.
+    /// Side of the square that the overview shows, metres [default: the whole place].
     #[arg(long, value_name = "METRES", requires = "overview")]
     overview_size_m: Option<f64>,
-    /// The square's middle, metres east and north of the drive's start; without it the place's middle.
+    /// Centre of the overview, metres east and north of the drive's start [default: the centre of the place].
     #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true, requires = "overview")]
     overview_at: Option<DVec2>,
 }

@@ -18,35 +18,35 @@ use crate::library::{self, Makings};
 /// What to do with asset libraries.
 #[derive(Subcommand)]
 pub(crate) enum AssetsCommand {
-    /// Lists models and materials.
+    /// List models and materials.
     #[command(after_help = "Example:\n  trove assets list --json")]
     List {
-        /// A folder with a library.toml; without it the built-in library.
+        /// Folder with a library.toml [default: the built-in library].
         #[arg(long, value_name = "DIR")]
         library: Option<PathBuf>,
-        /// Prints JSON.
+        /// Print JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Takes a folder of models, textures and skies in: writes its library.toml, with guesses where nothing says more.
+    /// Import a folder of models, textures and skies: write its library.toml, guessing what nothing states.
     #[command(after_help = "Example:\n  trove assets import my-assets")]
     Import {
-        /// The folder.
+        /// Folder to import.
         dir: PathBuf,
-        /// Prints JSON.
+        /// Print JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Says what is wrong with a library; exit status 1 where something cannot be used.
+    /// Check a library; exits with 1 if something cannot be used.
     #[command(after_help = "Example:\n  trove assets check my-assets")]
     Check {
-        /// A folder with a library.toml.
+        /// Folder with a library.toml.
         dir: PathBuf,
-        /// Prints JSON.
+        /// Print JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Draws every model and material on one page.
+    /// Draw every model and material on one contact sheet.
     #[command(
         after_help = "Example:\n  trove assets sheet --out sheet.png\n  trove assets sheet --only car/ --only bus/ --size 800x600 --each close-ups"
     )]

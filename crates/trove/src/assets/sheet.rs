@@ -17,31 +17,31 @@ use crate::progress::Progress;
 /// What to draw, and how.
 #[derive(Args)]
 pub(crate) struct Sheet {
-    /// The page to write.
+    /// PNG to write.
     #[arg(long, value_name = "FILE.png", required_unless_present = "each")]
     out: Option<PathBuf>,
-    /// A folder for a picture each, beside the page or without one.
+    /// Also (or only) write one picture per item to this folder.
     #[arg(long, value_name = "DIR")]
     each: Option<PathBuf>,
-    /// A folder with a library.toml; without it the built-in library.
+    /// Folder with a library.toml [default: the built-in library].
     #[arg(long, value_name = "DIR")]
     library: Option<PathBuf>,
-    /// Draws those whose id begins so; may be given several times.
+    /// Draw only ids with this prefix; may be given several times.
     #[arg(long, value_name = "ID")]
     only: Vec<String>,
-    /// Size of a picture, pixels.
+    /// Size of each picture in pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "320x240")]
     size: [u32; 2],
-    /// Samples a pixel.
+    /// Samples per pixel.
     #[arg(long, default_value_t = 16)]
     spp: u32,
-    /// Draws the paint, the wear and what is carried.
+    /// Seed for paint, wear and load.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Degrees by which things are turned to the left from the view on their front.
+    /// Degrees to turn models to the left, from a view of their front.
     #[arg(long, default_value_t = 35.0, allow_hyphen_values = true)]
     turn_deg: f64,
-    /// Sky to stand under, an .hdr or .exr file; without it a clear afternoon.
+    /// Sky to render under, .hdr or .exr [default: a clear afternoon].
     #[arg(long, visible_alias = "hdri", value_name = "FILE")]
     environment: Option<PathBuf>,
 }

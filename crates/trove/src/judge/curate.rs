@@ -14,36 +14,36 @@ use trove_write::write_atomically;
 
 use super::{Pictures, label_set, share};
 
-/// What to choose from, and how.
+/// What to select from, and how.
 #[derive(Args)]
 pub(crate) struct Curate {
-    /// A folder of trove generate; labels alone (`[render] light = false`) are enough.
+    /// Output folder of `trove generate`; labels alone (`--labels-only`) are enough.
     dir: PathBuf,
-    /// Frames to keep.
+    /// Number of frames to keep.
     #[arg(long, default_value_t = 5000)]
     count: usize,
-    /// The numbering in whose classes frames are judged; what it ignores is worth nothing.
+    /// Label set whose classes count; classes that it ignores add nothing.
     #[arg(long, default_value = "trove20", value_parser = label_set)]
     classes: LabelSet,
-    /// Classes that a frame has to show at least.
+    /// Minimum number of classes in a frame.
     #[arg(long, default_value_t = 6)]
     min_classes: usize,
-    /// Frames whose perceptual hashes differ in at most so many of 64 bits are near-duplicates.
+    /// Frames whose 64-bit perceptual hashes differ by at most this many bits are near-duplicates.
     #[arg(long, default_value_t = 2)]
     duplicate_bits: u32,
-    /// Share of the kept frames for validation; no place is on both sides.
+    /// Share of the kept frames for validation; no place is in both splits.
     #[arg(long, default_value_t = 0.1, value_parser = share)]
     val_share: f64,
-    /// Draws the places for validation.
+    /// Seed for drawing the validation places.
     #[arg(long, default_value_t = 7)]
     seed: u64,
-    /// The list to write; without it DIR/curated.json.
+    /// List to write [default: DIR/curated.json].
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
-    /// The page to write; without it DIR/curated.html.
+    /// HTML report to write [default: DIR/curated.html].
     #[arg(long, value_name = "FILE.html")]
     page: Option<PathBuf>,
-    /// Prints a summary as JSON.
+    /// Print a summary as JSON.
     #[arg(long)]
     json: bool,
 }

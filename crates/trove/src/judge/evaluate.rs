@@ -14,23 +14,23 @@ use super::{Pictures, label_set};
 /// What to compare.
 #[derive(Args)]
 pub(crate) struct Evaluate {
-    /// Predicted labels: a folder of PNGs, named as the truth's below its folder, or one file.
+    /// Predicted labels: one PNG, or a folder of PNGs with the same relative paths as the ground truth.
     predicted: PathBuf,
-    /// True labels.
+    /// Ground-truth labels.
     truth: PathBuf,
-    /// Numbering of both sides' ids; those that it does not count (void) are left out.
+    /// Label set of both sides; ids that it does not count (void) are ignored.
     #[arg(long, default_value = "trove13", value_parser = label_set)]
     classes: LabelSet,
-    /// Boundary IoU too.
+    /// Also compute boundary IoU.
     #[arg(long)]
     boundary: bool,
-    /// Panoptic quality too, from instance.png beside class.png or Cityscapes' instanceIds.
+    /// Also compute panoptic quality, from instance.png beside class.png or Cityscapes' instanceIds.
     #[arg(long)]
     panoptic: bool,
-    /// Draws the bootstrap's pictures.
+    /// Seed of the bootstrap over images.
     #[arg(long, default_value_t = 7)]
     seed: u64,
-    /// Prints JSON.
+    /// Print JSON.
     #[arg(long)]
     json: bool,
 }

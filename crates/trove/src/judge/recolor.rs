@@ -20,31 +20,31 @@ const WIDTH_PX: u32 = 400;
 /// What to recolour, and how.
 #[derive(Args)]
 pub(crate) struct Recolor {
-    /// A folder of trove generate, or of pictures.
+    /// Output folder of `trove generate`, or any folder of images.
     dir: PathBuf,
-    /// Pictures in the colours that are wanted.
+    /// Images with the colours to match.
     #[arg(long, value_name = "IMAGES")]
     to: PathBuf,
-    /// Folder to write to, every picture under the path that it has below DIR; without it DIR-recolored beside DIR.
+    /// Output folder; images keep their relative paths [default: DIR-recolored].
     #[arg(long)]
     out: Option<PathBuf>,
-    /// What is moved: means and deviations of each picture, towards all of IMAGES or one of them, or of the whole set, or
+    /// What to match: mean and deviation of the whole set, of each image, of each image paired with one of IMAGES, or
     /// histograms class by class.
     #[arg(long, value_enum, default_value = "set")]
     method: MethodName,
-    /// Where it is moved.
+    /// Colour space to work in.
     #[arg(long, value_enum, default_value = "lab")]
     space: SpaceName,
-    /// How far: 0 is not at all, 1 is all the way.
+    /// Strength, from 0 (no change) to 1 (full match).
     #[arg(long, default_value_t = 0.75, value_parser = share_f32)]
     strength: f32,
-    /// Labels of IMAGES, named as they are, for histograms by class.
+    /// Labels of IMAGES under the same names, for `--method classes`.
     #[arg(long, value_name = "LABELS", required_if_eq("method", "classes"))]
     to_labels: Option<PathBuf>,
-    /// Numbering of LABELS; DIR's own classes are taken into it.
+    /// Label set of LABELS; our own classes are mapped to it.
     #[arg(long, default_value = "trove20", value_parser = label_set)]
     to_classes: LabelSet,
-    /// Prints a summary as JSON.
+    /// Print a summary as JSON.
     #[arg(long)]
     json: bool,
 }
