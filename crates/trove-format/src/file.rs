@@ -5,7 +5,10 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::{FORMAT, FormatError};
+use crate::FormatError;
+
+/// Version of the files' form. It rises when a reader of the last one would go wrong.
+pub const FORMAT: u32 = 2;
 
 /// A file's bytes.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, FormatError> {

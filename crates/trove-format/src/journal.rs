@@ -6,7 +6,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{FORMAT, FormatError, file};
+use crate::file::FORMAT;
+use crate::{FormatError, file};
 
 /// Everything that decides an output folder's bytes (`.trove/run.json`): a folder holds the frames of one identity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

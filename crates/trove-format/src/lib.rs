@@ -40,10 +40,11 @@ mod tests;
 
 pub use curated::Curated;
 pub use error::FormatError;
+pub use file::FORMAT;
 pub use frame::{FrameTable, LensModel, Matrix4, ObjectRow, Projection};
 pub use frame_file::FrameFile;
 pub use journal::{FrameLine, Journal, RunIdentity, Versions, WrittenFile};
-pub use manifest::{ClassEntry, Counterfactual, FORMAT, FrameRow, Manifest, ManifestDrive};
+pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{
     AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, LocaleRow, ProjectionKind, SiteFile, Source,

@@ -8,9 +8,6 @@ use trove_model::{CLASSES, ClassRow};
 
 use crate::{DriveRow, Factors, FormatError, Source, Versions, file};
 
-/// Version of the files' form. It rises when a reader of the last one would go wrong.
-pub const FORMAT: u32 = 2;
-
 /// The whole of `manifest.json`, which a finished run writes last.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

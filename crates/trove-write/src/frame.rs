@@ -1,37 +1,10 @@
 //! A frame as exporters get it.
 
 use trove_format::{FrameFile, FrameTable};
-use trove_model::{Capture, Color, Ego, Labels, MapProjection, Pose, Raster, Scene, Shot, World};
+use trove_model::{Capture, Color, Labels, Raster, Scene, Shot};
 
-use crate::frame_table::frame_table;
+use crate::frame_table::{FrameMeta, frame_table};
 use crate::{WriteError, jpeg};
-
-/// Everything in `frame.json` that a shot, a scene and a capture do not hold.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FrameMeta {
-    /// The drive (`scene-0103`).
-    pub scene: String,
-    /// The dataset (`nuscenes`).
-    pub dataset: String,
-    /// The dataset's name of the place (`boston-seaport`); empty where unknown.
-    pub place: String,
-    /// Which variation of the scene.
-    pub variation: u32,
-    /// Index of the keyframe in its drive.
-    pub keyframe: u32,
-    /// The dataset's name of the keyframe; empty where there is none.
-    pub keyframe_token: String,
-    /// Time of the keyframe, nanoseconds since 1970 UTC.
-    pub keyframe_time_ns: i64,
-    /// The dataset's name of the recorded picture that this view clones; empty where it clones none.
-    pub source_token: String,
-    /// That picture's path below the dataset's root; empty where it clones none.
-    pub source_image: String,
-    /// The vehicle that carries the camera, at the picture's time; `None` where the camera stands on its own.
-    pub world_from_ego: Option<Pose<World, Ego>>,
-    /// From latitude and longitude to World.
-    pub projection: MapProjection,
-}
 
 /// A frame: its table, its picture and its labels, all of one size.
 #[derive(Clone, Debug)]

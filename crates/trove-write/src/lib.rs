@@ -5,6 +5,7 @@
 
 pub mod contact_sheet;
 mod error;
+mod export_format;
 mod exporter;
 mod exr_file;
 mod files;
@@ -19,8 +20,10 @@ mod png_file;
 mod sheet;
 
 pub use error::WriteError;
-pub use exporter::{ExportFormat, Exporter};
+pub use export_format::ExportFormat;
+pub use exporter::Exporter;
 pub use files::{sha256_file, write_atomically};
-pub use frame::{Frame, FrameMeta};
+pub use frame::Frame;
+pub use frame_table::FrameMeta;
 pub use picture::write_picture;
 pub use sheet::write_sheet;
