@@ -28,7 +28,7 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         "run": [finished / ".trove" / "run.json"],
         "curated": [chosen],
     }
-    assert set(found) | {"journal"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
+    assert set(found) | {"frames"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
     for name, paths in found.items():
         validator = jsonschema.Draft202012Validator(schema(name))
         assert paths, name
@@ -37,7 +37,7 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
     lines = [line for line in (finished / ".trove" / "frames.jsonl").read_text().splitlines() if line]
     assert len(lines) == len(found["frame"])
     for line in lines:
-        jsonschema.validate(json.loads(line), schema("journal"))
+        jsonschema.validate(json.loads(line), schema("frames"))
 
 
 @pytest.mark.parametrize(
