@@ -1,6 +1,6 @@
 //! What a camera returns.
 
-use crate::{InstanceId, Raster};
+use crate::{Class, InstanceId, Raster};
 
 /// A picture and its labels.
 #[derive(Clone, Debug)]
@@ -29,8 +29,8 @@ pub struct Color {
 /// Labels of one picture: every value belongs to the ray through the pixel's centre.
 #[derive(Clone, Debug)]
 pub struct Labels {
-    /// Class ids.
-    pub class: Raster<u8>,
+    /// Classes; void outside the lens's image circle.
+    pub class: Raster<Class>,
     /// Instance ids; 0 = none.
     pub instance: Raster<u32>,
     /// Metres along the camera's z axis; +inf = sky.

@@ -39,8 +39,8 @@ frame!(
     Camera
 );
 frame!(
-    /// A LiDAR in its own axes.
-    Sensor
+    /// A sensor, such as a LiDAR, in its own axes.
+    SensorFrame
 );
 
 /// Rigid transform that takes coordinates in `Src` to coordinates in `Dst`; write it `dst_from_src`.

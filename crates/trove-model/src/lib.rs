@@ -28,6 +28,7 @@ mod raster;
 mod report;
 mod scene;
 mod seed;
+mod sensor;
 mod shot;
 mod street_map;
 mod tags;
@@ -41,7 +42,7 @@ pub use class::{CLASSES, Class, Class13, ClassRow};
 pub use cuboid::Cuboid;
 pub use drive::{Drive, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Track};
 pub use facade::{Course, FacadeDesign, Filling, Fixtures, Interior, Opening};
-pub use frames::{Body, Camera, Ego, Frame, Pose, Sensor, World};
+pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
 pub use human_body::{BodyJoint, HumanBody};
 pub use kind::Kind;
@@ -64,6 +65,7 @@ pub use raster::Raster;
 pub use report::{Entry, Measurement, Outcome, Report};
 pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed};
+pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
 pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
 pub use street_map::{
     BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,

@@ -147,6 +147,32 @@ impl Material {
 
     /// The images that it uses.
     pub fn textures(&self) -> impl Iterator<Item = &Arc<Texture>> {
-        [&self.base_color_map, &self.orm_map, &self.normal_map, &self.height_map].into_iter().flatten()
+        // Taken apart whole: a new map does not compile until it is one of them.
+        let Self {
+            base_color_map,
+            orm_map,
+            normal_map,
+            height_map,
+            name: _,
+            base_color: _,
+            alpha_cutoff: _,
+            roughness: _,
+            metalness: _,
+            height_m: _,
+            ior: _,
+            coat: _,
+            flakes: _,
+            sheen: _,
+            subsurface: _,
+            transmission: _,
+            translucency: _,
+            emission: _,
+            dirt: _,
+            wetness: _,
+            uv_scale: _,
+            mapping: _,
+            tiling: _,
+        } = self;
+        [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
     }
 }

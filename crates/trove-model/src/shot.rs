@@ -1,6 +1,8 @@
 //! One picture to take.
 
-use crate::{Camera, InstanceId, Lens, Pose, Seed, World};
+use glam::{DVec2, DVec3};
+
+use crate::{Camera, InstanceId, Lens, Pose, Seed, Sensor, SensorRay, World};
 
 /// How bright the picture becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,6 +156,12 @@ impl Shot {
         }
     }
 
+    /// The ray of labels in a direction, unit, Camera: labels belong to the exposure's middle.
+    pub fn label_ray(&self, direction_camera: DVec3) -> SensorRay {
+        let direction = self.world_from_camera.vector(direction_camera);
+        SensorRay { origin: self.world_from_camera.translation, direction, time_s: 0.0 }
+    }
+
     /// The camera's pose `time_s` seconds after the exposure's middle: it moves evenly between the keyframes, and as
     /// between the others where one is missing; without any it stands still.
     pub fn world_from_camera_at(&self, time_s: f64) -> Pose<World, Camera> {
@@ -165,10 +173,25 @@ impl Shot {
     }
 }
 
+/// One ray a pixel, row by row from the top: that of its labels.
+impl Sensor for Shot {
+    fn ray_count(&self) -> usize {
+        self.lens.width_px as usize * self.lens.height_px as usize
+    }
+
+    fn ray(&self, index: usize) -> Option<SensorRay> {
+        let width = self.lens.width_px as usize;
+        let centre = DVec2::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5);
+        self.lens.unproject(centre).map(|direction| self.label_ray(direction))
+    }
+
+    fn carrier(&self) -> Option<InstanceId> {
+        self.carrier
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
     use crate::Distortion;
 

@@ -1,6 +1,7 @@
 //! What was made of meshes and textures before, for the next scene that shares them.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use rayon::prelude::*;
@@ -25,13 +26,19 @@ impl<S, T> Default for Cache<S, T> {
 impl<S, T> Cache<S, T> {
     /// What was made of `source`, or is made now.
     pub(crate) fn get(&self, source: &Arc<S>, make: impl FnOnce(&S) -> T) -> Arc<T> {
+        let Ok(made) = self.try_get(source, |source| Ok::<_, Infallible>(make(source)));
+        made
+    }
+
+    /// The same where making may fail; failures are not remembered.
+    pub(crate) fn try_get<E>(&self, source: &Arc<S>, make: impl FnOnce(&S) -> Result<T, E>) -> Result<Arc<T>, E> {
         let address = Arc::as_ptr(source) as usize;
         if let Some(entry) = self.lock().get(&address) {
-            return entry.made.clone();
+            return Ok(entry.made.clone());
         }
         // Not under the lock, so that others can be made at the same time.
-        let entry = Entry { source: Arc::downgrade(source), made: Arc::new(make(source)) };
-        self.lock().entry(address).or_insert(entry).made.clone()
+        let entry = Entry { source: Arc::downgrade(source), made: Arc::new(make(source)?) };
+        Ok(self.lock().entry(address).or_insert(entry).made.clone())
     }
 
     /// Makes all that is missing, with the current thread pool, and forgets what is not used any more.

@@ -25,6 +25,16 @@ pub enum RenderError {
         /// Where it was looked for.
         looked: Vec<PathBuf>,
     },
+    /// The kernel could not build a scene: mostly, memory is short.
+    #[error(
+        "{kernel}: {problem}; free memory, or build a smaller area, or choose the built-in kernel (--kernel obvhs)"
+    )]
+    Kernel {
+        /// Which, with its version.
+        kernel: String,
+        /// What it was doing, and what it said.
+        problem: String,
+    },
     /// The machine refused threads.
     #[error("cannot start {threads} threads: {source}; ask for fewer")]
     Threads {

@@ -1,7 +1,7 @@
-//! `Scene` + `Shot` → `Capture`.
+//! `Scene` + `Shot` → `Capture`; `Scene` + any other `Sensor` → `Points`.
 //!
-//! What goes in: a virtual scene and a camera. What comes out: the picture and its labels. This crate must not know
-//! where the scene came from, nor how a capture is written.
+//! What goes in: a virtual scene and what looks at it. What comes out: a camera's picture and its labels, or what a
+//! sensor's rays meet. This crate must not know where the scene came from, nor how a capture is written.
 
 mod accel;
 mod cache;
@@ -11,11 +11,17 @@ mod film;
 mod labels;
 mod light;
 mod material;
+mod motion;
 mod path;
+mod placed;
 mod prepare;
+mod ray;
 mod renderer;
 mod sampling;
+mod scan;
 mod shared_library;
+mod sight;
+mod surface;
 mod texture;
 
 pub use accel::KernelChoice;

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, Raster, Scene, Shot};
+use trove_model::{Capture, CaptureStats, Color, Points, Raster, Scene, Sensor, Shot};
 
-use crate::accel::{Kernel, KernelChoice};
+use crate::accel::{self, Kernel, KernelChoice};
 use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
-use crate::{PreparedScene, RayTimes, RenderError, film, labels, path};
+use crate::{PreparedScene, RayTimes, RenderError, film, labels, path, scan};
 
 /// How to set a renderer up.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +37,7 @@ pub struct Capabilities {
 
 /// Turns scenes into captures.
 pub struct Renderer {
-    kernel: Kernel,
+    kernel: Box<dyn Kernel>,
     denoiser: Result<Denoiser, String>,
     textures: Textures,
     surroundings: LastSurroundings,
@@ -57,7 +57,7 @@ impl Renderer {
                 .map_err(|source| RenderError::Threads { threads: options.threads, source })
         };
         let (pool, preparing) = (pool("render")?, pool("prepare")?);
-        let kernel = Kernel::new(options.kernel, &options.search)?;
+        let kernel = accel::kernel(options.kernel, &options.search)?;
         let denoiser = match options.denoise {
             Denoising::None => Err("not asked for".into()),
             how => Denoiser::load(&options.search, pool.current_num_threads(), how).map_err(|e| e.to_string()),
@@ -84,7 +84,7 @@ impl Renderer {
     /// Checks a scene and makes it ready, also while a picture of another one is taken; what it shares with earlier
     /// scenes (by `Arc`) is not made again.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
-        self.preparing.install(|| PreparedScene::new(scene, &self.kernel, &self.textures, &self.surroundings))
+        self.preparing.install(|| PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings))
     }
 
     /// Measures how long the rays of one sample a pixel take one thread, and the bare kernel.
@@ -101,6 +101,12 @@ impl Renderer {
         shot: &Shot,
     ) -> Raster<bool> {
         self.pool.install(|| labels::changes([before, after], shot))
+    }
+
+    /// What the rays of a sensor meet first, each at its own time: holes of cut-outs and the sensor's carrier are not there,
+    /// panes of glass are.
+    pub fn scan(&self, scene: &PreparedScene, sensor: &dyn Sensor) -> Points {
+        self.pool.install(|| scan::scan(scene, sensor))
     }
 
     /// Takes a picture with its labels, or with `light` false the labels alone.

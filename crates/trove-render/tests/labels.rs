@@ -49,7 +49,7 @@ fn the_ground_has_the_depth_normal_and_flow_of_a_plane() {
                 None => assert!(flow.is_nan()),
             }
             assert!(labels.flow_backward.at(x, y)[0].is_nan());
-            assert_eq!(*labels.class.at(x, y), Class::Road.id());
+            assert_eq!(*labels.class.at(x, y), Class::Road);
         }
         assert!(seen > 2000 && worst_depth < 1e-6 && worst_flow < 1e-6, "{seen} pixels, {worst_depth}, {worst_flow}");
     }
@@ -139,7 +139,7 @@ fn a_moving_box_flows_with_its_tracks_and_the_sky_with_the_cameras_turn() {
             let point = PLACE + direction * f64::from(*labels.depth_m.at(x, y));
             next_from_world.point((next * now.inverse()).transform_point3(point))
         } else {
-            assert_eq!(*labels.class.at(x, y), Class::Sky.id());
+            assert_eq!(*labels.class.at(x, y), Class::Sky);
             assert_eq!((*labels.depth_m.at(x, y), *labels.normal.at(x, y)), (f32::INFINITY, [0.0; 3]));
             let back = DVec2::from_array(labels.flow_backward.at(x, y).map(f64::from));
             assert!(back.length() < 1e-6, "a camera that does not turn sees the sky stand");
@@ -206,7 +206,7 @@ fn a_fisheye_sees_beside_itself_and_nothing_outside_its_image_circle() {
         let Some(direction) = lens.unproject(centre) else {
             outside += 1;
             assert!(centre.distance(DVec2::new(40.0, 30.0)) > 29.4);
-            assert_eq!((*labels.class.at(x, y), *labels.instance.at(x, y)), (Class::Void.id(), 0));
+            assert_eq!((*labels.class.at(x, y), *labels.instance.at(x, y)), (Class::Void, 0));
             assert_eq!((*labels.depth_m.at(x, y), *labels.normal.at(x, y)), (f32::INFINITY, [0.0; 3]));
             assert!(labels.flow_forward.at(x, y)[0].is_nan());
             continue;

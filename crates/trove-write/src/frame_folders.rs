@@ -69,7 +69,7 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
     match file {
         FrameFile::Radiance => exr_file::encode(name, &color()?.radiance, ["R", "G", "B"]),
         FrameFile::Rgb => png_file::rgb(name, width, height, &color()?.srgb.data),
-        FrameFile::Class => png_file::grey(name, width, height, &labels.class.data),
+        FrameFile::Class => png_file::grey(name, width, height, &labels.class.map(|class| class.id()).data),
         FrameFile::Instance => png_file::grey16(name, width, height, &narrowed(labels)?),
         FrameFile::Depth => exr_file::encode_scalar(name, &labels.depth_m),
         FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),

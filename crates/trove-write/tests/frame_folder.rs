@@ -8,8 +8,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
-    Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels, Lens,
-    Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels,
+    Lens, Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
 use trove_write::{ExportFormat, Frame, FrameMeta, WriteError, sha256_file, write_atomically};
 
@@ -81,7 +81,7 @@ fn capture() -> Capture {
         range_m: 12.5,
     };
     let labels = Labels {
-        class: Raster::from_fn(W, H, |x, _| (x % 20) as u8),
+        class: Raster::from_fn(W, H, |x, _| CLASSES[x as usize % 20].class),
         instance: Raster::from_fn(W, H, |x, y| if x < 24 { 0 } else { 65_535 - y }),
         depth_m: Raster::from_fn(W, H, |x, y| if y < 4 { f32::INFINITY } else { 1.0 + 0.1 * x as f32 }),
         normal: Raster::from_fn(W, H, |_, y| if y < 4 { [0.0; 3] } else { [0.6, 0.0, -0.8] }),
@@ -144,7 +144,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     }
     let png = |name: &str| image::open(dir.join(name)).unwrap();
     assert_eq!(png("rgb.png").as_rgb8().unwrap().as_raw(), capture.color.as_ref().unwrap().srgb.data.as_flattened());
-    assert_eq!(png("class.png").as_luma8().unwrap().as_raw(), &capture.labels.class.data);
+    assert_eq!(png("class.png").as_luma8().unwrap().as_raw(), &capture.labels.class.map(|class| class.id()).data);
     let ids: Vec<u32> = png("instance.png").as_luma16().unwrap().iter().map(|&id| u32::from(id)).collect();
     assert_eq!(ids, capture.labels.instance.data);
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use trove_model::{Asset, Mapping, Material, Mesh, Seed, Tiling};
+use trove_model::{Asset, Mapping, Material, Mesh, Seed, Texture, Tiling};
 
 /// Meshes and materials, numbered in the order of their first use.
 #[derive(Clone, Debug, Default)]
@@ -71,37 +71,43 @@ impl Stock {
     }
 }
 
+/// Takes the material apart whole: a new field does not compile until the key has it.
 fn key(material: &Material) -> MaterialKey {
-    let m = material;
-    let floats = [
-        m.base_color.x,
-        m.base_color.y,
-        m.base_color.z,
-        m.alpha_cutoff,
-        m.roughness,
-        m.metalness,
-        m.ior,
-        m.coat,
-        m.flakes,
-        m.sheen,
-        m.subsurface,
-        m.transmission,
-        m.translucency,
-        m.dirt,
-        m.wetness,
-        m.height_m,
-        m.emission.x,
-        m.emission.y,
-        m.emission.z,
-        m.uv_scale.x,
-        m.uv_scale.y,
-    ];
-    let image = |texture: &Option<Arc<trove_model::Texture>>| texture.as_ref().map_or(0, |t| Arc::as_ptr(t).addr());
+    let Material {
+        name,
+        base_color,
+        base_color_map,
+        alpha_cutoff,
+        roughness,
+        metalness,
+        orm_map,
+        normal_map,
+        height_map,
+        height_m,
+        ior,
+        coat,
+        flakes,
+        sheen,
+        subsurface,
+        transmission,
+        translucency,
+        emission,
+        dirt,
+        wetness,
+        uv_scale,
+        mapping,
+        tiling,
+    } = material;
+    let shares = [alpha_cutoff, roughness, metalness, coat, flakes, sheen, subsurface, transmission, translucency];
+    let others = [dirt, wetness, ior, height_m];
+    let colors = [base_color.to_array(), emission.to_array()];
+    let numbers = shares.into_iter().chain(others).chain(colors.as_flattened()).chain(uv_scale.as_ref());
+    let image = |texture: &Option<Arc<Texture>>| texture.as_ref().map_or(0, |t| Arc::as_ptr(t).addr());
     MaterialKey {
-        name: m.name.clone(),
-        numbers: floats.map(f32::to_bits).to_vec(),
-        images: [&m.base_color_map, &m.orm_map, &m.normal_map, &m.height_map].map(image),
-        mapping: (m.mapping, m.tiling),
+        name: name.clone(),
+        numbers: numbers.map(|number| number.to_bits()).collect(),
+        images: [base_color_map, orm_map, normal_map, height_map].map(image),
+        mapping: (*mapping, *tiling),
     }
 }
 

@@ -1,6 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
-use trove_model::{Class, Season};
+use trove_model::{Class, Material, Season};
 
 use crate::assembly::Assembly;
 
@@ -28,7 +28,35 @@ impl Weather {
     pub(crate) fn treat(self, assembly: &mut Assembly) {
         let materials = &mut assembly.stock.materials;
         for material in materials.iter_mut() {
-            material.dirt *= self.dirt as f32;
+            // Taken apart whole, so that a new layer does not compile before somebody has said what weather does to it.
+            let Material {
+                dirt,
+                // Below, by what the material lies on.
+                wetness: _,
+                // What things are made of outlasts weather.
+                name: _,
+                base_color: _,
+                base_color_map: _,
+                alpha_cutoff: _,
+                roughness: _,
+                metalness: _,
+                orm_map: _,
+                normal_map: _,
+                height_map: _,
+                height_m: _,
+                ior: _,
+                coat: _,
+                flakes: _,
+                sheen: _,
+                subsurface: _,
+                transmission: _,
+                translucency: _,
+                emission: _,
+                uv_scale: _,
+                mapping: _,
+                tiling: _,
+            } = material;
+            *dirt *= self.dirt as f32;
         }
         for instance in &assembly.fixed {
             let share = match instance.class {

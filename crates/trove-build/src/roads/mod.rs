@@ -127,7 +127,7 @@ pub(crate) fn surfaces(
             SurfaceKind::Paving => &locale.surfaces.sidewalk,
             _ => &[],
         };
-        palette.fitting(kind, tags, &mut seed.child(&format!("{kind:?}")).random()).material
+        palette.fitting(kind, tags, &mut seed.child(seed_name(kind)).random()).material
     };
 
     let water = covers.iter().find(|c| c.kind == SurfaceKind::Water).map_or(&[][..], |c| &c.area);
@@ -216,5 +216,30 @@ pub(crate) fn surfaces(
         ramps,
         footings,
         below,
+    }
+}
+
+/// Where the choice of a kind's surface is drawn; the names are part of what a recipe's seed means and never change.
+fn seed_name(kind: SurfaceKind) -> &'static str {
+    match kind {
+        SurfaceKind::Asphalt => "Asphalt",
+        SurfaceKind::MarkingWhite => "MarkingWhite",
+        SurfaceKind::MarkingYellow => "MarkingYellow",
+        SurfaceKind::RoadCover => "RoadCover",
+        SurfaceKind::Paving => "Paving",
+        SurfaceKind::Kerb => "Kerb",
+        SurfaceKind::Concrete => "Concrete",
+        SurfaceKind::Grass => "Grass",
+        SurfaceKind::Soil => "Soil",
+        SurfaceKind::Gravel => "Gravel",
+        SurfaceKind::Water => "Water",
+        SurfaceKind::FlatRoof => "FlatRoof",
+        SurfaceKind::RoofTiles => "RoofTiles",
+        SurfaceKind::Facade => "Facade",
+        SurfaceKind::FacadeGroundFloor => "FacadeGroundFloor",
+        SurfaceKind::Wall => "Wall",
+        SurfaceKind::ShopSign => "ShopSign",
+        SurfaceKind::RoomBack => "RoomBack",
+        SurfaceKind::Thing => "Thing",
     }
 }

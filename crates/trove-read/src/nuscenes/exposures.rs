@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Component, Path};
 
-use trove_model::{Camera, Ego, Exposure, Lens, Outcome, Pose, Report, RigCamera, Sensor, World};
+use trove_model::{Camera, Ego, Exposure, Lens, Outcome, Pose, Report, RigCamera, SensorFrame, World};
 
 use super::poses;
 use super::records::{CalibratedSensorRecord, EgoPoseRecord, SampleDataRecord};
@@ -26,7 +26,7 @@ pub(super) struct Picture {
 /// What the top LiDAR took.
 pub(super) struct Revolution {
     pub(super) global_from_ego: GlobalFromEgo,
-    pub(super) ego_from_sensor: Pose<Ego, Sensor>,
+    pub(super) ego_from_sensor: Pose<Ego, SensorFrame>,
     pub(super) token: String,
     pub(super) file: String,
 }

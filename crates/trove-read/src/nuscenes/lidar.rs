@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use trove_model::{LidarClass, LidarSweep, Outcome, Pose, Report, Sensor, World};
+use trove_model::{LidarClass, LidarSweep, Outcome, Pose, Report, SensorFrame, World};
 
 /// x, y, z, intensity, ring: each a little-endian float32.
 const POINT_BYTES: usize = 20;
@@ -17,7 +17,7 @@ pub(super) struct SweepFiles<'a> {
 pub(super) fn sweep(
     root: &Path,
     files: &SweepFiles,
-    world_from_sensor: Pose<World, Sensor>,
+    world_from_sensor: Pose<World, SensorFrame>,
     classes: &[LidarClass; 256],
     report: &Report,
 ) -> Option<LidarSweep> {

@@ -26,6 +26,7 @@ pub(super) const QUALITY_MEDIUM: c_int = 1;
 pub(super) const FEATURES_ALL: c_int = -1;
 pub(super) const QUERY_COHERENT: c_int = 1 << 16;
 pub(super) const INVALID_ID: u32 = u32::MAX;
+pub(super) const ERROR_NONE: c_int = 0;
 const PROPERTY_VERSION: [c_int; 3] = [1, 2, 3];
 
 /// `RTCRay` and `RTCHit`, with room for the fields that builds with instance arrays have.
@@ -114,6 +115,8 @@ pub(super) struct FilterArguments {
     pub(super) n: u32,
 }
 
+pub(super) type ErrorFunction = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
+
 pub(super) type Filter = unsafe extern "C" fn(*const FilterArguments);
 
 /// `RTCIntersectArguments` and `RTCOccludedArguments`, which have the same fields.
@@ -132,6 +135,8 @@ pub(super) struct QueryArguments {
 shared_library! {
     new_device = b"rtcNewDevice": fn(*const c_char) -> Handle;
     release_device = b"rtcReleaseDevice": fn(Handle);
+    device_error = b"rtcGetDeviceError": fn(Handle) -> c_int;
+    set_error_function = b"rtcSetDeviceErrorFunction": fn(Handle, Option<ErrorFunction>, *mut c_void);
     device_property = b"rtcGetDeviceProperty": fn(Handle, c_int) -> isize;
     new_scene = b"rtcNewScene": fn(Handle) -> Handle;
     release_scene = b"rtcReleaseScene": fn(Handle);
@@ -175,6 +180,18 @@ impl Api {
     pub(super) fn version(&self, device: Handle) -> [isize; 3] {
         // SAFETY: `device` is alive, and these properties exist in every Embree 4.
         PROPERTY_VERSION.map(|property| unsafe { (self.device_property)(device, property) })
+    }
+}
+
+/// What one of Embree's error codes means.
+pub(super) fn error_name(code: c_int) -> String {
+    match code {
+        2 => "invalid argument".into(),
+        3 => "invalid operation".into(),
+        4 => "out of memory".into(),
+        5 => "this processor is not supported".into(),
+        6 => "cancelled".into(),
+        _ => format!("unknown error {code}"),
     }
 }
 

@@ -13,12 +13,16 @@ use obvhs::triangle::Triangle;
 use trove_model::Mesh;
 
 use super::watertight::Sheared;
-use super::{Accept, Hit, MIDDLE, Motion, Placed, Ray};
+use super::{Accel, Coherence, Kernel, Shapes};
+use crate::RenderError;
 use crate::cache::Cache;
+use crate::motion::MIDDLE;
+use crate::placed::Placed;
+use crate::ray::{Hit, Ray};
 
 /// What was built of the meshes so far.
 #[derive(Default)]
-pub(crate) struct Kernel {
+pub(super) struct Obvhs {
     built: Cache<Mesh, Bottom>,
 }
 
@@ -28,34 +32,35 @@ struct Bottom {
     triangles: Vec<[Vec3; 3]>,
 }
 
-struct Top {
+/// A mesh's hierarchy where it stands.
+pub(super) struct Top {
     bottom: Arc<Bottom>,
     /// At the moment of the labels.
     mesh_from_world: Affine3A,
-    motion: Motion,
-    tested: bool,
+    judged: bool,
 }
 
 /// A two-level scene.
-pub(crate) struct Accel {
+struct Scene {
+    shapes: Arc<Shapes>,
     bvh: Bvh2,
     /// By index of the instance.
     tops: Vec<Top>,
 }
 
-impl Kernel {
-    pub(super) fn build(&self, placed: &[Placed]) -> Accel {
+impl Kernel for Obvhs {
+    fn name(&self) -> String {
+        "obvhs 0.4 (built in)".into()
+    }
+
+    fn build(&self, shapes: &Arc<Shapes>) -> Result<Box<dyn Accel>, RenderError> {
+        let placed = &shapes.placed;
         self.built.make_all(placed.iter().map(|p| &p.mesh), Bottom::new);
-        let top = |p: &Placed| Top {
-            bottom: self.built.get(&p.mesh, Bottom::new),
-            mesh_from_world: p.world_from_mesh.middle.inverse(),
-            motion: p.world_from_mesh,
-            tested: p.tested,
-        };
+        let top = |p: &Placed| Top::new(shapes, p, self.built.get(&p.mesh, Bottom::new));
         let tops: Vec<Top> = placed.iter().map(top).collect();
         let boxes: Vec<Aabb> = placed.iter().map(box_world).collect();
         let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
-        Accel { bvh, tops }
+        Ok(Box::new(Scene { shapes: shapes.clone(), bvh, tops }))
     }
 }
 
@@ -87,13 +92,37 @@ impl Bottom {
 }
 
 impl Top {
-    /// The nearest hit before `t_max`; `stop_at_any` ends at the first.
-    fn intersect(&self, ray: &Ray, instance: u32, t_max: f32, stop_at_any: bool, accept: Accept<'_>) -> Option<Hit> {
+    fn new(shapes: &Shapes, placed: &Placed, bottom: Arc<Bottom>) -> Self {
+        Self { bottom, mesh_from_world: placed.world_from_mesh.middle.inverse(), judged: shapes.lets_pass(placed) }
+    }
+
+    /// Of one instance that nobody has built anything for.
+    pub(super) fn alone(shapes: &Shapes, instance: u32) -> Self {
+        let placed = &shapes.placed[instance as usize];
+        Self::new(shapes, placed, Arc::new(Bottom::new(&placed.mesh)))
+    }
+
+    /// The nearest hit that is no hole.
+    pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: u32) -> Option<Hit> {
+        self.intersect(shapes, ray, instance, ray.t_max, false, &mut |hit| shapes.is_there(hit))
+    }
+
+    /// The nearest hit before `t_max`; `stop_at_any` ends at the first that counts.
+    fn intersect(
+        &self,
+        shapes: &Shapes,
+        ray: &Ray,
+        instance: u32,
+        t_max: f32,
+        stop_at_any: bool,
+        counts: &mut impl FnMut(&Hit) -> bool,
+    ) -> Option<Hit> {
         if self.bottom.triangles.is_empty() {
             return None;
         }
-        let moved = self.motion.ends.is_some() && ray.time != MIDDLE;
-        let mesh_from_world = if moved { self.motion.at(ray.time).inverse() } else { self.mesh_from_world };
+        let motion = &shapes.placed[instance as usize].world_from_mesh;
+        let moved = motion.ends.is_some() && ray.time != MIDDLE;
+        let mesh_from_world = if moved { motion.at(ray.time).inverse() } else { self.mesh_from_world };
         let origin = mesh_from_world.transform_point3(ray.origin);
         let direction = mesh_from_world.transform_vector3(ray.direction);
         let sheared = Sheared::new(origin, direction);
@@ -103,7 +132,7 @@ impl Top {
                 return f32::INFINITY;
             };
             let hit = Hit { t, instance, triangle: self.bottom.bvh.primitive_indices[index], u, v };
-            if self.tested && !accept(0, &hit) {
+            if self.judged && !counts(&hit) {
                 return f32::INFINITY;
             }
             nearest = Some(hit);
@@ -119,12 +148,13 @@ impl Top {
     }
 }
 
-impl Accel {
-    pub(super) fn intersect(&self, ray: &Ray, accept: Accept<'_>) -> Option<Hit> {
+impl Scene {
+    fn intersect(&self, ray: &Ray, mut counts: impl FnMut(&Hit) -> bool) -> Option<Hit> {
         let mut nearest = None;
         let meet = |world: &obvhs::ray::Ray, index: usize| {
             let instance = self.bvh.primitive_indices[index];
-            let hit = self.tops[instance as usize].intersect(ray, instance, world.tmax, false, accept);
+            let top = &self.tops[instance as usize];
+            let hit = top.intersect(&self.shapes, ray, instance, world.tmax, false, &mut counts);
             let t = hit.map_or(f32::INFINITY, |hit| hit.t);
             nearest = hit.or(nearest);
             t
@@ -133,17 +163,45 @@ impl Accel {
         nearest
     }
 
-    pub(super) fn occluded(&self, ray: &Ray, accept: Accept<'_>) -> bool {
+    fn is_blocked(&self, ray: &Ray, mut counts: impl FnMut(&Hit) -> bool) -> bool {
         let meet = |_: &obvhs::ray::Ray, index: usize| {
             let instance = self.bvh.primitive_indices[index];
-            let hit = self.tops[instance as usize].intersect(ray, instance, ray.t_max, true, accept);
+            let top = &self.tops[instance as usize];
+            let hit = top.intersect(&self.shapes, ray, instance, ray.t_max, true, &mut counts);
             hit.map_or(f32::INFINITY, |hit| hit.t)
         };
         !self.bvh.ray_traverse_miss(in_world(ray), meet)
     }
+}
 
-    pub(super) fn intersect_instance(&self, ray: &Ray, instance: u32, accept: Accept<'_>) -> Option<Hit> {
-        self.tops[instance as usize].intersect(ray, instance, ray.t_max, false, accept)
+/// Rays are traced one by one, coherent or not.
+impl Accel for Scene {
+    fn closest(&self, rays: &[Ray], _: Coherence, hits: &mut [Option<Hit>]) {
+        let closest = |ray: &Ray| self.intersect(ray, |hit| self.shapes.is_there(hit));
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.shapes.past(ray, closest(ray), closest);
+        }
+    }
+
+    fn any(&self, rays: &[Ray], _: Coherence, light: &mut [Vec3]) {
+        for (ray, light) in rays.iter().zip(light) {
+            if self.is_blocked(ray, |hit| self.shapes.blocks(hit, ray, light)) {
+                *light = Vec3::ZERO;
+            }
+        }
+    }
+
+    fn closest_on(&self, instance: u32, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        let top = &self.tops[instance as usize];
+        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = top.closest(&self.shapes, ray, instance));
+    }
+
+    fn bare_closest(&self, rays: &[Ray]) -> usize {
+        rays.iter().filter(|ray| self.intersect(ray, |_| true).is_some()).count()
+    }
+
+    fn bare_any(&self, rays: &[Ray]) -> usize {
+        rays.iter().filter(|ray| self.is_blocked(ray, |_| true)).count()
     }
 }
 

@@ -1,14 +1,15 @@
 //! Where two scenes differ that are looked at in the same way.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
-use trove_model::{Class, Material, Raster, Scene, Shot, Texture};
+use trove_model::{Class, Mapping, Material, Raster, Scene, SensorRay, Shot, Texture, Tiling};
 
-use super::{geometry, ray};
 use crate::PreparedScene;
-use crate::prepare::{Carrier, Surface};
+use crate::prepare::Carrier;
+use crate::sight;
 
 /// Depths that differ by less than this share are those of the same surface.
 const SAME_DEPTH: f64 = 1e-4;
@@ -30,27 +31,25 @@ struct Met {
 /// (shadows, reflections, what shines) is no difference.
 pub(crate) fn changes([before, after]: [(&Scene, &PreparedScene); 2], shot: &Shot) -> Raster<bool> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
-    let eye = shot.world_from_camera.translation.as_vec3();
-    let carriers = [before.1, after.1].map(|scene| Carrier::new(scene, shot.carrier, eye));
+    let carriers = [before.1, after.1].map(|scene| Carrier::new(scene, shot.carrier));
     let row = |y: u32| {
         // Of two materials, by their indices, whether they look the same.
         let mut known: BTreeMap<[u32; 2], bool> = BTreeMap::new();
         let mut differs = |x: u32| {
             let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
             let Some(direction) = shot.lens.unproject(centre) else { return false };
-            let direction = shot.world_from_camera.vector(direction);
-            let [a, b] =
-                match (met(before.1, &carriers[0], shot, direction), met(after.1, &carriers[1], shot, direction)) {
-                    (Some(a), Some(b)) => [a, b],
-                    (a, b) => return a.is_some() != b.is_some(),
-                };
+            let ray = shot.label_ray(direction);
+            let [a, b] = match (met(before.1, &carriers[0], &ray), met(after.1, &carriers[1], &ray)) {
+                (Some(a), Some(b)) => [a, b],
+                (a, b) => return a.is_some() != b.is_some(),
+            };
             let is_same = a.class == b.class
                 && (a.range_m - b.range_m).abs() <= SAME_DEPTH * a.range_m
                 && a.normal.dot(b.normal) >= 1.0 - SAME
                 && a.tint.abs_diff_eq(b.tint, SAME as f32)
                 && *known.entry([a.material, b.material]).or_insert_with(|| {
                     let [a, b] = [(before.0, a.material), (after.0, b.material)];
-                    looks_like(&a.0.materials[a.1 as usize], &b.0.materials[b.1 as usize])
+                    Look::of(&a.0.materials[a.1 as usize]) == Look::of(&b.0.materials[b.1 as usize])
                 })
                 && (a.uv.abs_diff_eq(b.uv, SAME as f32) || !is_textured(after.0, b.material));
             !is_same
@@ -61,17 +60,14 @@ pub(crate) fn changes([before, after]: [(&Scene, &PreparedScene); 2], shot: &Sho
     Raster { width, height, data: rows.concat() }
 }
 
-fn met(scene: &PreparedScene, carrier: &Carrier, shot: &Shot, direction: DVec3) -> Option<Met> {
-    let ray = carrier.past(ray(shot, direction));
-    let hit = scene.intersect_past(&ray, carrier)?;
-    let instance = &scene.instances[hit.instance as usize];
-    let seen = geometry::seen(scene, &hit, shot.world_from_camera.translation, direction);
-    let surface = Surface::new(scene, &hit, &ray);
+fn met(scene: &PreparedScene, carrier: &Carrier, ray: &SensorRay) -> Option<Met> {
+    let seen = sight::seen_by_one(scene, carrier, ray)?;
+    let (surface, _) = scene.surface(&seen.hit, &seen.ray);
     Some(Met {
-        class: instance.class,
+        class: scene.instances[seen.hit.instance as usize].class,
         range_m: seen.range_m,
         normal: seen.normal,
-        material: instance.materials[usize::from(instance.mesh.slot(hit.triangle as usize))],
+        material: scene.placed(seen.hit.instance).material(&seen.hit) as u32,
         uv: surface.uv,
         tint: surface.tint,
     })
@@ -81,19 +77,67 @@ fn is_textured(scene: &Scene, material: u32) -> bool {
     scene.materials[material as usize].textures().next().is_some()
 }
 
-/// Whether two materials are equal; textures are told apart by their names, which mean the same image everywhere.
-fn looks_like(a: &Material, b: &Material) -> bool {
-    let names = |m: &Material| {
-        let name = |texture: &Option<std::sync::Arc<Texture>>| texture.as_ref().map(|t| t.name.clone());
-        [&m.base_color_map, &m.orm_map, &m.normal_map, &m.height_map].map(name)
-    };
-    let bare = |m: &Material| Material {
-        base_color_map: None,
-        orm_map: None,
-        normal_map: None,
-        height_map: None,
-        emission: Vec3::ZERO,
-        ..m.clone()
-    };
-    names(a) == names(b) && bare(a) == bare(b)
+/// What of a material the eye can tell; two materials that agree in it look the same.
+#[derive(PartialEq)]
+struct Look<'a> {
+    name: &'a str,
+    /// By their names, which mean the same image everywhere.
+    maps: [Option<&'a str>; 4],
+    base_color: Vec3,
+    numbers: [f32; 13],
+    texturing: (Vec2, Mapping, Tiling),
+}
+
+impl<'a> Look<'a> {
+    /// Takes the material apart whole: a new field does not compile until it is compared.
+    fn of(material: &'a Material) -> Self {
+        let Material {
+            name,
+            base_color,
+            base_color_map,
+            alpha_cutoff,
+            roughness,
+            metalness,
+            orm_map,
+            normal_map,
+            height_map,
+            height_m,
+            ior,
+            coat,
+            flakes,
+            sheen,
+            subsurface,
+            transmission,
+            translucency,
+            // Light alone is no difference.
+            emission: _,
+            dirt,
+            wetness,
+            uv_scale,
+            mapping,
+            tiling,
+        } = material;
+        let image = |texture: &'a Option<Arc<Texture>>| texture.as_ref().map(|t| t.name.as_str());
+        Self {
+            name,
+            maps: [base_color_map, orm_map, normal_map, height_map].map(image),
+            base_color: *base_color,
+            numbers: [
+                *alpha_cutoff,
+                *roughness,
+                *metalness,
+                *height_m,
+                *ior,
+                *coat,
+                *flakes,
+                *sheen,
+                *subsurface,
+                *transmission,
+                *translucency,
+                *dirt,
+                *wetness,
+            ],
+            texturing: (*uv_scale, *mapping, *tiling),
+        }
+    }
 }

@@ -36,8 +36,8 @@ impl Neighbour {
     ) -> Self {
         let motion = |instance: &PreparedInstance| match world_from_mesh(instance) {
             None => Motion::IsNotThere,
-            Some(then) if then == instance.world_from_mesh_f64 => Motion::Stays,
-            Some(then) => Motion::Moves(then * instance.world_from_mesh_f64.inverse()),
+            Some(then) if then == instance.world_from_mesh.middle => Motion::Stays,
+            Some(then) => Motion::Moves(then * instance.world_from_mesh.middle.inverse()),
         };
         let camera_from_world = world_from_camera.map(|pose| pose.inverse());
         Self { lens: shot.lens, camera_from_world, motions: scene.instances.iter().map(motion).collect() }

@@ -1,24 +1,20 @@
-//! What every pixel shows: one ray through each pixel's centre.
-//!
-//! The ray finds the surface in the renderer's precision; depth, normal and flow are then derived in the model's, from
-//! the triangle's own corners. Holes of cut-outs are not there. A pane of glass is: its pixels are the pane's, not
-//! those of what is seen through it.
+//! What every pixel shows: one ray through each pixel's centre, as [`crate::sight`] follows it.
 
 mod change;
 mod flow;
-mod geometry;
 mod objects;
 mod outline;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use trove_model::{Class, Labels, Raster, Shot};
+use trove_model::{Class, Labels, Raster, SensorRay, Shot};
 
 pub(crate) use change::changes;
 
 use crate::PreparedScene;
-use crate::accel::{Hit, PACKET, Ray};
+use crate::accel::PACKET;
 use crate::prepare::Carrier;
+use crate::sight::{self, Seen};
 use flow::Neighbour;
 
 /// Indices of no instance: the sky, and what lies outside the lens's image circle.
@@ -55,7 +51,7 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
         Neighbour::new(scene, shot, shot.world_from_camera_next, |i| i.world_from_mesh_next),
         Neighbour::new(scene, shot, shot.world_from_camera_previous, |i| i.world_from_mesh_previous),
     ];
-    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
+    let carrier = Carrier::new(scene, shot.carrier);
     let row = |y: u32| {
         let centres = (0..width).map(|x| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)).collect::<Vec<_>>();
         centres.chunks(PACKET).flat_map(|centres| pixels(scene, shot, &carrier, &neighbours, centres)).collect()
@@ -66,11 +62,11 @@ pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> boo
     let instance = |index: u32| scene.instances.get(index as usize);
     let shown = Raster { width, height, data: pixels };
     let elsewhere = |p: &Pixel| if p.instance == OUTSIDE { Class::Void } else { Class::Sky };
-    let class = shown.map(|p| instance(p.instance).map_or(elsewhere(p), |i| i.class).id());
+    let class = shown.map(|p| instance(p.instance).map_or(elsewhere(p), |i| i.class));
     let objects = objects::list(scene, shot, &shown, stop)?;
     Some(Labels {
         class,
-        instance: shown.map(|p| instance(p.instance).map_or(0, |i| i.id.0)),
+        instance: shown.map(|p| scene.shapes.placed.get(p.instance as usize).map_or(0, |placed| placed.id.0)),
         depth_m: shown.map(|p| p.depth_m),
         normal: shown.map(|p| p.normal),
         flow_forward: shown.map(|p| p.flow_forward),
@@ -88,45 +84,35 @@ fn pixels(
     centres: &[DVec2],
 ) -> Vec<Pixel> {
     let directions: Vec<Option<DVec3>> = centres.iter().map(|centre| shot.lens.unproject(*centre)).collect();
-    let rays = directions.iter().flatten().map(|d| carrier.past(ray(shot, shot.world_from_camera.vector(*d))));
-    let mut hits = [None; PACKET];
-    scene.intersect_packet(&rays.collect::<Vec<_>>(), carrier, &mut hits);
-    let mut hits = hits.into_iter();
+    let rays: Vec<SensorRay> = directions.iter().flatten().map(|d| shot.label_ray(*d)).collect();
+    let mut seen = sight::seen(scene, carrier, &rays).into_iter();
     let pixel = |(centre, direction): (&DVec2, &Option<DVec3>)| {
-        direction.map_or(OUTSIDE_LENS, |d| pixel(scene, shot, neighbours, *centre, d, hits.next().flatten()))
+        direction.map_or(OUTSIDE_LENS, |d| pixel(shot, neighbours, *centre, d, seen.next().flatten()))
     };
     centres.iter().zip(&directions).map(pixel).collect()
 }
 
 /// What the pixel around a point shows, whose ray has met something or not.
 fn pixel(
-    scene: &PreparedScene,
     shot: &Shot,
     neighbours: &[Neighbour; 2],
     centre: DVec2,
     direction_camera: DVec3,
-    hit: Option<Hit>,
+    seen: Option<Seen>,
 ) -> Pixel {
     let direction = shot.world_from_camera.vector(direction_camera);
-    let Some(hit) = hit else {
+    let Some(Seen { hit, range_m, normal, .. }) = seen else {
         let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow_of_sky(centre, direction));
         return Pixel { instance: SKY, flow_forward, flow_backward, ..OUTSIDE_LENS };
     };
-    let origin = shot.world_from_camera.translation;
-    let seen = geometry::seen(scene, &hit, origin, direction);
-    let point = origin + direction * seen.range_m;
+    let point = shot.world_from_camera.translation + direction * range_m;
     let [flow_forward, flow_backward] = neighbours.each_ref().map(|n| n.flow(centre, hit.instance, point));
     Pixel {
         instance: hit.instance,
-        range_m: seen.range_m,
-        depth_m: (seen.range_m * direction_camera.z) as f32,
-        normal: shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array(),
+        range_m,
+        depth_m: (range_m * direction_camera.z) as f32,
+        normal: shot.world_from_camera.inverse().vector(normal).as_vec3().to_array(),
         flow_forward,
         flow_backward,
     }
-}
-
-/// The ray of a unit direction.
-fn ray(shot: &Shot, direction_world: DVec3) -> Ray {
-    Ray::new(shot.world_from_camera.translation.as_vec3(), direction_world.as_vec3())
 }

@@ -4,9 +4,11 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
 
-use super::{Pixel, outline, ray};
+use super::{Pixel, outline};
 use crate::PreparedScene;
-use crate::prepare::PreparedInstance;
+use crate::placed::Placed;
+use crate::ray::Ray;
+use crate::sight;
 
 /// Pixels, and the smallest box around them.
 #[derive(Clone, Copy, Default)]
@@ -52,9 +54,8 @@ pub(super) fn list(
             if stop() {
                 return None;
             }
-            let instance = &scene.instances[i];
-            let object =
-                instance.object.as_deref().filter(|_| instance.id.0 != 0 && Some(instance.id) != shot.carrier)?;
+            let (instance, id) = (&scene.instances[i], scene.shapes.placed[i].id);
+            let object = instance.object.as_deref().filter(|_| id.0 != 0 && Some(id) != shot.carrier)?;
             // Scenery is plentiful, and nobody asks for the thousand trees behind the houses.
             let is_road_user = !object.annotation_token.is_empty() || object.velocity_mps.is_some();
             (is_road_user || visible[i].count > 0).then(|| label(scene, shot, shown, i, object, visible[i])).flatten()
@@ -77,7 +78,7 @@ fn label(
     let corners_camera = object.cuboid.corners_world().map(|corner| camera_from_world.point(corner));
     let range_m = object.cuboid.world_from_body.translation.distance(shot.world_from_camera.translation);
     (amodal.count > 0).then(|| ObjectLabel {
-        id: scene.instances[index].id,
+        id: scene.shapes.placed[index].id,
         visible_px: visible.count,
         visible_box: visible.around,
         amodal_px: amodal.count,
@@ -90,7 +91,7 @@ fn label(
 
 /// The pixels that would show an instance if other things did not hide it.
 fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usize) -> Extent {
-    let Some((corners_camera, farthest_m)) = bounds_camera(&scene.instances[index], shot) else {
+    let Some((corners_camera, farthest_m)) = bounds_camera(scene, index, shot) else {
         return Extent::default();
     };
     let Some(around) = outline::pixels_around(&shot.lens, &outline::project(&shot.lens, &corners_camera)) else {
@@ -98,29 +99,28 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usiz
     };
     // Where something farther than all of it is seen, the instance is not: no ray is needed.
     let may_hide = |pixel: &Pixel| pixel.instance != index as u32 && pixel.range_m <= farthest_m;
-    let is_hidden = |x: u32, y: u32| {
+    let ray = |x: u32, y: u32| {
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let seen = |direction| {
-            let ray = ray(shot, shot.world_from_camera.vector(direction));
-            scene.intersect_instance(&ray, index as u32).is_some()
-        };
-        may_hide(shown.at(x, y)) && shot.lens.unproject(centre).is_some_and(seen)
+        shot.lens.unproject(centre).map(|direction| sight::single(&shot.label_ray(direction)))
     };
     (around.min[1]..=around.max[1])
         .into_par_iter()
         .map(|y| {
-            let columns = (around.min[0]..=around.max[0]).filter(|&x| is_hidden(x, y));
-            columns.fold(Extent::default(), |extent, x| extent.and(Extent::of(x, y)))
+            let columns = (around.min[0]..=around.max[0]).filter(|&x| may_hide(shown.at(x, y)));
+            let (columns, rays): (Vec<u32>, Vec<Ray>) = columns.filter_map(|x| Some((x, ray(x, y)?))).unzip();
+            let met = columns.iter().zip(scene.meets(index as u32, &rays)).filter(|(_, is_met)| *is_met);
+            met.fold(Extent::default(), |extent, (&x, _)| extent.and(Extent::of(x, y)))
         })
         .reduce(Extent::default, Extent::and)
 }
 
 /// Corners of the box around an instance's mesh in Camera, and the greatest distance among them; `None` for an empty mesh.
-fn bounds_camera(instance: &PreparedInstance, shot: &Shot) -> Option<([DVec3; 8], f64)> {
-    let (low, high) = instance.mesh.bounds()?;
+fn bounds_camera(scene: &PreparedScene, index: usize, shot: &Shot) -> Option<([DVec3; 8], f64)> {
+    let Placed { mesh, .. } = &scene.shapes.placed[index];
+    let (low, high) = mesh.bounds()?;
     let (middle_mesh, size_m) = ((low + high).as_dvec3() * 0.5, (high - low).as_dvec3());
     let around_middle = Cuboid { world_from_body: Pose::IDENTITY, size_m };
-    let camera_from_mesh = shot.world_from_camera.inverse().affine() * instance.world_from_mesh_f64;
+    let camera_from_mesh = shot.world_from_camera.inverse().affine() * scene.instances[index].world_from_mesh.middle;
     let corners = around_middle.corners_world().map(|corner| camera_from_mesh.transform_point3(middle_mesh + corner));
     let farthest_m = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
     Some((corners, farthest_m))

@@ -11,8 +11,8 @@ use glam::Vec3;
 use super::diffuse::Diffuse;
 use super::ggx::Facet;
 use super::{albedo, ggx, sheen};
-use crate::prepare::Surface;
 use crate::sampling::{Basis, cosine_hemisphere, cosine_pdf};
+use crate::surface::Surface;
 
 /// A smooth layer on top of everything.
 #[derive(Clone, Copy)]

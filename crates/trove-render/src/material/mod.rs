@@ -4,22 +4,25 @@ mod albedo;
 mod bsdf;
 mod diffuse;
 mod ggx;
+mod opacity;
 mod sheen;
 mod texturing;
 mod weather;
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use trove_model::Material;
 
-use crate::prepare::Surface;
-use crate::texture::{MipMap, OpacityMask, Textures};
+use crate::surface::Surface;
+use crate::texture::{MipMap, Textures};
 use bsdf::{Coat, Parameters};
+use opacity::Pane;
 use texturing::{Spot, Texturing};
 use weather::Weather;
 
 pub(crate) use bsdf::Bsdf;
+pub(crate) use opacity::Opacity;
 
 /// Roughness α and normal reflectance of lacquer.
 const LACQUER_ALPHA: f32 = 0.003;
@@ -44,8 +47,6 @@ enum Relief {
 pub(crate) struct PreparedMaterial {
     base_color: Vec3,
     base_color_map: Option<Arc<MipMap>>,
-    /// Where it has holes.
-    cutout: Option<Arc<OpacityMask>>,
     roughness: f32,
     metalness: f32,
     orm_map: Option<Arc<MipMap>>,
@@ -64,39 +65,72 @@ pub(crate) struct PreparedMaterial {
 }
 
 impl PreparedMaterial {
-    /// Numbers outside their range are brought into it.
-    pub(crate) fn new(material: &Material, textures: &Textures) -> Self {
-        let ior = material.ior.max(1.0);
-        let share = |x: f32| x.clamp(0.0, 1.0);
-        let color_map = material.base_color_map.as_ref();
-        Self {
-            base_color: material.base_color.clamp(Vec3::ZERO, Vec3::ONE),
-            base_color_map: color_map.map(|t| textures.map(t)),
-            cutout: color_map.filter(|_| material.alpha_cutoff > 0.0).map(|t| textures.mask(t, material.alpha_cutoff)),
-            roughness: share(material.roughness),
-            metalness: share(material.metalness),
-            orm_map: material.orm_map.as_ref().map(|t| textures.map(t)),
-            relief: match (&material.normal_map, &material.height_map) {
+    /// What of it scatters light and what of it lets rays pass; numbers outside their range are brought into it.
+    ///
+    /// Takes the material apart whole: a new field does not compile until something is made of it.
+    pub(crate) fn new(material: &Material, textures: &Textures) -> (Self, Opacity) {
+        let Material {
+            // For people.
+            name: _,
+            base_color,
+            base_color_map,
+            alpha_cutoff,
+            roughness,
+            metalness,
+            orm_map,
+            normal_map,
+            height_map,
+            height_m,
+            ior,
+            coat,
+            flakes,
+            sheen,
+            subsurface,
+            transmission,
+            translucency,
+            emission,
+            dirt,
+            wetness,
+            uv_scale,
+            mapping,
+            tiling,
+        } = material;
+        let ior = ior.max(1.0);
+        let share = |x: &f32| x.clamp(0.0, 1.0);
+        let prepared = Self {
+            base_color: base_color.clamp(Vec3::ZERO, Vec3::ONE),
+            base_color_map: base_color_map.as_ref().map(|t| textures.map(t)),
+            roughness: share(roughness),
+            metalness: share(metalness),
+            orm_map: orm_map.as_ref().map(|t| textures.map(t)),
+            relief: match (normal_map, height_map) {
                 (Some(normals), _) => Relief::Normals(textures.normals(normals)),
-                (None, Some(heights)) => Relief::Heights(textures.heights(heights), material.height_m),
+                (None, Some(heights)) => Relief::Heights(textures.heights(heights), *height_m),
                 (None, None) => Relief::None,
             },
             f0: ((ior - 1.0) / (ior + 1.0)).powi(2),
-            coat: share(material.coat),
-            flakes: share(material.flakes),
-            sheen: share(material.sheen),
-            subsurface: share(material.subsurface),
-            transmission: share(material.transmission),
-            translucency: share(material.translucency),
-            emission: material.emission.max(Vec3::ZERO),
-            texturing: Texturing { scale: material.uv_scale, mapping: material.mapping, tiling: material.tiling },
-            weather: Weather { dirt: share(material.dirt), wetness: share(material.wetness) },
-        }
-    }
-
-    /// Whether some light goes straight through it.
-    pub(crate) fn is_pane(&self) -> bool {
-        self.transmission > 0.0
+            coat: share(coat),
+            flakes: share(flakes),
+            sheen: share(sheen),
+            subsurface: share(subsurface),
+            transmission: share(transmission),
+            translucency: share(translucency),
+            emission: emission.max(Vec3::ZERO),
+            texturing: Texturing { scale: *uv_scale, mapping: *mapping, tiling: *tiling },
+            weather: Weather { dirt: share(dirt), wetness: share(wetness) },
+        };
+        let cut_out = base_color_map.as_ref().filter(|_| *alpha_cutoff > 0.0);
+        let opacity = Opacity {
+            holes: cut_out.map(|t| (textures.mask(t, *alpha_cutoff), *uv_scale)),
+            pane: (prepared.transmission > 0.0).then(|| Pane {
+                tint: prepared.base_color,
+                transmission: prepared.transmission,
+                metalness: prepared.metalness,
+                f0: prepared.pane_f0(),
+                alpha: alpha(prepared.roughness),
+            }),
+        };
+        (prepared, opacity)
     }
 
     /// Whether light that comes from behind is scattered to the front.
@@ -104,33 +138,15 @@ impl PreparedMaterial {
         self.translucency > 0.0
     }
 
-    /// Whether it has holes.
-    pub(crate) fn has_cutout(&self) -> bool {
-        self.cutout.is_some()
-    }
-
-    /// Whether the surface is there, at texture coordinates before scaling.
-    pub(crate) fn covers(&self, uv: Vec2) -> bool {
-        self.cutout.as_ref().is_none_or(|mask| mask.covers(uv * self.texturing.scale))
-    }
-
-    /// The share of light that goes straight through a pane at an angle with cosine `cos` to its normal.
-    pub(crate) fn straight_through(&self, cos: f32) -> Vec3 {
-        let split = albedo::split(cos.abs(), alpha(self.roughness));
-        let reflected = self.pane_f0() * split.x + split.y;
-        self.base_color * ((1.0 - reflected) * self.transmission * (1.0 - self.metalness))
-    }
-
     /// How it scatters light at a point; `width_m` is the width of what one sample covers there,
     /// `dither` a random number in [0, 1).
     pub(crate) fn shade(&self, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
         let spot = self.texturing.spot(surface, width_m, dither);
         let look_up = |map: &Arc<MipMap>| map.sample(spot.uv, spot.footprint, spot.dither);
-        let color = self.base_color_map.as_ref().map_or(Vec3::ONE, |map| look_up(map).truncate());
         let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| look_up(map).truncate());
         let (normal, variance) = self.bumped(surface, &spot);
 
-        let base_color = (self.base_color * color * surface.tint).clamp(Vec3::ZERO, Vec3::ONE);
+        let base_color = self.colored(surface, &spot);
         let roughness = self.roughness * orm.y;
         let mut p = Parameters {
             base_color,
@@ -154,6 +170,18 @@ impl PreparedMaterial {
             normal = self.weather.wear(surface, width_m, normal, &mut p);
         }
         Bsdf::new(surface, normal, &p)
+    }
+
+    /// Base colour at a point as sharp as its texture has it, before weather; where patches or directions are mixed, of one
+    /// of them.
+    pub(crate) fn base_color(&self, surface: &Surface) -> Vec3 {
+        self.colored(surface, &self.texturing.spot(surface, 0.0, 0.5))
+    }
+
+    fn colored(&self, surface: &Surface, spot: &Spot) -> Vec3 {
+        let texel = |map: &Arc<MipMap>| map.sample(spot.uv, spot.footprint, spot.dither).truncate();
+        let color = self.base_color_map.as_ref().map_or(Vec3::ONE, texel);
+        (self.base_color * color * surface.tint).clamp(Vec3::ZERO, Vec3::ONE)
     }
 
     /// The shading normal turned by the relief, and the variance of the slopes that are too small to be seen.

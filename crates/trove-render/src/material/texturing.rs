@@ -3,7 +3,7 @@
 use glam::{IVec2, IVec3, Vec2, Vec3, vec2};
 use trove_model::{Mapping, Tiling};
 
-use crate::prepare::Surface;
+use crate::surface::Surface;
 
 /// Nodes of the lattice of patches for each repetition of the texture: patches are about two thirds of it wide.
 const NODES: f32 = 1.5;

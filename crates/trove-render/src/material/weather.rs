@@ -8,7 +8,7 @@ use trove_model::Seed;
 
 use super::bsdf::{Coat, Parameters};
 use crate::light::Plane;
-use crate::prepare::Surface;
+use crate::surface::Surface;
 
 /// Dust of roads.
 const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);

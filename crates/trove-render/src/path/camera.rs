@@ -4,7 +4,8 @@ use glam::{DVec2, Vec3};
 use trove_model::Shot;
 
 use super::integrate::Cone;
-use crate::accel::{MIDDLE, Ray, ray_time};
+use crate::motion::{MIDDLE, ray_time};
+use crate::ray::Ray;
 
 /// The ray through a position in the image and the cone that a pixel sees; `None` outside the lens's image circle.
 ///

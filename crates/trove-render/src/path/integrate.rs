@@ -3,11 +3,11 @@
 use glam::Vec3;
 
 use crate::PreparedScene;
-use crate::accel::{Hit, Ray};
 use crate::light::LightSample;
 use crate::material::Bsdf;
-use crate::prepare::Surface;
+use crate::ray::{Hit, Ray};
 use crate::sampling::{Sampler, power_heuristic};
+use crate::surface::Surface;
 
 /// Scattering events on a path; straight passages through glass do not count.
 const MAX_BOUNCES: u32 = 6;
@@ -150,8 +150,7 @@ impl Vertex<'_> {
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
             return false;
         };
-        let surface = Surface::new(self.scene, &hit, &path.ray);
-        let material = self.scene.material_of(&hit);
+        let (surface, material) = self.scene.surface(&hit, &path.ray);
         path.cone.width_m += path.cone.spread_rad * hit.t;
 
         if material.emission != Vec3::ZERO && surface.is_front {
@@ -187,7 +186,7 @@ impl Vertex<'_> {
             if path.guide.is_none() {
                 path.guide_filter *= next.weight.min(Vec3::ONE);
             }
-            path.ray = path.ray.then(surface.leave(next.wi), next.wi);
+            path.ray = Ray { past: path.ray.past, ..path.ray.then(surface.leave(next.wi), next.wi) };
             return path.passages <= MAX_PASSAGES;
         };
 

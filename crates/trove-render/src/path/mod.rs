@@ -34,7 +34,7 @@ pub(crate) struct Buffers {
 /// Traces a picture; `None` once `stop`, which is told the share done, has answered true.
 pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> bool + Sync)) -> Option<Buffers> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
-    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
+    let carrier = Carrier::new(scene, shot.carrier);
     let eye = Eye { scene, shot, carrier: &carrier };
     let mut tiles = tile::tiles(width, height);
     let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));

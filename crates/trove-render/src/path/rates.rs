@@ -9,8 +9,9 @@ use super::integrate::{Path, Shadows, Vertex};
 use super::tile::{Eye, tiles};
 use super::wave::{self, Wave};
 use crate::PreparedScene;
-use crate::accel::{Hit, PACKET, Ray};
+use crate::accel::{Coherence, PACKET};
 use crate::prepare::Carrier;
+use crate::ray::{Hit, Ray};
 
 /// Seconds that one thread takes for rays of one sort.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,53 +37,50 @@ pub struct RayTimes {
 }
 
 pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
-    let carrier = Carrier::new(scene, shot.carrier, shot.world_from_camera.translation.as_vec3());
+    let carrier = Carrier::new(scene, shot.carrier);
     let eye = Eye { scene, shot, carrier: &carrier };
     let (mut times, mut wave) = (RayTimes::default(), Wave::default());
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
         tile.start(&eye, &mut wave);
         let mut paths = std::mem::take(&mut wave.paths);
-        let hits = intersect(scene, &carrier, &mut times.camera, &paths, true);
+        let hits = closest(scene, &mut times.camera, &paths, Coherence::Coherent);
 
         let mut shadows = Shadows::default();
         let advance = |(index, (path, hit)): (u32, (&mut Path, Option<Hit>))| {
             Vertex { scene, index, shadows: &mut shadows }.advance(path, hit)
         };
         let goes_on: Vec<bool> = (0..).zip(paths.iter_mut().zip(hits)).map(advance).collect();
-        for (list, alike) in [(&shadows.to_sun, true), (&shadows.to_rest, false)] {
+        let lists = [(&shadows.to_sun, Coherence::Coherent), (&shadows.to_rest, Coherence::Incoherent)];
+        for (list, coherence) in lists {
             let rays: Vec<Ray> = list.iter().map(|shadow| shadow.ray).collect();
             let mut light = vec![Vec3::ONE; rays.len()];
+            let groups = rays.chunks(PACKET).zip(light.chunks_mut(PACKET));
             times.shadow.take(
                 rays.len(),
-                || wave::light(scene, alike, &rays, &mut light),
-                || rays.iter().filter(|ray| scene.is_blocked_bare(ray)).count(),
+                || groups.for_each(|(rays, light)| wave::light(scene, coherence, rays, light)),
+                || scene.accel().bare_any(&rays),
             );
         }
         let mut goes_on = goes_on.into_iter();
         paths.retain(|_| goes_on.next() == Some(true));
-        intersect(scene, &carrier, &mut times.bounce, &paths, false);
+        closest(scene, &mut times.bounce, &paths, Coherence::Incoherent);
     }
     times
 }
 
 /// What the paths' rays meet, both ways.
-fn intersect(
-    scene: &PreparedScene,
-    carrier: &Carrier,
-    seconds: &mut RaySeconds,
-    paths: &[Path],
-    alike: bool,
-) -> Vec<Option<Hit>> {
+fn closest(scene: &PreparedScene, seconds: &mut RaySeconds, paths: &[Path], coherence: Coherence) -> Vec<Option<Hit>> {
+    let rays: Vec<Ray> = paths.iter().map(|path| path.ray).collect();
     let all: Vec<u32> = (0..paths.len() as u32).collect();
     let mut found = Vec::with_capacity(paths.len());
     let trace = || {
         for group in all.chunks(PACKET) {
             let mut hits = [None; PACKET];
-            wave::intersect(scene, carrier, paths, group, alike, &mut hits);
+            wave::closest(scene, coherence, paths, group, &mut hits);
             found.extend_from_slice(&hits[..group.len()]);
         }
     };
-    seconds.take(paths.len(), trace, || paths.iter().filter(|path| scene.intersect_bare(&path.ray).is_some()).count());
+    seconds.take(paths.len(), trace, || scene.accel().bare_closest(&rays));
     found
 }
 

@@ -99,7 +99,7 @@ impl Tile {
     /// One more sample for the pixels of some blocks, which so far have had all that any has.
     fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
         self.start_blocks(eye, wave, blocks);
-        wave.run(eye.scene, eye.carrier);
+        wave.run(eye.scene);
         for (path, &place) in wave.paths.iter().zip(&wave.places) {
             let (pixel, sample) = (&mut self.pixels[place], path.sample());
             if self.samples % 2 == 1 {

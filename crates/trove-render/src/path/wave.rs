@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::integrate::{Path, Shadows, Vertex};
 use crate::PreparedScene;
-use crate::accel::{Hit, PACKET, Ray};
-use crate::prepare::Carrier;
+use crate::accel::{Coherence, PACKET};
+use crate::ray::{Hit, Ray};
 
 /// Paths under way, with room that is used again and again.
 #[derive(Default)]
@@ -23,15 +23,15 @@ pub(super) struct Wave {
 
 impl Wave {
     /// Follows all paths to their ends.
-    pub(super) fn run(&mut self, scene: &PreparedScene, carrier: &Carrier) {
+    pub(super) fn run(&mut self, scene: &PreparedScene) {
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
-        let mut alike = true;
+        let mut coherence = Coherence::Coherent;
         while !self.active.is_empty() {
             self.going.clear();
             for group in self.active.chunks(PACKET) {
                 let mut hits = [None; PACKET];
-                intersect(scene, carrier, &self.paths, group, alike, &mut hits);
+                closest(scene, coherence, &self.paths, group, &mut hits);
                 self.rays += group.len() as u64;
                 for (&index, hit) in group.iter().zip(hits) {
                     let path = &mut self.paths[index as usize];
@@ -41,15 +41,16 @@ impl Wave {
                     }
                 }
             }
-            self.light(scene, alike);
+            self.light(scene, coherence);
             std::mem::swap(&mut self.active, &mut self.going);
-            alike = false;
+            coherence = Coherence::Incoherent;
         }
     }
 
     /// Brings light to the paths from lamps, sky and sun where nothing is in the way.
-    fn light(&mut self, scene: &PreparedScene, alike: bool) {
-        for (shadows, alike) in [(&mut self.shadows.to_rest, false), (&mut self.shadows.to_sun, alike)] {
+    fn light(&mut self, scene: &PreparedScene, to_sun: Coherence) {
+        let lists = [(&mut self.shadows.to_rest, Coherence::Incoherent), (&mut self.shadows.to_sun, to_sun)];
+        for (shadows, coherence) in lists {
             self.rays += shadows.len() as u64;
             for group in shadows.chunks(PACKET) {
                 let mut rays = [group[0].ray; PACKET];
@@ -57,7 +58,7 @@ impl Wave {
                 for ((shadow, ray), light) in group.iter().zip(&mut rays).zip(&mut light) {
                     (*ray, *light) = (shadow.ray, shadow.light);
                 }
-                self::light(scene, alike, &rays[..group.len()], &mut light);
+                self::light(scene, coherence, &rays[..group.len()], &mut light[..group.len()]);
                 for (shadow, light) in group.iter().zip(light) {
                     self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
                 }
@@ -67,34 +68,29 @@ impl Wave {
     }
 }
 
-/// Leaves of the light along each ray what nothing keeps back.
-pub(super) fn light(scene: &PreparedScene, alike: bool, rays: &[Ray], light: &mut [Vec3]) {
-    if alike {
-        rays.chunks(PACKET).zip(light.chunks_mut(PACKET)).for_each(|(rays, light)| scene.shade_packet(rays, light));
-    } else {
-        rays.iter().zip(light).for_each(|(ray, light)| *light *= scene.transmittance(ray));
+/// Leaves of the light along each ray of a group what nothing keeps back.
+pub(super) fn light(scene: &PreparedScene, coherence: Coherence, rays: &[Ray], light: &mut [Vec3]) {
+    match coherence {
+        Coherence::Coherent => scene.any(rays, coherence, light),
+        Coherence::Incoherent => {
+            // Panes are multiplied together first: another order would round otherwise.
+            let mut shares = [Vec3::ONE; PACKET];
+            scene.any(rays, coherence, &mut shares[..rays.len()]);
+            light.iter_mut().zip(shares).for_each(|(light, share)| *light *= share);
+        }
     }
 }
 
 /// What the rays of a group of paths meet.
-pub(super) fn intersect(
+pub(super) fn closest(
     scene: &PreparedScene,
-    carrier: &Carrier,
+    coherence: Coherence,
     paths: &[Path],
     group: &[u32],
-    alike: bool,
     hits: &mut [Option<Hit>; PACKET],
 ) {
     let ray = |&index: &u32| paths[index as usize].ray;
-    if alike {
-        let mut rays = [ray(&group[0]); PACKET];
-        rays.iter_mut().zip(group).for_each(|(to, index)| *to = ray(index));
-        scene.intersect_packet(&rays[..group.len()], carrier, hits);
-        return;
-    }
-    for (hit, index) in hits.iter_mut().zip(group) {
-        let path = &paths[*index as usize];
-        let from_eye = path.bounce == 0;
-        *hit = if from_eye { scene.intersect_past(&path.ray, carrier) } else { scene.intersect(&path.ray) };
-    }
+    let mut rays = [ray(&group[0]); PACKET];
+    rays.iter_mut().zip(group).for_each(|(to, index)| *to = ray(index));
+    scene.closest(&rays[..group.len()], coherence, &mut hits[..group.len()]);
 }

@@ -1,54 +1,52 @@
-//! The object that carries a camera: its camera's rays pass through it.
+//! The object that carries a sensor: its rays pass through it.
 
-use glam::{Vec3, Vec3A};
+use glam::Vec3A;
 use trove_model::InstanceId;
 
 use super::PreparedScene;
-use crate::accel::{Hit, MIDDLE, Motion, Ray};
+use crate::motion::{MIDDLE, Motion};
+use crate::ray::Ray;
 
 /// Rays that leave the carrier's box lower than this above its bottom may have met the ground in it.
 const ABOVE_GROUND_M: f32 = 0.3;
 
-/// A camera's carrier.
+/// What carries a sensor.
 pub(crate) struct Carrier {
     id: Option<InstanceId>,
-    /// Its box, with the way of the box's coordinates; `None` where the camera is not in it.
+    /// Its box, with the way of the box's coordinates.
     around: Option<(Motion, [Vec3A; 2])>,
 }
 
 impl Carrier {
-    /// Of a camera at `eye`, World.
-    pub(crate) fn new(scene: &PreparedScene, id: Option<InstanceId>, eye: Vec3) -> Self {
+    pub(crate) fn new(scene: &PreparedScene, id: Option<InstanceId>) -> Self {
         let id = id.filter(|id| id.0 != 0);
         let around = id.and_then(|id| {
-            let mut parts = scene.instances.iter().filter(|i| i.id == id).peekable();
+            let mut parts = scene.shapes.placed.iter().filter(|p| p.id == id).peekable();
             let world_from_box = parts.peek()?.world_from_mesh;
             let box_from_world = world_from_box.middle.inverse();
-            let points = parts.flat_map(|i| {
-                let box_from_mesh = box_from_world * i.at(MIDDLE).0;
-                i.mesh.positions.iter().map(move |&p| box_from_mesh.transform_point3a(p.into()))
+            let points = parts.flat_map(|p| {
+                let box_from_mesh = box_from_world * p.at(MIDDLE).0;
+                p.mesh.positions.iter().map(move |&p| box_from_mesh.transform_point3a(p.into()))
             });
             let empty = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
-            let [low, high] = points.fold(empty, |[low, high], p| [low.min(p), high.max(p)]);
-            let eye = box_from_world.transform_point3a(eye.into());
-            (eye.cmpgt(low) & eye.cmplt(high)).all().then_some((world_from_box, [low, high]))
+            Some((world_from_box, points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])))
         });
         Self { id, around }
     }
 
-    /// The ray without its way through the carrier, as far as that can be known without tracing it.
+    /// The ray as it passes through the carrier: without its way there, as far as that can be known without tracing it.
     pub(crate) fn past(&self, ray: Ray) -> Ray {
+        let ray = Ray { past: self.id, ..ray };
         let Some((world_from_box, [low, high])) = &self.around else { return ray };
         let box_from_world = world_from_box.at(ray.time).inverse();
         let origin = box_from_world.transform_point3a(ray.origin.into());
+        if !(origin.cmpgt(*low) & origin.cmplt(*high)).all() {
+            return ray;
+        }
         let direction = box_from_world.transform_vector3a(ray.direction.into());
         let wall = Vec3A::select(direction.cmpge(Vec3A::ZERO), *high, *low);
         let t = ((wall - origin) / direction).min_element();
         let is_high = origin.z + t * direction.z > low.z + ABOVE_GROUND_M;
         Ray { t_min: if is_high && t > 0.0 { t * (1.0 - 1e-4) } else { ray.t_min }, ..ray }
-    }
-
-    pub(super) fn is_hit(&self, scene: &PreparedScene, hit: &Hit) -> bool {
-        self.id.is_some_and(|id| scene.instances[hit.instance as usize].id == id)
     }
 }

@@ -1,6 +1,6 @@
 //! Everything in a scene that could make rendering fail is refused here, once.
 
-use trove_model::{Environment, Scene};
+use trove_model::{Environment, Material, Scene};
 
 use crate::RenderError;
 
@@ -20,26 +20,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
     }
     for (i, material) in scene.materials.iter().enumerate() {
         let place = || format!("material {i} ({})", material.name);
-        let numbers = [
-            material.alpha_cutoff,
-            material.roughness,
-            material.metalness,
-            material.ior,
-            material.coat,
-            material.flakes,
-            material.sheen,
-            material.subsurface,
-            material.transmission,
-            material.translucency,
-            material.dirt,
-            material.wetness,
-            material.height_m,
-        ];
-        let finite = numbers.iter().all(|n| n.is_finite())
-            && material.base_color.is_finite()
-            && material.emission.is_finite()
-            && material.uv_scale.is_finite();
-        if !finite {
+        if !is_finite(material) {
             return refuse(place(), "finite numbers", format!("{material:?}").chars().take(200).collect());
         }
         for texture in material.textures() {
@@ -73,6 +54,39 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
         }
     }
     check_light(&scene.light.environment)
+}
+
+/// Takes the material apart whole: a new field does not compile until it is looked at.
+fn is_finite(material: &Material) -> bool {
+    let Material {
+        name: _,
+        base_color,
+        // Textures are bytes.
+        base_color_map: _,
+        alpha_cutoff,
+        roughness,
+        metalness,
+        orm_map: _,
+        normal_map: _,
+        height_map: _,
+        height_m,
+        ior,
+        coat,
+        flakes,
+        sheen,
+        subsurface,
+        transmission,
+        translucency,
+        emission,
+        dirt,
+        wetness,
+        uv_scale,
+        mapping: _,
+        tiling: _,
+    } = material;
+    let layers = [coat, flakes, sheen, subsurface, transmission, translucency, dirt, wetness];
+    let numbers = [alpha_cutoff, roughness, metalness, ior, height_m].into_iter().chain(layers);
+    numbers.into_iter().all(|n| n.is_finite()) && base_color.is_finite() && emission.is_finite() && uv_scale.is_finite()
 }
 
 fn check_light(environment: &Environment) -> Result<(), RenderError> {

@@ -43,10 +43,38 @@ impl Materials {
     /// One material; glTF knows no textures without coordinates, so those are replaced by their mean.
     fn material(&mut self, material: &Material, texture_of: &BTreeMap<&str, usize>) -> Value {
         let plain = (material.mapping == Mapping::Triplanar).then(|| without_maps(material));
-        let material = plain.as_ref().unwrap_or(material);
+        // Taken apart whole: a new field does not compile until it is written or said not to be.
+        let Material {
+            name,
+            base_color,
+            base_color_map,
+            alpha_cutoff,
+            roughness,
+            metalness,
+            orm_map,
+            normal_map,
+            // glTF has normals alone, which a surface with heights may lack.
+            height_map: _,
+            height_m: _,
+            ior,
+            coat,
+            flakes,
+            sheen,
+            subsurface,
+            transmission,
+            translucency,
+            emission,
+            dirt,
+            wetness,
+            uv_scale,
+            // Triplanar surfaces have become plain above.
+            mapping: _,
+            // Textures repeat; how their period is hidden is the renderer's.
+            tiling: _,
+        } = plain.as_ref().unwrap_or(material);
         let mut reference = |texture: &Texture| {
             let mut info = json!({ "index": texture_of[texture.name.as_str()] });
-            let scale = material.uv_scale;
+            let scale = *uv_scale;
             if scale != glam::Vec2::ONE {
                 // v is turned over in the mesh (1 − v); scaled, it must still be 1 − scale·v.
                 let transform = json!({ "scale": scale.to_array(), "offset": [0.0, 1.0 - scale.y] });
@@ -54,61 +82,61 @@ impl Materials {
             }
             info
         };
-        let [r, g, b] = material.base_color.clamp(Vec3::ZERO, Vec3::ONE).to_array();
+        let [r, g, b] = base_color.clamp(Vec3::ZERO, Vec3::ONE).to_array();
         let mut surface = json!({
             "baseColorFactor": [r, g, b, 1.0],
-            "roughnessFactor": material.roughness.clamp(0.0, 1.0),
-            "metallicFactor": material.metalness.clamp(0.0, 1.0),
+            "roughnessFactor": roughness.clamp(0.0, 1.0),
+            "metallicFactor": metalness.clamp(0.0, 1.0),
         });
-        let mut value = json!({ "name": material.name, "doubleSided": true });
-        if let Some(map) = &material.base_color_map {
+        let mut value = json!({ "name": name, "doubleSided": true });
+        if let Some(map) = base_color_map {
             surface["baseColorTexture"] = reference(map);
         }
-        if let Some(map) = &material.orm_map {
+        if let Some(map) = orm_map {
             surface["metallicRoughnessTexture"] = reference(map);
             value["occlusionTexture"] = reference(map);
         }
-        if let Some(map) = &material.normal_map {
+        if let Some(map) = normal_map {
             value["normalTexture"] = reference(map);
         }
         let color_texture = surface.get("baseColorTexture").cloned();
         value["pbrMetallicRoughness"] = surface;
-        if material.alpha_cutoff > 0.0 {
+        if *alpha_cutoff > 0.0 {
             value["alphaMode"] = "MASK".into();
-            value["alphaCutoff"] = material.alpha_cutoff.into();
+            value["alphaCutoff"] = (*alpha_cutoff).into();
         }
         let used = &mut self.extensions;
-        if material.is_emitter() {
+        if emission.max_element() > 0.0 {
             // A factor goes up to 1; the rest is strength.
-            let strength = material.emission.max_element().max(1.0);
-            value["emissiveFactor"] = json!((material.emission / strength).max(Vec3::ZERO).to_array());
+            let strength = emission.max_element().max(1.0);
+            value["emissiveFactor"] = json!((emission / strength).max(Vec3::ZERO).to_array());
             if strength > 1.0 {
                 let extension = json!({ "emissiveStrength": strength });
                 extend(&mut value, used, "KHR_materials_emissive_strength", extension);
             }
         }
-        if material.ior != 1.5 {
-            extend(&mut value, used, "KHR_materials_ior", json!({ "ior": material.ior.max(1.0) }));
+        if *ior != 1.5 {
+            extend(&mut value, used, "KHR_materials_ior", json!({ "ior": ior.max(1.0) }));
         }
-        if material.coat > 0.0 {
+        if *coat > 0.0 {
             // The renderer's lacquer is smooth.
-            let extension = json!({ "clearcoatFactor": material.coat.min(1.0), "clearcoatRoughnessFactor": 0.03 });
+            let extension = json!({ "clearcoatFactor": coat.min(1.0), "clearcoatRoughnessFactor": 0.03 });
             extend(&mut value, used, "KHR_materials_clearcoat", extension);
         }
-        if material.transmission > 0.0 {
-            let extension = json!({ "transmissionFactor": material.transmission.min(1.0) });
+        if *transmission > 0.0 {
+            let extension = json!({ "transmissionFactor": transmission.min(1.0) });
             extend(&mut value, used, "KHR_materials_transmission", extension);
         }
-        if material.sheen > 0.0 {
+        if *sheen > 0.0 {
             // The renderer's fibres are half as colourful as the cloth, and α = ½.
-            let color = material.sheen * (0.5 + 0.5 * material.base_color);
+            let color = *sheen * (0.5 + 0.5 * base_color);
             let color = color.clamp(Vec3::ZERO, Vec3::ONE).to_array();
             let extension = json!({ "sheenColorFactor": color, "sheenRoughnessFactor": 0.5_f32.sqrt() });
             extend(&mut value, used, "KHR_materials_sheen", extension);
         }
-        if material.translucency > 0.0 {
+        if *translucency > 0.0 {
             let mut extension = json!({
-                "diffuseTransmissionFactor": material.translucency.min(1.0),
+                "diffuseTransmissionFactor": translucency.min(1.0),
                 "diffuseTransmissionColorFactor": [r, g, b],
             });
             if let Some(color) = color_texture {
@@ -117,14 +145,9 @@ impl Materials {
             extend(&mut value, used, "KHR_materials_diffuse_transmission", extension);
         }
         // What glTF has no words for.
-        for (name, amount) in [
-            ("flakes", material.flakes),
-            ("subsurface", material.subsurface),
-            ("dirt", material.dirt),
-            ("wetness", material.wetness),
-        ] {
-            if amount > 0.0 {
-                value["extras"][name] = amount.into();
+        for (name, amount) in [("flakes", flakes), ("subsurface", subsurface), ("dirt", dirt), ("wetness", wetness)] {
+            if *amount > 0.0 {
+                value["extras"][name] = (*amount).into();
             }
         }
         value

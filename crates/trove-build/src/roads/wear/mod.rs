@@ -24,6 +24,7 @@ use self::stretches::{Look, Region};
 use self::tone::Tone;
 use super::layout::Layout;
 use super::markings::Markings;
+use super::seed_name;
 use crate::geometry::plane::{difference, grown, intersection, rectangle, strip};
 use crate::geometry::segments::SegmentIndex;
 use crate::ground::Drape;
@@ -139,7 +140,7 @@ impl Surfacing<'_> {
     }
 
     fn material(&self, kind: SurfaceKind, tags: &[&str]) -> Material {
-        self.palette.fitting(kind, tags, &mut self.seed.child(&format!("{kind:?}")).random()).material
+        self.palette.fitting(kind, tags, &mut self.seed.child(seed_name(kind)).random()).material
     }
 
     /// The carriageway near the path within the gutters, and the gutters.

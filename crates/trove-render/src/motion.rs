@@ -13,15 +13,16 @@ pub(crate) fn ray_time(seconds: f64) -> f32 {
     (0.5 + seconds / (2.0 * SPAN_S)).clamp(0.0, 1.0) as f32
 }
 
-/// `world_from_mesh` over time: two straight stretches that meet at the moment of the labels.
+/// `world_from_mesh` over time, in the renderer's precision or the model's: two straight stretches that meet at the moment
+/// of the labels.
 #[derive(Clone, Copy)]
-pub(crate) struct Motion {
-    pub(crate) middle: Affine3A,
+pub(crate) struct Motion<A = Affine3A> {
+    pub(crate) middle: A,
     /// At times 0 and 1; `None` for what stands.
-    pub(crate) ends: Option<[Affine3A; 2]>,
+    pub(crate) ends: Option<[A; 2]>,
 }
 
-impl Motion {
+impl Motion<DAffine3> {
     /// From the placements at the previous keyframe and at the next one and their distances in time, seconds; where one
     /// is missing the motion of the other stretch goes on.
     pub(crate) fn new(middle: DAffine3, neighbours: [Option<DAffine3>; 2], apart_s: [f64; 2]) -> Self {
@@ -40,21 +41,51 @@ impl Motion {
             [None, Some(after)] if neighbours[0].is_none() => Some([back(after), after]),
             steps => Some(steps.map(|step| step.unwrap_or(DAffine3::ZERO))),
         };
-        let ends = steps.map(|steps| steps.map(|step| single(&end(&middle, step))));
-        Self { middle: single(&middle), ends }
+        Self { middle, ends: steps.map(|steps| steps.map(|step| end(&middle, step))) }
+    }
+
+    /// The same in the renderer's precision.
+    pub(crate) fn single(&self) -> Motion {
+        Motion { middle: single(&self.middle), ends: self.ends.map(|ends| ends.map(|end| single(&end))) }
     }
 
     /// At a ray's time.
-    pub(crate) fn at(&self, time: f32) -> Affine3A {
-        match self.ends {
-            Some([before, _]) if time < MIDDLE => lerp(&self.middle, &before, 1.0 - 2.0 * time),
-            Some([_, after]) if time > MIDDLE => lerp(&self.middle, &after, 2.0 * time - 1.0),
-            _ => self.middle,
+    pub(crate) fn at(&self, time: f32) -> DAffine3 {
+        let towards = |end: DAffine3, share: f32| {
+            let share = f64::from(share);
+            DAffine3 {
+                matrix3: self.middle.matrix3 * (1.0 - share) + end.matrix3 * share,
+                translation: self.middle.translation * (1.0 - share) + end.translation * share,
+            }
+        };
+        self.stretch(time).map_or(self.middle, |(end, share)| towards(end, share))
+    }
+}
+
+impl<A: Copy> Motion<A> {
+    /// The end towards which it is at a ray's time, and the share of the way; `None` in the middle.
+    fn stretch(&self, time: f32) -> Option<(A, f32)> {
+        let [before, after] = self.ends?;
+        if time < MIDDLE {
+            Some((before, 1.0 - 2.0 * time))
+        } else {
+            (time > MIDDLE).then_some((after, 2.0 * time - 1.0))
         }
+    }
+}
+
+impl Motion {
+    /// At a ray's time.
+    pub(crate) fn at(&self, time: f32) -> Affine3A {
+        let towards = |end: Affine3A, share: f32| Affine3A {
+            matrix3: self.middle.matrix3 * (1.0 - share) + end.matrix3 * share,
+            translation: self.middle.translation * (1.0 - share) + end.translation * share,
+        };
+        self.stretch(time).map_or(self.middle, |(end, share)| towards(end, share))
     }
 
     /// Every placement through which it goes lies between these.
-    pub(super) fn corners(&self) -> impl Iterator<Item = Affine3A> {
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Affine3A> {
         std::iter::once(self.middle).chain(self.ends.into_iter().flatten())
     }
 }
@@ -74,11 +105,4 @@ fn back(step: DAffine3) -> DAffine3 {
 fn single(m: &DAffine3) -> Affine3A {
     let DMat3 { x_axis, y_axis, z_axis } = m.matrix3;
     Affine3A::from_cols(x_axis.as_vec3a(), y_axis.as_vec3a(), z_axis.as_vec3a(), m.translation.as_vec3a())
-}
-
-fn lerp(from: &Affine3A, to: &Affine3A, share: f32) -> Affine3A {
-    Affine3A {
-        matrix3: from.matrix3 * (1.0 - share) + to.matrix3 * share,
-        translation: from.translation * (1.0 - share) + to.translation * share,
-    }
 }

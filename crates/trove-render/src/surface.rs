@@ -1,10 +1,9 @@
 //! What a ray finds at a hit, derived from the mesh in one way for all kernels.
 
 use glam::{Vec2, Vec3, Vec3A};
-use trove_model::Mesh;
 
-use super::PreparedScene;
-use crate::accel::{Hit, Ray};
+use crate::placed::Placed;
+use crate::ray::{Hit, Ray};
 
 /// A point on a surface, in World, seen from where the ray came.
 pub(crate) struct Surface {
@@ -30,16 +29,16 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    pub(crate) fn new(scene: &PreparedScene, hit: &Hit, ray: &Ray) -> Self {
-        let instance = &scene.instances[hit.instance as usize];
-        let mesh = &*instance.mesh;
+    /// Where a ray hits what is placed.
+    pub(crate) fn new(placed: &Placed, hit: &Hit, ray: &Ray) -> Self {
+        let mesh = &*placed.mesh;
         let corners = mesh.triangles[hit.triangle as usize];
         let [a, b, c] = corners.map(|i| Vec3A::from(mesh.positions[i as usize]));
         let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
 
         // The point lies on the triangle, not on the ray: the ray's error grows with distance.
         let point_mesh = a * weights[0] + b * weights[1] + c * weights[2];
-        let (world_from_mesh, world_from_normal) = instance.at(ray.time);
+        let (world_from_mesh, world_from_normal) = placed.at(ray.time);
         let point = world_from_mesh.transform_point3a(point_mesh);
         let (edge_b, edge_c) = (b - a, c - a);
         let outside = (world_from_normal * edge_b.cross(edge_c)).normalize_or(Vec3A::Z);
@@ -80,7 +79,7 @@ impl Surface {
         Self {
             point: point.into(),
             point_mesh: point_mesh.into(),
-            above_foot_m: point_mesh.z - instance.foot_z,
+            above_foot_m: point_mesh.z - placed.foot_z,
             wo: wo.into(),
             geometric: (outside * side).into(),
             shading: (shading * side).into(),
@@ -97,13 +96,4 @@ impl Surface {
         let gap = 2e-5 + self.point.abs().max_element() * 1e-6;
         self.point + self.geometric * if wi.dot(self.geometric) >= 0.0 { gap } else { -gap }
     }
-}
-
-/// Texture coordinates at a hit; zero where the mesh has none.
-pub(super) fn uv(mesh: &Mesh, hit: &Hit) -> Vec2 {
-    if mesh.uvs.is_empty() {
-        return Vec2::ZERO;
-    }
-    let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|i| mesh.uvs[i as usize]);
-    a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
 }

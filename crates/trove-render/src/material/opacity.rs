@@ -1,0 +1,63 @@
+//! What a surface lets pass of a ray, as data that a kernel keeps.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use super::albedo;
+use crate::texture::OpacityMask;
+
+/// Where a material is not there, and what goes straight through where it is.
+#[derive(Default)]
+pub(crate) struct Opacity {
+    /// Where it has holes, and what texture coordinates are multiplied by.
+    pub(super) holes: Option<(Arc<OpacityMask>, Vec2)>,
+    pub(super) pane: Option<Pane>,
+}
+
+/// A thin sheet of glass.
+pub(super) struct Pane {
+    /// Colour of what goes straight through it.
+    pub(super) tint: Vec3,
+    pub(super) transmission: f32,
+    pub(super) metalness: f32,
+    /// Normal reflectance of both faces together.
+    pub(super) f0: f32,
+    /// GGX α.
+    pub(super) alpha: f32,
+}
+
+impl Opacity {
+    /// A surface with holes wherever the mask has them, mapped as the mesh says.
+    pub(crate) fn cut_out(mask: OpacityMask) -> Self {
+        Self { holes: Some((Arc::new(mask), Vec2::ONE)), pane: None }
+    }
+
+    /// Whether nothing ever passes.
+    pub(crate) fn is_opaque(&self) -> bool {
+        self.holes.is_none() && self.pane.is_none()
+    }
+
+    /// Whether it has holes.
+    pub(crate) fn has_holes(&self) -> bool {
+        self.holes.is_some()
+    }
+
+    /// Whether the surface is there, at texture coordinates before scaling.
+    pub(crate) fn covers(&self, uv: Vec2) -> bool {
+        self.holes.as_ref().is_none_or(|(mask, scale)| mask.covers(uv * scale))
+    }
+
+    /// Whether light goes straight through what is there.
+    pub(crate) fn is_pane(&self) -> bool {
+        self.pane.is_some()
+    }
+
+    /// The share of light that does, at an angle with cosine `cos` to the normal; 0 for what is no pane.
+    pub(crate) fn straight_through(&self, cos: f32) -> Vec3 {
+        let Some(pane) = &self.pane else { return Vec3::ZERO };
+        let split = albedo::split(cos.abs(), pane.alpha);
+        let reflected = pane.f0 * split.x + split.y;
+        pane.tint * ((1.0 - reflected) * pane.transmission * (1.0 - pane.metalness))
+    }
+}

@@ -1,0 +1,44 @@
+//! Rays and what they meet.
+
+use glam::Vec3;
+use trove_model::InstanceId;
+
+use crate::motion::MIDDLE;
+
+/// A ray in World; distances are in lengths of `direction`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ray {
+    pub(crate) origin: Vec3,
+    pub(crate) direction: Vec3,
+    pub(crate) t_min: f32,
+    pub(crate) t_max: f32,
+    /// As `ray_time` gives it.
+    pub(crate) time: f32,
+    /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it where they look
+    /// for closest hits; shadows stay.
+    pub(crate) past: Option<InstanceId>,
+}
+
+impl Ray {
+    /// From a point to infinity, at the moment of the labels, through nothing.
+    pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY, time: MIDDLE, past: None }
+    }
+
+    /// Another ray of the same time, to infinity, which is stopped by everything.
+    pub(crate) fn then(&self, origin: Vec3, direction: Vec3) -> Self {
+        Self { time: self.time, ..Self::new(origin, direction) }
+    }
+}
+
+/// Where a ray meets a triangle: the point is (1 − u − v)·a + u·b + v·c.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    /// Index into the scene's instances.
+    pub(crate) instance: u32,
+    /// Index into the mesh's triangles.
+    pub(crate) triangle: u32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+}
