@@ -5,7 +5,6 @@
 //! alike. Nothing is called back: what counts as a hit follows from data that could lie on a card as well.
 
 mod embree;
-mod embree_api;
 mod obvhs;
 mod shapes;
 mod watertight;

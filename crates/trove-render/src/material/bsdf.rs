@@ -88,11 +88,25 @@ pub(crate) struct BsdfSample {
 impl Bsdf {
     /// `normal` is the shading normal on the side of `surface.wo`.
     pub(crate) fn new(surface: &Surface, normal: Vec3, p: &Parameters) -> Self {
+        // Taken apart whole: a new layer does not compile until it has its share of the light.
+        let Parameters {
+            base_color,
+            alpha,
+            diffuse_roughness,
+            metalness,
+            f0: dielectric_f0,
+            coat,
+            sheen: fibres,
+            subsurface,
+            translucency,
+            transmission,
+            tint,
+        } = p;
         let wo = surface.wo;
         let normal = upright(normal, surface.geometric, wo);
         let cos_o = wo.dot(normal).max(1e-4);
 
-        let (mut coat, mut coat_cos_o, mut coated) = (p.coat, cos_o, 0.0);
+        let (mut coat, mut coat_cos_o, mut coated) = (*coat, cos_o, 0.0);
         if coat.share > 0.0 {
             coat.normal = upright(coat.normal, surface.geometric, wo);
             coat_cos_o = wo.dot(coat.normal).max(1e-4);
@@ -102,27 +116,27 @@ impl Bsdf {
         let mut left = 1.0 - coated;
 
         let (mut sheen, mut fuzzed) = (Vec3::ZERO, Vec3::ZERO);
-        if p.sheen != Vec3::ZERO {
-            sheen = p.sheen * left;
+        if *fibres != Vec3::ZERO {
+            sheen = *fibres * left;
             fuzzed = sheen * sheen::albedo(cos_o);
             left -= fuzzed.max_element();
         }
 
-        let f0 = Vec3::splat(p.f0).lerp(p.base_color, p.metalness);
-        let split = albedo::split(cos_o, p.alpha);
+        let f0 = Vec3::splat(*dielectric_f0).lerp(*base_color, *metalness);
+        let split = albedo::split(cos_o, *alpha);
         let single = split.x + split.y;
         let lost = (1.0 - single) / single.max(1e-3);
         let whole = |f0: Vec3| (f0 * split.x + split.y) * (Vec3::ONE + f0 * lost);
-        let dielectric = whole(Vec3::splat(p.f0)).min(Vec3::ONE);
-        let facets = dielectric.lerp(whole(p.base_color).min(Vec3::ONE), p.metalness);
+        let dielectric = whole(Vec3::splat(*dielectric_f0)).min(Vec3::ONE);
+        let facets = dielectric.lerp(whole(*base_color).min(Vec3::ONE), *metalness);
         let gain = facets / (f0 * split.x + split.y).max(Vec3::splat(1e-6));
 
         // Only the share that is no metal lets light in, and only past its own facets.
-        let inside = (1.0 - dielectric.x) * (1.0 - p.metalness) * left;
-        let scattered = inside * (1.0 - p.transmission);
-        let diffuse = p.base_color * scattered;
-        let through = p.tint * (inside * p.transmission);
-        let here = scattered * (1.0 - p.translucency);
+        let inside = (1.0 - dielectric.x) * (1.0 - metalness) * left;
+        let scattered = inside * (1.0 - transmission);
+        let diffuse = base_color * scattered;
+        let through = tint * (inside * transmission);
+        let here = scattered * (1.0 - translucency);
 
         let weights = [coated, mean(facets) * left, mean(diffuse + fuzzed), mean(through)];
         let sum: f32 = weights.iter().sum::<f32>().max(1e-6);
@@ -131,19 +145,19 @@ impl Bsdf {
             geometric: surface.geometric,
             wo,
             cos_o,
-            alpha: p.alpha,
+            alpha: *alpha,
             f0,
             gain: gain * left,
             coat,
             coat_cos_o,
             sheen,
-            diffuse: Diffuse::new(p.base_color, here, p.diffuse_roughness, p.subsurface, cos_o),
-            behind: diffuse * p.translucency,
-            translucency: p.translucency,
+            diffuse: Diffuse::new(*base_color, here, *diffuse_roughness, *subsurface, cos_o),
+            behind: diffuse * *translucency,
+            translucency: *translucency,
             through,
             chances: [weights[0] / sum, weights[1] / sum, weights[2] / sum],
             albedo: Vec3::splat(coated) + fuzzed + facets * left + diffuse,
-            is_mirror: weights[3] > 0.5 * sum || (p.alpha < 0.02 && weights[1] > 0.7 * sum),
+            is_mirror: weights[3] > 0.5 * sum || (*alpha < 0.02 && weights[1] > 0.7 * sum),
         }
     }
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use libloading::Library;
 
-use super::PACKET;
+use crate::accel::PACKET;
 use crate::shared_library::shared_library;
 
 pub(super) type Handle = *mut c_void;

@@ -1,0 +1,231 @@
+//! Rays put to Embree, and what counts as a hit.
+
+use std::ffi::{c_int, c_void};
+use std::ptr;
+
+use glam::Vec3;
+
+use super::api::{
+    self, Context, FilterArguments, Packet, PacketHits, PacketRays, QueryArguments, RawHit, RawRay, RayHit,
+};
+use super::device::BuiltScene;
+use super::{PACKET, Shapes};
+use crate::ray::{Hit, Ray};
+
+/// What a filter judges by.
+struct Question<'a> {
+    shapes: &'a Shapes,
+    /// The instance, where Embree does not know it.
+    instance: Option<u32>,
+    /// Rays on their way to light, by their ids, and what is left of it; empty where the closest hit is looked for.
+    rays: &'a [Ray],
+    light: &'a mut [Vec3],
+}
+
+/// Leaves the hits that count, given the ray's id.
+///
+/// # Safety
+/// To be called with what Embree calls a filter with, in a query whose context was made by [`context`].
+unsafe fn judge(arguments: *const FilterArguments, counts: impl Fn(&mut Question<'_>, usize, &Hit) -> bool) {
+    // SAFETY: Embree passes valid pointers, and the context that the query was made with, whose `user` points to a
+    // `Question` that outlives the query.
+    let (arguments, question) = unsafe {
+        let arguments = &*arguments;
+        (arguments, &mut *(*arguments.context).user.cast::<Question<'_>>())
+    };
+    let n = arguments.n as usize;
+    for lane in 0..n {
+        // SAFETY: `valid` points to n numbers, `ray` to 12 · n and `hit` to at least 8 · n of four bytes.
+        unsafe {
+            let valid = arguments.valid.add(lane);
+            if *valid == 0 {
+                continue;
+            }
+            let ray = |field: usize| *arguments.ray.add(field * n + lane);
+            let hit = |field: usize| *arguments.hit.add(field * n + lane);
+            // Fields are numbered as `RawRay` and `RawHit` list them.
+            let t = f32::from_bits(ray(8));
+            let (u, v) = (f32::from_bits(hit(3)), f32::from_bits(hit(4)));
+            let hit = hit_of(t, u, v, [hit(5), hit(6), hit(7)], question.instance);
+            if !counts(question, ray(10) as usize, &hit) {
+                *valid = 0;
+            }
+        }
+    }
+}
+
+/// Holes are not there.
+///
+/// # Safety
+/// As for [`judge`].
+unsafe extern "C" fn keep_surfaces(arguments: *const FilterArguments) {
+    // SAFETY: the same is asked of the caller.
+    unsafe { judge(arguments, |question, _, hit| question.shapes.is_there(hit)) }
+}
+
+/// Holes are not there, and panes take their share of the light.
+///
+/// # Safety
+/// As for [`judge`].
+unsafe extern "C" fn keep_blockers(arguments: *const FilterArguments) {
+    // SAFETY: the same is asked of the caller.
+    unsafe {
+        judge(arguments, |question, ray, hit| {
+            question.shapes.blocks(hit, &question.rays[ray], &mut question.light[ray])
+        })
+    }
+}
+
+/// From Embree's numbers for triangle, geometry and instance.
+fn hit_of(t: f32, u: f32, v: f32, [triangle, geometry, instance]: [u32; 3], known: Option<u32>) -> Hit {
+    // Triangles of the top scene are attached to it by the instance's index.
+    let found = if instance == api::INVALID_ID { geometry } else { instance };
+    Hit { t, instance: known.unwrap_or(found), triangle, u, v }
+}
+
+/// What a single ray has met.
+fn found(RayHit { ray, hit, .. }: &RayHit, known: Option<u32>) -> Option<Hit> {
+    (hit.geometry != api::INVALID_ID)
+        .then(|| hit_of(ray.t_max, hit.u, hit.v, [hit.primitive, hit.geometry, hit.instance], known))
+}
+
+const NO_HIT: RawHit = RawHit {
+    normal: [0.0; 3],
+    u: 0.0,
+    v: 0.0,
+    primitive: api::INVALID_ID,
+    geometry: api::INVALID_ID,
+    instance: api::INVALID_ID,
+};
+
+fn raw_ray(ray: &Ray) -> RawRay {
+    RawRay {
+        origin: ray.origin.to_array(),
+        t_min: ray.t_min,
+        direction: ray.direction.to_array(),
+        time: ray.time,
+        t_max: ray.t_max,
+        mask: u32::MAX,
+        id: 0,
+        flags: 0,
+    }
+}
+
+/// Which rays of a packet are there (−1).
+#[repr(align(64))]
+struct Valid([c_int; PACKET]);
+
+fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
+    let of = |field: fn(&Ray) -> f32| std::array::from_fn(|i| rays.get(i).map_or(0.0, field));
+    let packet = PacketRays {
+        origin: [of(|r| r.origin.x), of(|r| r.origin.y), of(|r| r.origin.z)],
+        t_min: of(|r| r.t_min),
+        direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
+        time: of(|r| r.time),
+        t_max: of(|r| r.t_max),
+        mask: [u32::MAX; PACKET],
+        id: std::array::from_fn(|i| i as u32),
+        flags: [0; PACKET],
+    };
+    (Valid(std::array::from_fn(|i| if i < rays.len() { -1 } else { 0 })), packet)
+}
+
+fn context(question: &mut Question<'_>) -> Context {
+    Context { ids: [api::INVALID_ID; 4], user: ptr::from_mut(question).cast::<c_void>() }
+}
+
+fn arguments(context: &mut Context, flags: c_int, filter: api::Filter) -> QueryArguments {
+    QueryArguments {
+        flags,
+        features: api::FEATURES_ALL,
+        context,
+        filter: Some(filter),
+        user_geometry: ptr::null_mut(),
+        min_width: 0.0,
+    }
+}
+
+impl BuiltScene {
+    /// The nearest surface; `instance` is what it is of where the scene does not know it.
+    pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: Option<u32>) -> Option<Hit> {
+        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
+        let mut question = Question { shapes, instance, rays: &[], light: &mut [] };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, 0, keep_surfaces);
+        // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
+        unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, &mut arguments) };
+        found(&ray_hit, instance)
+    }
+
+    /// The nearest surfaces of up to [`PACKET`] rays that run alike.
+    pub(super) fn closest_packet(&self, shapes: &Shapes, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        const NONE: [u32; PACKET] = [api::INVALID_ID; PACKET];
+        let nothing = PacketHits {
+            normal: [[0.0; PACKET]; 3],
+            u: [0.0; PACKET],
+            v: [0.0; PACKET],
+            primitive: NONE,
+            geometry: NONE,
+            instance: NONE,
+        };
+        let (valid, ray) = packet(rays);
+        let mut packet = Packet { ray, hit: nothing, room: NONE };
+        let mut question = Question { shapes, instance: None, rays: &[], light: &mut [] };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_surfaces);
+        // SAFETY: as for `closest`; `valid` has a number for each ray and is as aligned as Embree demands.
+        unsafe { (self.device.api.intersect16)(valid.0.as_ptr(), self.handle, &mut packet, &mut arguments) };
+        for (i, hit) in hits.iter_mut().enumerate() {
+            let found = [packet.hit.primitive[i], packet.hit.geometry[i], packet.hit.instance[i]];
+            *hit = (found[1] != api::INVALID_ID)
+                .then(|| hit_of(packet.ray.t_max[i], packet.hit.u[i], packet.hit.v[i], found, None));
+        }
+    }
+
+    /// What is left of the light along up to [`PACKET`] rays that run alike.
+    pub(super) fn any_packet(&self, shapes: &Shapes, rays: &[Ray], light: &mut [Vec3]) {
+        let (valid, mut packet) = packet(rays);
+        let mut question = Question { shapes, instance: None, rays, light };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_blockers);
+        // SAFETY: as for `closest_packet`.
+        unsafe { (self.device.api.occluded16)(valid.0.as_ptr(), self.handle, &mut packet, &mut arguments) };
+        extinguish(light, packet.t_max);
+    }
+
+    pub(super) fn any(&self, shapes: &Shapes, ray: &Ray, light: &mut Vec3) {
+        let mut raw = raw_ray(ray);
+        let (rays, light) = (std::slice::from_ref(ray), std::slice::from_mut(light));
+        let mut question = Question { shapes, instance: None, rays, light };
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, 0, keep_blockers);
+        // SAFETY: as for `closest`.
+        unsafe { (self.device.api.occluded1)(self.handle, &mut raw, &mut arguments) };
+        extinguish(question.light, [raw.t_max]);
+    }
+
+    /// Whether a ray meets a triangle, found as the nearest one with nothing judged.
+    pub(super) fn bare_closest(&self, ray: &Ray) -> bool {
+        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
+        // SAFETY: as for `closest`; without arguments Embree takes its defaults.
+        unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, ptr::null_mut()) };
+        found(&ray_hit, None).is_some()
+    }
+
+    /// The same, found as any.
+    pub(super) fn bare_any(&self, ray: &Ray) -> bool {
+        let mut raw = raw_ray(ray);
+        // SAFETY: as for `bare_closest`.
+        unsafe { (self.device.api.occluded1)(self.handle, &mut raw, ptr::null_mut()) };
+        raw.t_max == f32::NEG_INFINITY
+    }
+}
+
+/// Embree marks rays that are blocked by a length of −∞.
+fn extinguish(light: &mut [Vec3], lengths: impl IntoIterator<Item = f32>) {
+    for (light, t_max) in light.iter_mut().zip(lengths) {
+        if t_max == f32::NEG_INFINITY {
+            *light = Vec3::ZERO;
+        }
+    }
+}
