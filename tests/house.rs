@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used)] // all of this is tests
 use std::path::{Path, PathBuf};
 
+use trove_model::{CLASSES, label_rows};
+
 const STAGES: [&str; 6] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write", "trove-judge"];
 /// Those that write to the disk.
 const WRITING: [&str; 3] = ["trove-read", "trove-write", "trove-judge"];
@@ -56,7 +58,7 @@ fn stages_know_the_model_and_not_each_other() {
 }
 
 #[test]
-fn the_model_knows_glam_and_nothing_else() {
+fn the_model_knows_glam_and_on_request_serde() {
     assert_eq!(dependencies("trove-model"), ["glam", "serde"]);
     let text = std::fs::read_to_string(root().join("crates/trove-model/Cargo.toml")).unwrap();
     let manifest: toml::Table = text.parse().unwrap();
@@ -107,5 +109,30 @@ fn no_module_is_a_drawer_for_everything() {
         let stem = file.file_stem().unwrap().to_string_lossy().into_owned();
         let drawer = ["util", "utils", "common", "helper", "helpers", "manager", "misc"].contains(&stem.as_str());
         assert!(!drawer, "{}", file.display());
+    }
+}
+
+#[test]
+fn the_documentation_has_the_table_of_classes() {
+    let label = |set: &str, id: u8| {
+        let rows = label_rows(set).unwrap();
+        let row = rows.iter().find(|row| row.id == id).unwrap();
+        format!("{} {}", row.id, row.name)
+    };
+    let text = std::fs::read_to_string(root().join("docs/output.md")).unwrap();
+    for row in CLASSES.iter() {
+        let fields = [
+            row.class.id().to_string(),
+            row.name.into(),
+            if row.thing { "yes" } else { "no" }.into(),
+            row.rgb.map(|channel| channel.to_string()).join(" "),
+            label("trove13", row.class13),
+            label("cityscapes", row.cityscapes_id),
+            row.train_id.to_string(),
+            row.coco_id.to_string(),
+            label("camvid", row.camvid_id),
+        ];
+        let line = format!("| {} |", fields.join(" | "));
+        assert!(text.lines().any(|l| l == line), "docs/output.md has no row {line}");
     }
 }

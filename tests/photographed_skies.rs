@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3, vec3};
 use trove_model::{
     Class, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
-    Scene, Seed, Shot, Shutter,
+    Scene, Seed, Shot, Shutter, Viewpoint,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -81,6 +81,7 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
     let (width_px, height_px, f) = (32, 32, 800.0);
     let shot = Shot {
         view: "test".into(),
+        viewpoint: Viewpoint::Free,
         lens: Lens { width_px, height_px, fx_px: f, fy_px: f, cx_px: 16.0, cy_px: 16.0, distortion: Distortion::None },
         world_from_camera: Pose::new(DQuat::from_mat3(&DMat3::from_cols(across, -up, -normal)), normal * 2.0),
         world_from_camera_previous: None,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Bounds, Class, Instance, Kind, Report, Scene};
+use trove_model::{Bounds, Class, Instance, Kind, Origin, Report, Scene};
 
 use crate::drawing::{Drawing, Hit, Triangle, is_built, triangles};
 use crate::footing::{Ground, Solids, foot_outline, overlap_m};
@@ -248,7 +248,7 @@ fn made_up(scene: &Scene) -> impl Iterator<Item = (&Instance, Kind)> {
 }
 
 fn is_recorded(instance: &Instance) -> bool {
-    instance.object.as_ref().is_some_and(|o| !o.category.is_empty())
+    instance.object.as_ref().is_some_and(|o| matches!(o.origin, Origin::Recorded { .. } | Origin::Carrier))
 }
 
 fn is_plant(instance: &Instance) -> bool {
@@ -261,8 +261,10 @@ fn is_line(instance: &Instance) -> bool {
 
 fn name(instance: &Instance) -> String {
     match &instance.object {
-        Some(object) if object.asset.is_empty() => format!("{:?} {}", object.kind, instance.id.0),
-        Some(object) => format!("{} {}", object.asset, instance.id.0),
+        Some(object) => match &object.asset {
+            Some(asset) => format!("{asset} {}", instance.id.0),
+            None => format!("{:?} {}", object.kind, instance.id.0),
+        },
         None => instance.class.row().name.to_owned(),
     }
 }

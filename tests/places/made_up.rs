@@ -36,7 +36,7 @@ fn roads() -> Vec<Road> {
         sidewalk: both,
         turns_forward: vec![turns(true, false, false), turns(false, true, true)],
         turns_backward: vec![turns(true, false, false), turns(false, true, true)],
-        name: "High Street".into(),
+        name: Some("High Street".into()),
         speed_limit_kmh: Some(50.0),
         ..Road::new(id, RoadKind::Primary, points(line))
     };
@@ -47,7 +47,7 @@ fn roads() -> Vec<Road> {
         Road {
             sidewalk: both,
             parking: Sides { left: parking, right: Some(Parking::Bays(ParkingOrientation::Perpendicular)) },
-            name: "Side Street".into(),
+            name: Some("Side Street".into()),
             ..Road::new(3, RoadKind::Residential, points(&[(0.0, -130.0), (0.0, -40.0), (0.0, 0.0)]))
         },
         Road {

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    AssetLibrary, Bounds, Cuboid, Drive, HeightField, Instance, InstanceId, Kind, Light, Locale, Outcome, Polygon,
-    Provenance, Report, Scene, SceneObject, Season, StreetMap,
+    AssetLibrary, Bounds, Cuboid, Drive, DriveOrigin, HeightField, Instance, InstanceId, Kind, Light, Locale, Origin,
+    Outcome, Polygon, Provenance, Report, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed};
@@ -16,8 +16,8 @@ use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
+use crate::place::Conditions;
 use crate::place::Seeds;
-use crate::place::{Conditions, PLACE_DATASET};
 use crate::place::{apart_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::surroundings::Clearance;
@@ -94,7 +94,10 @@ struct Added {
 /// A place without a recording ([`place_drive`](crate::place_drive)) is as wide as its views are spread.
 pub fn area(drive: &Drive) -> Option<Bounds> {
     let seen = drive.bounds(LIDAR_REACH_M)?.grown(MARGIN_M);
-    let least_m = if drive.dataset == PLACE_DATASET { 0.0 } else { MIN_SIDE_M };
+    let least_m = match drive.origin {
+        DriveOrigin::Recorded => MIN_SIDE_M,
+        DriveOrigin::MadeUp => 0.0,
+    };
     Some(Bounds::square(seen.centre(), seen.size_m().max_element().max(least_m)))
 }
 
@@ -242,10 +245,12 @@ impl Site {
             let Some(pose) = actor.at(keyframe) else { continue };
             let object = SceneObject {
                 kind: annotated.kind,
-                track_token: track.token.clone(),
-                annotation_token: annotated.token.clone(),
-                category: annotated.category.clone(),
-                asset: actor.asset(pose),
+                origin: Origin::Recorded {
+                    track_token: track.token.clone(),
+                    annotation_token: annotated.token.clone(),
+                    category: annotated.category.clone(),
+                },
+                asset: Some(actor.asset(pose)),
                 cuboid: pose.cuboid,
                 velocity_mps: annotated.velocity_mps,
             };
@@ -270,10 +275,8 @@ impl Site {
         let pose = ego.at(keyframe)?;
         let object = SceneObject {
             kind: Kind::Car,
-            track_token: String::new(),
-            annotation_token: String::new(),
-            category: "ego".into(),
-            asset: ego.asset(pose),
+            origin: Origin::Carrier,
+            asset: Some(ego.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: None,
         };
@@ -331,10 +334,8 @@ impl Added {
         let pose = self.actor.at(keyframe)?;
         let object = SceneObject {
             kind: self.kind,
-            track_token: String::new(),
-            annotation_token: String::new(),
-            category: String::new(),
-            asset: self.actor.asset(pose),
+            origin: Origin::Added,
+            asset: Some(self.actor.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
         };
@@ -395,8 +396,8 @@ mod tests {
             build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
         };
         // What an instance looks like, by its number.
-        let looks = |scene: &Scene| -> Vec<(InstanceId, String, [f64; 3], Vec<glam::Vec3>)> {
-            let asset = |i: &Instance| i.object.as_ref().map(|o| o.asset.clone()).unwrap_or_default();
+        let looks = |scene: &Scene| -> Vec<(InstanceId, Option<String>, [f64; 3], Vec<glam::Vec3>)> {
+            let asset = |i: &Instance| i.object.as_ref().and_then(|o| o.asset.clone());
             let paints = |i: &Instance| i.materials.iter().map(|&m| scene.materials[m].base_color).collect();
             let place = |i: &Instance| i.world_from_mesh.translation.to_array();
             scene.instances.iter().map(|i| (i.id, asset(i), place(i), paints(i))).collect()

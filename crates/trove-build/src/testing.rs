@@ -5,9 +5,9 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, BuildingCustoms, Camera, Cuboid, Distortion, Drive, Ego, EgoBody, Exposure, HeightField,
-    Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose, Report,
-    RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
+    Asset, AssetLibrary, BuildingCustoms, Camera, Cuboid, Distortion, Drive, DriveOrigin, Ego, EgoBody, Exposure,
+    HeightField, Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose,
+    Report, RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
 };
 use trove_read::locale::Locales;
 
@@ -147,8 +147,8 @@ pub(crate) fn drive() -> Drive {
                 world_from_ego: path(k),
                 lens,
                 ego_from_camera: rig[camera].ego_from_camera,
-                token: String::new(),
-                file: String::new(),
+                token: None,
+                file: None,
             })
             .collect(),
         boxes: cast
@@ -176,6 +176,7 @@ pub(crate) fn drive() -> Drive {
     Drive {
         id: "made-up".into(),
         dataset: "test".into(),
+        origin: DriveOrigin::Recorded,
         place: String::new(),
         projection: MapProjection { origin_lat_deg: 1.3, origin_lon_deg: 103.8, anchor_m: DVec2::ZERO },
         keyframes: (0..10).map(keyframe).collect(),

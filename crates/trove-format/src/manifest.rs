@@ -105,7 +105,7 @@ impl From<&ClassRow> for ClassEntry {
             name: row.name.to_owned(),
             thing: row.thing,
             rgb: row.rgb,
-            class13: row.class13 as u8,
+            class13: row.class13,
             cityscapes_id: row.cityscapes_id,
             train_id: row.train_id,
             coco_id: row.coco_id,

@@ -1,6 +1,6 @@
 //! Which numbers a dataset's label pictures hold, and which of them count.
 
-use trove_model::{CLASSES, Class13, ClassRow};
+use trove_model::{CLASSES, ClassRow, LabelRow, label_rows};
 
 /// A number and its class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,39 +24,8 @@ pub struct LabelSet {
     pub ignored: Vec<u8>,
 }
 
-/// Cityscapes' 19 evaluated classes as (id, trainId, name), from its labels table.
-const CITYSCAPES: [(u8, u8, &str); 19] = [
-    (7, 0, "road"),
-    (8, 1, "sidewalk"),
-    (11, 2, "building"),
-    (12, 3, "wall"),
-    (13, 4, "fence"),
-    (17, 5, "pole"),
-    (19, 6, "traffic light"),
-    (20, 7, "traffic sign"),
-    (21, 8, "vegetation"),
-    (22, 9, "terrain"),
-    (23, 10, "sky"),
-    (24, 11, "person"),
-    (25, 12, "rider"),
-    (26, 13, "car"),
-    (27, 14, "truck"),
-    (28, 15, "bus"),
-    (31, 16, "train"),
-    (32, 17, "motorcycle"),
-    (33, 18, "bicycle"),
-];
-
-/// Cityscapes' other classes: unlabeled to ground, parking, rail track, guard rail to tunnel, polegroup, caravan, trailer.
-const CITYSCAPES_IGNORED: [u8; 15] = [0, 1, 2, 3, 4, 5, 6, 9, 10, 14, 15, 16, 18, 29, 30];
-/// The first of Cityscapes' classes with instances (person).
-const CITYSCAPES_THINGS_FROM: u8 = 24;
 /// What many write where there is no label.
 const NOTHING: u8 = 255;
-
-/// CamVid in the 11 classes of SegNet (Badrinarayanan et al. 2017).
-const CAMVID: [&str; 11] =
-    ["sky", "building", "pole", "road", "pavement", "tree", "sign", "fence", "car", "pedestrian", "bicyclist"];
 
 impl LabelSet {
     /// Every name that [`LabelSet::named`] knows.
@@ -64,27 +33,20 @@ impl LabelSet {
 
     /// The set of a name; `None` for one that is not in [`LabelSet::NAMES`].
     pub fn named(name: &str) -> Option<Self> {
-        let class = |id: u8, name: &'static str, thing: bool| NamedId { id, name, thing };
-        let cityscapes = |number: fn(&(u8, u8, &'static str)) -> u8| {
-            CITYSCAPES.iter().map(|row| class(number(row), row.2, row.0 >= CITYSCAPES_THINGS_FROM)).collect()
-        };
         let name = Self::NAMES.into_iter().find(|known| *known == name)?;
-        let (classes, ignored): (Vec<NamedId>, Vec<u8>) = match name {
-            "trove13" => (CLASSES_13.iter().map(|(c, name, thing)| class(*c as u8, name, *thing)).collect(), vec![0]),
-            "trove20" => {
-                (CLASSES.iter().skip(1).map(|row| class(row.class.id(), row.name, row.thing)).collect(), vec![0])
-            }
-            "cityscapes" => (cityscapes(|row| row.0), CITYSCAPES_IGNORED.to_vec()),
-            "cityscapes-train" => (cityscapes(|row| row.1), Vec::new()),
-            _ => ((0..).zip(CAMVID).map(|(id, name)| class(id, name, id >= 8)).collect(), vec![11]),
-        };
-        Some(Self { name, classes, ignored: ignored.into_iter().chain([NOTHING]).collect() })
+        let (table, by_train_id) = name.strip_suffix("-train").map_or((name, false), |table| (table, true));
+        let rows = label_rows(table)?;
+        let id = |row: &LabelRow| if by_train_id { row.train_id } else { Some(row.id) };
+        let counted = rows.iter().filter(|row| row.train_id.is_some());
+        let classes = counted.filter_map(|row| Some(NamedId { id: id(row)?, name: row.name, thing: row.thing }));
+        let others = rows.iter().filter(|row| row.train_id.is_none()).filter_map(id);
+        Some(Self { name, classes: classes.collect(), ignored: others.chain([NOTHING]).collect() })
     }
 
     /// The number that one of our classes has in this set.
     pub(crate) fn number(&self, row: &ClassRow) -> u8 {
         match self.name {
-            "trove13" => row.class13 as u8,
+            "trove13" => row.class13,
             "trove20" => row.class.id(),
             "cityscapes" => row.cityscapes_id,
             "cityscapes-train" => row.train_id,
@@ -116,22 +78,6 @@ impl LabelSet {
         index
     }
 }
-
-/// The paper's classes but void, and which are countable.
-const CLASSES_13: [(Class13, &str, bool); 12] = [
-    (Class13::Car, "car", true),
-    (Class13::Bus, "bus", true),
-    (Class13::Truck, "truck", true),
-    (Class13::Person, "person", true),
-    (Class13::Rider, "rider", true),
-    (Class13::Road, "road", false),
-    (Class13::Sidewalk, "sidewalk", false),
-    (Class13::Building, "building", false),
-    (Class13::TrafficPole, "traffic_pole", false),
-    (Class13::Vegetation, "vegetation", false),
-    (Class13::Terrain, "terrain", false),
-    (Class13::Sky, "sky", false),
-];
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, Tags};
+use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, Tags, Texture};
 
 /// A model.
 ///
@@ -12,6 +12,7 @@ use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, Tags};
 /// of its bounding box, or the foot of a pole ([`Kind::is_on_pole`]). What is built along lines (fences, walls, guard
 /// rails) is a piece that is repeated along x.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Asset {
     /// Unique in its library (`car/sedan-2`).
     pub id: String,
@@ -79,6 +80,7 @@ impl Asset {
 /// Something more that some variations of an asset have; it stays within the asset's bounding box, but for the mirrors
 /// of cars: boxes of data sets are as wide as bodies.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extra {
     /// Of the extras of one group (`driver`, `load`) there is at most one.
     pub group: String,
@@ -92,6 +94,7 @@ pub struct Extra {
 
 /// A mesh for the distance.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Coarser {
     /// Distance from the camera's path from which it looks the same, metres.
     pub from_m: f64,
@@ -101,6 +104,7 @@ pub struct Coarser {
 
 /// A person in a posture; the assets of one person differ in nothing else.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Figure {
     /// Unique in its library (`adult/woman-business-3`).
     pub person: String,
@@ -110,6 +114,7 @@ pub struct Figure {
 
 /// What a person does.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Posture {
     /// On the spot, on both feet.
     Standing,
@@ -133,6 +138,7 @@ pub enum Posture {
 
 /// A slot's material and the colours that it is seen in.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot {
     /// The material.
     pub material: Material,
@@ -142,6 +148,7 @@ pub struct Slot {
 
 /// What a surface of the built place is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[allow(missing_docs)] // the names are the definition
 pub enum SurfaceKind {
     Asphalt,
@@ -176,6 +183,7 @@ pub enum SurfaceKind {
 
 /// A material for built surfaces, whose textures tile.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surface {
     /// Unique in its library (`facade/brick-row`).
     pub id: String,
@@ -195,6 +203,7 @@ pub struct Surface {
 
 /// What lies or grows on the ground in such numbers that it is placed by the patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum CoverKind {
     /// Grass, each blade a few triangles.
     GrassNear,
@@ -214,6 +223,7 @@ pub enum CoverKind {
 
 /// A patch of what covers the ground; it is ground itself, and no object.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GroundCover {
     /// Unique in its library (`cover/grass-near-1`).
     pub id: String,
@@ -229,6 +239,7 @@ pub struct GroundCover {
 
 /// Models and surfaces, sorted by id.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AssetLibrary {
     /// Models.
     pub assets: Vec<Asset>,
@@ -239,6 +250,24 @@ pub struct AssetLibrary {
 }
 
 impl AssetLibrary {
+    /// Every mesh, shared ones as often as they are referred to, always in the same order.
+    pub fn meshes_mut(&mut self) -> impl Iterator<Item = &mut Arc<Mesh>> {
+        let of_assets = self.assets.iter_mut().flat_map(|asset| {
+            let extras = asset.extras.iter_mut().map(|extra| &mut extra.mesh);
+            let coarser = asset.coarser.iter_mut().map(|coarser| &mut coarser.mesh);
+            std::iter::once(&mut asset.mesh).chain(extras).chain(coarser)
+        });
+        of_assets.chain(self.covers.iter_mut().map(|cover| &mut cover.mesh))
+    }
+
+    /// Every texture, shared ones as often as they are referred to, always in the same order.
+    pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut Arc<Texture>> {
+        let slots = self.assets.iter_mut().map(|asset| &mut asset.slots);
+        let slots = slots.chain(self.covers.iter_mut().map(|cover| &mut cover.slots)).flatten();
+        let materials = slots.map(|slot| &mut slot.material);
+        materials.chain(self.surfaces.iter_mut().map(|surface| &mut surface.material)).flat_map(Material::textures_mut)
+    }
+
     /// The models that can stand for a kind, in the order of their ids.
     pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Asset> {
         self.assets.iter().filter(move |a| a.kind == kind)

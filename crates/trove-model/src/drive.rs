@@ -11,6 +11,8 @@ pub struct Drive {
     pub id: String,
     /// The dataset (`nuscenes`).
     pub dataset: String,
+    /// Whether anybody drove it.
+    pub origin: DriveOrigin,
     /// The dataset's name of the place (`boston-seaport`); empty where unknown.
     pub place: String,
     /// From latitude and longitude to World.
@@ -27,6 +29,15 @@ pub struct Drive {
     pub lane_map: Option<LaneMap>,
     /// Licence of what came out of the dataset, with its name (`CC BY-NC-SA 4.0`).
     pub licence: String,
+}
+
+/// How a drive came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveOrigin {
+    /// Somebody drove and recorded it.
+    Recorded,
+    /// Its keyframes were put onto a street map's roads.
+    MadeUp,
 }
 
 /// A camera of the vehicle.
@@ -79,10 +90,10 @@ pub struct Exposure {
     pub lens: Lens,
     /// Mounting at that time.
     pub ego_from_camera: Pose<Ego, Camera>,
-    /// The dataset's name of it.
-    pub token: String,
-    /// The recorded picture's path below the dataset's root; empty where there is none.
-    pub file: String,
+    /// The dataset's name of the picture; `None` where none was taken.
+    pub token: Option<String>,
+    /// The recorded picture's path below the dataset's root; `None` where it is not at hand.
+    pub file: Option<String>,
 }
 
 impl Exposure {

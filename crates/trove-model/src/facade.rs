@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 
 /// What an opening in a wall is closed with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Filling {
     /// Panes in a frame, with a room behind.
     Window,
@@ -17,6 +18,7 @@ pub enum Filling {
 
 /// A hole in the wall of a bay.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Opening {
     /// What it is closed with.
     pub filling: Filling,
@@ -42,6 +44,7 @@ impl Opening {
 
 /// What is seen behind windows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[allow(missing_docs)] // the names are the definition
 pub enum Interior {
     Home,
@@ -53,6 +56,7 @@ pub enum Interior {
 
 /// A band along every storey.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Course {
     /// Lower and upper edge above the storey's floor, metres.
     pub between_m: [f32; 2],
@@ -64,6 +68,7 @@ pub struct Course {
 
 /// What stands in front of some openings, each as the share of the openings that have it, 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fixtures {
     /// Balconies with bars.
     pub balconies: f32,
@@ -93,6 +98,7 @@ pub struct Fixtures {
 
 /// The rules of a facade.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FacadeDesign {
     /// Tag of the surface of the wall between the openings, of the kind `Wall`.
     pub wall: String,

@@ -3,7 +3,7 @@
 use glam::{Vec2, vec2};
 
 /// Strokes through points of a grid 4 wide and 6 high, `xy` each, strokes apart by commas.
-const GLYPHS: [(char, &str); 43] = [
+const GLYPHS: [(char, &str); 44] = [
     ('A', "00 26 40,12 32"),
     ('B', "00 06 36 45 44 33 03,33 42 41 30 00"),
     ('C', "45 36 16 05 01 10 30 41"),
@@ -43,6 +43,7 @@ const GLYPHS: [(char, &str); 43] = [
     ('!', "26 22,20 20"),
     ('-', "13 33"),
     ('.', "20 20"),
+    ('_', "00 40"),
     ('\'', "26 25"),
     ('/', "00 46"),
     ('&', "40 04 05 16 25 24 02 01 10 20 42"),

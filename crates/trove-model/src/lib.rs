@@ -38,9 +38,9 @@ pub use asset::{
     Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface, SurfaceKind,
 };
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
-pub use class::{CLASSES, Class, Class13, ClassRow};
+pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, LabelRow, label_rows, label_table};
 pub use cuboid::Cuboid;
-pub use drive::{Drive, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Track};
+pub use drive::{Drive, DriveOrigin, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Track};
 pub use facade::{Course, FacadeDesign, Filling, Fixtures, Interior, Opening};
 pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
@@ -63,10 +63,10 @@ pub use polygon::{Bounds, Polygon};
 pub use projection::MapProjection;
 pub use raster::Raster;
 pub use report::{Entry, Measurement, Outcome, Report};
-pub use scene::{Instance, InstanceId, Provenance, Scene, SceneObject};
-pub use seed::{Random, Seed};
+pub use scene::{Instance, InstanceId, Origin, Provenance, Scene, SceneObject};
+pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
-pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, WhiteBalance};
+pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
 pub use street_map::{
     BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,

@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 
 /// What a texture's numbers mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ColorSpace {
     /// Colours, sRGB-encoded; alpha is linear.
     Srgb,
@@ -15,6 +16,7 @@ pub enum ColorSpace {
 
 /// An 8-bit RGBA image that repeats in both directions.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Texture {
     /// For people and for files (`asphalt-worn.color`); the same name means the same image.
     pub name: String,
@@ -30,6 +32,7 @@ pub struct Texture {
 
 /// How texture coordinates come about.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mapping {
     /// The mesh's own.
     #[default]
@@ -41,6 +44,7 @@ pub enum Mapping {
 
 /// How a texture goes on beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Tiling {
     /// It repeats.
     #[default]
@@ -52,6 +56,7 @@ pub enum Tiling {
 
 /// A principled surface; colours are linear Rec. 709.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material {
     /// For people and for files.
     pub name: String,
@@ -173,6 +178,12 @@ impl Material {
             mapping: _,
             tiling: _,
         } = self;
+        [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
+    }
+
+    /// The images that it uses, to be replaced.
+    pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut Arc<Texture>> {
+        let Self { base_color_map, orm_map, normal_map, height_map, .. } = self;
         [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
     }
 }

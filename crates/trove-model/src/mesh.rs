@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 
 /// Triangles, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mesh {
     /// Vertex positions, metres.
     pub positions: Vec<Vec3>,

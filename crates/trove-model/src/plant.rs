@@ -4,6 +4,7 @@ use glam::Vec3;
 
 /// Climates as far as plants in streets differ by them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Climate {
     /// Warm and wet all year.
     Tropical,
@@ -59,6 +60,7 @@ impl Climate {
 
 /// A part of the year as plants have it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Season {
     /// Blossoms and fresh leaves.
     Spring,
@@ -112,6 +114,7 @@ fn month(time_ns: i64) -> u32 {
 
 /// How a plant is grown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PlantForm {
     /// By itself.
     #[default]
@@ -124,6 +127,7 @@ pub enum PlantForm {
 
 /// What leaves are, as OpenStreetMap's `leaf_type` tells them apart; palms apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LeafType {
     /// Blades with veins.
     #[default]
@@ -136,9 +140,10 @@ pub enum LeafType {
 
 /// What is known of an asset that is a plant.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plant {
-    /// Its individuals (young, grown, another one) have the same; empty: the asset is the only one.
-    pub species: String,
+    /// Its individuals (young, grown, another one) have the same; `None`: the asset is the only one.
+    pub species: Option<String>,
     /// How it is grown.
     pub form: PlantForm,
     /// What leaves it has.
@@ -153,6 +158,7 @@ pub struct Plant {
 
 /// The leaves of a season.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Foliage {
     /// When.
     pub season: Season,

@@ -54,18 +54,51 @@ pub struct Instance {
 pub struct SceneObject {
     /// What it is.
     pub kind: Kind,
-    /// The dataset's token of its track; empty for scenery.
-    pub track_token: String,
-    /// The dataset's token of the annotation at this moment; empty for scenery.
-    pub annotation_token: String,
-    /// The dataset's category; empty for scenery.
-    pub category: String,
-    /// The asset's id; empty for what was built for this place.
-    pub asset: String,
+    /// How it comes to be in the scene.
+    pub origin: Origin,
+    /// The asset's id; `None` for what was built for this place.
+    pub asset: Option<String>,
     /// Its box as placed: the annotated size where there is one, else the mesh's.
     pub cuboid: crate::Cuboid,
     /// Velocity in World; `None` where unknown.
     pub velocity_mps: Option<DVec3>,
+}
+
+/// How an object comes to be in a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The dataset annotated it.
+    Recorded {
+        /// The dataset's token of its track.
+        track_token: String,
+        /// The dataset's token of the annotation at this moment.
+        annotation_token: String,
+        /// The dataset's category.
+        category: String,
+    },
+    /// The vehicle that carried the cameras, which no dataset annotates.
+    Carrier,
+    /// A road user whom nobody recorded.
+    Added,
+    /// What stands still at its place: buildings, plants, street furniture.
+    Scenery,
+}
+
+impl Origin {
+    /// Its name in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Recorded { .. } => "recorded",
+            Self::Carrier => "carrier",
+            Self::Added => "added",
+            Self::Scenery => "scenery",
+        }
+    }
+
+    /// Whether it is a road user other than the vehicle that carried the cameras.
+    pub fn is_road_user(&self) -> bool {
+        matches!(self, Self::Recorded { .. } | Self::Added)
+    }
 }
 
 /// A source and its licence.

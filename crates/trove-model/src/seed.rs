@@ -61,6 +61,11 @@ impl Random {
         (!items.is_empty()).then(|| &items[self.index(items.len())])
     }
 
+    /// An index, each drawn in proportion to its weight (0 or more, of any sum); `None` where all weights are 0.
+    pub fn weighted(&mut self, weights: impl IntoIterator<Item = f64, IntoIter: Clone>) -> Option<usize> {
+        weighted_at(self.unit(), weights)
+    }
+
     /// True with probability `p`.
     pub fn chance(&mut self, p: f64) -> bool {
         self.unit() < p
@@ -71,6 +76,22 @@ impl Random {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.unit()).cos()
     }
+}
+
+/// As [`Random::weighted`], for a number that was drawn in [0, 1).
+pub fn weighted_at(unit: f64, weights: impl IntoIterator<Item = f64, IntoIter: Clone>) -> Option<usize> {
+    let weights = weights.into_iter();
+    let mut left = unit * weights.clone().sum::<f64>();
+    let mut last = None;
+    for (i, weight) in weights.enumerate().filter(|(_, weight)| *weight > 0.0) {
+        left -= weight;
+        if left < 0.0 {
+            return Some(i);
+        }
+        // Rounding may leave a little after the last weight.
+        last = Some(i);
+    }
+    last
 }
 
 fn mix(mut z: u64) -> u64 {
@@ -96,6 +117,20 @@ mod tests {
     fn siblings_differ() {
         assert_ne!(Seed(7).child("a"), Seed(7).child("b"));
         assert_ne!(Seed(7).nth(0), Seed(7).nth(1));
+    }
+
+    #[test]
+    fn indices_are_drawn_as_often_as_they_weigh() {
+        let mut random = Seed(2).random();
+        let mut counts = [0u32; 4];
+        for _ in 0..10_000 {
+            counts[random.weighted([2.0, 0.0, 5.0, 3.0]).unwrap()] += 1;
+        }
+        let chi2: f64 =
+            [(0, 2000.0), (2, 5000.0), (3, 3000.0)].map(|(i, n)| (f64::from(counts[i]) - n).powi(2) / n).iter().sum();
+        assert!(chi2 < 13.8 && counts[1] == 0, "χ² = {chi2}, {counts:?}"); // 99.9 % of 2 degrees of freedom
+        assert_eq!(random.weighted([0.0, 0.0]), None);
+        assert_eq!(random.weighted([]), None);
     }
 
     #[test]

@@ -106,11 +106,32 @@ impl Shutter {
     }
 }
 
+/// Whose camera takes a shot; cameras are indices into [`Drive::rig`](crate::Drive::rig).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Viewpoint {
+    /// The recording vehicle's, where it took its own picture.
+    Recording {
+        /// Which one.
+        camera: usize,
+    },
+    /// The same camera on another vehicle of the scene.
+    OtherVehicle {
+        /// Which vehicle, from 1.
+        number: usize,
+        /// Which camera.
+        camera: usize,
+    },
+    /// One that no drive has.
+    Free,
+}
+
 /// A camera at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// Name (`ego.CAM_FRONT`).
     pub view: String,
+    /// Whose camera it is.
+    pub viewpoint: Viewpoint,
     /// Intrinsics.
     pub lens: Lens,
     /// Pose.
@@ -142,6 +163,7 @@ impl Shot {
     pub fn new(view: &str, lens: Lens, world_from_camera: Pose<World, Camera>) -> Self {
         Self {
             view: view.into(),
+            viewpoint: Viewpoint::Free,
             lens,
             world_from_camera,
             world_from_camera_previous: None,

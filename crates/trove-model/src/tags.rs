@@ -4,6 +4,7 @@
 ///
 /// The builder asks for what it needs by kind, tags and size; an id only names a thing, and nothing is read into it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tags(Vec<String>);
 
 impl Tags {

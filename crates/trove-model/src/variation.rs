@@ -37,12 +37,12 @@ impl Asset {
             .filter(is_first)
             .filter_map(|first| {
                 let group = &self.extras[first].group;
-                let mut left = seed.child("extra").child(group).random().unit() as f32;
-                let can_be = |e: &&(usize, &Extra)| e.1.group == *group && (driven || !e.1.when_driven);
-                self.extras.iter().enumerate().filter(|e| can_be(&e)).find_map(|(i, extra)| {
-                    left -= extra.share;
-                    (left < 0.0).then_some(i)
-                })
+                let can_be = |e: &Extra| e.group == *group && (driven || !e.when_driven);
+                let share = |e: &Extra| if can_be(e) { f64::from(e.share) } else { 0.0 };
+                let none = 1.0 - self.extras.iter().map(share).sum::<f64>();
+                let weights = self.extras.iter().map(share).chain([none]);
+                let drawn = seed.child("extra").child(group).random().weighted(weights)?;
+                (drawn < self.extras.len()).then_some(drawn)
             })
             .collect();
         drawn.sort_unstable();

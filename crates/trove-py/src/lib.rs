@@ -16,6 +16,13 @@ mod _trove {
         py.detach(|| trove::main(args.into_iter().map(Into::into), &site_packages))
     }
 
+    /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `camvid`): a line a class, fields apart by tabs, the
+    /// first line names the columns; `None` for another name.
+    #[pyfunction]
+    fn label_table(label_set: &str) -> Option<&'static str> {
+        trove::label_table(label_set)
+    }
+
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))

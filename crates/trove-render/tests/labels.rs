@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
     Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Labels, Lens,
-    Light, Material, Mesh, ObjectLabel, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
+    Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -171,7 +171,7 @@ fn a_box_behind_another_is_hidden_and_keeps_its_amodal_extent() {
 fn scenery_is_listed_where_it_is_seen_and_the_carrier_is_not() {
     let mut tree = object(3, PLACE + DVec3::Y * 12.0, 1.0);
     let mut place = (**tree.object.as_ref().unwrap()).clone();
-    place.annotation_token.clear();
+    place.origin = Origin::Scenery;
     tree.object = Some(Arc::new(place));
     assert_eq!(objects(vec![object(7, PLACE + DVec3::Y * 6.0, 3.0), tree.clone()]).len(), 1);
     assert_eq!(objects(vec![tree.clone()])[0].occlusion, 0.0);
@@ -439,10 +439,12 @@ fn object(id: u32, place: DVec3, side_m: f64) -> Instance {
     let world_from_mesh = DAffine3::from_scale_rotation_translation(DVec3::splat(side_m), DQuat::IDENTITY, place);
     let object = SceneObject {
         kind: Kind::Car,
-        track_token: "track".into(),
-        annotation_token: "annotation".into(),
-        category: "vehicle.car".into(),
-        asset: "cube".into(),
+        origin: Origin::Recorded {
+            track_token: "track".into(),
+            annotation_token: "annotation".into(),
+            category: "vehicle.car".into(),
+        },
+        asset: Some("cube".into()),
         cuboid: Cuboid { world_from_body: Pose::<World, Body>::from_yaw(0.0, place), size_m: DVec3::splat(side_m) },
         velocity_mps: None,
     };

@@ -8,7 +8,6 @@ mod tiles;
 use std::path::{Path, PathBuf};
 
 use crate::WriteError;
-use crate::letters::draw_text;
 use crate::sheet::{CAPTION_PX, GAP_PX, Sheet};
 use tiles::Tiles;
 
@@ -45,7 +44,7 @@ pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
     for (i, (name, tiles)) in drawn.iter().enumerate() {
         let (column, row) = (i as u32 % columns, i as u32 / columns);
         let (x, y) = (GAP_PX + column * cell_width, GAP_PX + row * cell_height);
-        draw_text(&mut sheet, x, y, name);
+        sheet.write_line(x, y, name);
         for (t, tile) in tiles.pictures.iter().enumerate() {
             sheet.paste(x + t as u32 * (TILE_WIDTH_PX + 2), y + CAPTION_PX, TILE_WIDTH_PX, tile);
         }

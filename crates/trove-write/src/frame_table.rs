@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DAffine3;
 use trove_format::{FrameTable, Matrix4, ObjectRow};
-use trove_model::{Capture, Ego, Instance, MapProjection, ObjectLabel, PixelBox, Pose, Scene, Shot, World};
+use trove_model::{Capture, Ego, Instance, MapProjection, ObjectLabel, Origin, PixelBox, Pose, Scene, Shot, World};
 
 use crate::WriteError;
 
@@ -25,10 +25,10 @@ pub struct FrameMeta {
     pub keyframe_token: String,
     /// Time of the keyframe, nanoseconds since 1970 UTC.
     pub keyframe_time_ns: i64,
-    /// The dataset's name of the recorded picture that this view clones; empty where it clones none.
-    pub source_token: String,
-    /// That picture's path below the dataset's root; empty where it clones none.
-    pub source_image: String,
+    /// The dataset's name of the recorded picture that this view clones; `None` where it clones none.
+    pub source_token: Option<String>,
+    /// That picture's path below the dataset's root; `None` where it clones none or it is not at hand.
+    pub source_image: Option<String>,
     /// The vehicle that carries the camera, at the picture's time; `None` where the camera stands on its own.
     pub world_from_ego: Option<Pose<World, Ego>>,
     /// From latitude and longitude to World.
@@ -57,8 +57,8 @@ pub(crate) fn frame_table(
         keyframe_time_ns: meta.keyframe_time_ns,
         view: shot.view.clone(),
         time_ns: shot.time_ns,
-        source_token: meta.source_token.clone(),
-        source_image: meta.source_image.clone(),
+        source_token: meta.source_token.clone().unwrap_or_default(),
+        source_image: meta.source_image.clone().unwrap_or_default(),
         width_px: lens.width_px,
         height_px: lens.height_px,
         intrinsics: [[lens.fx_px, 0.0, lens.cx_px], [0.0, lens.fy_px, lens.cy_px], [0.0, 0.0, 1.0]],
@@ -90,15 +90,22 @@ fn row(label: &ObjectLabel, instances: &BTreeMap<u32, &Instance>) -> Result<Obje
     let found = instances.get(&id).and_then(|i| i.object.as_ref().map(|o| (i.class, o)));
     let (class, object) =
         found.ok_or_else(|| WriteError::Mismatch(format!("a label of object {id}, which the scene does not have")))?;
+    let [category, token, track_token] = match &object.origin {
+        Origin::Recorded { category, annotation_token, track_token } => {
+            [category.clone(), annotation_token.clone(), track_token.clone()]
+        }
+        Origin::Carrier => ["ego".into(), String::new(), String::new()],
+        Origin::Added | Origin::Scenery => Default::default(),
+    };
     Ok(ObjectRow {
         id,
         class,
         class_id: class.id(),
         kind: object.kind,
-        category: object.category.clone(),
-        token: object.annotation_token.clone(),
-        track_token: object.track_token.clone(),
-        asset: object.asset.clone(),
+        category,
+        token,
+        track_token,
+        asset: object.asset.clone().unwrap_or_default(),
         world_from_body: matrix(object.cuboid.world_from_body.affine()),
         size_m: object.cuboid.size_m.to_array(),
         velocity_mps: object.velocity_mps.map(|v| v.to_array()),

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use glam::DAffine3;
 use serde_json::{Value, json};
-use trove_model::{EnvironmentMap, Instance, Raster, Scene, Shot};
+use trove_model::{EnvironmentMap, Instance, Origin, Raster, Scene, Shot};
 
 use crate::{WriteError, exr_file, write_atomically};
 use binary::Binary;
@@ -146,9 +146,14 @@ fn node(instance: &Instance, mesh: usize) -> Result<Value, WriteError> {
     if let Some(object) = &instance.object {
         name = format!("{name} {}", instance.id.0);
         extras["kind"] = object.kind.name().into();
-        extras["asset"] = object.asset.as_str().into();
-        extras["category"] = object.category.as_str().into();
-        extras["track_token"] = object.track_token.as_str().into();
+        extras["origin"] = object.origin.name().into();
+        if let Some(asset) = &object.asset {
+            extras["asset"] = asset.as_str().into();
+        }
+        if let Origin::Recorded { category, track_token, .. } = &object.origin {
+            extras["category"] = category.as_str().into();
+            extras["track_token"] = track_token.as_str().into();
+        }
     }
     let placement = instance.world_from_mesh;
     if !placement.is_finite() {

@@ -14,7 +14,6 @@ mod frame_folders;
 mod frame_table;
 pub mod gltf;
 mod jpeg;
-mod letters;
 mod picture;
 mod png_file;
 mod sheet;

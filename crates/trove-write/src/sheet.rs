@@ -2,15 +2,19 @@
 
 use std::path::Path;
 
-use trove_model::Raster;
+use glam::vec2;
+use trove_model::{Lettering, Raster};
 
-use crate::letters::{LETTER_PX, draw_text};
 use crate::{WriteError, write_picture};
 
 /// Gap around everything, pixels.
 pub(crate) const GAP_PX: u32 = 6;
 /// Height of the line with a name, pixels.
 pub(crate) const CAPTION_PX: u32 = 14;
+/// Height of capitals, pixels; marks above them take a third more.
+const CAPITAL_PX: f32 = 8.0;
+/// Width of their strokes, pixels.
+const STROKE_PX: f32 = 1.6;
 const PAPER: [u8; 3] = [24, 26, 30];
 pub(crate) const INK: [u8; 3] = [205, 208, 214];
 
@@ -26,6 +30,22 @@ impl Sheet {
     pub(crate) fn set(&mut self, x: u32, y: u32, color: [u8; 3]) {
         if x < self.0.width && y < self.0.height {
             *self.0.at_mut(x, y) = color;
+        }
+    }
+
+    /// Writes a line in capitals from a pixel on, which is the upper left corner of [`CAPTION_PX`] rows; what the letters
+    /// do not have stays blank.
+    pub(crate) fn write_line(&mut self, x: u32, y: u32, text: &str) {
+        let writing = Lettering::new(text);
+        let middle_px = vec2(writing.width() / 2.0 * CAPITAL_PX + STROKE_PX, CAPTION_PX as f32 / 2.0);
+        for (row, column) in (0..CAPTION_PX).flat_map(|row| (0..(2.0 * middle_px.x) as u32).map(move |c| (row, c))) {
+            let from_middle_px = vec2(column as f32 + 0.5, row as f32 + 0.5) - middle_px;
+            let away_px = writing.distance(from_middle_px * vec2(1.0, -1.0) / CAPITAL_PX) * CAPITAL_PX;
+            let covered = (STROKE_PX / 2.0 + 0.5 - away_px).clamp(0.0, 1.0);
+            let mixed = |c: usize| f32::from(PAPER[c]) + covered * (f32::from(INK[c]) - f32::from(PAPER[c]));
+            if covered > 0.0 {
+                self.set(x + column, y + row, [0, 1, 2].map(|c| mixed(c).round() as u8));
+            }
         }
     }
 
@@ -50,8 +70,10 @@ pub fn write_sheet(path: &Path, pictures: &[(String, Raster<[u8; 3]>)]) -> Resul
     let mut sheet = Sheet::new(GAP_PX + columns * width, GAP_PX + rows * height);
     for (i, (name, picture)) in (0..).zip(pictures) {
         let (x, y) = (GAP_PX + i % columns * width, GAP_PX + i / columns * height);
-        let fits: String = name.chars().take((width / LETTER_PX) as usize).collect();
-        draw_text(&mut sheet, x, y, &fits);
+        let fits = |text: &str| Lettering::new(text).width() * CAPITAL_PX <= (width - GAP_PX) as f32;
+        let ends = name.char_indices().map(|(at, letter)| at + letter.len_utf8());
+        let end = ends.take_while(|&end| fits(&name[..end])).last().unwrap_or(0);
+        sheet.write_line(x, y, &name[..end]);
         sheet.paste(x, y + CAPTION_PX, picture.width, &picture.data);
     }
     sheet.write(path)

@@ -9,7 +9,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
     CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels,
-    Lens, Light, MapProjection, Mesh, ObjectLabel, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    Lens, Light, MapProjection, Mesh, ObjectLabel, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
 };
 use trove_write::{ExportFormat, Frame, FrameMeta, WriteError, sha256_file, write_atomically};
 
@@ -19,10 +19,12 @@ const H: u32 = 20;
 fn scene() -> Scene {
     let object = SceneObject {
         kind: Kind::BicycleWithRider,
-        track_token: "track".into(),
-        annotation_token: "annotation".into(),
-        category: "vehicle.bicycle".into(),
-        asset: "bicycle/city".into(),
+        origin: Origin::Recorded {
+            track_token: "track".into(),
+            annotation_token: "annotation".into(),
+            category: "vehicle.bicycle".into(),
+        },
+        asset: Some("bicycle/city".into()),
         cuboid: Cuboid {
             world_from_body: Pose::from_yaw(std::f64::consts::FRAC_PI_2, DVec3::new(10.1, 0.2, 1.0)),
             size_m: DVec3::new(1.8, 0.6, 1.7),
@@ -106,8 +108,8 @@ fn meta() -> FrameMeta {
         keyframe: 5,
         keyframe_token: "keyframe".into(),
         keyframe_time_ns: 1_533_151_603_547_590_000,
-        source_token: "picture".into(),
-        source_image: "samples/CAM_FRONT/a.jpg".into(),
+        source_token: Some("picture".into()),
+        source_image: Some("samples/CAM_FRONT/a.jpg".into()),
         world_from_ego: None,
         projection: MapProjection { origin_lat_deg: 42.3, origin_lon_deg: -71.1, anchor_m: DVec2::new(1.0, 2.0) },
     }

@@ -10,7 +10,7 @@ use gltf_json::validation::Validate;
 use serde_json::Value;
 use trove_model::{
     Class, ColorSpace, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Lens, Light,
-    Material, Mesh, PhysicalSky, Pose, Provenance, Scene, SceneObject, Shot, Texture,
+    Material, Mesh, Origin, PhysicalSky, Pose, Provenance, Scene, SceneObject, Shot, Texture,
 };
 use trove_write::gltf::{GlbStats, SunLight, write_environment, write_glb};
 
@@ -34,10 +34,12 @@ fn texture(name: &str, alpha: u8) -> Arc<Texture> {
 fn instance(id: u32, class: Class, mesh: usize, materials: &[usize], world_from_mesh: DAffine3) -> Instance {
     let object = SceneObject {
         kind: Kind::Car,
-        track_token: "track".into(),
-        annotation_token: "annotation".into(),
-        category: "vehicle.car".into(),
-        asset: "car/sedan".into(),
+        origin: Origin::Recorded {
+            track_token: "track".into(),
+            annotation_token: "annotation".into(),
+            category: "vehicle.car".into(),
+        },
+        asset: Some("car/sedan".into()),
         cuboid: Cuboid { world_from_body: Pose::IDENTITY, size_m: DVec3::ONE },
         velocity_mps: None,
     };

@@ -24,6 +24,7 @@ mod variation;
 mod virtual_scene;
 
 pub use cli::main;
+pub use trove_model::label_table;
 
 /// Name of the built-in asset library in recipes.
 pub const PROCEDURAL: &str = "procedural";

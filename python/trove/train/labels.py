@@ -1,45 +1,48 @@
-"""What the label numbers of every dataset become, in one table.
+"""What the label numbers of every dataset become, by the tables that the program itself reads.
 
 A target is a list of classes; a network predicts their indices, and `IGNORED` is left out of loss and metrics.
 """
 
+import csv
+
 import numpy as np
+
+from trove._trove import label_table
 
 IGNORED = 255
 
-# CamVid's 11, with pole and sign as one as in the native classes and the paper's.
-_CAMVID_IDS = ["sky", "building", "pole", "road", "pavement", "tree", "pole", "fence", "car", "pedestrian", "bicyclist"]
-CAMVID = list(dict.fromkeys(_CAMVID_IDS))
-PAPER = [
-    "car", "bus", "truck", "person", "rider", "road", "sidewalk", "building", "traffic_pole", "vegetation", "terrain", "sky",
-]  # fmt: skip
+# CamVid's poles and signs are one, as in the native classes and the paper's.
+_MERGED = {"sign": "pole"}
+
+
+def _rows(label_set: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(label_table(label_set).splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE))
+
+
+def _counted(label_set: str) -> list[str]:
+    """The names of the classes that count, in the order of their training ids."""
+    rows = [row for row in _rows(label_set) if int(row["train_id"]) != IGNORED]
+    return [row["name"] for row in sorted(rows, key=lambda row: int(row["train_id"]))]
+
+
+CAMVID = list(dict.fromkeys(_MERGED.get(name, name) for name in _counted("camvid")))
+PAPER = _counted("trove13")
 
 TARGETS = {"camvid": CAMVID, "paper": PAPER}
+# The label set whose names a target's are.
+_SETS = {"camvid": "camvid", "paper": "trove13"}
 # The classes of trees, and of what is seen between their twigs.
 CROWNS = {
     "camvid": (CAMVID.index("tree"), CAMVID.index("sky"), CAMVID.index("building")),
     "paper": (PAPER.index("vegetation"), PAPER.index("sky"), PAPER.index("building")),
 }
-
-# Native class id -> (CamVid class, paper's class); "" is ignored. The same rows as `CLASSES` in trove-model.
-_NATIVE = {
-    1: ("sky", "sky"), 2: ("car", "car"), 3: ("car", "bus"), 4: ("car", "car"), 5: ("car", "truck"), 6: ("car", "car"),
-    7: ("pedestrian", "person"), 8: ("building", "building"), 9: ("road", "road"), 10: ("fence", ""),
-    11: ("tree", "terrain"), 12: ("bicyclist", "rider"), 13: ("car", "truck"), 14: ("tree", "vegetation"),
-    15: ("tree", "vegetation"), 16: ("", "rider"), 17: ("", "traffic_pole"),
-    18: ("pole", "traffic_pole"), 19: ("pavement", "sidewalk"),
-}  # fmt: skip
-
-# Cityscapes id -> paper's class; two-wheelers belong to their riders, as in our own labels.
-_CITYSCAPES = {
-    7: "road", 8: "sidewalk", 11: "building", 17: "traffic_pole", 19: "traffic_pole", 20: "traffic_pole",
-    21: "vegetation", 22: "terrain", 23: "sky", 24: "person", 25: "rider", 26: "car", 27: "truck", 28: "bus",
-    32: "rider", 33: "rider",
-}  # fmt: skip
-_CITYSCAPES_TRAIN = {
-    0: "road", 1: "sidewalk", 2: "building", 5: "traffic_pole", 6: "traffic_pole", 7: "traffic_pole", 8: "vegetation",
-    9: "terrain", 10: "sky", 11: "person", 12: "rider", 13: "car", 14: "truck", 15: "bus", 17: "rider", 18: "rider",
-}  # fmt: skip
+# The table of each numbering and the column that holds its numbers.
+_NUMBERINGS = {
+    "native": ("trove20", "id"),
+    "camvid": ("camvid", "id"),
+    "cityscapes": ("cityscapes", "id"),
+    "cityscapes-train": ("cityscapes", "train_id"),
+}
 
 
 def lookup(numbering: str, target: str) -> np.ndarray:
@@ -48,17 +51,16 @@ def lookup(numbering: str, target: str) -> np.ndarray:
     `numbering` is `native` (class.png), `camvid`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
     shares). Raises `ValueError` for a numbering that has no counterpart in the target.
     """
-    classes = TARGETS[target]
-    if numbering == "native":
-        names = {number: row[0 if target == "camvid" else 1] for number, row in _NATIVE.items()}
-    elif numbering == "camvid" and target == "camvid":
-        names = dict(enumerate(_CAMVID_IDS))
-    elif numbering in ("cityscapes", "cityscapes-train") and target == "paper":
-        names = _CITYSCAPES if numbering == "cityscapes" else _CITYSCAPES_TRAIN
-    else:
+    label_set, column = _NUMBERINGS.get(numbering, (None, None))
+    rows = _rows(label_set) if label_set else []
+    # A set names its classes in a column for each other set that it has a counterpart in.
+    names = "name" if label_set == _SETS[target] else _SETS[target]
+    if not rows or names not in rows[0]:
         raise ValueError(f"labels numbered as {numbering} cannot be turned into the classes {target}")
+    classes = TARGETS[target]
     table = np.full(256, IGNORED, np.uint8)
-    for number, name in names.items():
-        if name:
-            table[number] = classes.index(name)
+    for row in rows:
+        name = _MERGED.get(row[names], row[names]) if target == "camvid" else row[names]
+        if name in classes and int(row[column]) != IGNORED:
+            table[int(row[column])] = classes.index(name)
     return table

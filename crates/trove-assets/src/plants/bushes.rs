@@ -374,15 +374,9 @@ fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individu
     let core = Shape::block(vec3(1.84, 0.56, 0.88)).moved(Vec3::Z * 0.44);
     model.add_shape(dark, |_| core.clone());
     let faces = [(Vec3::Z, 1.5), (Vec3::Y, 2.0), (-Vec3::Y, 2.0), (Vec3::X, 1.0), (-Vec3::X, 1.0)];
-    let area: f64 = faces.iter().map(|f| f.1).sum();
     let mut cards = Vec::new();
     for _ in 0..1700 {
-        let mut at = random.range(0.0, area);
-        let outward = faces.iter().find(|f| {
-            at -= f.1;
-            at < 0.0
-        });
-        let outward = outward.map_or(Vec3::Z, |f| f.0);
+        let outward = random.weighted(faces.map(|f| f.1)).map_or(Vec3::Z, |i| faces[i].0);
         let spread = Vec3::from_array(std::array::from_fn(|_| random.range(-1.0, 1.0) as f32));
         // Shears leave waves.
         let wave = 0.02 * (spread.x * 5.0).sin() + 0.015 * (spread.z * 4.0 + spread.x * 3.0).sin();

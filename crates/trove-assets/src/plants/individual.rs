@@ -87,7 +87,7 @@ impl Individual {
             .to_vec();
         let asset = Asset::new(id, kind, kind.class(), near, self.slots, crate::LICENCE);
         let species = plant.species.clone();
-        Asset { coarser, plant: Some(plant), ..asset }.tagged([species])
+        Asset { coarser, plant: Some(plant), ..asset }.tagged(species)
     }
 }
 

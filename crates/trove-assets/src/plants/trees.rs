@@ -71,7 +71,7 @@ pub(super) fn plant(
 ) -> Plant {
     let seasons: Vec<SeasonalFoliage> = tones.seasons(leaf);
     Plant {
-        species: name.into(),
+        species: Some(name.into()),
         leaves,
         genera: genera.iter().map(|g| (*g).into()).collect(),
         habitat: habitat.to_vec(),

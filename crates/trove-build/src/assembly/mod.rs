@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use trove_model::{
-    Asset, Class, Cuboid, Drive, Instance, InstanceId, Kind, Mesh, Pose, Provenance, SceneObject, StreetMap,
+    Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Kind, Mesh, Origin, Pose, Provenance, SceneObject,
+    StreetMap,
 };
 
 use crate::pieces::{Piece, Scenery};
@@ -137,8 +138,9 @@ impl Assembly {
 
     /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
     pub(crate) fn piece(&mut self, piece: &Piece, next_id: &mut u32) {
-        let object =
-            piece.kind.map(|kind| scene_object(kind, &piece.asset, cuboid(&piece.mesh, &piece.world_from_mesh)));
+        let object = piece
+            .kind
+            .map(|kind| scene_object(kind, piece.asset.as_deref(), cuboid(&piece.mesh, &piece.world_from_mesh)));
         let instance = Instance {
             id: object.as_ref().map_or(InstanceId(0), |_| take(next_id)),
             class: piece.class,
@@ -156,7 +158,8 @@ impl Assembly {
     pub(crate) fn scenery(&mut self, scenery: &Scenery, distance_m: f64, next_id: &mut u32) {
         self.credit(scenery.asset);
         let world_from_mesh = scenery.world_from_mesh();
-        let object = scene_object(scenery.asset.kind, &scenery.asset.id, cuboid(&scenery.asset.mesh, &world_from_mesh));
+        let asset = scenery.asset;
+        let object = scene_object(asset.kind, Some(&asset.id), cuboid(&asset.mesh, &world_from_mesh));
         let instance = Instance {
             id: take(next_id),
             class: scenery.asset.class,
@@ -172,7 +175,7 @@ impl Assembly {
 
     /// Where everything came from: recording, map, and the assets by licence.
     pub(crate) fn provenance(&self, drive: &Drive, map: Option<&StreetMap>) -> Vec<Provenance> {
-        let recording = (!drive.licence.is_empty())
+        let recording = (drive.origin == DriveOrigin::Recorded)
             .then(|| Provenance { source: format!("{} {}", drive.dataset, drive.id), licence: drive.licence.clone() });
         let street_map =
             map.map(|m| Provenance { source: format!("street map of {}", drive.id), licence: m.licence.clone() });
@@ -193,16 +196,8 @@ fn take(next_id: &mut u32) -> InstanceId {
     InstanceId(*next_id - 1)
 }
 
-fn scene_object(kind: Kind, asset: &str, cuboid: Cuboid) -> SceneObject {
-    SceneObject {
-        kind,
-        track_token: String::new(),
-        annotation_token: String::new(),
-        category: String::new(),
-        asset: asset.to_owned(),
-        cuboid,
-        velocity_mps: None,
-    }
+fn scene_object(kind: Kind, asset: Option<&str>, cuboid: Cuboid) -> SceneObject {
+    SceneObject { kind, origin: Origin::Scenery, asset: asset.map(str::to_owned), cuboid, velocity_mps: None }
 }
 
 /// The box of a mesh where it stands.

@@ -68,8 +68,8 @@ pub(crate) fn buildings(
     };
     let pieces: Vec<Piece> = houses.par_iter().map(build).filter(|p| !p.mesh.triangles.is_empty()).collect();
     report.measure("buildings.built", pieces.len() as f64);
-    report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| !p.asset.is_empty()).count() as f64);
-    let triangles: usize = pieces.iter().filter(|p| p.asset.is_empty()).map(|p| p.mesh.triangles.len()).sum();
+    report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| p.asset.is_some()).count() as f64);
+    let triangles: usize = pieces.iter().filter(|p| p.asset.is_none()).map(|p| p.mesh.triangles.len()).sum();
     report.measure("buildings.triangles", triangles as f64);
     let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).collect();
     BuiltBuildings { pieces, footprints }
@@ -91,7 +91,7 @@ fn extruded(
         world_from_mesh: DAffine3::IDENTITY,
         class: Class::Building,
         kind: Some(Kind::Building),
-        asset: String::new(),
+        asset: None,
     }
 }
 
@@ -111,7 +111,7 @@ fn replaced(
         class: Class::Building,
         materials: found.asset.slots.iter().map(|slot| painted(slot, random)).collect(),
         kind: Some(Kind::Building),
-        asset: found.asset.id.clone(),
+        asset: Some(found.asset.id.clone()),
     })
 }
 

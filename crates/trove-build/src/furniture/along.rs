@@ -68,7 +68,7 @@ fn lamps<'r>(
             continue;
         }
         // A street's lamps are alike on both its sides.
-        let draw = seed.child(road.map_or("", |r| &r.name)).random().index(models.len());
+        let draw = seed.child(road.and_then(|r| r.name.as_deref()).unwrap_or_default()).random().index(models.len());
         if yard.place_at_kerb(Kind::StreetLamp, &words(&models[draw]), kerb, Source::MadeUp, report) {
             since_m = 0.0;
         }

@@ -181,7 +181,7 @@ impl<'y, 'a, 'b, 'c> Layer<'y, 'a, 'b, 'c> {
             world_from_mesh: DAffine3::from_translation(origin),
             class: asset.class,
             kind: Some(kind),
-            asset: asset.id.clone(),
+            asset: Some(asset.id.clone()),
         });
     }
 }

@@ -37,9 +37,10 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, rep
     let mut signs = Vec::new();
     for junction in junctions.iter().filter(|j| path.nearest(j.centre, READ_M).is_some()) {
         let mut streets: Vec<(&str, DVec2)> = Vec::new();
-        for arm in junction.arms.iter().filter(|a| !a.road.name.is_empty()) {
-            if !streets.iter().any(|(name, _)| *name == arm.road.name) {
-                streets.push((&arm.road.name, arm.inward));
+        for arm in &junction.arms {
+            let Some(name) = &arm.road.name else { continue };
+            if !streets.iter().any(|(known, _)| known == name) {
+                streets.push((name, arm.inward));
             }
         }
         let [(first, along), (second, _), ..] = streets[..] else { continue };
@@ -54,7 +55,7 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, rep
             class: asset.class,
             materials: dressed(asset, &first, &second),
             kind: Some(asset.kind),
-            asset: asset.id.clone(),
+            asset: Some(asset.id.clone()),
         }));
     }
     signs

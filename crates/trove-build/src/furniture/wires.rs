@@ -170,7 +170,7 @@ fn piece(mesh: Mesh, origin: DVec3) -> Option<Piece> {
         class: Class::Void,
         materials: vec![Material::plain("wire", Vec3::splat(0.02), 0.6)],
         kind: None,
-        asset: String::new(),
+        asset: None,
     })
 }
 

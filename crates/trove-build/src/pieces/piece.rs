@@ -19,7 +19,7 @@ pub(crate) struct Piece {
     /// What it is, for an object with an id of its own; `None` for stuff.
     pub kind: Option<Kind>,
     /// Id of the asset that stands for it; empty for what was built for this place.
-    pub asset: String,
+    pub asset: Option<String>,
 }
 
 impl Piece {
@@ -31,7 +31,7 @@ impl Piece {
             class,
             materials: vec![material],
             kind: None,
-            asset: String::new(),
+            asset: None,
         }
     }
 }

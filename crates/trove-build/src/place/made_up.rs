@@ -2,14 +2,11 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
-    Bounds, Camera, Distortion, Drive, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection, Outcome,
-    Pose, Report, RigCamera, Road, Seed, StreetMap, World,
+    Bounds, Camera, Distortion, Drive, DriveOrigin, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection,
+    Outcome, Pose, Report, RigCamera, Road, Seed, StreetMap, World,
 };
 
 use crate::error::BuildError;
-
-/// The dataset's name of a drive that was made up from a map.
-pub(crate) const PLACE_DATASET: &str = "place";
 
 /// At most so many views' positions.
 const MAX_VIEWS: usize = 20;
@@ -78,8 +75,8 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
             world_from_ego,
             lens: c.lens,
             ego_from_camera: c.ego_from_camera,
-            token: String::new(),
-            file: String::new(),
+            token: None,
+            file: None,
         };
         Keyframe {
             time_ns,
@@ -92,7 +89,8 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
     };
     Ok(Drive {
         id: place.into(),
-        dataset: PLACE_DATASET.into(),
+        dataset: "place".into(),
+        origin: DriveOrigin::MadeUp,
         place: place.into(),
         projection,
         keyframes: stands.iter().enumerate().map(keyframe).collect(),

@@ -7,7 +7,6 @@ mod moments;
 mod seeds;
 
 pub(crate) use conditions::Conditions;
-pub(crate) use made_up::PLACE_DATASET;
 pub use made_up::{PlacePlan, place_drive};
 pub(crate) use moments::{apart_s, next, previous};
 pub use seeds::Seeds;

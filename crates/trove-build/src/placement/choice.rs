@@ -74,13 +74,9 @@ pub(super) fn draw<'a>(ranked: &[Candidate<'a>], top_k: usize, seed: Seed) -> Op
     let is_person = ranked.first()?.asset.figure.is_some();
     let most = if is_person && top_k > 1 { top_k * PEOPLE } else { top_k.max(1) };
     let best: Vec<&Candidate> = ranked.iter().take(most).take_while(|c| c.fit.quality_m >= least_m).collect();
-    let lots = |c: &Candidate| f64::from(c.asset.commonness.max(0.0));
-    let mut left = seed.child("asset").random().unit() * best.iter().copied().map(lots).sum::<f64>();
-    let drawn = best.iter().copied().find(|c| {
-        left -= lots(c);
-        left < 0.0
-    });
-    drawn.or(best.first().copied()).copied()
+    let weights = best.iter().map(|c| f64::from(c.asset.commonness.max(0.0)));
+    let drawn = seed.child("asset").random().weighted(weights).unwrap_or(0);
+    best.get(drawn).copied().copied()
 }
 
 /// The choice for a track, with those who came next.

@@ -94,12 +94,7 @@ fn commonness(asset: &Asset) -> f64 {
     f64::from(asset.commonness.max(0.0))
 }
 
-/// One of some, by their lots; `None` where there are none.
-fn drawn<T: Copy>(lots: &[(T, f64)], random: &mut Random) -> Option<T> {
-    let mut left = random.unit() * lots.iter().map(|(_, lots)| lots).sum::<f64>();
-    let found = lots.iter().find(|(_, lots)| {
-        left -= lots;
-        left < 0.0
-    });
-    found.or(lots.last()).map(|(item, _)| *item)
+/// One of some, by their weights; `None` where nothing weighs anything.
+fn drawn<T: Copy>(weighted: &[(T, f64)], random: &mut Random) -> Option<T> {
+    random.weighted(weighted.iter().map(|(_, weight)| *weight)).map(|i| weighted[i].0)
 }

@@ -3,7 +3,7 @@ use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
 use crate::{LightChoice, OnDisagreement, Weather, testing};
 use room::Outline;
-use trove_model::{Instance, Scene};
+use trove_model::{Instance, Origin, Scene, SceneObject};
 
 const RIDER: &str = "bicycle/rider";
 
@@ -33,13 +33,14 @@ fn site_with(traffic: Traffic, seed: u64, report: &Report) -> Site {
 }
 
 /// Boxes of who was recorded, with their tracks' tokens, and of who was added.
-fn road_users(scene: &Scene) -> [Vec<(String, Cuboid)>; 2] {
+fn road_users(scene: &Scene) -> (Vec<(String, Cuboid)>, Vec<Cuboid>) {
     let objects = || scene.instances.iter().filter_map(|i| i.object.as_deref());
-    let row = |o: &trove_model::SceneObject| (o.track_token.clone(), o.cuboid);
-    [
-        objects().filter(|o| !o.track_token.is_empty()).map(row).collect(),
-        objects().filter(|o| o.track_token.is_empty() && o.velocity_mps.is_some()).map(row).collect(),
-    ]
+    let recorded = |o: &SceneObject| match &o.origin {
+        Origin::Recorded { track_token, .. } => Some((track_token.clone(), o.cuboid)),
+        _ => None,
+    };
+    let added = objects().filter(|o| o.origin == Origin::Added).map(|o| o.cuboid).collect();
+    (objects().filter_map(recorded).collect(), added)
 }
 
 #[test]
@@ -83,9 +84,10 @@ fn who_is_added_meets_nobody_keeps_a_steady_course_and_changes_nothing_else() {
         for (a, b) in before.instances.iter().zip(&after.instances) {
             assert_eq!((a.id, a.class, a.world_from_mesh), (b.id, b.class, b.world_from_mesh));
         }
-        let [recorded, added] = road_users(&after);
-        let ego = (String::new(), ego_cuboid(&drive, keyframe));
-        let bodies: Vec<Outline> = recorded.iter().chain(&added).chain([&ego]).map(|(_, c)| Outline::of(c)).collect();
+        let (recorded, added) = road_users(&after);
+        let ego = ego_cuboid(&drive, keyframe);
+        let recorded_cuboids = recorded.iter().map(|(_, cuboid)| cuboid);
+        let bodies: Vec<Outline> = recorded_cuboids.chain(&added).chain([&ego]).map(Outline::of).collect();
         for i in 0..bodies.len() {
             let meets = (0..i).find(|&j| bodies[i].meets(&bodies[j]) && i >= recorded.len());
             assert_eq!(meets, None, "{i} at {k}: {:?}", bodies[i]);
@@ -96,7 +98,7 @@ fn who_is_added_meets_nobody_keeps_a_steady_course_and_changes_nothing_else() {
             let (place, speed) = (now, object.velocity_mps.unwrap().length());
             let found = seen.entry(instance.id).or_insert((k, place, object.asset.clone()));
             let ten = (k - found.0) as f64 * 0.5 * speed;
-            assert!((found.1.distance(place) - ten).abs() < 0.5, "{} at {k}", object.asset);
+            assert!((found.1.distance(place) - ten).abs() < 0.5, "{:?} at {k}", object.asset);
             if let Some(next) = instance.world_from_mesh_next {
                 let moved = next.translation.distance(instance.world_from_mesh.translation);
                 assert!((moved - 0.5 * speed).abs() < 0.3, "{moved} {speed}");
@@ -106,7 +108,7 @@ fn who_is_added_meets_nobody_keeps_a_steady_course_and_changes_nothing_else() {
     let guessed: u64 = report.entries().iter().filter(|e| e.what.contains("more traffic")).map(|e| e.count).sum();
     assert_eq!(guessed, seen.len() as u64);
     assert!(seen.len() >= 15, "{} of 20", seen.len());
-    let assets: BTreeSet<String> = seen.into_values().map(|(.., asset)| asset).collect();
+    let assets: BTreeSet<String> = seen.into_values().filter_map(|(.., asset)| asset).collect();
     assert!(assets.contains(RIDER) && assets.contains("person/a"), "{assets:?}");
 }
 
@@ -139,8 +141,8 @@ fn cyclists_are_as_common_as_asked_for() {
     let drive = testing::drive();
     let riders = |cyclists: f64| {
         let site = site_with(Traffic { density: 4.0, cyclists }, 1, &Report::default());
-        let [_, added] = road_users(&site.scene(&drive, 5));
-        let is_rider = |b: &&(String, Cuboid)| b.1.size_m.x > 1.7 && b.1.size_m.x < 1.8;
+        let (_, added) = road_users(&site.scene(&drive, 5));
+        let is_rider = |cuboid: &&Cuboid| cuboid.size_m.x > 1.7 && cuboid.size_m.x < 1.8;
         (added.iter().filter(is_rider).count(), added.len())
     };
     assert_eq!(riders(0.0).0, 0);

@@ -287,12 +287,7 @@ fn standing(doing: Doing, position: DVec2, looks: DVec2, shares: &Shares, random
 
 /// How many are together: shares of one, two and so on.
 fn how_many(shares: &[f64], random: &mut Random) -> u32 {
-    let mut left = random.unit();
-    let more = shares.iter().take_while(|share| {
-        left -= **share;
-        left >= 0.0
-    });
-    (more.count() as u32 + 1).min(shares.len() as u32)
+    random.weighted(shares.iter().copied()).map_or(1, |more| more as u32 + 1)
 }
 
 /// The line that someone walks so far from the kerb, along the run or against it, smoothed, and how far along it the

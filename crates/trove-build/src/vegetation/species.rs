@@ -32,8 +32,8 @@ struct Model<'a> {
 impl Model<'_> {
     /// What it shares with the other individuals of its species.
     fn species(&self) -> &str {
-        let named = self.asset.plant.as_ref().map(|p| p.species.as_str());
-        named.filter(|name| !name.is_empty()).unwrap_or(&self.asset.id)
+        let named = self.asset.plant.as_ref().and_then(|p| p.species.as_deref());
+        named.unwrap_or(&self.asset.id)
     }
 
     /// Whether a map's name of a species or genus is its own.
@@ -212,7 +212,7 @@ mod tests {
     fn library() -> AssetLibrary {
         let lime = |id: &str, height_m| {
             let genera = vec!["tilia".into(), "lime".into()];
-            plant(id, Plant { species: "lime".into(), genera, ..Plant::default() }, height_m)
+            plant(id, Plant { species: Some("lime".into()), genera, ..Plant::default() }, height_m)
         };
         let habitat = vec![(Climate::Temperate, 0.0)];
         let assets = vec![

@@ -1,7 +1,7 @@
 //! The rig on other vehicles of the scene.
 
 use glam::DVec3;
-use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, World};
+use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, Viewpoint, World};
 
 use super::settings::{ViewSettings, shot_seed};
 use crate::place::Seeds;
@@ -63,7 +63,8 @@ pub(super) fn shots(
             continue;
         };
         carriers += 1;
-        shots.extend(rig_shots(drive, site, keyframe, views, seeds, vehicle.track, carriers, lift_m));
+        let carrier = Carrier { track: vehicle.track, number: carriers, lift_m };
+        shots.extend(carrier.shots(drive, site, keyframe, views, seeds));
     }
     if carriers < views.other_vehicles {
         let example = format!("{} keyframe {keyframe}: {carriers} of {}", drive.id, views.other_vehicles);
@@ -72,44 +73,46 @@ pub(super) fn shots(
     shots
 }
 
-#[allow(clippy::too_many_arguments)] // one vehicle's rig, all of it told by the caller
-fn rig_shots(
-    drive: &Drive,
-    site: &Site,
-    keyframe: usize,
-    views: &ViewSettings,
-    seeds: &Seeds,
+/// A vehicle that carries the rig.
+struct Carrier {
     track: usize,
+    /// From 1, in the order in which they were chosen.
     number: usize,
+    /// How far its rig is lifted to stand clear.
     lift_m: f64,
-) -> Vec<Shot> {
-    let moment = &drive.keyframes[keyframe];
-    let world_from_rig = |k: Option<usize>| Some(world_from_rig(drive, &site.placed(track, k?)?, lift_m));
-    let Some(now) = world_from_rig(Some(keyframe)) else { return Vec::new() };
-    let before = world_from_rig(previous(drive, keyframe));
-    let after = world_from_rig(next(drive, keyframe));
-    let times_ns = [previous(drive, keyframe), next(drive, keyframe)].map(|k| Some(drive.keyframes[k?].time_ns));
-    let cameras = drive.rig.iter().filter(|c| views.wants(&c.name));
-    let mounted = |camera: &RigCamera| views.mounted(&camera.ego_from_camera);
-    cameras
-        .map(|camera| {
-            let view = format!("v{number}.{}", camera.name);
-            Shot {
-                lens: views.lens(&camera.name, &camera.lens),
-                world_from_camera: now * mounted(camera),
-                world_from_camera_previous: before.map(|rig| rig * mounted(camera)),
-                world_from_camera_next: after.map(|rig| rig * mounted(camera)),
-                time_ns: moment.time_ns,
-                shutter: views.shutter(moment.time_ns, times_ns),
-                spp: views.spp,
-                noise: views.noise,
-                film: views.film,
-                seed: shot_seed(seeds, keyframe, &view),
-                carrier: Some(track_id(track)),
-                view,
-            }
-        })
-        .collect()
+}
+
+impl Carrier {
+    fn shots(&self, drive: &Drive, site: &Site, keyframe: usize, views: &ViewSettings, seeds: &Seeds) -> Vec<Shot> {
+        let moment = &drive.keyframes[keyframe];
+        let world_from_rig = |k: Option<usize>| Some(world_from_rig(drive, &site.placed(self.track, k?)?, self.lift_m));
+        let Some(now) = world_from_rig(Some(keyframe)) else { return Vec::new() };
+        let before = world_from_rig(previous(drive, keyframe));
+        let after = world_from_rig(next(drive, keyframe));
+        let times_ns = [previous(drive, keyframe), next(drive, keyframe)].map(|k| Some(drive.keyframes[k?].time_ns));
+        let cameras = drive.rig.iter().enumerate().filter(|(_, c)| views.wants(&c.name));
+        let mounted = |camera: &RigCamera| views.mounted(&camera.ego_from_camera);
+        cameras
+            .map(|(index, camera)| {
+                let view = format!("v{}.{}", self.number, camera.name);
+                Shot {
+                    viewpoint: Viewpoint::OtherVehicle { number: self.number, camera: index },
+                    lens: views.lens(&camera.name, &camera.lens),
+                    world_from_camera: now * mounted(camera),
+                    world_from_camera_previous: before.map(|rig| rig * mounted(camera)),
+                    world_from_camera_next: after.map(|rig| rig * mounted(camera)),
+                    time_ns: moment.time_ns,
+                    shutter: views.shutter(moment.time_ns, times_ns),
+                    spp: views.spp,
+                    noise: views.noise,
+                    film: views.film,
+                    seed: shot_seed(seeds, keyframe, &view),
+                    carrier: Some(track_id(self.track)),
+                    view,
+                }
+            })
+            .collect()
+    }
 }
 
 fn can_carry(kind: Kind) -> bool {

@@ -3,7 +3,7 @@
 mod carriers;
 mod settings;
 
-use trove_model::{Drive, Outcome, Report, Shot};
+use trove_model::{Drive, Outcome, Report, Shot, Viewpoint};
 
 pub use settings::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings};
 
@@ -54,6 +54,7 @@ pub fn shots(
             film: views.film,
             seed: shot_seed(seeds, keyframe, &view),
             carrier: Some(site.ego_id(drive)),
+            viewpoint: Viewpoint::Recording { camera: exposure.camera },
             view,
         });
     }
@@ -106,7 +107,8 @@ mod tests {
         let (drive, site) = (testing::drive(), site());
         for keyframe in 0..10 {
             let shots = taken(&site, keyframe, 3);
-            let others: Vec<&Shot> = shots.iter().filter(|s| s.view.starts_with('v')).collect();
+            let is_other = |s: &&Shot| matches!(s.viewpoint, Viewpoint::OtherVehicle { .. });
+            let others: Vec<&Shot> = shots.iter().filter(is_other).collect();
             assert_eq!(others.len(), 4);
             for shot in others {
                 for annotated in &drive.keyframes[keyframe].boxes {

@@ -65,8 +65,8 @@ pub struct Road {
     pub tunnel: bool,
     /// What it is paved with; `None` where the map does not say.
     pub surface: Option<RoadSurface>,
-    /// Name; empty where it has none.
-    pub name: String,
+    /// The street's name; `None` where it has none.
+    pub name: Option<String>,
     /// Lanes of all that run against the way's direction, where tagged; 0 on a one-way street.
     pub lanes_backward: Option<u32>,
     /// Where each lane in the way's direction leads, from left to right as driven; empty where not tagged.
@@ -106,7 +106,7 @@ impl Road {
             bridge: false,
             tunnel: false,
             surface: None,
-            name: String::new(),
+            name: None,
             lanes_backward: None,
             turns_forward: Vec::new(),
             turns_backward: Vec::new(),

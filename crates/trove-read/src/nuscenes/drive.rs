@@ -1,7 +1,7 @@
 //! One scene, joined from its tables.
 
 use glam::{DVec2, DVec3};
-use trove_model::{Drive, EgoBody, Keyframe, Outcome, Report};
+use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, Outcome, Report};
 
 use super::dataset::{LICENCE, NuScenes};
 use super::exposures::{self, GlobalFromEgo, Taken};
@@ -74,6 +74,7 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
     let mut drive = Drive {
         id: record.name.clone(),
         dataset: "nuscenes".to_owned(),
+        origin: DriveOrigin::Recorded,
         place: place_name.to_owned(),
         projection: place::projection(log, anchor_m, report),
         rig,
@@ -119,10 +120,11 @@ fn read_sweeps(
     numbered.sort_unstable();
     let classes = kinds::lidar_classes(&numbered);
     for (moment, keyframe) in moments.iter().zip(keyframes) {
-        let Some(revolution) = moment.taken.revolution.as_ref().filter(|r| !r.file.is_empty()) else { continue };
-        let labels = dataset.tables.lidarseg_files.get(&revolution.token).map_or("", String::as_str);
-        let labels = exposures::existing(&dataset.root, labels, report);
-        let files = SweepFiles { points: &revolution.file, labels: &labels };
+        let Some(revolution) = &moment.taken.revolution else { continue };
+        let Some(points) = &revolution.file else { continue };
+        let labels = dataset.tables.lidarseg_files.get(&revolution.token);
+        let labels = labels.and_then(|file| exposures::existing(&dataset.root, file, report));
+        let files = SweepFiles { points, labels: labels.as_deref() };
         let world_from_sensor = world_pose(revolution.global_from_ego) * revolution.ego_from_sensor;
         keyframe.lidar = lidar::sweep(&dataset.root, &files, world_from_sensor, &classes, report);
     }

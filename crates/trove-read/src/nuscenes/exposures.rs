@@ -20,7 +20,7 @@ pub(super) struct Picture {
     pub(super) lens: Lens,
     pub(super) ego_from_camera: Pose<Ego, Camera>,
     pub(super) token: String,
-    pub(super) file: String,
+    pub(super) file: Option<String>,
 }
 
 /// What the top LiDAR took.
@@ -28,7 +28,7 @@ pub(super) struct Revolution {
     pub(super) global_from_ego: GlobalFromEgo,
     pub(super) ego_from_sensor: Pose<Ego, SensorFrame>,
     pub(super) token: String,
-    pub(super) file: String,
+    pub(super) file: Option<String>,
 }
 
 /// One sample's sensor data.
@@ -132,14 +132,14 @@ fn picture(
     })
 }
 
-/// A file's path below the root, or nothing where it is not at hand; paths that leave the root are not followed.
-pub(super) fn existing(root: &Path, file: &str, report: &Report) -> String {
+/// A file's path below the root; `None` where it is not at hand. Paths that leave the root are not followed.
+pub(super) fn existing(root: &Path, file: &str, report: &Report) -> Option<String> {
     let path = Path::new(file);
     if !path.components().all(|c| matches!(c, Component::Normal(_))) {
         report.note(Outcome::Dropped, "file name that leaves the dataset's folder", file);
-        return String::new();
+        return None;
     }
-    if !file.is_empty() && root.join(path).is_file() { file.to_owned() } else { String::new() }
+    (!file.is_empty() && root.join(path).is_file()).then(|| file.to_owned())
 }
 
 /// The cameras by name, each as it was when it was first used.
@@ -169,7 +169,7 @@ pub(super) fn exposures(
             world_from_ego: world_pose(picture.global_from_ego),
             lens: picture.lens,
             ego_from_camera: picture.ego_from_camera,
-            token: picture.token.clone(),
+            token: Some(picture.token.clone()),
             file: picture.file.clone(),
         })
     };

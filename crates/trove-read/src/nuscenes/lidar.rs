@@ -10,7 +10,7 @@ const POINT_BYTES: usize = 20;
 /// Where a sweep and its labels lie; `labels` is empty where there are none.
 pub(super) struct SweepFiles<'a> {
     pub(super) points: &'a str,
-    pub(super) labels: &'a str,
+    pub(super) labels: Option<&'a str>,
 }
 
 /// A sweep; `None` where the file cannot be used, which is reported.
@@ -27,7 +27,7 @@ pub(super) fn sweep(
         report.note(Outcome::Dropped, "truncated LiDAR sweep", example);
         return None;
     }
-    let labels = labels(root, files.labels, bytes.len() / POINT_BYTES, report);
+    let labels = files.labels.and_then(|file| labels(root, file, bytes.len() / POINT_BYTES, report));
     let mut sweep =
         LidarSweep { origin_world: world_from_sensor.translation, points_world: Vec::new(), classes: Vec::new() };
     for (i, point) in bytes.chunks_exact(POINT_BYTES).enumerate() {
@@ -47,7 +47,7 @@ pub(super) fn sweep(
 
 /// One category number a point; `None` where there are none, or not one a point.
 fn labels(root: &Path, file: &str, points: usize, report: &Report) -> Option<Vec<u8>> {
-    let labels = if file.is_empty() { None } else { read(root, file, report) }?;
+    let labels = read(root, file, report)?;
     if labels.len() == points {
         return Some(labels);
     }

@@ -61,7 +61,7 @@ pub(super) fn road(
         bridge: tags.has("bridge"),
         tunnel: in_tunnel(tags),
         surface: tagged.word(&["surface"], &ROAD_SURFACES),
-        name: tags.get("name").to_owned(),
+        name: Some(tags.get("name").to_owned()).filter(|name| !name.is_empty()),
         roundabout,
         link: tags.get("highway").ends_with("_link"),
         steps: tags.get("highway") == "steps",

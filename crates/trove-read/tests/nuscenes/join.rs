@@ -29,7 +29,7 @@ fn every_camera_has_its_own_time_and_pose_and_world_begins_at_the_anchor() {
     // The front camera looks along the ego's x axis, 1 m before and 1.5 m above its origin.
     let ahead_camera = front.world_from_camera().inverse().point(DVec3::new(16.2, -0.4, 1.75));
     assert!(ahead_camera.distance(DVec3::new(0.0, 0.0, 10.0)) < 1e-6, "{ahead_camera}");
-    assert!(front.file.is_empty());
+    assert_eq!(front.file, None);
 }
 
 #[test]

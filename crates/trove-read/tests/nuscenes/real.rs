@@ -70,7 +70,7 @@ fn scene_0061_is_what_the_devkit_says() {
     assert!(centre.distance(DVec2::new(1508.19116648, 580.7217097)) < 1e-5, "{centre}");
     let sweeps: Vec<_> = drive.keyframes.iter().filter_map(|k| k.lidar.as_ref()).collect();
     assert!(sweeps.len() == 1 && sweeps[0].points_world.len() == 34_688);
-    assert!(drive.keyframes[0].exposures.iter().all(|e| !e.file.is_empty()));
+    assert!(drive.keyframes[0].exposures.iter().all(|e| e.file.is_some()));
     assert!(report.entries().iter().all(|e| !e.what.contains("annotation")), "{:?}", report.entries());
 }
 

@@ -57,8 +57,9 @@ pub(super) fn list(
             let (instance, id) = (&scene.instances[i], scene.shapes.placed[i].id);
             let object = instance.object.as_deref().filter(|_| id.0 != 0 && Some(id) != shot.carrier)?;
             // Scenery is plentiful, and nobody asks for the thousand trees behind the houses.
-            let is_road_user = !object.annotation_token.is_empty() || object.velocity_mps.is_some();
-            (is_road_user || visible[i].count > 0).then(|| label(scene, shot, shown, i, object, visible[i])).flatten()
+            (object.origin.is_road_user() || visible[i].count > 0)
+                .then(|| label(scene, shot, shown, i, object, visible[i]))
+                .flatten()
         })
         .collect();
     objects.sort_by_key(|object| object.id);

@@ -111,8 +111,6 @@ impl<'a> Geometry<'a> {
 }
 
 fn mesh_name(instance: &Instance) -> String {
-    match &instance.object {
-        Some(object) if !object.asset.is_empty() => object.asset.clone(),
-        _ => format!("{} {}", instance.class.row().name, instance.mesh),
-    }
+    let asset = instance.object.as_ref().and_then(|object| object.asset.clone());
+    asset.unwrap_or_else(|| format!("{} {}", instance.class.row().name, instance.mesh))
 }

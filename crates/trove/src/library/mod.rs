@@ -5,7 +5,6 @@
 //! the installed packages carries it, and only when there is no such file.
 
 mod pack;
-mod packed;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,84 +1,121 @@
 //! An asset library as one file: textures, meshes, then everything that refers to them, each block compressed.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use trove_model::AssetLibrary;
-
-use super::packed::{Packed, Packer, Unpacker};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use trove_model::{AssetLibrary, ColorSpace, Mesh, Texture};
 
 /// Noise, of which textures are full, gains little by a higher one.
 const LEVEL: i32 = 1;
 /// Changes with the layout of the file.
-const MAGIC: &[u8; 8] = b"TROVELB2";
+const MAGIC: &[u8; 8] = b"TROVELB3";
+
+/// What stands before the blocks.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    /// So many of the blocks are textures; all others but the last one are meshes.
+    textures: usize,
+    blocks: Vec<Block>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Block {
+    bytes: usize,
+    crc32: u32,
+}
+
+/// The last block: a library without its meshes and textures, and which of them go where.
+#[derive(Serialize, Deserialize)]
+struct Rest {
+    library: AssetLibrary,
+    /// In the order of [`AssetLibrary::meshes_mut`].
+    meshes: Vec<u32>,
+    /// In the order of [`AssetLibrary::textures_mut`].
+    textures: Vec<u32>,
+}
 
 /// The whole library as bytes.
 pub(super) fn pack(library: &AssetLibrary) -> Vec<u8> {
-    let mut packer = Packer::default();
-    library.pack(&mut packer);
-    let Packer { bytes, meshes, textures, .. } = packer;
+    let mut library = library.clone();
+    let (meshes, mesh_numbers) = taken(library.meshes_mut(), &Arc::new(Mesh::default()));
+    let none = Texture { name: String::new(), width: 0, height: 0, rgba: Vec::new(), color_space: ColorSpace::Linear };
+    let (textures, texture_numbers) = taken(library.textures_mut(), &Arc::new(none));
+
     let mut blocks: Vec<Vec<u8>> = textures.par_iter().map(|t| block(&**t)).collect();
     blocks.par_extend(meshes.par_iter().map(|m| block(&**m)));
-    blocks.push(compressed(&bytes));
+    blocks.push(block(&Rest { library, meshes: mesh_numbers, textures: texture_numbers }));
 
-    let mut file = MAGIC.to_vec();
-    for count in [textures.len(), meshes.len()] {
-        file.extend((count as u32).to_le_bytes());
-    }
-    for block in &blocks {
-        file.extend((block.len() as u64).to_le_bytes());
-        file.extend(crc32fast::hash(block).to_le_bytes());
-    }
-    blocks.iter().for_each(|block| file.extend_from_slice(block));
-    file
+    let row = |block: &Vec<u8>| Block { bytes: block.len(), crc32: crc32fast::hash(block) };
+    let header = bytes(&Header { textures: textures.len(), blocks: blocks.iter().map(row).collect() });
+    let sum = crc32fast::hash(&header).to_le_bytes();
+    [&MAGIC[..], &sum, &header].into_iter().chain(blocks.iter().map(Vec::as_slice)).flatten().copied().collect()
 }
 
-fn block(value: &impl Packed) -> Vec<u8> {
-    let mut packer = Packer::default();
-    value.pack(&mut packer);
-    compressed(&packer.bytes)
+/// What is shared, each once, and its number in every place; `stand_in` is left there.
+fn taken<'a, T: 'a>(places: impl Iterator<Item = &'a mut Arc<T>>, stand_in: &Arc<T>) -> (Vec<Arc<T>>, Vec<u32>) {
+    let mut all = Vec::new();
+    let mut known = HashMap::new(); // only ever looked up
+    let number = |place: &mut Arc<T>| {
+        let shared = std::mem::replace(place, stand_in.clone());
+        *known.entry(Arc::as_ptr(&shared).addr()).or_insert_with(|| {
+            all.push(shared);
+            all.len() as u32 - 1
+        })
+    };
+    let numbers = places.map(number).collect();
+    (all, numbers)
 }
 
-fn compressed(bytes: &[u8]) -> Vec<u8> {
-    zstd::encode_all(bytes, LEVEL).expect("writing to memory does not fail")
+/// Puts back what was taken; `None` where the numbers are not those of the places.
+fn put<'a, T: 'a>(places: impl Iterator<Item = &'a mut Arc<T>>, all: &[Arc<T>], numbers: &[u32]) -> Option<()> {
+    let mut numbers = numbers.iter();
+    for place in places {
+        *place = all.get(*numbers.next()? as usize)?.clone();
+    }
+    numbers.next().is_none().then_some(())
+}
+
+fn bytes(value: &impl Serialize) -> Vec<u8> {
+    postcard::to_stdvec(value).expect("memory takes everything, and our types say how many elements they have")
+}
+
+fn block(value: &impl Serialize) -> Vec<u8> {
+    zstd::encode_all(&bytes(value)[..], LEVEL).expect("writing to memory does not fail")
 }
 
 /// The library again; `None` where the file is damaged or of another layout.
 pub(super) fn unpack(file: &[u8]) -> Option<AssetLibrary> {
-    let mut from = Unpacker { bytes: file.strip_prefix(MAGIC)?, meshes: &[], textures: &[] };
-    let [textures, meshes]: [u32; 2] = Packed::unpack(&mut from)?;
-    let (textures, meshes) = (textures as usize, meshes as usize);
-    let count = textures.checked_add(meshes)?.checked_add(1)?;
-    if count.checked_mul(12)? > from.bytes.len() {
+    let (sum, file) = file.strip_prefix(MAGIC)?.split_first_chunk()?;
+    let (header, mut left): (Header, &[u8]) = postcard::take_from_bytes(file).ok()?;
+    if crc32fast::hash(&file[..file.len() - left.len()]) != u32::from_le_bytes(*sum) {
         return None;
     }
-    let mut table = Vec::with_capacity(count);
-    for _ in 0..count {
-        table.push((usize::unpack(&mut from)?, u32::unpack(&mut from)?));
+    let mut blocks = Vec::with_capacity(header.blocks.len());
+    for Block { bytes, crc32 } in header.blocks {
+        let (block, after) = left.split_at_checked(bytes)?;
+        left = after;
+        blocks.push((block, crc32));
     }
-    let mut blocks = Vec::with_capacity(count);
-    for (length, sum) in table {
-        let (block, left) = from.bytes.split_at_checked(length)?;
-        from.bytes = left;
-        blocks.push((block, sum));
-    }
-    let textures_of =
-        |blocks: &[(&[u8], u32)]| blocks.par_iter().map(|b| value(b).map(Arc::new)).collect::<Option<Vec<_>>>();
-    let (textures, meshes): (Option<Vec<_>>, Option<Vec<_>>) = rayon::join(
-        || textures_of(&blocks[..textures]),
-        || blocks[textures..count - 1].par_iter().map(|b| value(b).map(Arc::new)).collect(),
-    );
-    let (textures, meshes) = (textures?, meshes?);
-    let bytes = opened(&blocks[count - 1])?;
-    AssetLibrary::unpack(&mut Unpacker { bytes: &bytes, meshes: &meshes, textures: &textures })
+    let (rest, shared) = blocks.split_last()?;
+    let (textures, meshes) = shared.split_at_checked(header.textures)?;
+    let ((textures, meshes), rest) =
+        rayon::join(|| rayon::join(|| values(textures), || values(meshes)), || value::<Rest>(rest));
+    let Rest { mut library, meshes: mesh_numbers, textures: texture_numbers } = rest?;
+    put(library.meshes_mut(), &meshes?, &mesh_numbers)?;
+    put(library.textures_mut(), &textures?, &texture_numbers)?;
+    Some(library)
 }
 
-fn value<T: Packed>(block: &(&[u8], u32)) -> Option<T> {
-    T::unpack(&mut Unpacker { bytes: &opened(block)?, meshes: &[], textures: &[] })
+fn values<T: DeserializeOwned + Send + Sync>(blocks: &[(&[u8], u32)]) -> Option<Vec<Arc<T>>> {
+    blocks.par_iter().map(|block| value(block).map(Arc::new)).collect()
 }
 
-/// A block's bytes, where its sum is right.
-fn opened((block, sum): &(&[u8], u32)) -> Option<Vec<u8>> {
+/// What a block holds, where its sum is right.
+fn value<T: DeserializeOwned>((block, sum): &(&[u8], u32)) -> Option<T> {
     let whole = crc32fast::hash(block) == *sum;
-    whole.then(|| zstd::decode_all(*block).ok()).flatten()
+    let bytes = whole.then(|| zstd::decode_all(*block).ok()).flatten()?;
+    postcard::from_bytes(&bytes).ok()
 }

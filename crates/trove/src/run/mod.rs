@@ -15,7 +15,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 use trove_build::ALL_CAMERAS;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, Versions, WrittenFile};
-use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap};
+use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
 
@@ -413,7 +413,10 @@ impl Run<'_> {
         capture.change = before.map(|b| self.renderer.changes((&b.scene, &b.prepared), after, shot));
         let render_s = started.elapsed().as_secs_f64();
         let moment = &drive.keyframes[key.keyframe as usize];
-        let exposure = moment.exposures.iter().find(|e| shot.view == format!("ego.{}", drive.rig[e.camera].name));
+        let exposure = match shot.viewpoint {
+            Viewpoint::Recording { camera } => moment.exposures.iter().find(|e| e.camera == camera),
+            Viewpoint::OtherVehicle { .. } | Viewpoint::Free => None,
+        };
         let meta = FrameMeta {
             scene: key.scene.clone(),
             dataset: drive.dataset.clone(),
@@ -422,8 +425,8 @@ impl Run<'_> {
             keyframe: key.keyframe,
             keyframe_token: moment.token.clone(),
             keyframe_time_ns: moment.time_ns,
-            source_token: exposure.map(|e| e.token.clone()).unwrap_or_default(),
-            source_image: exposure.map(|e| e.file.clone()).unwrap_or_default(),
+            source_token: exposure.and_then(|e| e.token.clone()),
+            source_image: exposure.and_then(|e| e.file.clone()),
             world_from_ego: exposure.map(|e| e.world_from_ego),
             projection: drive.projection,
         };

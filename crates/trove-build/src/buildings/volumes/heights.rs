@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 
 use glam::DVec2;
-use trove_model::{Building, BuildingCustoms, BuildingKind, Outcome, Polygon, Random, Report, RoofShape, RoofShare};
+use trove_model::{
+    Building, BuildingCustoms, BuildingKind, Outcome, Polygon, Random, Report, RoofShape, RoofShare, weighted_at,
+};
 
 use super::house::{CANOPY_THICK_M, Volume, kind, name};
 
@@ -263,14 +265,9 @@ fn usual_roof(
 ) -> RoofShape {
     let (area_m2, width_m) = (source.footprint.area_m2(), width_m(&source.footprint));
     let pick = |shares: &[RoofShare]| {
-        let mut left = drawn;
-        for &RoofShare { shape, share } in shares {
-            if left < share {
-                return shape;
-            }
-            left -= share;
-        }
-        RoofShape::Flat
+        let flat = 1.0 - shares.iter().map(|roof| roof.share).sum::<f64>();
+        let weights = shares.iter().map(|roof| roof.share).chain([flat]);
+        weighted_at(drawn, weights).and_then(|i| shares.get(i)).map_or(RoofShape::Flat, |roof| roof.shape)
     };
     let gabled = |share| pick(&[RoofShare { shape: RoofShape::Gabled, share }]);
     if !source.footprint.holes.is_empty() && !customs.pitched_courtyards || width_m < 3.0 {

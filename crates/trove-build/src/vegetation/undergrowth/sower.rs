@@ -93,7 +93,7 @@ impl Sower<'_> {
             world_from_mesh: DAffine3 { matrix3: axes, translation: foot },
             class: lay.class,
             kind: None,
-            asset: String::new(),
+            asset: None,
         }
     }
 }

@@ -1,0 +1,179 @@
+//! What a pixel can be: the 20 classes, and the same in other datasets' numbers.
+//!
+//! The numbers stand in the tables beside this file, a label set each, which Python and the documentation read too.
+
+mod table;
+
+use std::sync::LazyLock;
+
+use table::Table;
+pub use table::{LABEL_TABLES, LabelRow, label_rows, label_table};
+
+/// The paper's 20 classes; the discriminant is the id in `class.png`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(u8)]
+pub enum Class {
+    /// Nothing of the below; ignored in training.
+    Void = 0,
+    /// Where a ray hits nothing.
+    Sky = 1,
+    /// Passenger car.
+    Car = 2,
+    /// Bus of any kind.
+    Bus = 3,
+    /// Off-road vehicle, SUV.
+    Jeep = 4,
+    /// Lorry with or without its trailer.
+    Truck = 5,
+    /// Van, minibus, ambulance.
+    Van = 6,
+    /// Person on foot, and what is pushed or sat in.
+    Human = 7,
+    /// Building.
+    Building = 8,
+    /// Carriageway with its markings.
+    Road = 9,
+    /// Movable or fixed barrier.
+    Barrier = 10,
+    /// Ground that is neither road nor sidewalk.
+    Ground = 11,
+    /// Bicycle and its rider.
+    CycleRider = 12,
+    /// Construction vehicle.
+    Construction = 13,
+    /// Bush or hedge.
+    Bush = 14,
+    /// Tree.
+    Tree = 15,
+    /// Motorcycle and its rider.
+    MotorcycleRider = 16,
+    /// Traffic cone.
+    TrafficCone = 17,
+    /// Traffic sign, pole, lamp, signal.
+    TrafficSign = 18,
+    /// Sidewalk.
+    Sidewalk = 19,
+}
+
+/// One class in every numbering that is written or read.
+#[derive(Clone, Copy, Debug)]
+pub struct ClassRow {
+    /// The class.
+    pub class: Class,
+    /// Name in manifests and tables.
+    pub name: &'static str,
+    /// Countable, with an instance id.
+    pub thing: bool,
+    /// Colour in pictures of labels, sRGB.
+    pub rgb: [u8; 3],
+    /// Id among the paper's 13 classes; 0 is void.
+    pub class13: u8,
+    /// Cityscapes `id`.
+    pub cityscapes_id: u8,
+    /// Cityscapes `trainId`, which KITTI-STEP shares; 255 is ignored.
+    pub train_id: u8,
+    /// COCO panoptic category; 0 where COCO has none.
+    pub coco_id: u8,
+    /// CamVid in its 12-class form; 11 is unlabelled.
+    pub camvid_id: u8,
+}
+
+/// All classes, in the order of their ids.
+pub static CLASSES: LazyLock<[ClassRow; 20]> = LazyLock::new(|| {
+    let table = |set| Table::new(label_table(set).expect("a known set"));
+    let ours = table("trove20");
+    let labels = ours.label_rows();
+    let [of_13, cityscapes, camvid] = ["trove13", "cityscapes", "camvid"].map(|set| {
+        let known = table(set).label_rows();
+        let named = |i| known.iter().find(|label| label.name == ours.text(i, set)).copied();
+        (0..Class::ALL.len()).map(|i| named(i).expect("a name that the other set knows")).collect::<Vec<_>>()
+    });
+    std::array::from_fn(|i| {
+        let mut channels = ours.text(i, "rgb").split(',').map(|channel| channel.parse().expect("0 to 255"));
+        ClassRow {
+            class: Class::ALL[i],
+            name: labels[i].name,
+            thing: labels[i].thing,
+            rgb: [(); 3].map(|()| channels.next().expect("three channels")),
+            class13: of_13[i].id,
+            cityscapes_id: cityscapes[i].id,
+            train_id: cityscapes[i].train_id.unwrap_or(table::IGNORED),
+            coco_id: ours.number(i, "coco"),
+            camvid_id: camvid[i].id,
+        }
+    })
+});
+
+impl Class {
+    /// All classes, in the order of their ids.
+    pub const ALL: [Self; 20] = [
+        Self::Void,
+        Self::Sky,
+        Self::Car,
+        Self::Bus,
+        Self::Jeep,
+        Self::Truck,
+        Self::Van,
+        Self::Human,
+        Self::Building,
+        Self::Road,
+        Self::Barrier,
+        Self::Ground,
+        Self::CycleRider,
+        Self::Construction,
+        Self::Bush,
+        Self::Tree,
+        Self::MotorcycleRider,
+        Self::TrafficCone,
+        Self::TrafficSign,
+        Self::Sidewalk,
+    ];
+
+    /// The class's line in the table.
+    pub fn row(self) -> &'static ClassRow {
+        &CLASSES[self as usize]
+    }
+
+    /// The id in `class.png`.
+    pub fn id(self) -> u8 {
+        self as u8
+    }
+
+    /// The class of an id; `None` from 20 on.
+    pub fn from_id(id: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(id)).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_class_stands_in_the_row_of_its_id_under_its_name() {
+        for (i, row) in CLASSES.iter().enumerate() {
+            assert_eq!(usize::from(row.class.id()), i);
+            assert_eq!(Class::from_id(row.class.id()), Some(row.class));
+            assert_eq!(row.name.replace('_', ""), format!("{:?}", row.class).to_lowercase());
+        }
+        assert_eq!(Class::from_id(20), None);
+    }
+
+    #[test]
+    fn classes_have_their_numbers_in_other_sets() {
+        let numbers = |class: Class| {
+            let row = class.row();
+            [row.class13, row.cityscapes_id, row.train_id, row.coco_id, row.camvid_id]
+        };
+        for (class, expected) in [
+            (Class::Void, [0, 0, 255, 0, 11]),
+            (Class::Jeep, [1, 26, 13, 3, 8]),
+            (Class::Barrier, [0, 14, 255, 185, 7]),
+            (Class::MotorcycleRider, [5, 25, 12, 4, 11]),
+            (Class::Sidewalk, [7, 8, 1, 191, 4]),
+        ] {
+            assert_eq!(numbers(class), expected, "{class:?}");
+        }
+    }
+}
