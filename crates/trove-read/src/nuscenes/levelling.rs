@@ -208,7 +208,7 @@ fn apply(drive: &mut Drive, motion: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::{Cuboid, Ego, EgoBody, Keyframe, Kind, MapProjection};
+    use trove_model::{Cuboid, DriveOrigin, Ego, EgoBody, Keyframe, Kind, MapProjection};
 
     /// A vehicle that drives up a slope of 4 % past cones, recorded as nuScenes does: always at height 0.
     fn drive_uphill() -> Drive {
@@ -233,6 +233,7 @@ mod tests {
         Drive {
             id: "uphill".into(),
             dataset: "nuscenes".into(),
+            origin: DriveOrigin::Recorded,
             place: String::new(),
             projection: MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO },
             rig: Vec::new(),
