@@ -9,7 +9,8 @@ use glam::{DAffine3, DVec2, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
     CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels,
-    Lens, Light, MapProjection, Mesh, ObjectLabel, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    Lens, Light, MapProjection, Mesh, ObjectLabel, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject,
+    Seed, Shot,
 };
 use trove_write::{ExportFormat, Frame, FrameMeta, WriteError, sha256_file, write_atomically};
 
