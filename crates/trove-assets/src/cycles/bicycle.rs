@@ -7,7 +7,6 @@ use glam::{Quat, Vec3, vec2, vec3};
 use super::parts::{Parts, on_circle};
 use crate::people::Pose;
 use crate::shape::{Blend, Limb, Shape};
-use crate::vehicles::upright;
 
 /// How the frame is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -213,7 +212,7 @@ impl BicyclePlan {
             let b = self.bracket();
             let pack = Shape::rounded_block(vec3(0.11, 0.09, 0.36), 0.03).turned(Quat::from_rotation_y(-0.35));
             shapes.push(pack.moved(b + vec3(-0.13, 0.0, 0.3)).slot(parts.black));
-            let motor = upright(Shape::cylinder(0.085, 0.13, 18)).moved(b - Vec3::Y * 0.065);
+            let motor = Shape::cylinder(0.085, 0.13, 18).upright().moved(b - Vec3::Y * 0.065);
             shapes.push(motor.slot(parts.black));
         }
         Shape::join(shapes)
@@ -229,7 +228,7 @@ impl BicyclePlan {
         let mut frame = vec![
             tube(bracket, seat, 0.0165 * fat.min(1.2)),
             tube(low - (head - low) * 0.12, head + (head - low) * 0.08, 0.021 * k),
-            upright(Shape::cylinder(0.026 * k, 0.074, 16)).moved(bracket - Vec3::Y * 0.037),
+            Shape::cylinder(0.026 * k, 0.074, 16).upright().moved(bracket - Vec3::Y * 0.037),
         ];
         match self.frame {
             Frame::Diamond => {
@@ -289,7 +288,7 @@ impl BicyclePlan {
         if self.mountain {
             fork.push(Shape::capsule(crown + Vec3::Y * 0.08, crown - Vec3::Y * 0.08, 0.024, 10));
             for axle in [rear, front] {
-                steel.push(upright(Shape::cylinder(0.085, 0.003, 24)).moved(axle + Vec3::Y * 0.045));
+                steel.push(Shape::cylinder(0.085, 0.003, 24).upright().moved(axle + Vec3::Y * 0.045));
             }
         }
         let bottle =
@@ -406,9 +405,9 @@ impl BicyclePlan {
             .map(|i| on_circle(i as f32 / 56.0, big + if i % 2 == 0 { 0.004 } else { 0.0 }, 0.0))
             .map(|p| vec2(p.x, p.z))
             .collect();
-        steel.push(upright(Shape::extruded(&teeth, 0.004)).moved(bracket + Vec3::Y * y));
+        steel.push(Shape::extruded(&teeth, 0.004).upright().moved(bracket + Vec3::Y * y));
         for r in [0.052, 0.044, 0.036] {
-            steel.push(upright(Shape::cylinder(r, 0.003, 20)).moved(rear + Vec3::Y * (y + 0.012 - (0.052 - r) * 0.6)));
+            steel.push(Shape::cylinder(r, 0.003, 20).upright().moved(rear + Vec3::Y * (y + 0.012 - (0.052 - r) * 0.6)));
         }
         // The chain's loop as one flat band.
         let lean = bracket - rear;
@@ -430,7 +429,7 @@ impl BicyclePlan {
         if !self.mudguards {
             let cage = [rear + vec3(0.01, y, -0.06), rear + vec3(0.03, y, -0.13)];
             black.push(Shape::tube(&cage, 0.01, 6));
-            black.extend(cage.map(|p| upright(Shape::cylinder(0.022, 0.008, 12)).moved(p)));
+            black.extend(cage.map(|p| Shape::cylinder(0.022, 0.008, 12).upright().moved(p)));
         } else if !self.battery {
             // A guard over the chain.
             let guard = Shape::rounded_block(vec3(lean.length() + 0.1, 0.02, 0.06), 0.01);

@@ -6,8 +6,8 @@ use glam::{Quat, Vec3, vec2, vec3};
 
 use super::parts::{Parts, on_circle};
 use crate::people::Pose;
-use crate::shape::{Blend, Limb, Prism, Shape};
-use crate::vehicles::{PLATE_M, on_back, upright};
+use crate::shape::{Blend, Limb, Prism, Shape, rect};
+use crate::vehicles::{PLATE_M, on_back};
 
 /// How it is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -273,10 +273,10 @@ impl Motorcycle {
         let mut steel = vec![case];
         for side in [1.0, -1.0] {
             for (dx, radius) in [(-0.08, 0.085), (0.09, 0.07)] {
-                let lid = upright(Shape::lathe(
+                let lid = Shape::lathe(
                     &[vec2(radius, 0.0), vec2(radius, 0.02), vec2(radius * 0.85, 0.032), vec2(0.0, 0.034)],
                     20,
-                ));
+                ).upright();
                 let lid = if side > 0.0 { lid } else { lid.scaled(vec3(1.0, -1.0, 1.0)) };
                 steel.push(lid.moved(vec3(x + dx, side * 0.135, low)));
             }
@@ -357,7 +357,7 @@ impl Motorcycle {
                 steel.push(Shape::tube(&coil, 0.006, 4));
             }
         }
-        let sprocket = upright(Shape::cylinder(0.1, 0.006, 28)).moved(rear + Vec3::Y * 0.085);
+        let sprocket = Shape::cylinder(0.1, 0.006, 28).upright().moved(rear + Vec3::Y * 0.085);
         steel.push(sprocket);
         for dz in [0.095, -0.095] {
             let chain = [rear + vec3(0.0, 0.088, dz), pivot + vec3(0.05, 0.088, dz * 0.45)];
@@ -562,7 +562,7 @@ impl Motorcycle {
         let case = Shape::rounded_block(vec3(0.44, 0.46, 0.44), 0.05).moved(at);
         let case = case
             .slot(parts.case)
-            .mark(&Prism::top(&crate::vehicles::rect(-2.0, 2.0, -2.0, 2.0), at.z + 0.1..=at.z + 0.12), parts.black);
+            .mark(&Prism::top(&rect(-2.0, 2.0, -2.0, 2.0), at.z + 0.1..=at.z + 0.12), parts.black);
         let carrier = Shape::rounded_block(vec3(0.42, 0.34, 0.03), 0.012).moved(at - Vec3::Z * 0.235);
         let legs =
             [0.1, -0.1].map(|y| Shape::tube(&[vec3(0.0, y, seat.z - 0.02), vec3(-0.3, y, at.z - 0.235)], 0.01, 6));

@@ -6,7 +6,7 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::Material;
 
 use crate::shape::{Model, Shape};
-use crate::vehicles::{number_plate, upright};
+use crate::vehicles::number_plate;
 
 /// The slots of a cycle.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +63,7 @@ impl Parts {
             lamp: model.slot(lens("lamp", vec3(0.75, 0.77, 0.8)), &[]),
             red: model.slot(lens("reflector", vec3(0.5, 0.01, 0.01)), &[]),
             amber: model.slot(lens("blinker", vec3(0.6, 0.2, 0.01)), &[]),
-            plate: number_plate(model, id),
+            plate: model.slot(number_plate(id), &[]),
             wood: model.slot(Material::plain("plywood", vec3(0.38, 0.25, 0.13), 0.6), &[]),
             glass: model
                 .slot(Material { transmission: 0.8, ..Material::plain("screen", vec3(0.25, 0.27, 0.28), 0.04) }, &[]),
@@ -107,9 +107,9 @@ impl Parts {
         });
         let reflector = Shape::rounded_block(vec3(0.07, 0.008, 0.035), 0.003).moved(vec3(0.0, 0.0, radius_m * 0.6));
         let mut parts = vec![
-            upright(Shape::lathe(&tyre, around)).slot(self.rubber),
-            upright(Shape::lathe(&rim, around)).slot(self.steel),
-            upright(Shape::lathe(&hub.map(|(r, y)| vec2(r, y)), 12)).and(Shape::join(spokes)).slot(self.steel),
+            Shape::lathe(&tyre, around).upright().slot(self.rubber),
+            Shape::lathe(&rim, around).upright().slot(self.steel),
+            Shape::lathe(&hub.map(|(r, y)| vec2(r, y)), 12).upright().and(Shape::join(spokes)).slot(self.steel),
             reflector.slot(self.amber),
         ];
         if knobs {
@@ -131,7 +131,7 @@ impl Parts {
             .map(|i| TAU * i as f32 / 11.0)
             .map(|a| vec2(radius_m - tyre_m * 0.85 + tyre_m * 0.85 * a.cos(), tyre_m * a.sin()))
             .collect();
-        let tyre = upright(Shape::lathe(&profile, 32)).slot(self.rubber);
+        let tyre = Shape::lathe(&profile, 32).upright().slot(self.rubber);
         // Grooves in the tread, slanting outwards.
         let grooves = (0..28).map(|i| {
             let side = if i % 2 == 0 { 1.0 } else { -1.0 };
@@ -142,7 +142,7 @@ impl Parts {
         });
         let bed = radius_m - tyre_m * 1.55;
         let rim = [(0.16, -0.75), (0.0, -0.8), (-0.12, -0.5), (-0.14, 0.0), (-0.12, 0.5), (0.0, 0.8), (0.16, 0.75)];
-        let rim = upright(Shape::lathe(&rim.map(|(dr, y)| vec2(bed + dr * tyre_m, y * tyre_m)), 28).plate(0.003));
+        let rim = Shape::lathe(&rim.map(|(dr, y)| vec2(bed + dr * tyre_m, y * tyre_m)), 28).plate(0.003).upright();
         let arms = (0..spokes).map(|i| {
             let angle = i as f32 / spokes as f32;
             let (from, to) = (on_circle(angle, 0.03, 0.0), on_circle(angle + 0.03, bed, 0.0));
@@ -151,7 +151,7 @@ impl Parts {
         let hub = Shape::tube(&[Vec3::Y * -0.075, Vec3::Y * 0.075], 0.036, 16);
         let ring = [(0.62, 0.0), (1.0, 0.0), (1.0, 0.005), (0.62, 0.005), (0.62, 0.0)]
             .map(|(r, y)| vec2(r * radius_m * 0.47, y));
-        let disc = upright(Shape::lathe(&ring, 32)).moved(Vec3::Y * 0.062);
+        let disc = Shape::lathe(&ring, 32).upright().moved(Vec3::Y * 0.062);
         Shape::join([
             tyre,
             Shape::join(grooves).slot(self.black),

@@ -5,8 +5,7 @@ use trove_model::Material;
 
 use super::parts::Parts;
 use crate::people::{Figure, Outfit, Physique, Pose, Wardrobe};
-use crate::shape::{Blend, Limb, Model, Prism, Shape};
-use crate::vehicles::rect;
+use crate::shape::{Blend, Limb, Model, Prism, Shape, rect};
 
 /// What is on the head.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -42,7 +42,7 @@ fn ring(radius_m: f32, thick_m: f32) -> Shape {
 
 /// A small solid wheel.
 fn roller(radius_m: f32, width_m: f32) -> Shape {
-    crate::vehicles::upright(Shape::cylinder(radius_m, width_m, 20)).moved(Vec3::Y * -width_m / 2.0)
+    Shape::cylinder(radius_m, width_m, 20).upright().moved(Vec3::Y * -width_m / 2.0)
 }
 
 fn kick_scooter() -> Asset {

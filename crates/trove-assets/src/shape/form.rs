@@ -1,6 +1,7 @@
 //! The form under construction and the simple solids.
 
 use std::collections::HashMap;
+use std::f32::consts::FRAC_PI_2;
 
 use glam::{Affine3A, Quat, Vec2, Vec3, vec2};
 use trove_model::Mesh;
@@ -159,6 +160,11 @@ impl Shape {
     /// Turned about the origin.
     pub(crate) fn turned(self, by: Quat) -> Self {
         self.transformed(Affine3A::from_quat(by))
+    }
+
+    /// Turned from an axis along z to one along y.
+    pub(crate) fn upright(self) -> Self {
+        self.turned(Quat::from_rotation_x(-FRAC_PI_2))
     }
 
     /// Scaled about the origin; a negative factor mirrors.

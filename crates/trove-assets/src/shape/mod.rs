@@ -9,6 +9,7 @@ mod form;
 mod lay;
 mod loft;
 mod model;
+mod outline;
 mod smooth;
 
 pub(crate) use blend::{Blend, Limb};
@@ -16,3 +17,4 @@ pub(crate) use curve::Curve;
 pub(crate) use cut::Prism;
 pub(crate) use form::Shape;
 pub(crate) use model::Model;
+pub(crate) use outline::{arc, clipped, hull, inset, outset, pane, rect, rounded, shrunk, simple, soft};

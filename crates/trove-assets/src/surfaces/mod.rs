@@ -3,8 +3,8 @@
 mod canvas;
 mod cloth;
 mod facade;
+mod facade_plan;
 mod ground;
-mod ground_floor;
 mod inside;
 mod masonry;
 mod metal;
@@ -13,7 +13,6 @@ mod opening;
 mod paving;
 mod road;
 mod roof;
-mod styles;
 mod synthetic;
 #[cfg(test)]
 mod tests;
@@ -23,15 +22,15 @@ mod wall;
 
 use std::sync::Arc;
 
-use glam::{Vec3, vec2, vec3};
+use glam::{vec2, vec3};
 use rayon::prelude::*;
-use trove_model::{Surface, SurfaceKind, Tags, Tiling};
+use trove_model::{Material, Surface, SurfaceKind, Tags, Tiling};
 
 pub(crate) use canvas::{Canvas, Texel};
+pub(crate) use facade_plan::FacadePlan;
 pub(crate) use noise::{Noise, hash, step};
 pub(crate) use things::{refine, set};
 
-use facade::Style;
 use road::{Cover, Wear};
 use wall::Finish;
 
@@ -39,8 +38,6 @@ use wall::Finish;
 enum Paint {
     /// At a multiple of the ordinary resolution.
     Plain(Box<dyn Fn(u32) -> Canvas + Send + Sync>),
-    /// By rules, with a seed.
-    Storeys(Box<Style>, u32),
     /// Whole cells, so many across and up.
     Cells([u32; 2], fn(u32) -> Canvas, u32),
 }
@@ -57,27 +54,35 @@ fn plain(
     (id, kind, tags, Paint::Plain(Box::new(paint)))
 }
 
-fn storeys(id: &'static str, kind: SurfaceKind, tags: &'static [&'static str], style: Style, seed: u32) -> Recipe {
-    (id, kind, tags, Paint::Storeys(Box::new(style), seed))
-}
-
-/// Every surface, in no particular order; `detail` multiplies the resolution of all but facades.
-pub(crate) fn surfaces(detail: u32) -> Vec<Surface> {
+/// Every surface, in no particular order, with the facades of these plans; `detail` multiplies the resolution of all
+/// but facades.
+pub(crate) fn surfaces(plans: &[FacadePlan], detail: u32) -> Vec<Surface> {
     let recipes: Vec<Recipe> = ground_recipes().into_iter().chain(building_recipes()).collect();
     let mut surfaces: Vec<Surface> = recipes.par_iter().map(|recipe| surface(recipe, detail)).collect();
+    surfaces.extend(facades(plans));
     surfaces.extend(things::surfaces(detail));
     surfaces
 }
 
-fn surface((id, kind, tags, paint): &Recipe, detail: u32) -> Surface {
-    let (canvas, cells, design) = match paint {
-        Paint::Plain(paint) => (paint(detail), [1, 1], None),
-        Paint::Storeys(style, seed) => (style.paint(*seed), style.grid.cells, Some(Arc::new(style.rules()))),
-        Paint::Cells(cells, paint, seed) => (paint(*seed), *cells, None),
+/// The facades of these plans.
+pub(crate) fn facades(plans: &[FacadePlan]) -> Vec<Surface> {
+    let painted = |plan: &FacadePlan| {
+        let style = plan.style();
+        let canvas = style.paint(plan.seed);
+        // Near facades are cut, so that their gloss and relief is seen from afar only.
+        let material = canvas.material(&plan.id, 4);
+        let surface = finished(&plan.id, plan.kind.into(), &canvas, material, style.grid.cells);
+        Surface { tags: Tags::new(&plan.tags), design: Some(Arc::new(style.rules())), ..surface }
     };
-    // Near facades are cut, so that their gloss and relief is seen from afar only.
-    let mut material = canvas.material(id, if design.is_some() { 4 } else { 2 });
-    material.dirt = dirt(*kind);
+    plans.par_iter().map(painted).collect()
+}
+
+fn surface((id, kind, tags, paint): &Recipe, detail: u32) -> Surface {
+    let (canvas, cells) = match paint {
+        Paint::Plain(paint) => (paint(detail), [1, 1]),
+        Paint::Cells(cells, paint, seed) => (paint(*seed), *cells),
+    };
+    let mut material = canvas.material(id, 2);
     // What has no joints, windows or patches that would be cut.
     if [
         "asphalt/new",
@@ -107,14 +112,19 @@ fn surface((id, kind, tags, paint): &Recipe, detail: u32) -> Surface {
         "paint/lacquer" => material.coat = 1.0,
         _ => {}
     }
+    Surface { tags: Tags::new(*tags), ..finished(id, *kind, &canvas, material, cells) }
+}
+
+fn finished(id: &str, kind: SurfaceKind, canvas: &Canvas, material: Material, cells: [u32; 2]) -> Surface {
+    let material = Material { dirt: dirt(kind), ..material };
     Surface {
-        id: (*id).into(),
-        kind: *kind,
-        tags: Tags::new(*tags),
+        id: id.into(),
+        kind,
+        tags: Tags::default(),
         material,
         size_m: canvas.size_m.to_array(),
         cells,
-        design,
+        design: None,
     }
 }
 
@@ -182,41 +192,10 @@ fn ground_recipes() -> Vec<Recipe> {
     ]
 }
 
-/// Upper storeys and ground floors, their walls, and what is seen in them.
+/// Walls of buildings, and what is seen in them.
 fn building_recipes() -> Vec<Recipe> {
-    use SurfaceKind::{Facade, FacadeGroundFloor, RoomBack, ShopSign, Wall};
-    let upper = |id, tags, style, seed| storeys(id, Facade, tags, style, seed);
-    let ground = |id, tags, style, seed| storeys(id, FacadeGroundFloor, tags, style, seed);
-    let blue = styles::curtain_wall(vec3(0.55, 0.8, 1.0), vec3(0.06, 0.085, 0.11), Vec3::splat(0.24));
-    let green = styles::curtain_wall(vec3(0.76, 0.88, 0.84), vec3(0.08, 0.092, 0.088), Vec3::splat(0.1));
+    use SurfaceKind::{RoomBack, ShopSign, Wall};
     let mut recipes = vec![
-        upper("facade/brick-row", &["brick", "brick-row"], styles::brick_row(), 101),
-        upper("facade/brick-mill", &["brick", "mill"], styles::brick_mill(), 102),
-        upper("facade/plaster-shutters", &["plaster", "plaster-shutters"], styles::mediterranean(), 103),
-        upper("facade/victorian", &["victorian"], styles::victorian(), 104),
-        upper("facade/glass-blue", &["glass", "blue"], blue, 105),
-        upper("facade/glass-green", &["glass", "green"], green, 106),
-        upper("facade/office-ribbon", &["office", "ribbon"], styles::ribbon(), 107),
-        upper("facade/slab-block", &["slab"], styles::slab_block(), 108),
-        upper("facade/hotel-grid", &["hotel"], styles::hotel(), 109),
-        upper("facade/warehouse-metal", &["warehouse", "metal"], styles::warehouse(), 110),
-        upper("facade/mixed-use", &["mixed"], styles::mixed_use(), 111),
-        upper("facade/white-panel", &["panel", "white"], styles::panel(vec3(0.6, 0.6, 0.59)), 112),
-        upper("facade/metal-panel", &["panel", "metal"], styles::panel(vec3(0.22, 0.235, 0.26)), 113),
-        upper("facade/plaster-ornate", &["plaster", "ornate"], styles::ornate(), 114),
-        upper("facade/plaster-plain", &["plaster", "plaster-plain"], styles::plain(), 115),
-        upper("facade/public-flats", &["public-flats"], styles::public_flats(), 116),
-        upper("facade/tiled-flats", &["tiled"], styles::tiled_flats(), 117),
-        upper("facade/wood-boards", &["wood", "boards"], styles::boards(), 118),
-        upper("facade/carcass", &["carcass"], styles::carcass(), 119),
-        ground("ground-floor/shops", &["shops"], ground_floor::shops(), 121),
-        ground("ground-floor/entrances", &["entrances"], ground_floor::entrances(), 122),
-        ground("ground-floor/loading", &["loading"], ground_floor::loading(), 123),
-        ground("ground-floor/arcade", &["arcade"], ground_floor::arcade(), 124),
-        ground("ground-floor/lobby", &["lobby"], ground_floor::lobby(), 125),
-        ground("ground-floor/rusticated", &["rusticated"], ground_floor::rusticated(), 126),
-        ground("ground-floor/void-deck", &["void-deck"], ground_floor::void_deck(), 127),
-        ground("ground-floor/garage", &["garage"], ground_floor::garage(), 128),
         ("sign/shops", ShopSign, &[], Paint::Cells(inside::SIGNS, inside::signs, 131)),
         ("room/backs", RoomBack, &[], Paint::Cells(inside::ROOMS, inside::rooms, 132)),
     ];

@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use crate::shape::{Prism, Shape};
+use crate::shape::{Prism, Shape, arc, shrunk};
 
 /// A horizontal cross section: a rectangle with rounded corners whose front and back are bowed.
 #[derive(Clone, Copy, Debug)]
@@ -139,34 +139,6 @@ impl Hull {
     }
 }
 
-/// A convex polygon with its corners rounded.
-pub(crate) fn pane(corners: &[Vec2], radius_m: f32) -> Vec<Vec2> {
-    let n = corners.len();
-    let mut points = Vec::with_capacity(n * 3);
-    for i in 0..n {
-        let (before, corner, after) = (corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]);
-        let towards = |other: Vec2| corner.lerp(other, (radius_m / corner.distance(other).max(1e-4)).min(0.45));
-        let (a, b) = (towards(before), towards(after));
-        // Every corner is another plane to cut by: small ones are cut off straight.
-        let steps: &[f32] = if radius_m < 0.075 { &[0.0, 1.0] } else { &[0.0, 0.5, 1.0] };
-        points.extend(steps.iter().map(|&t| a.lerp(corner, t).lerp(corner.lerp(b, t), t)));
-    }
-    points
-}
-
-/// A rectangle's corners.
-pub(crate) fn rect(a0: f32, a1: f32, b0: f32, b1: f32) -> [Vec2; 4] {
-    [vec2(a0, b0), vec2(a1, b0), vec2(a1, b1), vec2(a0, b1)]
-}
-
-/// A polygon made smaller by about a width on every side.
-pub(crate) fn shrunk(polygon: &[Vec2], by_m: f32) -> Vec<Vec2> {
-    let middle = polygon.iter().sum::<Vec2>() / polygon.len() as f32;
-    let (low, high) = polygon.iter().fold((Vec2::MAX, Vec2::MIN), |(l, h), &p| (l.min(p), h.max(p)));
-    let scale = (1.0 - 2.0 * by_m / (high - low).max(Vec2::splat(1e-3))).max(Vec2::ZERO);
-    polygon.iter().map(|&p| middle + (p - middle) * scale).collect()
-}
-
 /// A line drawn around a polygon on the sides of a skin, on both of them.
 pub(crate) fn gap(skin: Shape, polygon_xz: &[Vec2], body: u16, line: u16) -> Shape {
     let side = |polygon: &[Vec2]| Prism::side(polygon, 0.4..=3.0);
@@ -198,14 +170,6 @@ pub(crate) fn lying(sections: &[Section]) -> Shape {
         (0..4).flat_map(arc).map(|p| vec3(s.x, p.x, s.z + p.y)).collect()
     };
     Shape::loft(&sections.iter().map(ring).collect::<Vec<_>>()).smooth(0.5)
-}
-
-/// Points of an arc about a centre in a vertical plane along x, angles from +x upwards.
-pub(crate) fn arc(centre_xz: Vec2, radius_m: f32, from_rad: f32, to_rad: f32, steps: usize, y: f32) -> Vec<Vec3> {
-    (0..=steps)
-        .map(|i| from_rad + (to_rad - from_rad) * i as f32 / steps as f32)
-        .map(|a| vec3(centre_xz.x + radius_m * a.cos(), y, centre_xz.y + radius_m * a.sin()))
-        .collect()
 }
 
 /// Cuts the arch of a wheel out of a skin, both sides; returns the dark wells behind it and the lips around it.

@@ -1,35 +1,27 @@
 //! Cars, lorries, buses and machines.
+//!
+//! All are put together in a [`workshop::Workshop`], which knows the [`slots::Slots`] that vehicles are made of, from
+//! parts that are shared: wheels, hulls, plates, what is written on them. Cars are told by plans in data files.
 
-mod body;
 mod buses;
-mod cabin;
-mod car;
 mod cars;
+mod coverings;
 mod decal;
-mod extras;
-mod face;
-mod faces;
-mod finish;
-mod fittings;
-mod grid;
 mod hull;
 mod machines;
-mod models;
-mod palette;
 mod plate;
-mod tall_models;
+mod slots;
 mod trucks;
 mod wheel;
 mod workshop;
 
 use trove_model::Asset;
 
-pub(crate) use decal::{PLATE_M, number_plate, on_back};
-pub(crate) use hull::rect;
-pub(crate) use wheel::upright;
+pub(crate) use cars::{CarPlan, assets as cars};
+pub(crate) use decal::on_back;
+pub(crate) use plate::{PLATE_M, any as number_plate};
 
-/// Every model of this family.
-pub(crate) fn assets() -> Vec<Asset> {
-    let families: [fn() -> Vec<Asset>; 4] = [cars::assets, trucks::assets, buses::assets, machines::assets];
-    families.iter().flat_map(|family| family()).collect()
+/// Every model of this family; cars as these plans tell.
+pub(crate) fn assets(cars: &[CarPlan]) -> Vec<Asset> {
+    [cars::assets(cars), trucks::assets(), buses::assets(), machines::assets()].concat()
 }

@@ -1,14 +1,16 @@
 //! Wheels.
 
-use std::f32::consts::{FRAC_PI_2, TAU};
+use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
+use serde::Deserialize;
 
-use super::palette::Palette;
+use super::slots::Slots;
 use crate::shape::Shape;
 
 /// How the rim looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Rim {
     /// That many cast spokes.
     Spokes(usize),
@@ -23,7 +25,7 @@ pub(crate) enum Rim {
 }
 
 /// A wheel about the origin that turns about y, its outside towards +y.
-pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) -> Shape {
+pub(crate) fn wheel(slots: &Slots, radius_m: f32, width_m: f32, rim: Rim) -> Shape {
     let (r, half) = (radius_m, width_m / 2.0);
     let share = match rim {
         Rim::Spokes(_) | Rim::Pairs(_) => 0.7,
@@ -48,9 +50,9 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
         vec2(bead, half * 0.84),
     ];
     let barrel = [vec2(bead * 1.02, half * 0.82), vec2(bead * 0.98, half * 0.89), vec2(bead * 0.94, half * 0.8)];
-    let mut parts = vec![turned(&tyre, 24).slot(palette.rubber), turned(&barrel, 24).slot(palette.rim)];
+    let mut parts = vec![turned(&tyre, 24).slot(slots.rubber), turned(&barrel, 24).slot(slots.rim)];
     let back = [vec2(bead * 0.98, -half * 0.8), vec2(0.0, -half * 0.8)];
-    parts.push(turned(&back, 16).inside_out().slot(palette.trim));
+    parts.push(turned(&back, 16).inside_out().slot(slots.trim));
     let spoke = |angle: f32, slant: f32| {
         let (hub, outer, scale) = (r * 0.1, bead * 0.97, r / 0.32);
         let outline = [
@@ -61,17 +63,17 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
         ];
         // Spokes bow outwards towards the hub.
         let spoke = Shape::extruded(&outline, half * 0.3).moved(Vec3::Z * half * 0.45);
-        upright(spoke.turned(Quat::from_rotation_z(angle))).slot(palette.rim)
+        spoke.turned(Quat::from_rotation_z(angle)).upright().slot(slots.rim)
     };
     match rim {
         Rim::Spokes(_) | Rim::Pairs(_) => {
             let well = [vec2(bead * 0.94, half * 0.8), vec2(bead * 0.92, -half * 0.3), vec2(0.0, -half * 0.3)];
-            parts.push(turned(&well, 16).slot(palette.seam));
+            parts.push(turned(&well, 16).slot(slots.seam));
             // The brake: a bright disc and its caliper.
             let disc = [vec2(bead * 0.8, -half * 0.1), vec2(bead * 0.8, half * 0.05), vec2(bead * 0.3, half * 0.05)];
-            parts.push(turned(&disc, 18).slot(palette.disc));
+            parts.push(turned(&disc, 18).slot(slots.disc));
             let caliper = Shape::rounded_block(vec3(bead * 0.3, half * 0.5, bead * 0.55), 0.02);
-            parts.push(caliper.moved(vec3(bead * 0.68, half * 0.05, 0.0)).slot(palette.trim));
+            parts.push(caliper.moved(vec3(bead * 0.68, half * 0.05, 0.0)).slot(slots.trim));
             match rim {
                 Rim::Pairs(count) => {
                     for i in 0..count {
@@ -85,9 +87,9 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
             }
             let hub = r * 0.16;
             let cap = [vec2(hub, half * 0.4), vec2(hub * 0.9, half * 0.76), vec2(hub * 0.45, half * 0.7)];
-            parts.push(turned(&cap, 16).slot(palette.rim));
+            parts.push(turned(&cap, 16).slot(slots.rim));
             let badge = [vec2(hub * 0.45, half * 0.7), vec2(hub * 0.4, half * 0.76), vec2(0.0, half * 0.78)];
-            parts.push(turned(&badge, 14).slot(palette.trim));
+            parts.push(turned(&badge, 14).slot(slots.trim));
         }
         Rim::Cover(holes) => {
             let face = [
@@ -97,14 +99,14 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
                 vec2(bead * 0.22, half * 0.93),
                 vec2(0.0, half * 0.95),
             ];
-            parts.push(turned(&face, 24).slot(palette.rim));
+            parts.push(turned(&face, 24).slot(slots.rim));
             for i in 0..holes {
                 let outline =
                     [vec2(0.42, -0.035), vec2(0.8, -0.13), vec2(0.84, 0.0), vec2(0.8, 0.13), vec2(0.42, 0.035)];
                 let hole = Shape::flat(&outline.map(|p| p * bead * vec2(1.0, 8.0 / holes as f32)));
                 let hole = hole.bent(|p| p + Vec3::Z * (half * (0.8 + 0.15 * ((p.x / bead - 0.4) / 0.46)) + 0.004));
                 let hole = hole.turned(Quat::from_rotation_z(TAU * i as f32 / holes as f32));
-                parts.push(upright(hole).slot(palette.seam));
+                parts.push(hole.upright().slot(slots.seam));
             }
         }
         Rim::Steel | Rim::DeepSteel => {
@@ -118,12 +120,12 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
                 vec2(bead * 0.3, half * (hub + 0.05)),
                 vec2(0.0, half * (hub + 0.05)),
             ];
-            parts.push(turned(&dish, 24).slot(palette.rim));
+            parts.push(turned(&dish, 24).slot(slots.rim));
             for i in 0..8 {
                 let angle = TAU * (i as f32 + 0.5) / 8.0;
-                let hole = upright(Shape::flat(&round(bead * 0.075, 8)));
+                let hole = Shape::flat(&round(bead * 0.075, 8)).upright();
                 let centre = vec3(angle.cos(), 0.0, angle.sin()) * bead * 0.52;
-                parts.push(hole.moved(centre + Vec3::Y * (half * face + 0.003)).slot(palette.seam));
+                parts.push(hole.moved(centre + Vec3::Y * (half * face + 0.003)).slot(slots.seam));
             }
         }
     }
@@ -132,12 +134,7 @@ pub(crate) fn wheel(palette: &Palette, radius_m: f32, width_m: f32, rim: Rim) ->
 
 /// A profile of (radius, distance) points turned about y.
 fn turned(profile: &[Vec2], around: usize) -> Shape {
-    upright(Shape::lathe(profile, around))
-}
-
-/// From an axis along z to one along y.
-pub(crate) fn upright(shape: Shape) -> Shape {
-    shape.turned(Quat::from_rotation_x(-FRAC_PI_2))
+    Shape::lathe(profile, around).upright()
 }
 
 fn round(radius_m: f32, corners: usize) -> Vec<Vec2> {

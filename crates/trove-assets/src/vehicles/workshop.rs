@@ -1,31 +1,43 @@
-//! A heavy vehicle under construction, and the small parts that all of them have.
+//! A vehicle under construction, and the small parts that several kinds of vehicles have.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Kind};
+use trove_model::{Asset, Kind, Material};
 
-use super::decal::{PLATE_M, number_plate, on_back, on_front};
-use super::finish::Finish;
-use super::hull::{Hull, pane};
-use super::wheel::upright;
+use super::decal::{on_back, on_front};
+use super::plate::{self, PLATE_M};
+use super::slots::{Paint, Slots};
+use super::hull::Hull;
 use crate::people::{Figure, Outfit, Physique, Pose, Wardrobe};
-use crate::shape::{Model, Prism, Shape};
+use crate::shape::{Model, Prism, Shape, pane};
 
-/// A model with the slots of heavy vehicles.
+/// A model with the slots of vehicles and a number plate.
 pub(crate) struct Workshop {
     pub(crate) model: Model,
-    pub(crate) f: Finish,
+    pub(crate) slots: Slots,
     id: String,
-    plate: u16,
+    /// Of the face of its number plates.
+    pub(crate) plate: u16,
 }
 
 impl Workshop {
+    /// A lorry, a bus, a machine: in plain paints, with any number plate.
     pub(crate) fn new(id: &str, paints: &[Vec3], second: &[Vec3]) -> Self {
+        Self::with(id, paints, 0.0, second, plate::any(id))
+    }
+
+    /// A passenger car: in a paint of its plan, with a plate of its own.
+    pub(crate) fn of_car(id: &str, paint: &Paint, plate: Material) -> Self {
+        let colors: Vec<Vec3> = paint.colors.iter().copied().map(Vec3::from_array).collect();
+        Self::with(id, &colors, paint.flakes, &[], plate)
+    }
+
+    fn with(id: &str, paints: &[Vec3], flakes: f32, second: &[Vec3], plate: Material) -> Self {
         let mut model = Model::default();
-        let f = Finish::new(&mut model, paints, second);
-        let plate = number_plate(&mut model, id);
-        Self { model, f, id: id.into(), plate }
+        let slots = Slots::new(&mut model, paints, flakes, second);
+        let plate = model.slot(plate, &[]);
+        Self { model, slots, plate, id: id.into() }
     }
 
     pub(crate) fn add(&mut self, slot: u16, shape: Shape) {
@@ -45,7 +57,7 @@ impl Workshop {
     pub(crate) fn number_plate(&mut self, at: Vec3, is_front: bool) {
         let ahead = if is_front { 1.0 } else { -1.0 };
         let back = Shape::block(vec3(0.012, PLATE_M.x + 0.02, PLATE_M.y + 0.02));
-        self.add(self.f.trim, back.moved(at));
+        self.add(self.slots.trim, back.moved(at));
         let at = at + Vec3::X * 0.0075 * ahead;
         let face = if is_front { on_front(at, PLATE_M) } else { on_back(at, PLATE_M) };
         self.add(self.plate, face);
@@ -65,15 +77,15 @@ impl Workshop {
         let mut skin = skin;
         for prism in [&prism, &prism.mirrored()] {
             let (cover, rest) = skin.split(prism);
-            self.add(self.f.seam, cover.clone().moved(Vec3::X * -0.1));
-            self.add(self.f.lens, cover);
+            self.add(self.slots.seam, cover.clone().moved(Vec3::X * -0.1));
+            self.add(self.slots.clear_lens, cover);
             skin = rest;
         }
         for &(y, z, radius) in reflectors {
             let at = vec3(hull.front_at(y, z) - 0.02, y, z);
-            self.pair(self.f.chrome, bowl(radius).moved(at));
+            self.pair(self.slots.chrome, bowl(radius).moved(at));
             self.pair(
-                self.f.lamp,
+                self.slots.lamp,
                 Shape::ellipsoid(Vec3::splat(radius * 0.35), 10).moved(at - Vec3::X * radius * 0.25),
             );
         }
@@ -87,7 +99,7 @@ impl Workshop {
             .map(|i| Vec2::from_angle(TAU * i as f32 / 10.0))
             .map(|p| at + vec3(0.0, p.x, p.y) * radius_m)
             .collect();
-        self.add(self.f.trim, Shape::tube(&ring, 0.008, 4));
+        self.add(self.slots.trim, Shape::tube(&ring, 0.008, 4));
     }
 
     /// Someone who sits at a steering wheel and is there when the vehicle is driven.
@@ -113,7 +125,7 @@ impl Workshop {
         let back = Shape::rounded_block(vec3(0.12, width_m, 0.66), 0.05).turned(Quat::from_rotation_y(-0.15));
         let head = Shape::rounded_block(vec3(0.09, width_m.min(0.28), 0.18), 0.04);
         self.add(
-            self.f.seat,
+            self.slots.seat_cloth,
             Shape::join([cushion, back.moved(at + vec3(-0.2, 0.0, 0.3)), head.moved(at + vec3(-0.27, 0.0, 0.7))]),
         );
     }
@@ -125,24 +137,24 @@ impl Workshop {
         let spokes = Shape::block(vec3(0.04, radius_m * 1.9, 0.02)).and(Shape::cylinder(0.07, 0.04, 12));
         let column = Shape::tube(&[Vec3::ZERO, vec3(0.0, 0.0, -0.4)], 0.035, 8);
         let wheel = Shape::join([Shape::tube(&ring, 0.016, 6), spokes, column]);
-        self.add(self.f.interior, wheel.turned(Quat::from_rotation_y(-tilt_rad)).moved(at));
+        self.add(self.slots.interior, wheel.turned(Quat::from_rotation_y(-tilt_rad)).moved(at));
     }
 
     /// A mirror on an arm that is held at two points, on the left; its glass looks backwards.
     pub(crate) fn mirror(&mut self, holds: [Vec3; 2], at: Vec3, size: Vec3) {
         let up = Vec3::Z * size.z * 0.42;
-        self.pair(self.f.trim, Shape::rounded_block(size, size.min_element() * 0.45).moved(at));
-        self.pair(self.f.trim, Shape::tube(&[holds[0], at + up + Vec3::Z * 0.05, at + up], 0.014, 6));
-        self.pair(self.f.trim, Shape::tube(&[holds[1], at - up], 0.014, 6));
+        self.pair(self.slots.trim, Shape::rounded_block(size, size.min_element() * 0.45).moved(at));
+        self.pair(self.slots.trim, Shape::tube(&[holds[0], at + up + Vec3::Z * 0.05, at + up], 0.014, 6));
+        self.pair(self.slots.trim, Shape::tube(&[holds[1], at - up], 0.014, 6));
         let glass = Shape::block(vec3(0.006, size.y * 0.84, size.z * 0.88)).moved(at - Vec3::X * size.x * 0.5);
-        self.pair(self.f.mirror, glass);
+        self.pair(self.slots.mirror, glass);
     }
 
     /// An amber flashing light on its foot.
     pub(crate) fn beacon(&mut self, at: Vec3) {
-        self.add(self.f.trim, Shape::cylinder(0.075, 0.05, 14).moved(at));
+        self.add(self.slots.trim, Shape::cylinder(0.075, 0.05, 14).moved(at));
         let dome = [vec2(0.065, 0.0), vec2(0.065, 0.09), vec2(0.045, 0.125), vec2(0.0, 0.13)];
-        self.add(self.f.amber, Shape::lathe(&dome, 12).moved(at + Vec3::Z * 0.05));
+        self.add(self.slots.amber, Shape::lathe(&dome, 12).moved(at + Vec3::Z * 0.05));
     }
 
     /// A wiper at rest on the front of a hull: from its pivot across to where its blade ends.
@@ -152,7 +164,7 @@ impl Workshop {
         let arm = Shape::tube(&[on(pivot, 0.01), on(pivot.lerp(middle, 0.5), 0.035), on(middle, 0.03)], 0.009, 5);
         let start = pivot.lerp(end, 0.22);
         let blade: Vec<Vec3> = (0..=5).map(|i| on(start.lerp(end, i as f32 / 5.0), 0.014)).collect();
-        self.add(self.f.trim, arm.and(Shape::tube(&blade, 0.009, 4)));
+        self.add(self.slots.trim, arm.and(Shape::tube(&blade, 0.009, 4)));
     }
 }
 
@@ -195,18 +207,18 @@ pub(crate) fn cut_out(outline_xz: &[Vec2], width_m: f32) -> Shape {
     if area < 0.0 {
         outline.reverse();
     }
-    upright(Shape::extruded(&outline, width_m)).moved(Vec3::Y * -width_m / 2.0)
+    Shape::extruded(&outline, width_m).upright().moved(Vec3::Y * -width_m / 2.0)
 }
 
 /// A hydraulic cylinder: its barrel, its rod, and the eyes at both ends.
 pub(crate) fn cylinder(work: &mut Workshop, from: Vec3, to: Vec3, radius_m: f32, extended: f32) {
     let middle = from.lerp(to, 1.0 - extended * 0.5);
     let along = (to - from).normalize_or(Vec3::X);
-    work.add(work.f.paint, Shape::tube(&[from, middle], radius_m, 14));
-    work.add(work.f.trim, Shape::tube(&[middle - along * 0.06, middle + along * 0.03], radius_m * 1.15, 14));
-    work.add(work.f.chrome, Shape::tube(&[middle, to], radius_m * 0.55, 12));
+    work.add(work.slots.paint, Shape::tube(&[from, middle], radius_m, 14));
+    work.add(work.slots.trim, Shape::tube(&[middle - along * 0.06, middle + along * 0.03], radius_m * 1.15, 14));
+    work.add(work.slots.chrome, Shape::tube(&[middle, to], radius_m * 0.55, 12));
     for end in [from, to] {
-        let eye = upright(Shape::cylinder(radius_m * 0.95, radius_m * 1.6, 14));
-        work.add(work.f.frame, eye.moved(end - Vec3::Y * radius_m * 0.8));
+        let eye = Shape::cylinder(radius_m * 0.95, radius_m * 1.6, 14).upright();
+        work.add(work.slots.frame, eye.moved(end - Vec3::Y * radius_m * 0.8));
     }
 }

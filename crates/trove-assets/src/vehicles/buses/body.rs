@@ -4,8 +4,8 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use crate::shape::{Prism, Shape};
-use crate::vehicles::hull::{Hull, Row, arch, pane, rect, shrunk};
+use crate::shape::{Prism, Shape, pane, rect, shrunk};
+use crate::vehicles::hull::{Hull, Row, arch};
 use crate::vehicles::wheel::{Rim, wheel};
 use crate::vehicles::workshop::{Workshop, block};
 
@@ -54,7 +54,7 @@ impl BusPlan {
         // Built with its front at the origin: what is there already goes out of its way and comes back.
         work.model.shift(Vec3::X * -x);
         let hull = self.hull(ends);
-        let mut skin = hull.skin().slot(work.f.paint);
+        let mut skin = hull.skin().slot(work.slots.paint);
         skin = self.livery(work, skin);
         skin = self.windows(work, skin, ends);
         skin = self.doors(work, skin);
@@ -114,19 +114,19 @@ impl BusPlan {
     fn livery(&self, work: &mut Workshop, skin: Shape) -> Shape {
         let side = |polygon: &[Vec2]| Prism::side(polygon, 0.4..=3.0);
         let (l, low) = (self.length_m, self.decks[0].0);
-        let f = work.f;
+        let slots = work.slots;
         let band = rect(-l - 1.0, 1.0, SKIRT_M - 0.1, SKIRT_M + 0.24);
         let top = self.height_m + 0.2;
         let swoosh = [vec2(-l * 0.72, SKIRT_M), vec2(-l * 0.94, top), vec2(-l - 1.0, top), vec2(-l - 1.0, SKIRT_M)];
         let thin = [vec2(-l * 0.66, SKIRT_M), vec2(-l * 0.88, top), vec2(-l * 0.9, top), vec2(-l * 0.685, SKIRT_M)];
-        skin.mark_both(&side(&swoosh), f.second)
-            .mark_both(&side(&thin), f.second)
-            .mark_both(&side(&band), f.second)
-            .mark_both(&side(&rect(-l + 0.2, -0.5, low - 0.1, low - 0.085)), f.seam)
+        skin.mark_both(&side(&swoosh), slots.second)
+            .mark_both(&side(&thin), slots.second)
+            .mark_both(&side(&band), slots.second)
+            .mark_both(&side(&rect(-l + 0.2, -0.5, low - 0.1, low - 0.085)), slots.seam)
     }
 
     fn windows(&self, work: &mut Workshop, skin: Shape, ends: [bool; 2]) -> Shape {
-        let f = work.f;
+        let slots = work.slots;
         let side = |polygon: &[Vec2]| Prism::side(polygon, 0.4..=3.0);
         let mut skin = skin;
         for (deck, &(low, high)) in self.decks.iter().enumerate() {
@@ -146,17 +146,17 @@ impl BusPlan {
                     0.55
                 };
             let band = rect(-to - 0.05, -from + 0.05, low - 0.02, high + 0.03);
-            skin = skin.mark_both(&side(&pane(&band, 0.12)), f.trim);
+            skin = skin.mark_both(&side(&pane(&band, 0.12)), slots.trim);
             let count = ((to - from) / 1.72).round();
             let step = (to - from) / count;
             for i in 0..count as usize {
                 let (a, b) = (from + step * i as f32 + 0.02, from + step * (i + 1) as f32 - 0.02);
                 let glass = rect(-b, -a, low + 0.02, high - 0.01);
-                skin = skin.mark_both(&side(&glass), f.glass);
+                skin = skin.mark_both(&side(&glass), slots.glass);
                 // A part that opens.
                 if i % 3 == 1 && !self.coach {
                     let line = rect(-b, -a, high - 0.34, high - 0.315);
-                    skin = skin.mark_both(&side(&line), f.trim);
+                    skin = skin.mark_both(&side(&line), slots.trim);
                 }
             }
         }
@@ -166,48 +166,48 @@ impl BusPlan {
             let flap = rect(-s - 1.3, -s, SKIRT_M + 0.1, self.decks[0].0 - if self.coach { 0.3 } else { 0.14 });
             let clear = self.axles_m.iter().all(|a| s + 1.3 < a - 0.6 || s > a + 0.6);
             if clear {
-                work.pair(f.seam, lined(self.half(), flap[0], flap[2]));
+                work.pair(slots.seam, lined(self.half(), flap[0], flap[2]));
             }
             s += 1.36;
         }
         for z in 0..5 {
             let vent =
                 rect(-self.length_m + 0.55, -self.length_m + 1.25, 0.7 + 0.045 * z as f32, 0.722 + 0.045 * z as f32);
-            work.pair(f.seam, lined(self.half(), vent[0], vent[2]));
+            work.pair(slots.seam, lined(self.half(), vent[0], vent[2]));
         }
         skin
     }
 
     /// Leaves of glass in black frames, with rubber between.
     fn doors(&self, work: &mut Workshop, skin: Shape) -> Shape {
-        let f = work.f;
+        let slots = work.slots;
         let range = if self.door_side > 0.0 { 0.4..=3.0 } else { -3.0..=-0.4 };
         let high = if self.coach { 2.6 } else { self.decks[0].1 + 0.02 };
         let mut skin = skin;
         for &(from, width) in self.doors_m {
             let side = |polygon: &[Vec2]| Prism::side(polygon, range.clone());
             let frame = rect(-from - width, -from, SKIRT_M + 0.05, high);
-            skin = skin.mark(&side(&frame), f.trim);
+            skin = skin.mark(&side(&frame), slots.trim);
             let leaves = if width > 1.0 { 2 } else { 1 };
             for k in 0..leaves {
                 let leaf = width / leaves as f32;
                 let a = from + leaf * k as f32;
                 let glass = rect(-a - leaf + 0.065, -a - 0.065, SKIRT_M + 0.2, high - 0.12);
-                skin = skin.mark(&side(&glass), f.glass);
+                skin = skin.mark(&side(&glass), slots.glass);
                 let x = -a - if k == 0 { leaf - 0.1 } else { 0.1 };
                 let grip = [SKIRT_M + 0.75, high - 0.55].map(|z| vec3(x, self.door_side * (self.half() - 0.06), z));
-                work.add(f.yellow, Shape::tube(&grip, 0.016, 6));
+                work.add(slots.yellow, Shape::tube(&grip, 0.016, 6));
             }
             if leaves == 2 {
                 let seal = rect(-from - width / 2.0 - 0.012, -from - width / 2.0 + 0.012, SKIRT_M + 0.05, high);
-                skin = skin.mark(&side(&seal), f.rubber);
+                skin = skin.mark(&side(&seal), slots.rubber);
             }
             let step = block(
                 [width - 0.1, 0.3, 0.04],
                 [-from - width / 2.0, self.door_side * (self.half() - 0.2), SKIRT_M + 0.07],
                 0.01,
             );
-            work.add(f.steel, step);
+            work.add(slots.steel, step);
         }
         skin
     }
@@ -216,16 +216,16 @@ impl BusPlan {
         let (half, r) = (self.half(), self.wheel_m);
         for (i, &axle) in self.axles_m.iter().enumerate() {
             let (well, lip) = arch(skin, vec2(-axle, r), r + 0.1, half, 0.62);
-            work.add(work.f.seam, well);
-            work.add(work.f.trim, lip);
+            work.add(work.slots.seam, well);
+            work.add(work.slots.trim, lip);
             let steers = i == 0 && ends[0] || i == 2;
             let rim = if steers { Rim::Steel } else { Rim::DeepSteel };
-            let tyre = wheel(&work.f, r, r * 0.58, rim).moved(vec3(-axle, half - r * 0.29 - 0.05, r));
+            let tyre = wheel(&work.slots, r, r * 0.58, rim).moved(vec3(-axle, half - r * 0.29 - 0.05, r));
             work.model.add_marked(tyre.both_sides());
-            work.add(work.f.frame, Shape::tube(&[vec3(-axle, -half + 0.3, r), vec3(-axle, half - 0.3, r)], 0.09, 8));
+            work.add(work.slots.frame, Shape::tube(&[vec3(-axle, -half + 0.3, r), vec3(-axle, half - 0.3, r)], 0.09, 8));
         }
         let floor = Shape::block(vec3(self.length_m - 0.5, self.width_m - 0.2, 0.04));
-        work.add(work.f.frame, floor.moved(vec3(-self.length_m / 2.0, 0.0, SKIRT_M + 0.06)));
+        work.add(work.slots.frame, floor.moved(vec3(-self.length_m / 2.0, 0.0, SKIRT_M + 0.06)));
     }
 }
 
@@ -261,7 +261,7 @@ pub(super) fn bellows(work: &mut Workshop, plan: &BusPlan, front_x: f32, back_x:
             [vec2(h, low)].into_iter().chain(ring).chain([vec2(-h, low)]).map(|p| vec3(x, p.x, p.y)).collect()
         })
         .collect();
-    work.add(work.f.rubber, Shape::loft(&rings).smooth(0.1));
+    work.add(work.slots.rubber, Shape::loft(&rings).smooth(0.1));
 }
 
 /// Lines of a rear flap or the like.

@@ -34,13 +34,13 @@ pub(super) fn beam(points: &[(f32, f32, f32)], y: f32, width_m: f32) -> Shape {
 /// A pin across a joint.
 pub(super) fn pin(work: &mut Workshop, at: Vec3, radius_m: f32, width_m: f32) {
     let w = Vec3::Y * width_m / 2.0;
-    work.add(work.f.frame, Shape::tube(&[at - w, at + w], radius_m, 16));
-    work.add(work.f.steel, Shape::tube(&[at - w * 1.06, at + w * 1.06], radius_m * 0.55, 12));
+    work.add(work.slots.frame, Shape::tube(&[at - w, at + w], radius_m, 16));
+    work.add(work.slots.steel, Shape::tube(&[at - w * 1.06, at + w * 1.06], radius_m * 0.55, 12));
 }
 
 /// A curved shell between cheeks with teeth on its lip; points (x, z) of its back from the hinge to the lip.
 pub(super) fn bucket(work: &mut Workshop, back: &[Vec2], y: f32, width_m: f32, teeth: usize) {
-    let f = work.f;
+    let slots = work.slots;
     let smooth: Vec<Vec2> = back
         .windows(2)
         .enumerate()
@@ -59,13 +59,13 @@ pub(super) fn bucket(work: &mut Workshop, back: &[Vec2], y: f32, width_m: f32, t
         .collect();
     let row = |dy: f32| smooth.iter().map(|p| vec3(p.x, y + dy, p.y)).collect::<Vec<_>>();
     let shell = Shape::sheet(&[row(-width_m / 2.0), row(width_m / 2.0)]).smooth(0.6);
-    work.add(f.steel, shell.plate(0.025));
+    work.add(slots.steel, shell.plate(0.025));
     let mut cheek = smooth.clone();
     let mouth = (smooth[0] + smooth[smooth.len() - 1]) / 2.0;
     cheek.push(mouth.lerp(smooth[smooth.len() / 2], 0.12));
     for side in [-1.0, 1.0] {
         let plate = cut_out(&cheek, 0.03).moved(Vec3::Y * (y + side * width_m / 2.0));
-        work.add(f.frame, plate);
+        work.add(slots.frame, plate);
     }
     let (lip, before) = (smooth[smooth.len() - 1], smooth[smooth.len() - 2]);
     let out = (lip - before).normalize_or(Vec2::X);
@@ -74,17 +74,17 @@ pub(super) fn bucket(work: &mut Workshop, back: &[Vec2], y: f32, width_m: f32, t
         let (a, b) = (lip - out * 0.06, lip + out * 0.15);
         let tooth =
             [(vec3(a.x, y + dy, a.y), 0.05), (vec3(lip.x, y + dy, lip.y), 0.05), (vec3(b.x, y + dy, b.y), 0.014)];
-        work.add(f.steel, Shape::tapered_tube(&tooth, 5));
+        work.add(slots.steel, Shape::tapered_tube(&tooth, 5));
     }
     let edge = block([0.16, width_m, 0.03], [0.0; 3], 0.008);
     let turn = glam::Quat::from_rotation_y(-out.y.atan2(out.x));
-    work.add(f.steel, edge.turned(turn).moved(vec3(lip.x, y, lip.y)));
+    work.add(slots.steel, edge.turned(turn).moved(vec3(lip.x, y, lip.y)));
 }
 
 /// Hoses along a path beside a boom.
 pub(super) fn hoses(work: &mut Workshop, points: &[Vec3], count: usize) {
     for k in 0..count {
         let path: Vec<Vec3> = points.iter().map(|p| *p + vec3(0.0, 0.035 * k as f32, 0.0)).collect();
-        work.add(work.f.trim, Shape::tube(&path, 0.014, 5));
+        work.add(work.slots.trim, Shape::tube(&path, 0.014, 5));
     }
 }

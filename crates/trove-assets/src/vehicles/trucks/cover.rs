@@ -6,10 +6,9 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::Seed;
 
 use super::bed::Bed;
-use crate::shape::{Prism, Shape};
+use crate::shape::{Prism, Shape, rect};
 use crate::vehicles::decal::{HAZARD, decal, on_back, slanted, tiled, writing};
-use crate::vehicles::finish::metric;
-use crate::vehicles::hull::rect;
+use crate::vehicles::coverings::metric;
 use crate::vehicles::workshop::{Workshop, bar, block};
 
 /// Distance between the bows below a canvas.
@@ -52,15 +51,15 @@ impl Bed {
         let bows = (0..=bays).map(|i| {
             Shape::tube(&path(-self.from - 0.06 - (self.length() - 0.12) * i as f32 / bays as f32), radius_m, 6)
         });
-        work.add(work.f.steel, Shape::join(bows));
+        work.add(work.slots.steel, Shape::join(bows));
     }
 
     /// Low sides and posts under a canvas roof whose curtains are drawn up, a tail lift at the back.
     pub(crate) fn canopy(&self, work: &mut Workshop) {
-        let f = work.f;
-        self.floor(work, f.steel);
-        self.drop_sides(work, 0.62, f.alu, true);
-        self.headboard(work, self.top - self.floor_top() - 0.12, f.panel);
+        let slots = work.slots;
+        self.floor(work, slots.steel);
+        self.drop_sides(work, 0.62, slots.alu, true);
+        self.headboard(work, self.top - self.floor_top() - 0.12, slots.panel);
         let h = self.half;
         let top = self.top;
         let roof =
@@ -72,19 +71,19 @@ impl Bed {
             .chain(roof.iter().rev().map(|&(y, z)| vec2(-y, z)))
             .collect();
         let cloth = self.cloth(&roof, 0.035, 0.05);
-        work.add(f.canvas, cloth);
+        work.add(slots.canvas, cloth);
         self.bows(work, &roof[3..8], 0.02);
         // Purlins, and the edge that the curtains hang from.
         for y in [0.0, h * 0.5] {
-            work.pair(f.steel, block([self.length(), 0.04, 0.05], [self.middle(), y, top - 0.06], 0.008));
+            work.pair(slots.steel, block([self.length(), 0.04, 0.05], [self.middle(), y, top - 0.06], 0.008));
         }
-        work.pair(f.alu, block([self.length(), 0.04, 0.12], [self.middle(), h - 0.045, top - 0.13], 0.01));
-        work.add(f.alu, block([0.06, h * 2.0, 0.1], [-self.to + 0.02, 0.0, top - 0.05], 0.015));
+        work.pair(slots.alu, block([self.length(), 0.04, 0.12], [self.middle(), h - 0.045, top - 0.13], 0.01));
+        work.add(slots.alu, block([0.06, h * 2.0, 0.1], [-self.to + 0.02, 0.0, top - 0.05], 0.015));
         // Posts, and curtains rolled up between them.
         for i in 0..=2 {
             let x = -self.from - 0.05 - (self.length() - 0.1) * i as f32 / 2.0;
             work.pair(
-                f.steel,
+                slots.steel,
                 block([0.09, 0.07, top - self.deck - 0.2], [x, h - 0.045, (top + self.deck) / 2.0], 0.012),
             );
         }
@@ -99,11 +98,11 @@ impl Bed {
                     (vec3(-self.from - self.length() * t, side * (h - 0.06), top - 0.27 - hung), radius)
                 })
                 .collect();
-            work.add(f.canvas, metric(Shape::tapered_tube(&path, 9).smooth(1.2)));
+            work.add(slots.canvas, metric(Shape::tapered_tube(&path, 9).smooth(1.2)));
             for i in 1..8 {
                 let x = -self.from - self.length() * i as f32 / 8.0;
                 let strap = block([0.03, 0.012, 0.3], [x, side * (h + 0.035), top - 0.3], 0.003);
-                work.add(f.trim, strap);
+                work.add(slots.trim, strap);
             }
         }
         // The rear curtain, rolled up too.
@@ -115,57 +114,57 @@ impl Bed {
                 )
             })
             .collect();
-        work.add(f.canvas, metric(Shape::tapered_tube(&path, 9).smooth(1.2)));
+        work.add(slots.canvas, metric(Shape::tapered_tube(&path, 9).smooth(1.2)));
         self.tail_lift(work, "SUNRISE FOODS");
     }
 
     /// The platform of a tail lift, folded up, with its ram, its stripes and its lamps.
     pub(crate) fn tail_lift(&self, work: &mut Workshop, name: &str) {
-        let f = work.f;
+        let slots = work.slots;
         let (low, high) = (self.deck - 0.06, (self.deck + 1.62).min(self.top - 0.35));
         let x = -self.to - 0.055;
         let panel = Shape::rounded_block(vec3(0.06, self.half * 1.98, high - low), 0.018)
             .moved(vec3(x, 0.0, (low + high) / 2.0))
-            .slot(f.alu);
+            .slot(slots.alu);
         let mut panel = panel;
         for z in [low + 0.14, high - 0.36] {
-            panel = panel.mark(&Prism::front(&rect(-3.0, 3.0, z, z + 0.008), x - 0.2..=x), f.trim);
+            panel = panel.mark(&Prism::front(&rect(-3.0, 3.0, z, z + 0.008), x - 0.2..=x), slots.trim);
         }
         for y in [-0.55, 0.55] {
-            panel = panel.mark(&Prism::front(&rect(y - 0.004, y + 0.004, low + 0.1, high - 0.3), x - 0.2..=x), f.trim);
+            panel = panel.mark(&Prism::front(&rect(y - 0.004, y + 0.004, low + 0.1, high - 0.3), x - 0.2..=x), slots.trim);
         }
         work.model.add_marked(panel);
         // A box with the control's flap on either side, round stickers of speed and length.
         let back = x - 0.032;
         for side in [1.0, -1.0] {
             let y = side * self.half * 0.78;
-            work.add(f.cargo, block([0.05, 0.2, 0.26], [back - 0.01, y, high - 0.5], 0.015));
+            work.add(slots.cargo, block([0.05, 0.2, 0.26], [back - 0.01, y, high - 0.5], 0.015));
             let stripes = slanted(&mut work.model, "hazard-white", [vec3(0.6, 0.42, 0.1), vec3(0.6, 0.58, 0.54)]);
             let size = vec2(0.12, 0.62);
             let flag = decal(vec3(back - 0.002, side * self.half * 0.56, low + 0.5), Vec3::Y * -side, Vec3::Z, size);
             let flag = if side > 0.0 { flag } else { flag.inside_out() };
             work.add(stripes, tiled(flag, vec2(0.6, 3.0)));
             let sticker = Shape::cylinder(0.075, 0.004, 20).turned(Quat::from_rotation_y(-PI / 2.0));
-            work.add(if side > 0.0 { f.white } else { f.yellow }, sticker.moved(vec3(back, y, low + 0.26)));
+            work.add(if side > 0.0 { slots.white } else { slots.yellow }, sticker.moved(vec3(back, y, low + 0.26)));
             work.add(
-                f.red,
+                slots.red,
                 Shape::ellipsoid(vec3(0.01, 0.035, 0.035), 12).moved(vec3(back, side * (self.half - 0.1), low + 0.3)),
             );
             let (figure, aspect) = writing(&mut work.model, if side > 0.0 { "60" } else { "45" }, &[Vec3::splat(0.02)]);
             work.add(figure, on_back(vec3(back - 0.006, y, low + 0.26), vec2(0.085 * aspect, 0.085)));
             // Arms and hinges.
             let y = side * self.half * 0.56;
-            work.add(f.frame, bar(vec3(x + 0.02, y, low + 0.06), vec3(x + 0.5, y, low - 0.34), 0.07, 0.09));
-            work.add(f.steel, block([0.1, 0.14, 0.12], [x - 0.005, y, low + 0.04], 0.02));
+            work.add(slots.frame, bar(vec3(x + 0.02, y, low + 0.06), vec3(x + 0.5, y, low - 0.34), 0.07, 0.09));
+            work.add(slots.steel, block([0.1, 0.14, 0.12], [x - 0.005, y, low + 0.04], 0.02));
         }
         work.add(
-            f.steel,
+            slots.steel,
             Shape::tube(&[vec3(x, -self.half * 0.62, low - 0.08), vec3(x, self.half * 0.62, low - 0.08)], 0.035, 10),
         );
         // The rail that swings out.
         let rail = [(0.42, 0.5), (0.42, 0.06), (0.36, 0.0), (0.0, 0.0), (-0.06, 0.06), (-0.06, 0.5)];
         let rail: Vec<Vec3> = rail.iter().map(|&(y, z)| vec3(back - 0.035, y + 0.1, high - 0.44 + z)).collect();
-        work.add(f.steel, Shape::tube(&rail, 0.014, 6));
+        work.add(slots.steel, Shape::tube(&rail, 0.014, 6));
         if !name.is_empty() {
             let (slot, aspect) = writing(&mut work.model, name, &[vec3(0.45, 0.05, 0.03)]);
             let height = (self.half * 1.0 / aspect).min(0.34);
@@ -178,21 +177,21 @@ impl Bed {
 
     /// Curtains with folds, held by straps with buckles, under a hard roof; doors behind.
     pub(crate) fn curtains(&self, work: &mut Workshop, name: &str) {
-        let f = work.f;
+        let slots = work.slots;
         let (low, high, h) = (self.deck + 0.1, self.top, self.half);
-        self.floor(work, f.alu);
-        self.headboard(work, high - self.floor_top(), f.panel);
+        self.floor(work, slots.alu);
+        self.headboard(work, high - self.floor_top(), slots.panel);
         work.add(
-            f.panel,
+            slots.panel,
             metric(block([self.length(), h * 2.0 - 0.04, 0.05], [self.middle(), 0.0, high - 0.03], 0.02)),
         );
-        work.pair(f.alu, block([self.length(), 0.05, 0.16], [self.middle(), h - 0.01, high - 0.085], 0.015));
+        work.pair(slots.alu, block([self.length(), 0.05, 0.16], [self.middle(), h - 0.01, high - 0.085], 0.015));
         work.add(
-            f.panel,
+            slots.panel,
             metric(block([0.04, h * 1.96, high - low], [-self.to + 0.03, 0.0, (low + high) / 2.0], 0.01)),
         );
-        work.pair(f.alu, block([0.1, 0.08, high - low], [-self.to + 0.05, h - 0.035, (low + high) / 2.0], 0.012));
-        work.pair(f.alu, block([0.1, 0.08, high - low], [-self.from - 0.05, h - 0.035, (low + high) / 2.0], 0.012));
+        work.pair(slots.alu, block([0.1, 0.08, high - low], [-self.to + 0.05, h - 0.035, (low + high) / 2.0], 0.012));
+        work.pair(slots.alu, block([0.1, 0.08, high - low], [-self.from - 0.05, h - 0.035, (low + high) / 2.0], 0.012));
         let (bottom, top) = (low - 0.04, high - 0.15);
         let columns = (self.length() / 0.12) as usize;
         let mut random = Seed(0xc0).nth((self.to * 100.0) as u64).random();
@@ -211,12 +210,12 @@ impl Bed {
                 .collect()
         };
         let curtain = Shape::sheet(&[0.0, 0.05, 0.3, 0.65, 1.0].map(row)).smooth(1.0);
-        work.pair(f.canvas, metric(curtain));
+        work.pair(slots.canvas, metric(curtain));
         let straps = (self.length() / 0.6).round() as usize;
         for i in 1..straps {
             let x = -self.from - self.length() * i as f32 / straps as f32;
-            work.pair(f.trim, block([0.045, 0.012, top - bottom], [x, h + 0.02, (top + bottom) / 2.0], 0.004));
-            work.pair(f.steel, block([0.06, 0.025, 0.12], [x, h + 0.024, bottom + 0.06], 0.008));
+            work.pair(slots.trim, block([0.045, 0.012, top - bottom], [x, h + 0.02, (top + bottom) / 2.0], 0.004));
+            work.pair(slots.steel, block([0.06, 0.025, 0.12], [x, h + 0.024, bottom + 0.06], 0.008));
         }
         self.doors(work, low + 0.08, high - 0.1);
         self.tape(work, low - 0.02);
@@ -233,10 +232,10 @@ impl Bed {
 
     /// Canvas over round hoops, tied down over drop sides with a rope; closed in front, a flap at the back.
     pub(crate) fn hoops(&self, work: &mut Workshop) {
-        let f = work.f;
-        self.floor(work, f.steel);
-        self.drop_sides(work, 0.5, f.boards, false);
-        self.headboard(work, 0.7, f.boards);
+        let slots = work.slots;
+        self.floor(work, slots.steel);
+        self.drop_sides(work, 0.5, slots.boards, false);
+        self.headboard(work, 0.7, slots.boards);
         let (h, hem, top) = (self.half + 0.02, self.floor_top() + 0.34, self.top);
         let spring = top - 0.42;
         let arch = (0..=10).map(|i| PI * i as f32 / 10.0).map(|a| {
@@ -249,7 +248,7 @@ impl Bed {
             .chain([vec2(-h, (hem + spring) / 2.0), vec2(-h - 0.01, hem)])
             .collect();
         let cloth = self.cloth(&profile, 0.045, 0.01);
-        work.add(f.canvas, cloth);
+        work.add(slots.canvas, cloth);
         self.bows(work, &profile, 0.018);
         for (x, sign) in [(-self.from, 1.0), (-self.to, -1.0)] {
             let inner: Vec<Vec3> = profile.iter().map(|p| vec3(x + 0.03 * sign, p.x * 0.98, p.y - 0.015)).collect();
@@ -260,7 +259,7 @@ impl Bed {
                 wall.push(inner.iter().map(|p| vec3(p.x + sag, p.y, hem + (p.z - hem) * t)).collect());
             }
             let wall = Shape::sheet(&wall).smooth(0.9);
-            work.add(f.canvas, metric(if sign > 0.0 { wall.inside_out() } else { wall }));
+            work.add(slots.canvas, metric(if sign > 0.0 { wall.inside_out() } else { wall }));
         }
         // Rope and eyes.
         let eyes = self.bays() as usize * 4;
@@ -272,14 +271,14 @@ impl Bed {
                     vec3(x, side * (h + 0.018), z)
                 })
                 .collect();
-            work.add(f.white, Shape::tube(&rope, 0.006, 4));
+            work.add(slots.white, Shape::tube(&rope, 0.006, 4));
             for p in rope.iter().step_by(2) {
-                work.add(f.steel, Shape::ellipsoid(vec3(0.022, 0.008, 0.022), 8).moved(*p));
+                work.add(slots.steel, Shape::ellipsoid(vec3(0.022, 0.008, 0.022), 8).moved(*p));
             }
         }
         for y in [-0.45, 0.45] {
             let path = [hem - 0.1, spring, top - 0.1].map(|z| vec3(-self.to - 0.035, y, z));
-            work.add(f.trim, Shape::tube(&path, 0.014, 4));
+            work.add(slots.trim, Shape::tube(&path, 0.014, 4));
         }
     }
 }

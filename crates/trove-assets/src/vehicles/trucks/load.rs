@@ -7,8 +7,7 @@ use trove_model::Seed;
 
 use super::bed::Bed;
 use crate::shape::Shape;
-use crate::vehicles::finish::metric;
-use crate::vehicles::wheel::upright;
+use crate::vehicles::coverings::metric;
 use crate::vehicles::workshop::{Workshop, block};
 
 impl Bed {
@@ -30,13 +29,13 @@ impl Bed {
                     .collect()
             })
             .collect();
-        let heap = metric(Shape::sheet(&rows).smooth(0.9)).slot(work.f.gravel);
+        let heap = metric(Shape::sheet(&rows).smooth(0.9)).slot(work.slots.gravel);
         work.model.add_extra("load", share, false, heap);
     }
 
     /// Pipes along the bed, in a pile held by straps.
     pub(crate) fn pipes(&self, work: &mut Workshop, share: f32, radius_m: f32) {
-        let f = work.f;
+        let slots = work.slots;
         let floor = self.floor_top() + 0.09;
         let length = self.length() * 0.93;
         let across = ((self.half * 1.8) / (radius_m * 2.0)) as usize;
@@ -54,12 +53,12 @@ impl Bed {
                     (radius_m * 0.84, 0.0),
                 ];
                 let pipe = Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 14).turned(Quat::from_rotation_y(PI / 2.0));
-                parts.push(pipe.moved(vec3(-self.to + 0.08 + shift * 0.5, y, z)).slot(f.second));
+                parts.push(pipe.moved(vec3(-self.to + 0.08 + shift * 0.5, y, z)).slot(slots.second));
             }
         }
         for t in [0.2, 0.5, 0.8] {
             let x = -self.to + length * t;
-            parts.push(block([0.1, self.half * 1.8, 0.08], [x, 0.0, floor - 0.045], 0.01).slot(f.cargo));
+            parts.push(block([0.1, self.half * 1.8, 0.08], [x, 0.0, floor - 0.045], 0.01).slot(slots.cargo));
             let (w, top) = (across as f32 * radius_m, floor + radius_m * 5.6);
             let strap: Vec<Vec3> = [
                 (w + 0.02, floor),
@@ -71,14 +70,14 @@ impl Bed {
             ]
             .map(|(y, z)| vec3(x + 0.2, y, z))
             .to_vec();
-            parts.push(Shape::tube(&strap, 0.012, 4).slot(f.yellow));
+            parts.push(Shape::tube(&strap, 0.012, 4).slot(slots.yellow));
         }
         work.model.add_extra("load", share, false, Shape::join(parts));
     }
 
     /// Pallets in two rows with cartons or sacks on them, up to a height; over a share of the bed from the back.
     pub(crate) fn pallets(&self, work: &mut Workshop, share: f32, height_m: f32, filled: f32) {
-        let f = work.f;
+        let slots = work.slots;
         let mut random = Seed(0x60_0d5).nth((self.to * 100.0) as u64).random();
         let mut parts = Vec::new();
         let floor = self.floor_top() + 0.01;
@@ -95,16 +94,16 @@ impl Bed {
                 let place = |s: Shape| s.turned(turn).moved(vec3(x, y, floor));
                 for k in 0..5 {
                     let board = block([1.2, 0.11, 0.022], [0.0, -0.4 + 0.2 * k as f32, 0.133], 0.004);
-                    parts.push(place(board).slot(f.cargo));
+                    parts.push(place(board).slot(slots.cargo));
                 }
                 for k in -1..=1 {
                     let beam = block([0.1, 0.98, 0.1], [0.54 * k as f32, 0.0, 0.06], 0.006);
-                    parts.push(place(beam).slot(f.cargo));
+                    parts.push(place(beam).slot(slots.cargo));
                 }
                 let height = height_m * random.range(0.45, 1.0) as f32 - 0.15;
                 let layers = (height / 0.3).ceil().max(1.0) as usize;
                 let sacks = random.chance(0.35);
-                let slot = if sacks { f.white } else { f.cargo };
+                let slot = if sacks { slots.white } else { slots.cargo };
                 for layer in 0..layers {
                     let each = height / layers as f32;
                     for k in 0..4 {
@@ -148,19 +147,19 @@ impl Bed {
                 }
             }
         }
-        work.model.add_extra("load", share, false, Shape::join(parts).slot(work.f.white));
+        work.model.add_extra("load", share, false, Shape::join(parts).slot(work.slots.white));
     }
 
     /// Drums of cable.
     pub(crate) fn drums(&self, work: &mut Workshop, share: f32, radius_m: f32) {
-        let f = work.f;
+        let slots = work.slots;
         let floor = self.floor_top() + 0.01;
         let count = ((self.length() - 0.4) / (radius_m * 2.2)) as usize;
         let mut parts = Vec::new();
         for i in 0..count.max(1) {
             let at = vec3(-self.to + 0.3 + radius_m * (1.0 + 2.2 * i as f32), 0.0, floor + radius_m);
             for side in [-0.55, 0.48] {
-                parts.push(upright(Shape::cylinder(radius_m, 0.06, 28)).moved(at + Vec3::Y * side).slot(f.cargo));
+                parts.push(Shape::cylinder(radius_m, 0.06, 28).upright().moved(at + Vec3::Y * side).slot(slots.cargo));
             }
             let coil: Vec<_> = (0..=24)
                 .map(|k| {
@@ -169,7 +168,7 @@ impl Bed {
                     vec2(swell, 0.96 * k as f32 / 24.0)
                 })
                 .collect();
-            parts.push(upright(Shape::lathe(&coil, 20)).moved(at - Vec3::Y * 0.48).slot(f.rubber));
+            parts.push(Shape::lathe(&coil, 20).upright().moved(at - Vec3::Y * 0.48).slot(slots.rubber));
         }
         work.model.add_extra("load", share, false, Shape::join(parts));
     }

@@ -11,7 +11,7 @@ mod trailer;
 use glam::{Vec3, vec3};
 use trove_model::{Asset, Kind};
 
-use super::palette::COMMERCIAL;
+use super::slots::COMMERCIAL;
 use super::workshop::Workshop;
 use bed::Bed;
 pub(super) use cab::Cab;
@@ -241,7 +241,7 @@ impl TruckPlan {
             Body::Curtains(name) => bed.curtains(work, name),
             Body::Hoops => bed.hoops(work),
             Body::Flatbed => {
-                let alu = work.f.alu;
+                let alu = work.slots.alu;
                 bed.floor(work, alu);
                 bed.drop_sides(work, if light { 0.36 } else { 0.5 }, alu, false);
                 bed.headboard(work, bed.top - bed.floor_top(), alu);
@@ -262,7 +262,7 @@ impl TruckPlan {
                 work.beacon(vec3(-self.cab.length_m + 0.35, 0.5, self.cab.height_m - 0.03));
             }
             Body::Tank => {
-                let paint = work.f.panel;
+                let paint = work.slots.panel;
                 bed.tank(work, paint);
             }
             Body::Mixer => bed.mixer(work),

@@ -4,110 +4,55 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 
-use super::body::{Body, Profile, Skin};
 use super::cabin;
-use super::face::{Back, End, Face};
+use super::ends::End;
 use super::fittings;
-use super::grid::{clipped, hull, inset, outset, rect, simple, soft};
-use super::palette::Palette;
-use super::wheel::{Rim, wheel};
-use crate::shape::{Prism, Shape};
+use super::plan::CarPlan;
+use super::shell::{Shell, Skin};
+use crate::shape::{Prism, Shape, clipped, hull, inset, outset, rect, simple, soft};
+use crate::vehicles::slots::Slots;
+use crate::vehicles::wheel::wheel;
 
 /// Width of the gap around a door.
 const GAP_M: f32 = 0.008;
 
-/// A car to build.
-#[derive(Clone, Debug)]
-pub(crate) struct CarPlan {
-    pub(crate) profile: Profile,
-    /// Distances of the axles from the front.
-    pub(crate) axles_m: [f32; 2],
-    pub(crate) wheel_radius_m: f32,
-    pub(crate) rim: Rim,
-    /// Where the side windows are parted, from the front; doors end there too.
-    pub(crate) pillars_m: Vec<f32>,
-    /// Where the side windows end, at their lower and at their upper edge.
-    pub(crate) glass_end_m: [f32; 2],
-    /// Windows behind this distance are sheet metal (panel vans).
-    pub(crate) blind_from_m: f32,
-    /// Side windows behind this distance are dark.
-    pub(crate) dark_from_m: f32,
-    /// Black plastic around the lower edge and the wheels.
-    pub(crate) cladding: bool,
-    /// A bright line around the side windows.
-    pub(crate) is_chromed: bool,
-    pub(crate) face: Face,
-    pub(crate) back: Back,
-    /// Rails on the roof.
-    pub(crate) roof_rails: bool,
-    /// Rows of seats, as distances of their backs from the front.
-    pub(crate) seats_m: Vec<f32>,
-    /// Drives on the left: the steering wheel is on the right.
-    pub(crate) right_hand_drive: bool,
-}
-
 impl CarPlan {
     /// The car, its front at x = 0.
-    pub(crate) fn build(&self, palette: &Palette) -> Shape {
-        let body = self.body();
+    pub(crate) fn build(&self, slots: &Slots) -> Shape {
+        let body = Shell::of(self);
         let skin = Skin {
-            paint: palette.paint,
-            glass: palette.glass,
-            rear_glass: if self.dark_from_m < f32::INFINITY { palette.privacy } else { palette.glass },
-            trim: palette.trim,
-            under: palette.trim,
-            lining: palette.lining,
+            paint: slots.paint,
+            glass: slots.glass,
+            rear_glass: if self.dark_from_m < f32::INFINITY { slots.privacy } else { slots.glass },
+            trim: slots.trim,
+            under: slots.trim,
+            lining: slots.lining,
             has_rear_window: self.blind_from_m > self.profile.length_m,
         };
-        let end = End { profile: &self.profile, palette };
-        let house = self.windows(body.greenhouse(&skin), &body, palette);
+        let end = End { profile: &self.profile, slots };
+        let house = self.windows(body.greenhouse(&skin), &body, slots);
         let house = end.back(house, &self.back);
 
-        let mut shell = self.cladding(body.shell(&skin), palette);
-        shell = self.gaps(shell, &body, palette);
+        let mut shell = self.cladding(body.lower(&skin), slots);
+        shell = self.gaps(shell, &body, slots);
         shell = end.bumper(shell, &self.back);
         shell = end.back(shell, &self.back);
         let mut half = Vec::new();
         for &axle in &self.axles_m {
-            let (cut, arch) = self.arch(shell, axle, palette);
+            let (cut, arch) = self.arch(shell, axle, slots);
             shell = cut;
-            half.extend([arch, self.wheel(axle, palette)]);
+            half.extend([arch, self.wheel(axle, slots)]);
         }
-        half.push(fittings::on_the_side(self, &body, &shell, palette));
+        half.push(fittings::on_the_side(self, &body, &shell, slots));
         half.push(end.front(shell, &self.face));
         half.push(house);
         let whole = Shape::join(half).both_sides();
-        let cabin = cabin::interior(self, &body, palette);
+        let cabin = cabin::interior(self, &body, slots);
 
-        Shape::join([self.fuel_flap(whole, &body, palette), cabin, fittings::in_the_middle(self, &body, palette)])
+        Shape::join([self.fuel_flap(whole, &body, slots), cabin, fittings::in_the_middle(self, &body, slots)])
     }
 
-    /// The shell's shape before it is meshed.
-    pub(crate) fn body(&self) -> Body {
-        let arches = self.axles_m.map(|s| vec3(s, self.wheel_radius_m + 0.01, self.arch_radius_m()));
-        Body::new(&self.profile, &arches)
-    }
-
-    pub(super) fn half_m(&self) -> f32 {
-        self.profile.width_m / 2.0
-    }
-
-    fn arch_radius_m(&self) -> f32 {
-        self.wheel_radius_m * 1.09 + 0.02
-    }
-
-    /// Where the front doors begin.
-    fn first_gap_m(&self) -> f32 {
-        (self.axles_m[0] + self.arch_radius_m() + 0.05).max(self.profile.cowl.0 + 0.05)
-    }
-
-    /// Where doors end: at every pillar but one that only parts off a small pane beside the windscreen.
-    pub(super) fn door_ends_m(&self) -> impl Iterator<Item = f32> {
-        let first = self.first_gap_m();
-        self.pillars_m.iter().copied().filter(move |&s| s > first + 0.3)
-    }
-
-    fn windows(&self, house: Shape, body: &Body, palette: &Palette) -> Shape {
+    fn windows(&self, house: Shape, body: &Shell, slots: &Slots) -> Shape {
         // The opening: over the doors, under the roof's edge, from the windscreen's side edge to its end.
         let [low_end, high_end] = self.glass_end_m.map(|s| s.min(self.blind_from_m));
         let (low_start, high_start) = (body.screen_side_m(0.05) - 0.04, body.screen_side_m(0.93) - 0.03);
@@ -120,9 +65,9 @@ impl CarPlan {
         let opening = soft(&simple(&hull(points.collect())), 0.06);
         let mut house = house;
         if self.is_chromed {
-            house = house.mark(&Prism::side(&outset(&opening, 0.014), 0.2..=2.0), palette.chrome);
+            house = house.mark(&Prism::side(&outset(&opening, 0.014), 0.2..=2.0), slots.chrome);
         }
-        house = house.mark(&Prism::side(&opening, 0.2..=2.0), palette.trim);
+        house = house.mark(&Prism::side(&opening, 0.2..=2.0), slots.trim);
         let opening = inset(&opening, 0.016);
         let mut posts = vec![low_start - 1.0];
         posts.extend(self.pillars_m.iter().copied().filter(|&s| s < low_end - 0.05));
@@ -131,30 +76,30 @@ impl CarPlan {
             let pane = clipped(&opening, Vec2::X, -w[0] - 0.028);
             let pane = clipped(&pane, -Vec2::X, w[1] - 0.028);
             if pane.len() > 2 {
-                let slot = if w[0] + 0.1 > self.dark_from_m { palette.privacy } else { palette.glass };
+                let slot = if w[0] + 0.1 > self.dark_from_m { slots.privacy } else { slots.glass };
                 house = house.mark(&Prism::side(&pane, 0.2..=2.0), slot);
             }
         }
         house
     }
 
-    fn cladding(&self, skin: Shape, palette: &Palette) -> Shape {
+    fn cladding(&self, skin: Shape, slots: &Slots) -> Shape {
         let sill = self.profile.clearance_m;
         let high = sill + if self.cladding { 0.16 } else { 0.045 };
         let length = self.profile.length_m;
-        let skin = skin.mark(&Prism::side(&rect(vec2(-length - 0.1, 0.0), vec2(0.2, high)), 0.2..=2.0), palette.trim);
+        let skin = skin.mark(&Prism::side(&rect(-length - 0.1, 0.2, 0.0, high), 0.2..=2.0), slots.trim);
         if !self.cladding {
             return skin;
         }
         let arch = |skin: Shape, &axle: &f32| {
             let centre = vec2(-axle, self.wheel_radius_m + 0.01);
-            skin.mark(&Prism::round_side(centre, self.arch_radius_m() + 0.055, 16, 0.3..=2.0), palette.trim)
+            skin.mark(&Prism::round_side(centre, self.arch_radius_m() + 0.055, 16, 0.3..=2.0), slots.trim)
         };
         self.axles_m.iter().fold(skin, arch)
     }
 
     /// Gaps between doors, bonnet, boot and bumpers.
-    fn gaps(&self, skin: Shape, body: &Body, palette: &Palette) -> Shape {
+    fn gaps(&self, skin: Shape, body: &Shell, slots: &Slots) -> Shape {
         let p = &self.profile;
         let sill = p.clearance_m + if self.cladding { 0.17 } else { 0.1 };
         let mut skin = skin;
@@ -162,7 +107,7 @@ impl CarPlan {
             let side = (b - a).perp().normalize_or_zero() * GAP_M / 2.0;
             let strip = [a - side, b - side, b + side, a + side];
             let shape = std::mem::take(&mut skin);
-            skin = shape.mark(&Prism::side(&strip, 0.3..=2.0), palette.seam);
+            skin = shape.mark(&Prism::side(&strip, 0.3..=2.0), slots.seam);
         };
         // Doors: the first gap leans with the windscreen, the last follows the wheel arch.
         let first = self.first_gap_m();
@@ -190,16 +135,16 @@ impl CarPlan {
         line(front, vec2(front.x + 0.24, p.nose_m - 0.2));
         let rear = vec2(-self.axles_m[1] - self.arch_radius_m() * 0.95, self.wheel_radius_m + 0.17);
         line(rear, vec2(-p.length_m + 0.16, p.clearance_m + 0.44));
-        self.lids(skin, body, palette)
+        self.lids(skin, body, slots)
     }
 
     /// Gaps around bonnet and boot lid, or tailgate.
-    fn lids(&self, skin: Shape, body: &Body, palette: &Palette) -> Shape {
+    fn lids(&self, skin: Shape, body: &Shell, slots: &Slots) -> Shape {
         let (p, half) = (&self.profile, self.half_m());
         let lines = |skin: Shape, points: &[Vec2], prism: &dyn Fn(&[Vec2]) -> Prism| {
             points.windows(2).fold(skin, |skin, w| {
                 let side = (w[1] - w[0]).perp().normalize_or_zero() * GAP_M / 2.0;
-                skin.mark(&prism(&[w[0] - side, w[1] - side, w[1] + side, w[0] + side]), palette.seam)
+                skin.mark(&prism(&[w[0] - side, w[1] - side, w[1] + side, w[0] + side]), slots.seam)
             })
         };
         let above = |polygon: &[Vec2]| Prism::top(polygon, p.nose_m - 0.14..=2.0);
@@ -227,22 +172,22 @@ impl CarPlan {
     }
 
     /// A cover on the right side.
-    fn fuel_flap(&self, skin: Shape, body: &Body, palette: &Palette) -> Shape {
+    fn fuel_flap(&self, skin: Shape, body: &Shell, slots: &Slots) -> Shape {
         let s = self.axles_m[1] + 0.08;
         let middle = vec2(-s, body.belt_m(s) - 0.17);
-        let outline = soft(&rect(middle - 0.085, middle + vec2(0.085, 0.075)), 0.03);
+        let outline = soft(&rect(middle.x - 0.085, middle.x + 0.085, middle.y - 0.085, middle.y + 0.075), 0.03);
         let closed = outline.iter().chain(outline.first()).copied().collect::<Vec<_>>();
-        let (painted, other) = skin.split_slot(palette.paint);
+        let (painted, other) = skin.split_slot(slots.paint);
         let marked = closed.windows(2).fold(painted, |skin, w| {
             let side = (w[1] - w[0]).perp().normalize_or_zero() * GAP_M / 2.0;
             let strip = [w[0] - side, w[1] - side, w[1] + side, w[0] + side];
-            skin.mark(&Prism::side(&strip, 0.5..=2.0).mirrored(), palette.seam)
+            skin.mark(&Prism::side(&strip, 0.5..=2.0).mirrored(), slots.seam)
         });
         marked.and(other)
     }
 
     /// A wheel arch cut out of the left half, with a dark well and a lip that follows the skin.
-    fn arch(&self, skin: Shape, axle: f32, palette: &Palette) -> (Shape, Shape) {
+    fn arch(&self, skin: Shape, axle: f32, slots: &Slots) -> (Shape, Shape) {
         let radius = self.arch_radius_m();
         let centre = vec2(-axle, self.wheel_radius_m + 0.01);
         let inner = self.half_m() * 0.5;
@@ -258,19 +203,19 @@ impl CarPlan {
             })
             .collect();
         let row = |y: f32| rim.iter().map(|&q| vec3(q.x, y, q.z)).collect::<Vec<_>>();
-        let well = Shape::sheet(&[row(inner), rim.clone()]).slot(palette.seam);
+        let well = Shape::sheet(&[row(inner), rim.clone()]).slot(slots.seam);
         let back: Vec<Vec2> = rim.iter().map(|q| vec2(q.x, q.z)).collect();
         let wall = Shape::flat(&back).turned(Quat::from_rotation_x(FRAC_PI_2)).inside_out();
-        let wall = wall.moved(Vec3::Y * inner).slot(palette.seam);
-        let lip_slot = if self.cladding { palette.trim } else { palette.paint };
+        let wall = wall.moved(Vec3::Y * inner).slot(slots.seam);
+        let lip_slot = if self.cladding { slots.trim } else { slots.paint };
         let lip = Shape::tube(&rim, if self.cladding { 0.014 } else { 0.008 }, 4).slot(lip_slot);
         let cut = Prism::round_side(centre, radius, 24, inner..=2.0);
         (skin.without(&cut), well.and(wall).and(lip))
     }
 
-    fn wheel(&self, axle: f32, palette: &Palette) -> Shape {
+    fn wheel(&self, axle: f32, slots: &Slots) -> Shape {
         let width = 0.17 + self.wheel_radius_m * 0.14;
         let y = self.half_m() - width / 2.0 - 0.012;
-        wheel(palette, self.wheel_radius_m, width, self.rim).moved(vec3(-axle, y, self.wheel_radius_m))
+        wheel(slots, self.wheel_radius_m, width, self.rim).moved(vec3(-axle, y, self.wheel_radius_m))
     }
 }

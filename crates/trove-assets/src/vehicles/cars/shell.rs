@@ -7,8 +7,9 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use super::grid::{Grid, rounded, straighten};
-use crate::shape::{Curve, Shape};
+use super::plan::{CarPlan, Profile};
+use super::grid::{Grid, straighten};
+use crate::shape::{Curve, Shape, rounded};
 
 /// Columns of the shell around the front, along the side and around the back.
 const SHELL_COLUMNS: [usize; 3] = [13, 17, 11];
@@ -16,50 +17,6 @@ const SHELL_COLUMNS: [usize; 3] = [13, 17, 11];
 const HOUSE_COLUMNS: [usize; 3] = [10, 10, 10];
 /// Columns of windscreen and rear window that are glass, of those around a corner; the rest is the pillar.
 const SCREEN_COLUMNS: usize = 7;
-
-/// The side view of a car and how it is rounded; points are (distance from the front, height).
-#[derive(Clone, Debug)]
-pub(crate) struct Profile {
-    pub(crate) length_m: f32,
-    /// Widest point of the body, without mirrors.
-    pub(crate) width_m: f32,
-    /// Under the sills.
-    pub(crate) clearance_m: f32,
-    /// Leading edge of the bonnet.
-    pub(crate) nose_m: f32,
-    /// Bonnet meets windscreen.
-    pub(crate) cowl: (f32, f32),
-    /// Windscreen meets roof.
-    pub(crate) header: (f32, f32),
-    /// Highest point of the roof.
-    pub(crate) peak: (f32, f32),
-    /// Roof meets rear window.
-    pub(crate) rear_header: (f32, f32),
-    /// Rear window meets boot.
-    pub(crate) deck: (f32, f32),
-    /// Upper rear edge of the boot.
-    pub(crate) tail_m: f32,
-    /// Lower edge of the side windows at the front and at the back.
-    pub(crate) belt_m: [f32; 2],
-    /// Half width of the roof, a share of half the width.
-    pub(crate) roof_share: f32,
-    /// Length over which the front and the back are rounded in plan.
-    pub(crate) round_m: [f32; 2],
-    /// How square the front and the back are in plan: 2 is an ellipse.
-    pub(crate) square: [f32; 2],
-    /// How far the upper edge of the nose and of the tail lies behind the bumper.
-    pub(crate) rake_m: [f32; 2],
-    /// How far the windows stand in from the doors.
-    pub(crate) shoulder_m: f32,
-    /// How far the wheel arches stand out from the doors.
-    pub(crate) flare_m: f32,
-    /// How far the doors are hollowed between sill and shoulder.
-    pub(crate) hollow_m: f32,
-    /// How far the ends of windscreen and rear window lie behind, or before, their middles.
-    pub(crate) screen_bow_m: [f32; 2],
-    /// An open load bed in place of a boot lid.
-    pub(crate) has_bed: bool,
-}
 
 /// Materials of the shell's parts.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +32,7 @@ pub(crate) struct Skin {
 
 /// The shell's shape before it is meshed.
 #[derive(Clone, Debug)]
-pub(crate) struct Body {
+pub(crate) struct Shell {
     profile: Profile,
     /// Axles as (distance from the front, height, radius of the arch).
     arches: Vec<Vec3>,
@@ -85,9 +42,11 @@ pub(crate) struct Body {
     rim: Vec<Vec3>,
 }
 
-impl Body {
-    pub(crate) fn new(profile: &Profile, arches: &[Vec3]) -> Self {
-        let p = profile;
+impl Shell {
+    /// The shell of a plan.
+    pub(crate) fn of(plan: &CarPlan) -> Self {
+        let arches = plan.axles_m.map(|s| vec3(s, plan.wheel_radius_m + 0.01, plan.arch_radius_m()));
+        let p = &plan.profile;
         let roof = Curve::new(&[p.header, p.peak, p.rear_header]);
         let mid = p.cowl.0 * 0.5;
         let back = p.deck.0.min(p.length_m - 0.3);
@@ -236,7 +195,7 @@ impl Body {
     }
 
     /// The lower body with bonnet and boot lid, its top left open under the windows.
-    pub(crate) fn shell(&self, skin: &Skin) -> Shape {
+    pub(crate) fn lower(&self, skin: &Skin) -> Shape {
         let p = &self.profile;
         let columns: Vec<Vec<Vec3>> = self.outline().iter().map(|&(q, n)| self.section(q, n)).collect();
         let walls = Grid(columns).shape(|_, row| if row < 2 { skin.under } else { skin.paint });

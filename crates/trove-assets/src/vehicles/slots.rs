@@ -1,13 +1,15 @@
 //! What vehicles are made of.
 
 use glam::{Vec3, vec3};
+use serde::Deserialize;
 use trove_model::Material;
 
+use super::coverings::{BOARDS, CANVAS, GRAVEL, PANEL, SLATS};
 use crate::shape::Model;
 
-/// The slots of a vehicle.
+/// The slots of a vehicle of any kind; those that nothing is made of go when the asset is finished.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Palette {
+pub(crate) struct Slots {
     pub(crate) paint: u16,
     pub(crate) trim: u16,
     pub(crate) glass: u16,
@@ -43,45 +45,43 @@ pub(crate) struct Palette {
     pub(crate) skin: u16,
     pub(crate) cloth: u16,
     pub(crate) hair: u16,
+    /// Frame rails, axles, springs.
+    pub(crate) frame: u16,
+    /// Galvanised and worn steel.
+    pub(crate) steel: u16,
+    /// Aluminium planks and tanks.
+    pub(crate) alu: u16,
+    /// Clear covers of lorries' lamps.
+    pub(crate) clear_lens: u16,
+    /// White plastic: reversing lamps, stickers.
+    pub(crate) white: u16,
+    /// Mirrors' glass.
+    pub(crate) mirror: u16,
+    /// Cloth of the seats of lorries, buses and machines.
+    pub(crate) seat_cloth: u16,
+    /// Poles to hold on to, marks of danger.
+    pub(crate) yellow: u16,
+    /// The second paint on large panels with seams and rivets; uvs in metres.
+    pub(crate) panel: u16,
+    /// The second paint on canvas; uvs in metres.
+    pub(crate) canvas: u16,
+    /// Boards of a floor; uvs in metres.
+    pub(crate) boards: u16,
+    /// Slats across: shutters, radiators; uvs in metres.
+    pub(crate) slats: u16,
+    /// Gravel, sand; uvs in metres.
+    pub(crate) gravel: u16,
 }
 
-/// What one draws from for passenger cars: about a third white, a fifth black, a third grey or silver, some blue and
-/// red, as manufacturers' yearly colour reports have it.
-pub(crate) const FLEET: [Vec3; 25] = {
-    const WHITE: Vec3 = vec3(0.76, 0.76, 0.74);
-    const PEARL: Vec3 = vec3(0.68, 0.68, 0.65);
-    const BLACK: Vec3 = vec3(0.008, 0.008, 0.009);
-    const GREY: Vec3 = vec3(0.09, 0.095, 0.1);
-    const DARK_GREY: Vec3 = vec3(0.04, 0.042, 0.046);
-    const SILVER: Vec3 = vec3(0.42, 0.43, 0.44);
-    [
-        WHITE,
-        WHITE,
-        WHITE,
-        WHITE,
-        PEARL,
-        PEARL,
-        PEARL,
-        BLACK,
-        BLACK,
-        BLACK,
-        BLACK,
-        BLACK,
-        GREY,
-        GREY,
-        DARK_GREY,
-        DARK_GREY,
-        SILVER,
-        SILVER,
-        SILVER,
-        vec3(0.02, 0.055, 0.2),
-        vec3(0.012, 0.025, 0.08),
-        vec3(0.35, 0.012, 0.015),
-        vec3(0.16, 0.008, 0.012),
-        vec3(0.24, 0.2, 0.15),
-        vec3(0.03, 0.07, 0.05),
-    ]
-};
+/// What one draws the colours of a vehicle from, linear RGB, a colour as often as it is common: `[paint.NAME]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Paint {
+    pub(crate) colors: Vec<[f32; 3]>,
+    /// How metallic it is, 0 to 1.
+    #[serde(default)]
+    pub(crate) flakes: f32,
+}
 
 /// Delivery vans and lorries: mostly white.
 pub(crate) const COMMERCIAL: [Vec3; 8] = {
@@ -98,13 +98,18 @@ pub(crate) const COMMERCIAL: [Vec3; 8] = {
     ]
 };
 
-impl Palette {
-    /// Adds the slots to a model.
-    pub(crate) fn new(model: &mut Model, paints: &[Vec3], second: &[Vec3]) -> Self {
-        let paint_of = |name: &str, paints: &[Vec3]| Material {
+/// Seats' cloth.
+const SEATS: [Vec3; 4] =
+    [vec3(0.03, 0.05, 0.13), vec3(0.05, 0.05, 0.055), vec3(0.12, 0.02, 0.025), vec3(0.03, 0.07, 0.06)];
+/// Sand, grey gravel, earth, crushed stone.
+const HEAPS: [Vec3; 4] = [vec3(0.62, 0.5, 0.34), vec3(0.5, 0.49, 0.47), vec3(0.28, 0.2, 0.13), vec3(0.62, 0.6, 0.57)];
+
+impl Slots {
+    /// Adds the slots to a model; `flakes` is how metallic the first paint is, 0 to 1.
+    pub(crate) fn new(model: &mut Model, paints: &[Vec3], flakes: f32, second: &[Vec3]) -> Self {
+        let paint_of = |name: &str, paints: &[Vec3], flakes: f32| Material {
             coat: 1.0,
-            // Passenger cars are mostly metallic; what carries goods is not.
-            flakes: if paints == FLEET { 0.5 } else { 0.0 },
+            flakes,
             dirt: 0.15,
             // The lacquer's surface is the paint's only one.
             ior: 1.0,
@@ -115,6 +120,13 @@ impl Palette {
             dirt: 0.5,
             ..Material::plain(name, Vec3::splat(grey), roughness)
         };
+        let worn = |name: &str, grey: f32, roughness: f32, metalness: f32| Material {
+            metalness,
+            dirt: 0.8,
+            ..Material::plain(name, Vec3::splat(grey), roughness)
+        };
+        let base = second.first().copied().unwrap_or(Vec3::splat(0.7));
+        let over = |material: &Material| Material { base_color: base, dirt: 0.75, ..material.clone() };
         let lens = |name: &str, color: Vec3| Material { coat: 1.0, ..Material::plain(name, color, 0.25) };
         let glass = |name: &str, tint: Vec3, transmission: f32| Material {
             transmission,
@@ -166,8 +178,23 @@ impl Palette {
             plate: slot(Material::plain("number plate", vec3(0.72, 0.72, 0.7), 0.45)),
             cargo: slot(Material::plain("cardboard", vec3(0.36, 0.25, 0.15), 0.85)),
             seam: slot(Material::plain("seam", Vec3::splat(0.006), 0.9)),
-            paint: model.slot(paint_of("paint", paints), paints),
-            second: model.slot(paint_of("second paint", second), second),
+            paint: model.slot(paint_of("paint", paints, flakes), paints),
+            second: model.slot(paint_of("second paint", second, 0.0), second),
+            frame: model.slot(worn("frame paint", 0.03, 0.6, 0.0), &[]),
+            steel: model.slot(worn("steel", 0.34, 0.45, 1.0), &[]),
+            alu: model.slot(worn("aluminium", 0.6, 0.38, 1.0), &[]),
+            clear_lens: model
+                .slot(Material { transmission: 0.95, ..Material::plain("clear lens", Vec3::splat(0.93), 0.03) }, &[]),
+            white: model.slot(Material::plain("white plastic", vec3(0.68, 0.68, 0.66), 0.35), &[]),
+            mirror: model.slot(Material { metalness: 1.0, ..Material::plain("mirror", Vec3::splat(0.85), 0.03) }, &[]),
+            seat_cloth: model
+                .slot(Material { sheen: 0.4, ..Material::plain("seat cloth", SEATS[0], 0.9) }, &SEATS),
+            yellow: model.slot(Material { dirt: 0.4, ..Material::plain("yellow", vec3(0.62, 0.36, 0.015), 0.4) }, &[]),
+            panel: model.slot(over(&PANEL), second),
+            canvas: model.slot(over(&CANVAS), second),
+            boards: model.slot(Material { dirt: 0.6, ..BOARDS.clone() }, &[]),
+            slats: model.slot(Material { metalness: 1.0, dirt: 0.6, ..SLATS.clone() }, &[]),
+            gravel: model.slot(GRAVEL.clone(), &HEAPS),
         }
     }
 }

@@ -4,16 +4,16 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3, vec3};
 
-use super::body::Body;
-use super::car::CarPlan;
-use super::palette::Palette;
+use super::shell::Shell;
+use super::plan::CarPlan;
+use crate::vehicles::slots::Slots;
 use crate::shape::{Blend, Limb, Shape};
 
 /// How far the front seats' middles are from the car's.
 const SEAT_M: f32 = 0.36;
 
 /// Floor, door cards, dashboard, steering wheel and seats.
-pub(super) fn interior(plan: &CarPlan, body: &Body, palette: &Palette) -> Shape {
+pub(super) fn interior(plan: &CarPlan, body: &Shell, slots: &Slots) -> Shape {
     let p = &plan.profile;
     let half = plan.half_m() - 0.13;
     let (front, rear) = (p.cowl.0 + 0.2, plan.glass_end_m[0].max(plan.seats_m[plan.seats_m.len() - 1] + 0.25));
@@ -52,13 +52,13 @@ pub(super) fn interior(plan: &CarPlan, body: &Body, palette: &Palette) -> Shape 
     let bar = Shape::block(vec3(0.035, 0.34, 0.012));
     let steering = Shape::tube(&ring, 0.015, 5).and(hub).and(bar).turned(Quat::from_rotation_y(-1.15));
     dark.push(steering.moved(vec3(-s, driver, z)));
-    let mut parts = vec![Shape::join(dark).slot(palette.interior)];
+    let mut parts = vec![Shape::join(dark).slot(slots.interior)];
     let screen = Shape::block(vec3(0.012, 0.24, 0.13)).moved(vec3(-p.cowl.0 - 0.64, 0.0, belt + 0.0));
-    parts.push(screen.slot(palette.seam));
+    parts.push(screen.slot(slots.seam));
     let mirror = Shape::rounded_block(vec3(0.03, 0.22, 0.06), 0.015);
-    parts.push(mirror.moved(vec3(-p.header.0 - 0.02, 0.0, p.header.1 - 0.11)).slot(palette.interior));
+    parts.push(mirror.moved(vec3(-p.header.0 - 0.02, 0.0, p.header.1 - 0.11)).slot(slots.interior));
     for (row, &s) in plan.seats_m.iter().enumerate() {
-        parts.push(seats(plan, body, row, s).slot(palette.seat));
+        parts.push(seats(plan, body, row, s).slot(slots.seat));
     }
     Shape::join(parts)
 }
@@ -77,7 +77,7 @@ fn cushion_m(plan: &CarPlan) -> f32 {
     plan.profile.belt_m[0] - 0.42
 }
 
-fn seats(plan: &CarPlan, body: &Body, row: usize, s: f32) -> Shape {
+fn seats(plan: &CarPlan, body: &Shell, row: usize, s: f32) -> Shape {
     let base = cushion_m(plan) - 0.1;
     let top = body.belt_m(s).min(plan.profile.belt_m[0] + 0.08) + 0.05;
     let width = plan.half_m() * 1.45;
@@ -98,11 +98,11 @@ fn seats(plan: &CarPlan, body: &Body, row: usize, s: f32) -> Shape {
 }
 
 /// Someone on a front seat: at the wheel, or beside.
-pub(super) fn occupant(plan: &CarPlan, drives: bool, palette: &Palette) -> Shape {
+pub(super) fn occupant(plan: &CarPlan, drives: bool, slots: &Slots) -> Shape {
     let side = if drives { driver_m(plan) } else { -driver_m(plan) };
     let seat = vec3(-plan.seats_m[0] + 0.06, side, cushion_m(plan) + 0.1);
     // Low roofs are for people who lean back.
-    let room = plan.body().rail_m(plan.seats_m[0]) - 0.01 - seat.z;
+    let room = Shell::of(plan).rail_m(plan.seats_m[0]) - 0.01 - seat.z;
     let tall = (room / 0.87).min(1.0);
     let at = |x: f32, y: f32, z: f32| seat + vec3(x, y, z * tall);
     let (wheel_s, wheel_z) = wheel_at(plan);
@@ -127,8 +127,8 @@ pub(super) fn occupant(plan: &CarPlan, drives: bool, palette: &Palette) -> Shape
     hands.push(Limb::new(head + vec3(0.088, 0.0, 0.01), head + vec3(0.1, 0.0, -0.02), 0.012, 0.014));
     let hair = Limb::new(head + vec3(-0.03, 0.0, 0.02), head + vec3(-0.01, 0.0, 0.07), 0.094, 0.085);
     Shape::join([
-        Blend::new(body, 0.05).surface(0.055).slot(palette.cloth),
-        Blend::new(hands, 0.015).surface(0.034).slot(palette.skin),
-        Blend::new(vec![hair], 0.02).surface(0.034).slot(palette.hair),
+        Blend::new(body, 0.05).surface(0.055).slot(slots.cloth),
+        Blend::new(hands, 0.015).surface(0.034).slot(slots.skin),
+        Blend::new(vec![hair], 0.02).surface(0.034).slot(slots.hair),
     ])
 }

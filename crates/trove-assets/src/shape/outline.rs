@@ -1,52 +1,39 @@
-//! Surfaces over grids of points, and flat outlines.
+//! Flat outlines to cut and mark by, and polylines.
 
 use std::ops::{Add, Mul};
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use crate::shape::Shape;
-
-/// Columns of equally many points, (distance from the front, y, z); rows run upwards, columns backwards along the left
-/// side, so that the surface is seen from outside.
-pub(super) struct Grid(pub(super) Vec<Vec<Vec3>>);
-
-impl Grid {
-    /// The surface in x, y, z, a slot for each (column, row) of its cells.
-    pub(super) fn shape(&self, slot: impl Fn(usize, usize) -> u16) -> Shape {
-        let rows = self.0.first().map_or(0, Vec::len);
-        let mut shape = Shape::default();
-        for q in self.0.iter().flatten() {
-            shape.positions.push(vec3(-q.x, q.y, q.z));
-            shape.normals.push(Vec3::Z);
-            shape.uvs.push(Vec2::ZERO);
-        }
-        for column in 1..self.0.len() {
-            for row in 1..rows {
-                let (a, b) = (((column - 1) * rows + row) as u32, (column * rows + row) as u32);
-                let slot = slot(column - 1, row - 1);
-                shape.triangles.extend([[a - 1, b, a], [a - 1, b - 1, b]]);
-                shape.slots.extend([slot; 2]);
-            }
-        }
-        // The middle's vertices have neighbours on the right too.
-        let mut shape = shape.smooth(0.62);
-        straighten(&mut shape);
-        shape
-    }
+/// An axis-aligned rectangle from `a0` to `a1` across and from `b0` to `b1` up, counter-clockwise.
+pub(crate) fn rect(a0: f32, a1: f32, b0: f32, b1: f32) -> [Vec2; 4] {
+    [vec2(a0, b0), vec2(a1, b0), vec2(a1, b1), vec2(a0, b1)]
 }
 
-/// Normals in the plane y = 0 of the left half of something symmetric have no y.
-pub(super) fn straighten(shape: &mut Shape) {
-    for (p, n) in shape.positions.iter().zip(&mut shape.normals) {
-        if p.y.abs() < 1e-4 && n.y.abs() < 0.8 {
-            n.y = 0.0;
-            *n = n.normalize_or(Vec3::Z);
-        }
+/// A convex polygon with its corners rounded.
+pub(crate) fn pane(corners: &[Vec2], radius_m: f32) -> Vec<Vec2> {
+    let n = corners.len();
+    let mut points = Vec::with_capacity(n * 3);
+    for i in 0..n {
+        let (before, corner, after) = (corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]);
+        let towards = |other: Vec2| corner.lerp(other, (radius_m / corner.distance(other).max(1e-4)).min(0.45));
+        let (a, b) = (towards(before), towards(after));
+        // Every corner is another plane to cut by: small ones are cut off straight.
+        let steps: &[f32] = if radius_m < 0.075 { &[0.0, 1.0] } else { &[0.0, 0.5, 1.0] };
+        points.extend(steps.iter().map(|&t| a.lerp(corner, t).lerp(corner.lerp(b, t), t)));
     }
+    points
+}
+
+/// A polygon made smaller by about a width on every side.
+pub(crate) fn shrunk(polygon: &[Vec2], by_m: f32) -> Vec<Vec2> {
+    let middle = polygon.iter().sum::<Vec2>() / polygon.len() as f32;
+    let (low, high) = polygon.iter().fold((Vec2::MAX, Vec2::MIN), |(l, h), &p| (l.min(p), h.max(p)));
+    let scale = (1.0 - 2.0 * by_m / (high - low).max(Vec2::splat(1e-3))).max(Vec2::ZERO);
+    polygon.iter().map(|&p| middle + (p - middle) * scale).collect()
 }
 
 /// A point of a polyline.
-pub(super) trait Point: Copy + Add<Output = Self> + Mul<f32, Output = Self> {
+pub(crate) trait Point: Copy + Add<Output = Self> + Mul<f32, Output = Self> {
     /// Distance between two.
     fn apart(self, other: Self) -> f32;
 }
@@ -74,7 +61,7 @@ fn turn<P: Point>(before: P, corner: P, after: P, reach: f32) -> [P; 3] {
 }
 
 /// A polyline with its inner corners rounded over a length each; those with length 0 stay.
-pub(super) fn rounded<P: Point>(corners: &[(P, f32)]) -> Vec<P> {
+pub(crate) fn rounded<P: Point>(corners: &[(P, f32)]) -> Vec<P> {
     let mut points = vec![corners[0].0];
     for w in corners.windows(3) {
         if w[1].1 > 0.0 { points.extend(turn(w[0].0, w[1].0, w[2].0, w[1].1)) } else { points.push(w[1].0) }
@@ -84,13 +71,13 @@ pub(super) fn rounded<P: Point>(corners: &[(P, f32)]) -> Vec<P> {
 }
 
 /// A polygon with all corners rounded over a length.
-pub(super) fn soft(polygon: &[Vec2], reach: f32) -> Vec<Vec2> {
+pub(crate) fn soft(polygon: &[Vec2], reach: f32) -> Vec<Vec2> {
     let n = polygon.len();
     (0..n).flat_map(|i| turn(polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n], reach)).collect()
 }
 
 /// A convex polygon without corners that hardly turn.
-pub(super) fn simple(polygon: &[Vec2]) -> Vec<Vec2> {
+pub(crate) fn simple(polygon: &[Vec2]) -> Vec<Vec2> {
     let n = polygon.len();
     let turns = |i: &usize| {
         let (a, b) = (polygon[*i] - polygon[(i + n - 1) % n], polygon[(i + 1) % n] - polygon[*i]);
@@ -100,7 +87,7 @@ pub(super) fn simple(polygon: &[Vec2]) -> Vec<Vec2> {
 }
 
 /// What of a convex polygon lies where `normal · p ≤ offset`.
-pub(super) fn clipped(polygon: &[Vec2], normal: Vec2, offset: f32) -> Vec<Vec2> {
+pub(crate) fn clipped(polygon: &[Vec2], normal: Vec2, offset: f32) -> Vec<Vec2> {
     let mut kept = Vec::new();
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
@@ -116,7 +103,7 @@ pub(super) fn clipped(polygon: &[Vec2], normal: Vec2, offset: f32) -> Vec<Vec2> 
 }
 
 /// A convex polygon, counter-clockwise, with its sides moved inwards.
-pub(super) fn inset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
+pub(crate) fn inset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
     let n = polygon.len();
     (0..n).fold(polygon.to_vec(), |left, i| {
         let (a, b) = (polygon[i], polygon[(i + 1) % n]);
@@ -126,7 +113,7 @@ pub(super) fn inset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
 }
 
 /// A convex polygon, either way round, with its sides moved outwards.
-pub(super) fn outset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
+pub(crate) fn outset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
     let n = polygon.len();
     let area: f32 = (0..n).map(|i| polygon[i].perp_dot(polygon[(i + 1) % n])).sum();
     let out = |a: Vec2, b: Vec2| -(b - a).perp().normalize_or_zero() * area.signum();
@@ -139,13 +126,8 @@ pub(super) fn outset(polygon: &[Vec2], by: f32) -> Vec<Vec2> {
         .collect()
 }
 
-/// An axis-aligned rectangle, counter-clockwise.
-pub(super) fn rect(low: Vec2, high: Vec2) -> [Vec2; 4] {
-    [low, vec2(high.x, low.y), high, vec2(low.x, high.y)]
-}
-
 /// The convex hull of points, counter-clockwise (Andrew's monotone chain).
-pub(super) fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
+pub(crate) fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = Vec2>| {
         let mut chain: Vec<Vec2> = Vec::new();
@@ -164,4 +146,12 @@ pub(super) fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
     let mut lower = half(&mut points.iter().copied());
     lower.extend(half(&mut points.iter().rev().copied()));
     lower
+}
+
+/// Points of an arc about a centre in a vertical plane along x, angles from +x upwards.
+pub(crate) fn arc(centre_xz: Vec2, radius_m: f32, from_rad: f32, to_rad: f32, steps: usize, y: f32) -> Vec<Vec3> {
+    (0..=steps)
+        .map(|i| from_rad + (to_rad - from_rad) * i as f32 / steps as f32)
+        .map(|a| vec3(centre_xz.x + radius_m * a.cos(), y, centre_xz.y + radius_m * a.sin()))
+        .collect()
 }

@@ -1,93 +1,15 @@
-//! What heavy vehicles are made of beyond what a car is made of.
+//! What large surfaces of vehicles and loads are covered with: panels, canvas, boards, slats, gravel.
 
-use std::ops::Deref;
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 use trove_model::Material;
 
-use super::palette::Palette;
-use crate::shape::{Model, Shape};
+use crate::shape::Shape;
 use crate::surfaces::{Canvas, Noise, Texel, hash, step};
 
-/// The slots of a heavy vehicle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Finish {
-    car: Palette,
-    /// Frame rails, axles, springs.
-    pub(crate) frame: u16,
-    /// Galvanised and worn steel.
-    pub(crate) steel: u16,
-    /// Aluminium planks and tanks.
-    pub(crate) alu: u16,
-    /// Clear covers of lamps.
-    pub(crate) lens: u16,
-    /// White plastic: reversing lamps, stickers.
-    pub(crate) white: u16,
-    /// Mirrors' glass.
-    pub(crate) mirror: u16,
-    /// Cloth of seats.
-    pub(crate) seat: u16,
-    /// Poles to hold on to, marks of danger.
-    pub(crate) yellow: u16,
-    /// The second paint on large panels with seams and rivets; uvs in metres.
-    pub(crate) panel: u16,
-    /// The second paint on canvas; uvs in metres.
-    pub(crate) canvas: u16,
-    /// Boards of a floor; uvs in metres.
-    pub(crate) boards: u16,
-    /// Slats across: shutters, radiators; uvs in metres.
-    pub(crate) slats: u16,
-    /// Gravel, sand; uvs in metres.
-    pub(crate) gravel: u16,
-}
-
-impl Deref for Finish {
-    type Target = Palette;
-
-    fn deref(&self) -> &Palette {
-        &self.car
-    }
-}
-
-impl Finish {
-    /// Adds the slots to a model.
-    pub(crate) fn new(model: &mut Model, paints: &[Vec3], second: &[Vec3]) -> Self {
-        let car = Palette::new(model, paints, second);
-        let worn = |name: &str, grey: f32, roughness: f32, metalness: f32| Material {
-            metalness,
-            dirt: 0.8,
-            ..Material::plain(name, Vec3::splat(grey), roughness)
-        };
-        let base = second.first().copied().unwrap_or(Vec3::splat(0.7));
-        let over = |material: &Material| Material { base_color: base, dirt: 0.75, ..material.clone() };
-        Self {
-            car,
-            frame: model.slot(worn("frame paint", 0.03, 0.6, 0.0), &[]),
-            steel: model.slot(worn("steel", 0.34, 0.45, 1.0), &[]),
-            alu: model.slot(worn("aluminium", 0.6, 0.38, 1.0), &[]),
-            lens: model
-                .slot(Material { transmission: 0.95, ..Material::plain("clear lens", Vec3::splat(0.93), 0.03) }, &[]),
-            white: model.slot(Material::plain("white plastic", vec3(0.68, 0.68, 0.66), 0.35), &[]),
-            mirror: model.slot(Material { metalness: 1.0, ..Material::plain("mirror", Vec3::splat(0.85), 0.03) }, &[]),
-            seat: model.slot(Material { sheen: 0.4, ..Material::plain("seat cloth", SEATS[0], 0.9) }, &SEATS),
-            yellow: model.slot(Material { dirt: 0.4, ..Material::plain("yellow", vec3(0.62, 0.36, 0.015), 0.4) }, &[]),
-            panel: model.slot(over(&PANEL), second),
-            canvas: model.slot(over(&CANVAS), second),
-            boards: model.slot(Material { dirt: 0.6, ..BOARDS.clone() }, &[]),
-            slats: model.slot(Material { metalness: 1.0, dirt: 0.6, ..SLATS.clone() }, &[]),
-            gravel: model.slot(GRAVEL.clone(), &HEAPS),
-        }
-    }
-}
-
-const SEATS: [Vec3; 4] =
-    [vec3(0.03, 0.05, 0.13), vec3(0.05, 0.05, 0.055), vec3(0.12, 0.02, 0.025), vec3(0.03, 0.07, 0.06)];
-/// Sand, grey gravel, earth, crushed stone.
-const HEAPS: [Vec3; 4] = [vec3(0.62, 0.5, 0.34), vec3(0.5, 0.49, 0.47), vec3(0.28, 0.2, 0.13), vec3(0.62, 0.6, 0.57)];
-
 /// Plates 1.2 m wide with riveted seams, runs of dirt below every rivet.
-static PANEL: LazyLock<Material> = LazyLock::new(|| {
+pub(super) static PANEL: LazyLock<Material> = LazyLock::new(|| {
     let size = Vec2::splat(2.4);
     let (broad, runs) = (Noise::new(size, 0.6, 5), Noise::stretched(size, vec2(0.03, 1.2), 6));
     let canvas = Canvas::new([384, 384], size.to_array(), |p| {
@@ -105,7 +27,7 @@ static PANEL: LazyLock<Material> = LazyLock::new(|| {
 });
 
 /// Coated cloth: wrinkles, creases from folding, stains.
-static CANVAS: LazyLock<Material> = LazyLock::new(|| {
+pub(super) static CANVAS: LazyLock<Material> = LazyLock::new(|| {
     let size = Vec2::splat(2.0);
     let (folds, fine) = (Noise::stretched(size, vec2(0.22, 0.6), 15), Noise::new(size, 0.12, 16));
     let stains = Noise::new(size, 0.5, 17);
@@ -124,7 +46,7 @@ static CANVAS: LazyLock<Material> = LazyLock::new(|| {
 });
 
 /// Planks 14 cm wide along x.
-static BOARDS: LazyLock<Material> = LazyLock::new(|| {
+pub(super) static BOARDS: LazyLock<Material> = LazyLock::new(|| {
     let size = vec2(1.68, 0.84);
     let grain = Noise::stretched(size, vec2(0.6, 0.012), 25);
     let canvas = Canvas::new([256, 128], size.to_array(), |p| {
@@ -140,7 +62,7 @@ static BOARDS: LazyLock<Material> = LazyLock::new(|| {
 });
 
 /// Slats 6 cm high.
-static SLATS: LazyLock<Material> = LazyLock::new(|| {
+pub(super) static SLATS: LazyLock<Material> = LazyLock::new(|| {
     let size = Vec2::splat(0.48);
     let canvas = Canvas::new([64, 128], size.to_array(), |p| {
         let t = p.y.rem_euclid(0.06) / 0.06;
@@ -153,7 +75,7 @@ static SLATS: LazyLock<Material> = LazyLock::new(|| {
 });
 
 /// Stones of a few centimetres.
-static GRAVEL: LazyLock<Material> = LazyLock::new(|| {
+pub(super) static GRAVEL: LazyLock<Material> = LazyLock::new(|| {
     let size = Vec2::splat(1.0);
     let (stones, broad) = (Noise::new(size, 0.035, 35), Noise::new(size, 0.25, 36));
     let canvas = Canvas::new([256, 256], size.to_array(), |p| {

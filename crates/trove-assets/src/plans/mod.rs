@@ -1,0 +1,88 @@
+//! Plans of what is generated, as data: the built-in ones, and those of users' libraries in the same form.
+//!
+//! A file of plans is TOML. `[[car]]` and `[[facade]]` are entries, each of which becomes an asset or a surface;
+//! `[paint.NAME]`, `[plate.NAME]`, `[face.NAME]` and `[back.NAME]` are pieces that entries name. An entry or a piece
+//! takes from the one that it is `like` what it does not say itself; users' files take from the built-in ones too.
+
+mod error;
+mod file;
+#[cfg(test)]
+mod tests;
+
+use std::sync::LazyLock;
+
+use trove_model::AssetLibrary;
+
+pub use error::PlanError;
+
+use crate::surfaces::{self, FacadePlan};
+use crate::vehicles::{self, CarPlan};
+use file::PlanFile;
+
+/// The name of the file in a user's library.
+pub const FILE_NAME: &str = "plans.toml";
+
+const BUILT_IN: &str = concat!(include_str!("../../plans/cars.toml"), "\n", include_str!("../../plans/facades.toml"));
+
+static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
+    LazyLock::new(|| PlanFile::parse(BUILT_IN, None).expect("a test reads the built-in plans"));
+
+/// What a file of plans asks for.
+#[derive(Clone, Debug)]
+pub struct Plans {
+    pub(crate) cars: Vec<CarPlan>,
+    pub(crate) facades: Vec<FacadePlan>,
+    licence: Option<String>,
+}
+
+impl Plans {
+    /// Reads a user's file of plans, which may take from the built-in ones.
+    ///
+    /// # Errors
+    /// The text is not TOML, a key is unknown, missing or of another type, or a measure is one that cannot be built.
+    pub fn parse(text: &str) -> Result<Self, PlanError> {
+        Self::of(&PlanFile::parse(text, Some(&BUILT_IN_FILE))?)
+    }
+
+    /// The plans of the built-in library.
+    pub(crate) fn built_in() -> &'static Self {
+        static PLANS: LazyLock<Plans> =
+            LazyLock::new(|| Plans::of(&BUILT_IN_FILE).expect("a test reads the built-in plans"));
+        &PLANS
+    }
+
+    fn of(file: &PlanFile<'_>) -> Result<Self, PlanError> {
+        let at = |place: &str, (key, expected, found): (&str, &str, String)| {
+            PlanError::new(format!("{place}: {key}"), expected, found)
+        };
+        let mut plans = Self { cars: Vec::new(), facades: Vec::new(), licence: file.licence.clone() };
+        for (place, plan) in file.read::<CarPlan>("car")? {
+            plan.check().map_err(|wrong| at(&place, wrong))?;
+            plans.cars.push(plan);
+        }
+        for (place, plan) in file.read::<FacadePlan>("facade")? {
+            plan.check().map_err(|wrong| at(&place, wrong))?;
+            plans.facades.push(plan);
+        }
+        Ok(plans)
+    }
+
+    /// The library of a user's plans, with ids that begin with the library's name; sorted by id.
+    pub fn library(&self, name: &str) -> AssetLibrary {
+        let mut library = AssetLibrary {
+            assets: vehicles::cars(&self.cars),
+            surfaces: surfaces::facades(&self.facades),
+            ..AssetLibrary::default()
+        };
+        for asset in &mut library.assets {
+            asset.id = format!("{name}/{}", asset.id);
+            asset.licence = self.licence.clone().unwrap_or_else(|| asset.licence.clone());
+        }
+        for surface in &mut library.surfaces {
+            surface.id = format!("{name}/{}", surface.id);
+        }
+        library.assets.sort_by(|a, b| a.id.cmp(&b.id));
+        library.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
+        library
+    }
+}
