@@ -276,7 +276,8 @@ impl Motorcycle {
                 let lid = Shape::lathe(
                     &[vec2(radius, 0.0), vec2(radius, 0.02), vec2(radius * 0.85, 0.032), vec2(0.0, 0.034)],
                     20,
-                ).upright();
+                )
+                .upright();
                 let lid = if side > 0.0 { lid } else { lid.scaled(vec3(1.0, -1.0, 1.0)) };
                 steel.push(lid.moved(vec3(x + dx, side * 0.135, low)));
             }
@@ -560,9 +561,8 @@ impl Motorcycle {
         let seat = self.seat();
         let at = vec3(-0.3, 0.0, seat.z + 0.3);
         let case = Shape::rounded_block(vec3(0.44, 0.46, 0.44), 0.05).moved(at);
-        let case = case
-            .slot(parts.case)
-            .mark(&Prism::top(&rect(-2.0, 2.0, -2.0, 2.0), at.z + 0.1..=at.z + 0.12), parts.black);
+        let case =
+            case.slot(parts.case).mark(&Prism::top(&rect(-2.0, 2.0, -2.0, 2.0), at.z + 0.1..=at.z + 0.12), parts.black);
         let carrier = Shape::rounded_block(vec3(0.42, 0.34, 0.03), 0.012).moved(at - Vec3::Z * 0.235);
         let legs =
             [0.1, -0.1].map(|y| Shape::tube(&[vec3(0.0, y, seat.z - 0.02), vec3(-0.3, y, at.z - 0.235)], 0.01, 6));

@@ -92,13 +92,7 @@ impl<'a> PlanFile<'a> {
     }
 
     /// An entry or a piece of this file or else of the one behind it, completed.
-    fn named(
-        &self,
-        key: &'static str,
-        name: &str,
-        place: &str,
-        trail: &mut Vec<String>,
-    ) -> Result<Table, PlanError> {
+    fn named(&self, key: &'static str, name: &str, place: &str, trail: &mut Vec<String>) -> Result<Table, PlanError> {
         let own = self.tables.get(key).into_iter().flatten().find(|(own, _)| own == name);
         if let Some((_, table)) = own {
             if trail.iter().any(|passed| passed == name) {
@@ -113,7 +107,8 @@ impl<'a> PlanFile<'a> {
                 let files = std::iter::successors(Some(self), |file| file.base);
                 let known = files.flat_map(|file| file.tables.get(key).into_iter().flatten());
                 let found = format!("{name:?}");
-                Err(PlanError::new(place, format!("the name of a {key}"), found).or_near(name, known.map(|(n, _)| &**n)))
+                Err(PlanError::new(place, format!("the name of a {key}"), found)
+                    .or_near(name, known.map(|(n, _)| &**n)))
             }
         }
     }

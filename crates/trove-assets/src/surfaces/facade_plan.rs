@@ -303,11 +303,8 @@ impl FacadePlan {
     pub(super) fn style(&self) -> Style {
         let color = |own: Option<[f32; 3]>, default: Vec3| own.map_or(default, Vec3::from_array);
         let plain = FacadeDesign::default();
-        let course = |c: &CoursePlan| Course {
-            between_m: c.between_m,
-            out_m: c.out_m,
-            color: Vec3::from_array(c.color),
-        };
+        let course =
+            |c: &CoursePlan| Course { between_m: c.between_m, out_m: c.out_m, color: Vec3::from_array(c.color) };
         let design = FacadeDesign {
             bays: self.bays.iter().map(|bay| bay.iter().copied().map(Opening::from).collect()).collect(),
             stagger: self.stagger,

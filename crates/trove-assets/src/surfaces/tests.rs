@@ -1,5 +1,6 @@
 use std::collections::BTreeMap;
 
+use glam::Vec3;
 use trove_model::Texture;
 
 use super::*;

@@ -187,8 +187,7 @@ impl Slots {
                 .slot(Material { transmission: 0.95, ..Material::plain("clear lens", Vec3::splat(0.93), 0.03) }, &[]),
             white: model.slot(Material::plain("white plastic", vec3(0.68, 0.68, 0.66), 0.35), &[]),
             mirror: model.slot(Material { metalness: 1.0, ..Material::plain("mirror", Vec3::splat(0.85), 0.03) }, &[]),
-            seat_cloth: model
-                .slot(Material { sheen: 0.4, ..Material::plain("seat cloth", SEATS[0], 0.9) }, &SEATS),
+            seat_cloth: model.slot(Material { sheen: 0.4, ..Material::plain("seat cloth", SEATS[0], 0.9) }, &SEATS),
             yellow: model.slot(Material { dirt: 0.4, ..Material::plain("yellow", vec3(0.62, 0.36, 0.015), 0.4) }, &[]),
             panel: model.slot(over(&PANEL), second),
             canvas: model.slot(over(&CANVAS), second),

@@ -6,9 +6,9 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Kind, Material};
 
 use super::decal::{on_back, on_front};
+use super::hull::Hull;
 use super::plate::{self, PLATE_M};
 use super::slots::{Paint, Slots};
-use super::hull::Hull;
 use crate::people::{Figure, Outfit, Physique, Pose, Wardrobe};
 use crate::shape::{Model, Prism, Shape, pane};
 

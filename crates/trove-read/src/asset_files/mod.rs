@@ -117,7 +117,7 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
 /// a model that cannot be read is reported and left out. Errors: the file is missing or wrong, or no entry is usable.
 pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, ReadError> {
     let file = LibraryFile::read(folder)?;
-    let name = name_of(folder);
+    let name = library_name(folder);
     let ids = ids(&name, &file.assets);
     let pictures = Pictures::new(&name, folder, TEXTURE_LIMIT);
     let read = |(entry, id): (&AssetEntry, &String)| match read_asset(folder, &file, entry, id, &pictures, report) {
@@ -179,8 +179,8 @@ fn read_asset(
     asset::asset(id, &entry, model).map_err(at)
 }
 
-/// The last name of a folder's path.
-fn name_of(folder: &Path) -> String {
+/// The name of a folder's library, which its ids begin with: the last one of its path.
+pub fn library_name(folder: &Path) -> String {
     let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     whole.file_name().map_or("library".into(), |n| n.to_string_lossy().into_owned())
 }

@@ -4,11 +4,12 @@ use std::path::Path;
 
 use anyhow::Result;
 use serde_json::{Value, json};
-use trove_read::asset_files;
+
+use crate::library::user;
 
 /// Prints what is wrong with a library and returns the exit status.
 pub(crate) fn run(dir: &Path, as_json: bool) -> Result<i32> {
-    let findings = asset_files::check(dir);
+    let findings = user::check(dir);
     let severe = findings.iter().filter(|finding| finding.severe).count();
     if as_json {
         let rows: Vec<Value> = findings

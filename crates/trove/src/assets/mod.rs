@@ -11,9 +11,8 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::Subcommand;
 use trove_model::{AssetLibrary, Outcome, Report};
-use trove_read::asset_files;
 
-use crate::library::{self, Makings};
+use crate::library::{self, Makings, user};
 
 /// What to do with asset libraries.
 #[derive(Subcommand)]
@@ -21,7 +20,7 @@ pub(crate) enum AssetsCommand {
     /// List models and materials.
     #[command(after_help = "Example:\n  trove assets list --json")]
     List {
-        /// Folder with a library.toml [default: the built-in library].
+        /// Folder with a library.toml or plans.toml [default: the built-in library].
         #[arg(long, value_name = "DIR")]
         library: Option<PathBuf>,
         /// Print JSON.
@@ -40,7 +39,7 @@ pub(crate) enum AssetsCommand {
     /// Check a library; exits with 1 if something cannot be used.
     #[command(after_help = "Example:\n  trove assets check my-assets")]
     Check {
-        /// Folder with a library.toml.
+        /// Folder with a library.toml or plans.toml.
         dir: PathBuf,
         /// Print JSON.
         #[arg(long)]
@@ -67,7 +66,7 @@ pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<i32> {
 fn open(folder: Option<&Path>, search: &[PathBuf]) -> Result<AssetLibrary> {
     let report = Report::default();
     let library = match folder {
-        Some(folder) => asset_files::read_library(folder, &report)?,
+        Some(folder) => user::read(folder, &report)?,
         None => library::procedural(&Makings { texture_scale: 1, search }, &report),
     };
     for entry in report.entries().iter().filter(|entry| entry.outcome != Outcome::Guessed) {

@@ -23,7 +23,7 @@ pub(crate) struct Sheet {
     /// Also (or only) write one picture per item to this folder.
     #[arg(long, value_name = "DIR")]
     each: Option<PathBuf>,
-    /// Folder with a library.toml [default: the built-in library].
+    /// Folder with a library.toml or plans.toml [default: the built-in library].
     #[arg(long, value_name = "DIR")]
     library: Option<PathBuf>,
     /// Draw only ids with this prefix; may be given several times.

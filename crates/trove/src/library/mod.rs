@@ -5,14 +5,15 @@
 //! the installed packages carries it, and only when there is no such file.
 
 mod pack;
+pub(crate) mod user;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use trove_assets::Ingredients;
 use trove_model::{AssetLibrary, Outcome, Report};
-use trove_read::{asset_files, human_body};
+use trove_read::human_body;
 use trove_write::write_atomically;
 
 use crate::cache;
@@ -41,7 +42,7 @@ pub(crate) fn gather(recipe: &Recipe, search: &[PathBuf], report: &Report) -> Re
     for source in recipe.libraries() {
         let library = match source {
             LibrarySource::Procedural => procedural(&makings(recipe, search), report),
-            LibrarySource::Folder(folder) => asset_files::read_library(&folder, report)?,
+            LibrarySource::Folder(folder) => user::read(&folder, report)?,
         };
         all.assets.extend(library.assets);
         all.surfaces.extend(library.surfaces);
@@ -59,28 +60,13 @@ pub(crate) fn gather(recipe: &Recipe, search: &[PathBuf], report: &Report) -> Re
     Ok(all)
 }
 
-/// Tells libraries apart that hold other things, by source: of folders by `library.toml` and the sizes of the files.
+/// Tells libraries apart that hold other things, by source.
 pub(crate) fn fingerprints(recipe: &Recipe, search: &[PathBuf]) -> Result<Vec<String>> {
     let of = |source: LibrarySource| match source {
         LibrarySource::Procedural => Ok(fingerprint(&makings(recipe, search))),
-        LibrarySource::Folder(folder) => folder_fingerprint(&folder),
+        LibrarySource::Folder(folder) => user::fingerprint(&folder),
     };
     recipe.libraries().into_iter().map(of).collect()
-}
-
-fn folder_fingerprint(folder: &Path) -> Result<String> {
-    let table = folder.join(asset_files::FILE_NAME);
-    let remedy = || {
-        format!("{}: expected a library's table; trove assets import {} writes it", table.display(), folder.display())
-    };
-    let mut hasher = crc32fast::Hasher::new();
-    hasher.update(&fs::read(&table).with_context(remedy)?);
-    let file = asset_files::LibraryFile::read(folder)?;
-    for name in file.assets.iter().map(|asset| &asset.file) {
-        let length = fs::metadata(folder.join(name)).map_or(0, |file| file.len());
-        hasher.update(&length.to_le_bytes());
-    }
-    Ok(format!("{:08x}", hasher.finalize()))
 }
 
 /// The built-in library, from the cache where it is there.

@@ -222,7 +222,10 @@ impl BusPlan {
             let rim = if steers { Rim::Steel } else { Rim::DeepSteel };
             let tyre = wheel(&work.slots, r, r * 0.58, rim).moved(vec3(-axle, half - r * 0.29 - 0.05, r));
             work.model.add_marked(tyre.both_sides());
-            work.add(work.slots.frame, Shape::tube(&[vec3(-axle, -half + 0.3, r), vec3(-axle, half - 0.3, r)], 0.09, 8));
+            work.add(
+                work.slots.frame,
+                Shape::tube(&[vec3(-axle, -half + 0.3, r), vec3(-axle, half - 0.3, r)], 0.09, 8),
+            );
         }
         let floor = Shape::block(vec3(self.length_m - 0.5, self.width_m - 0.2, 0.04));
         work.add(work.slots.frame, floor.moved(vec3(-self.length_m / 2.0, 0.0, SKIRT_M + 0.06)));

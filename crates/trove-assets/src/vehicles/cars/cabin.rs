@@ -4,10 +4,10 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3, vec3};
 
-use super::shell::Shell;
 use super::plan::CarPlan;
-use crate::vehicles::slots::Slots;
+use super::shell::Shell;
 use crate::shape::{Blend, Limb, Shape};
+use crate::vehicles::slots::Slots;
 
 /// How far the front seats' middles are from the car's.
 const SEAT_M: f32 = 0.36;

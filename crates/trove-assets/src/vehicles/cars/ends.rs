@@ -4,8 +4,8 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::plan::{Back, Bars, Face, Profile};
-use crate::vehicles::slots::Slots;
 use crate::shape::{Prism, Shape, outset, rect, soft};
+use crate::vehicles::slots::Slots;
 
 /// A front or a back on a body.
 pub(super) struct End<'a> {

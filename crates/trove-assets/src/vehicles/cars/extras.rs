@@ -53,7 +53,10 @@ fn roof_box(work: &mut Workshop, plan: &CarPlan) {
     work.add(work.slots.trim, flat.moved(at));
     for x in [0.45, -0.45] {
         let wide = plan.half_m() * 1.15;
-        work.add(work.slots.chrome, Shape::rounded_block(vec3(0.05, wide, 0.03), 0.012).moved(at + vec3(x, 0.0, -0.085)));
+        work.add(
+            work.slots.chrome,
+            Shape::rounded_block(vec3(0.05, wide, 0.03), 0.012).moved(at + vec3(x, 0.0, -0.085)),
+        );
     }
 }
 

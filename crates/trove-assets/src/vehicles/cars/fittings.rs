@@ -2,11 +2,11 @@
 
 use glam::{Quat, Vec3, vec2, vec3};
 
-use super::shell::Shell;
 use super::plan::CarPlan;
+use super::shell::Shell;
+use crate::shape::{Prism, Shape};
 use crate::vehicles::slots::Slots;
 use crate::vehicles::wheel::{Rim, wheel};
-use crate::shape::{Prism, Shape};
 
 /// Handles and rails of the left half.
 pub(super) fn on_the_side(plan: &CarPlan, body: &Shell, shell: &Shape, slots: &Slots) -> Shape {

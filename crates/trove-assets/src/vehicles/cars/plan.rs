@@ -452,4 +452,3 @@ pub(crate) struct Back {
     #[serde(default)]
     pub(crate) has_spare: bool,
 }
-

@@ -7,8 +7,8 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use super::plan::{CarPlan, Profile};
 use super::grid::{Grid, straighten};
+use super::plan::{CarPlan, Profile};
 use crate::shape::{Curve, Shape, rounded};
 
 /// Columns of the shell around the front, along the side and around the back.

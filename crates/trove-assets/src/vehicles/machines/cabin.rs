@@ -32,8 +32,9 @@ pub(super) fn cabin(work: &mut Workshop, size: Vec3, foot: Vec3) {
     let mut skin = hull.skin().slot(slots.paint);
     let side = |polygon: &[Vec2]| Prism::side(polygon, 0.2..=3.0);
     let window = |skin: Shape, outline: &[Vec2], inset: f32, make: &dyn Fn(&[Vec2]) -> Prism| {
-        let skin =
-            skin.mark(&make(&pane(outline, 0.09)), slots.trim).mark(&make(&pane(&shrunk(outline, inset), 0.08)), slots.glass);
+        let skin = skin
+            .mark(&make(&pane(outline, 0.09)), slots.trim)
+            .mark(&make(&pane(&shrunk(outline, inset), 0.08)), slots.glass);
         skin.mark(&make(&pane(outline, 0.09)).mirrored(), slots.trim)
             .mark(&make(&pane(&shrunk(outline, inset), 0.08)).mirrored(), slots.glass)
     };

@@ -72,8 +72,12 @@ fn house(work: &mut Workshop, lift: f32) {
         Hull::new(vec![row(base + 0.08, 0.0), row(base + 0.78, 0.0), row(base + 0.9, 0.03), row(base + 0.96, 0.1)]);
     let mut engine = hull.skin().slot(slots.paint);
     for (a, b) in [(-1.08, -0.5), (-1.75, -1.14)] {
-        engine =
-            crate::vehicles::hull::gap(engine, &pane(&rect(a, b, base + 0.14, base + 0.76), 0.04), slots.paint, slots.seam);
+        engine = crate::vehicles::hull::gap(
+            engine,
+            &pane(&rect(a, b, base + 0.14, base + 0.76), 0.04),
+            slots.paint,
+            slots.seam,
+        );
         for k in 0..6 {
             let z = base + 0.3 + 0.055 * k as f32;
             engine = engine.mark_both(&Prism::side(&rect(a + 0.1, b - 0.1, z, z + 0.024), 0.4..=3.0), slots.seam);
@@ -171,7 +175,10 @@ fn arm(work: &mut Workshop, reach: &Reach, lift: f32) {
     let hinge = reach.bucket[0] + (reach.bucket[1] - reach.bucket[0]) * 0.7;
     for side in [-0.17, 0.17] {
         work.add(slots.frame, Shape::tube(&[at(link) + Vec3::Y * side, at(hinge) + Vec3::Y * side], 0.045, 8));
-        work.add(slots.frame, Shape::tube(&[at(link) + Vec3::Y * side, at(tip - outer * 0.3) + Vec3::Y * side], 0.04, 8));
+        work.add(
+            slots.frame,
+            Shape::tube(&[at(link) + Vec3::Y * side, at(tip - outer * 0.3) + Vec3::Y * side], 0.04, 8),
+        );
     }
     let run: Vec<Vec3> = points[1..].iter().map(|&(x, z, d)| vec3(x, y + 0.03, z + d * 0.55)).collect();
     hoses(work, &run, 3);

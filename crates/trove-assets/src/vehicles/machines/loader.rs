@@ -65,7 +65,10 @@ fn loader(work: &mut Workshop, hinge: Vec2, turn: f32) {
     }
     cabin(work, vec3(1.45, 1.36, 1.72), vec3(-0.45, 0.0, 1.42));
     ladder(work, -0.4, 0.86, 0.55, 1.3);
-    work.add(slots.frame, Shape::tube(&[vec3(-1.7, 0.36, 2.0), vec3(-1.7, 0.36, 2.52), vec3(-1.78, 0.36, 2.6)], 0.06, 12));
+    work.add(
+        slots.frame,
+        Shape::tube(&[vec3(-1.7, 0.36, 2.0), vec3(-1.7, 0.36, 2.52), vec3(-1.78, 0.36, 2.6)], 0.06, 12),
+    );
     work.add(slots.frame, Shape::cylinder(0.1, 0.3, 14).moved(vec3(-2.1, -0.3, 2.0)));
     // Lift arms, rams, linkage.
     let knee = vec2(2.0, (hinge.y + 1.75) / 2.0 + 0.42);

@@ -3,8 +3,8 @@
 use glam::{Vec3, vec2, vec3};
 
 use crate::shape::{Prism, Shape, pane, rect};
-use crate::vehicles::decal::{RED_WHITE, on_side, slanted, tiled, writing};
 use crate::vehicles::coverings::metric;
+use crate::vehicles::decal::{RED_WHITE, on_side, slanted, tiled, writing};
 use crate::vehicles::hull::{Section, lying};
 use crate::vehicles::workshop::{Workshop, bar, block};
 
@@ -228,7 +228,10 @@ impl Bed {
             let rib = bar(vec3(x, inside(low) + 0.03, low + 0.08), vec3(x + 0.001, self.half - 0.025, high), 0.1, 0.05);
             work.pair(slots.second, rib);
         }
-        work.pair(slots.second, block([self.length(), 0.09, 0.11], [self.middle(), self.half - 0.05, high - 0.03], 0.02));
+        work.pair(
+            slots.second,
+            block([self.length(), 0.09, 0.11], [self.middle(), self.half - 0.05, high - 0.03], 0.02),
+        );
         work.pair(slots.second, block([self.length(), 0.07, 0.09], [self.middle(), inside(low), low + 0.08], 0.02));
         // Tailgate with its hinges and its own ribs.
         for y in [-0.66, -0.22, 0.22, 0.66] {

@@ -350,7 +350,10 @@ impl Cab {
         }
         if self.bonnet_m == 0.0 && self.tall() > 2.1 {
             let x = -self.length_m - 0.1;
-            work.add(slots.trim, block([0.16, 0.24, self.belt() - 0.5], [x, half - 0.25, self.belt() * 0.5 + 0.35], 0.04));
+            work.add(
+                slots.trim,
+                block([0.16, 0.24, self.belt() - 0.5], [x, half - 0.25, self.belt() * 0.5 + 0.35], 0.04),
+            );
             work.add(slots.trim, block([0.22, 0.3, 0.3], [x, half - 0.25, self.belt() + 0.2], 0.06));
         }
         work.pair(slots.amber, block([0.1, 0.02, 0.04], [front - 0.06, half + 0.005, belt - 0.3], 0.008));

@@ -161,7 +161,10 @@ impl Frame<'_> {
         let x = -front - length / 2.0 - 0.05;
         // Tank with straps and cap on one side, battery box and air tanks on the other.
         let y = self.half_m - size - 0.06;
-        work.add(slots.alu, Shape::rounded_block(vec3(length, size * 2.0, size * 2.0), size * 0.42).moved(vec3(x, y, z)));
+        work.add(
+            slots.alu,
+            Shape::rounded_block(vec3(length, size * 2.0, size * 2.0), size * 0.42).moved(vec3(x, y, z)),
+        );
         for t in [-0.3, 0.3] {
             let strap = Shape::rounded_block(vec3(0.05, size * 2.0 + 0.016, size * 2.0 + 0.016), size * 0.43);
             work.add(slots.frame, strap.moved(vec3(x + length * t, y, z)));
@@ -219,7 +222,10 @@ impl Frame<'_> {
         ]);
         work.add(stripes, tiled(face, vec2(half * 2.0 / 0.2, 0.5)));
         for y in [0.42, half - 0.25] {
-            work.pair(slots.frame, bar(vec3(x + 0.02, y, z), vec3(x + 0.12, y.min(0.45), self.deck_m - 0.1), 0.05, 0.08));
+            work.pair(
+                slots.frame,
+                bar(vec3(x + 0.02, y, z), vec3(x + 0.12, y.min(0.45), self.deck_m - 0.1), 0.05, 0.08),
+            );
         }
         // Clusters of lamps: blinker, tail and brake, reversing.
         let lamp_z = (z + 0.2).min(self.deck_m - 0.1);

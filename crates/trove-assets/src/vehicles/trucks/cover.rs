@@ -7,8 +7,8 @@ use trove_model::Seed;
 
 use super::bed::Bed;
 use crate::shape::{Prism, Shape, rect};
-use crate::vehicles::decal::{HAZARD, decal, on_back, slanted, tiled, writing};
 use crate::vehicles::coverings::metric;
+use crate::vehicles::decal::{HAZARD, decal, on_back, slanted, tiled, writing};
 use crate::vehicles::workshop::{Workshop, bar, block};
 
 /// Distance between the bows below a canvas.
@@ -131,7 +131,8 @@ impl Bed {
             panel = panel.mark(&Prism::front(&rect(-3.0, 3.0, z, z + 0.008), x - 0.2..=x), slots.trim);
         }
         for y in [-0.55, 0.55] {
-            panel = panel.mark(&Prism::front(&rect(y - 0.004, y + 0.004, low + 0.1, high - 0.3), x - 0.2..=x), slots.trim);
+            panel =
+                panel.mark(&Prism::front(&rect(y - 0.004, y + 0.004, low + 0.1, high - 0.3), x - 0.2..=x), slots.trim);
         }
         work.model.add_marked(panel);
         // A box with the control's flap on either side, round stickers of speed and length.

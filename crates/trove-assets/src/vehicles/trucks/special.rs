@@ -6,8 +6,8 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 
 use super::bed::Bed;
 use crate::shape::{Prism, Shape, arc, pane, rect};
-use crate::vehicles::decal::{HAZARD, on_back, on_side, slanted, tiled, writing};
 use crate::vehicles::coverings::metric;
+use crate::vehicles::decal::{HAZARD, on_back, on_side, slanted, tiled, writing};
 use crate::vehicles::hull::{Section, lying};
 use crate::vehicles::workshop::{Workshop, bar, block, cut_out};
 
@@ -196,7 +196,10 @@ impl Bed {
         let funnel = cut_out(&funnel.map(|(x, z)| vec2(x, z.min(self.top))), 0.7);
         work.add(slots.second, funnel);
         for y in [-0.42, 0.42] {
-            work.add(slots.frame, bar(vec3(back + 0.12, y, self.deck), vec3(mouth.x + 0.05, y, mouth.z + 0.4), 0.09, 0.09));
+            work.add(
+                slots.frame,
+                bar(vec3(back + 0.12, y, self.deck), vec3(mouth.x + 0.05, y, mouth.z + 0.4), 0.09, 0.09),
+            );
         }
         let chute: Vec<Vec<Vec3>> =
             [(mouth.x - 0.08, mouth.z - 0.2), (mouth.x - 0.2, mouth.z - 0.5), (back + 0.02, self.deck + 0.26)]
@@ -241,7 +244,10 @@ impl Bed {
             half: vec2(h - 0.02 - inset, (high - low) / 2.0 - inset),
             corner: 0.3,
         };
-        work.add(slots.second, lying(&[section(tail - 0.02, 0.0), section(front - 0.1, 0.0), section(front - 0.02, 0.06)]));
+        work.add(
+            slots.second,
+            lying(&[section(tail - 0.02, 0.0), section(front - 0.1, 0.0), section(front - 0.02, 0.06)]),
+        );
         let ribs = ((front - tail) / 0.75).round() as usize;
         for i in 0..=ribs {
             let x = tail + 0.06 + (front - 0.16 - tail) * i as f32 / ribs as f32;
@@ -382,7 +388,10 @@ impl Bed {
         );
         for i in 0..=4 {
             let x = back + 0.1 + (self.length() - 0.2) * i as f32 / 4.0;
-            work.pair(slots.alu, Shape::tube(&[vec3(x, h - 0.08, high - 0.02), vec3(x, h - 0.08, high + 0.16)], 0.016, 6));
+            work.pair(
+                slots.alu,
+                Shape::tube(&[vec3(x, h - 0.08, high - 0.02), vec3(x, h - 0.08, high + 0.16)], 0.016, 6),
+            );
         }
         let length = self.length() * 1.05;
         for y in [0.18, 0.62] {

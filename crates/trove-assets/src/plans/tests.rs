@@ -1,0 +1,64 @@
+//! What is read from files of plans, and what is refused.
+
+use super::Plans;
+
+const CAR: &str = "[[car]]\nid = \"kombi\"\nlike = \"car/estate\"\n";
+const FACADE: &str = "[[facade]]\nid = \"clinker\"\nlike = \"facade/brick-row\"\n";
+
+#[test]
+fn the_built_in_plans_are_sound() {
+    let plans = Plans::built_in();
+    assert!(plans.cars.len() >= 45 && plans.facades.len() >= 27, "{} {}", plans.cars.len(), plans.facades.len());
+}
+
+#[test]
+fn a_car_takes_what_it_does_not_say_from_the_one_that_it_is_like() {
+    let text = format!("{CAR}[car.profile]\nlength_m = 4.9\n{CAR}").replacen("kombi", "long", 1);
+    let plans = Plans::parse(&text.replace("like = \"car/estate\"\n[[", "like = \"long\"\n[[")).unwrap();
+    let estate = Plans::built_in().cars.iter().find(|car| car.id == "car/estate").unwrap();
+    let long = &plans.cars[0];
+    assert_eq!((long.profile.length_m, long.profile.width_m), (4.9, estate.profile.width_m));
+    assert_eq!((long.axles_m, &long.plate.text), (estate.axles_m, &estate.plate.text));
+}
+
+#[test]
+fn pieces_are_named_or_written_out_and_may_be_like_others() {
+    let text = format!(
+        "{CAR}paint = \"mine\"\nface = {{ like = \"family\", badge_m = -0.2 }}\n[paint.mine]\nlike = \"fleet\"\nflakes = 0.1\n"
+    );
+    let car = &Plans::parse(&text).unwrap().cars[0];
+    assert_eq!((car.paint.flakes, car.paint.colors.len(), car.face.badge_m), (0.1, 25, -0.2));
+    let text = format!("{CAR}paint = {{ colors = [[1, 0, 0.5]] }}\n");
+    assert_eq!(Plans::parse(&text).unwrap().cars[0].paint.colors, [[1.0, 0.0, 0.5]]);
+}
+
+#[test]
+fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
+    for (text, parts) in [
+        (format!("{CAR}rimm = 3\n"), &["car \"kombi\": rimm", "did you mean `rim`?"][..]),
+        (format!("{CAR}[car.profile]\nlenght_m = 3\n"), &["profile.lenght_m", "did you mean `length_m`?"]),
+        (format!("{CAR}wheel_radius_m = \"big\"\n"), &["car \"kombi\": wheel_radius_m", "expected f32", "\"big\""]),
+        (format!("{CAR}rim = {{ spoke = 5 }}\n"), &["car \"kombi\": rim", "`spoke`", "did you mean `spokes`?"]),
+        (format!("{CAR}class = \"jep\"\n"), &["class", "did you mean `jeep`?"]),
+        (format!("{CAR}face = \"famly\"\n"), &["car \"kombi\": face", "did you mean `family`?"]),
+        (format!("{CAR}seats_m = []\n"), &["seats_m", "at least one row"]),
+        (format!("{CAR}[car.profile]\nlength_m = nan\n"), &["profile.length_m", "metres from 2 to 9", "NaN"]),
+        (format!("{CAR}extras = [\"load_doors\"]\n"), &["extras", "blind_from_m"]),
+        (CAR.replace("car/estate", "car/estat"), &["car \"kombi\": like", "did you mean `car/estate`?"]),
+        (CAR.replace("like = \"car/estate\"", "like = \"kombi\""), &["like", "does not come from this one"]),
+        (CAR.replace("like = \"car/estate\"", ""), &["car \"kombi\": ", "expected a value, found none"]),
+        (CAR.replace("id = \"kombi\"", ""), &["car number 1: id", "found none"]),
+        (format!("{CAR}{CAR}"), &["car number 2: id", "\"kombi\" twice"]),
+        (format!("{FACADE}worn = 2.0\n"), &["facade \"clinker\": worn", "from 0 to 1", "2.0"]),
+        (format!("{FACADE}cells = [0, 4]\n"), &["cells", "from 1 to 16"]),
+        (format!("{FACADE}fixtures = {{ balcony = 1 }}\n"), &["fixtures.balcony", "did you mean `balconies`?"]),
+        (format!("{FACADE}bays = [[{{ low_m = [9, 0], size_m = [1, 1] }}]]\n"), &["bays", "inside their bay"]),
+        ("[[cra]]\nid = 3\n".into(), &["`cra`", "did you mean `car`?"]),
+        ("[[car]\n".into(), &["line 1", "TOML"]),
+    ] {
+        let message = Plans::parse(&text).unwrap_err().to_string();
+        for part in parts {
+            assert!(message.contains(part), "{text}\n{message}");
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! A user's library: models and texture sets as its `library.toml` says, and what is generated from its `plans.toml`.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+use trove_assets::{PLANS_FILE, Plans};
+use trove_model::{AssetLibrary, Report};
+use trove_read::asset_files::{self, Finding};
+
+/// Reads a folder with a `library.toml`, a `plans.toml` or both; sorted by id.
+///
+/// # Errors
+/// Neither file is there, one of them is wrong, or an id stands in both.
+pub(crate) fn read(folder: &Path, report: &Report) -> Result<AssetLibrary> {
+    let Some(plans) = plans(folder)? else { return Ok(asset_files::read_library(folder, report)?) };
+    let generated = plans.library(&asset_files::library_name(folder));
+    let mut library =
+        if has_table(folder) { asset_files::read_library(folder, report)? } else { AssetLibrary::default() };
+    library.assets.extend(generated.assets);
+    library.surfaces.extend(generated.surfaces);
+    library.assets.sort_by(|a, b| a.id.cmp(&b.id));
+    library.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
+    let assets = library.assets.windows(2).find(|pair| pair[0].id == pair[1].id).map(|pair| &pair[0].id);
+    let surfaces = library.surfaces.windows(2).find(|pair| pair[0].id == pair[1].id).map(|pair| &pair[0].id);
+    if let Some(twice) = assets.or(surfaces) {
+        let table = asset_files::FILE_NAME;
+        let path = folder.join(PLANS_FILE);
+        ensure!(
+            false,
+            "{}: expected ids that {table} does not have, found {twice:?} in both; rename one",
+            path.display()
+        );
+    }
+    Ok(library)
+}
+
+/// What is wrong with a library, in the order of files.
+pub(crate) fn check(folder: &Path) -> Vec<Finding> {
+    let finding =
+        |what: String, remedy: &str| Finding { file: PLANS_FILE.into(), severe: true, what, remedy: remedy.into() };
+    let plans = match plans(folder) {
+        Ok(plans) => plans,
+        Err(error) => return vec![finding(format!("{error:#}"), "correct it as docs/assets.md describes")],
+    };
+    let mut findings = Vec::new();
+    if plans.is_none() || has_table(folder) {
+        findings.extend(asset_files::check(folder));
+    }
+    for asset in plans.iter().flat_map(|plans| plans.library(&asset_files::library_name(folder)).assets) {
+        if let Some(defect) = asset.mesh.defect() {
+            findings.push(finding(format!("{}: {defect}", asset.id), "give it measures nearer to those of real ones"));
+        }
+    }
+    findings
+}
+
+/// Tells folders apart that hold other things: by both tables and the sizes of the models' files.
+pub(crate) fn fingerprint(folder: &Path) -> Result<String> {
+    let mut hasher = crc32fast::Hasher::new();
+    let plans = folder.join(PLANS_FILE);
+    if plans.is_file() {
+        // What is made from plans is as old as the generator.
+        hasher.update(&read_text(&plans)?.into_bytes());
+        hasher.update(trove_assets::SOURCES.as_bytes());
+    }
+    if has_table(folder) || !plans.is_file() {
+        let table = folder.join(asset_files::FILE_NAME);
+        let remedy = || {
+            let (table, folder) = (table.display(), folder.display());
+            format!("{table}: expected a library's table; trove assets import {folder} writes it")
+        };
+        hasher.update(&fs::read(&table).with_context(remedy)?);
+        for asset in asset_files::LibraryFile::read(folder)?.assets {
+            let length = fs::metadata(folder.join(asset.file)).map_or(0, |file| file.len());
+            hasher.update(&length.to_le_bytes());
+        }
+    }
+    Ok(format!("{:08x}", hasher.finalize()))
+}
+
+fn has_table(folder: &Path) -> bool {
+    folder.join(asset_files::FILE_NAME).is_file()
+}
+
+/// A folder's plans, where it has any.
+fn plans(folder: &Path) -> Result<Option<Plans>> {
+    let path = folder.join(PLANS_FILE);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    Plans::parse(&read_text(&path)?).map(Some).with_context(|| path.display().to_string())
+}
+
+fn read_text(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| format!("{}: expected a file that can be read", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A new car and a new facade, told by how they differ from built-in ones.
+    const PLANS: &str = r#"
+licence = "CC0-1.0"
+
+[[car]]
+id = "kombi"
+like = "car/estate"
+tags = ["old"]
+paint = { colors = [[0.3, 0.02, 0.02]] }
+[car.profile]
+length_m = 4.9
+
+[[facade]]
+id = "clinker"
+tags = ["brick"]
+like = "facade/brick-row"
+color = [0.12, 0.05, 0.04]
+"#;
+
+    fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn a_car_and_a_facade_come_from_a_folder_with_plans_alone() {
+        let folder = folder(&[(PLANS_FILE, PLANS)]);
+        let name = asset_files::library_name(folder.path());
+        let library = read(folder.path(), &Report::default()).unwrap();
+        let (car, facade) = (&library.assets[0], &library.surfaces[0]);
+        assert_eq!((car.id.clone(), facade.id.clone()), (format!("{name}/kombi"), format!("{name}/clinker")));
+        assert!((car.size_m.x - 4.9).abs() < 0.05 && car.tags.has("old"), "{} {:?}", car.size_m, car.tags);
+        assert_eq!(car.licence, "CC0-1.0");
+        assert!(facade.design.is_some() && facade.tags.has("brick"));
+        assert_eq!(check(folder.path()), []);
+    }
+
+    #[test]
+    fn a_mistake_names_the_file_the_entry_and_the_key() {
+        let folder = folder(&[(PLANS_FILE, &PLANS.replace("length_m", "lenght_m"))]);
+        let message = format!("{:#}", read(folder.path(), &Report::default()).unwrap_err());
+        for part in [PLANS_FILE, "car \"kombi\"", "profile.lenght_m", "did you mean `length_m`?"] {
+            assert!(message.contains(part), "{message}");
+        }
+        assert!(check(folder.path())[0].severe);
+    }
+
+    #[test]
+    fn the_fingerprint_changes_with_the_plans() {
+        let prints = [PLANS.to_owned(), PLANS.replace("4.9", "4.8")]
+            .map(|text| fingerprint(folder(&[(PLANS_FILE, &text)]).path()).unwrap());
+        assert_ne!(prints[0], prints[1]);
+        assert!(fingerprint(folder(&[]).path()).is_err());
+    }
+}
