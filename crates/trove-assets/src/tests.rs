@@ -1,5 +1,7 @@
 //! What holds for every asset.
 
+mod cars;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 

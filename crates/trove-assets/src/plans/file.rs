@@ -73,7 +73,8 @@ impl<'a> PlanFile<'a> {
             Some(Value::String(name)) => self.named(key, name, &format!("{place}: like"), trail)?,
             Some(other) => return Err(PlanError::new(format!("{place}: like"), "a name", other.type_str())),
         };
-        for (name, value) in table.iter().filter(|(name, _)| name.as_str() != "like" && name.as_str() != "id") {
+        let is_own = |name: &str| name != "like" && !(name == "id" && ENTRIES.contains(&key));
+        for (name, value) in table.iter().filter(|(name, _)| is_own(name)) {
             let piece = PIECES.into_iter().find(|piece| piece == name);
             let place = format!("{place}: {name}");
             let value = match (piece, value) {

@@ -5,6 +5,7 @@
 
 mod build;
 mod cabin;
+mod check;
 mod ends;
 mod extras;
 mod finish;
@@ -12,8 +13,6 @@ mod fittings;
 mod grid;
 mod plan;
 mod shell;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use finish::assets;
 pub(crate) use plan::CarPlan;

@@ -4,10 +4,10 @@ use std::sync::LazyLock;
 
 use trove_model::{Asset, Kind};
 
-use super::assets;
 use crate::plans::Plans;
+use crate::vehicles;
 
-static CARS: LazyLock<Vec<Asset>> = LazyLock::new(|| assets(&Plans::built_in().cars));
+static CARS: LazyLock<Vec<Asset>> = LazyLock::new(|| vehicles::cars(&Plans::built_in().cars));
 
 /// Lengths, widths and heights of nuScenes' cars, from the smallest to the largest and the oddest.
 const BOXES_M: [[f64; 3]; 14] = [
