@@ -195,7 +195,7 @@ fn ground_recipes() -> Vec<Recipe> {
 /// Walls of buildings, and what is seen in them.
 fn building_recipes() -> Vec<Recipe> {
     use SurfaceKind::{RoomBack, ShopSign, Wall};
-    let mut recipes = vec![
+    let mut recipes: Vec<Recipe> = vec![
         ("sign/shops", ShopSign, &[], Paint::Cells(inside::SIGNS, inside::signs, 131)),
         ("room/backs", RoomBack, &[], Paint::Cells(inside::ROOMS, inside::rooms, 132)),
     ];
