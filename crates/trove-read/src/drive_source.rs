@@ -7,10 +7,7 @@ use glam::DVec2;
 use serde::Serialize;
 use trove_model::{Drive, Report};
 
-use crate::{ReadError, nuscenes};
-
-/// Every dataset that can be read, in the order in which a folder is compared with them.
-pub const DATASETS: &[Dataset] = &[nuscenes::DATASET];
+use crate::ReadError;
 
 /// A dataset that can be read.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,7 @@
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
 
 pub mod asset_files;
+mod datasets;
 pub mod drive_source;
 pub mod environment;
 mod error;
@@ -13,4 +14,5 @@ pub mod locale;
 pub mod nuscenes;
 pub mod osm;
 
+pub use datasets::DATASETS;
 pub use error::ReadError;

@@ -8,7 +8,7 @@ use anyhow::Result;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
-use trove_read::drive_source::DATASETS;
+use trove_read::DATASETS;
 use trove_render::KernelChoice;
 use trove_write::ExportFormat;
 

@@ -6,7 +6,8 @@ use anyhow::{Context, Result, anyhow};
 use serde::Serialize;
 use trove_format::ReportTable;
 use trove_model::Report;
-use trove_read::drive_source::{DATASETS, DriveDescription};
+use trove_read::DATASETS;
+use trove_read::drive_source::DriveDescription;
 
 use crate::build::print_entries;
 use crate::cache;

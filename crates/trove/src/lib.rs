@@ -20,6 +20,7 @@ mod progress;
 pub mod recipe;
 pub mod run;
 mod sources;
+mod street_map;
 mod variation;
 mod virtual_scene;
 

@@ -3,9 +3,10 @@
 use anyhow::{Context, Result};
 use glam::DVec2;
 use trove_build::PlacePlan;
-use trove_model::{Bounds, Drive, MapProjection, Report, Seed, StreetMap};
+use trove_model::{Bounds, Drive, DrivingSide, MapProjection, Report, Seed, StreetMap};
 
-use crate::sources::{Sources, street_map};
+use crate::recipe::{PlaceSection, Recipe};
+use crate::street_map::street_map;
 
 /// Name of the scene in the output.
 pub(crate) const NAME: &str = "place";
@@ -15,20 +16,21 @@ pub(crate) const KEYFRAMES_HINT: usize = 20;
 const SOLSTICE_NS: i64 = 1_718_928_000_000_000_000; // 2024-06-21 00:00 UTC
 
 /// Keyframes on the roads around a position, and the map that they come from.
-pub(crate) fn drive(sources: &Sources, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
-    let recipe = sources.recipe();
-    let place = recipe.place.as_ref().context("the recipe has no [place]")?;
+pub(crate) fn drive(
+    recipe: &Recipe,
+    place: &PlaceSection,
+    driving_side: DrivingSide,
+    report: &Report,
+) -> Result<(Drive, Option<StreetMap>)> {
     let projection =
         MapProjection { origin_lat_deg: place.lat_deg, origin_lon_deg: place.lon_deg, anchor_m: DVec2::ZERO };
-    let locale = sources.locale(place.lat_deg, place.lon_deg, &Report::default());
     let area = Bounds::square(DVec2::ZERO, place.size_m);
-    let map = street_map(recipe, &projection, area, locale.driving_side, report)?;
+    let map = street_map(recipe, &projection, area, driving_side, report)?;
     let (extract, map) = map.context("the recipe has no map.osm")?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;
     let time_ns = SOLSTICE_NS + (solar_hours * 3600e9) as i64;
     let seed = Seed(recipe.seed).child("place");
-    let (size_m, driving_side) = (place.size_m, locale.driving_side);
-    let plan = PlacePlan { name: NAME, projection, size_m, driving_side, time_ns };
+    let plan = PlacePlan { name: NAME, projection, size_m: place.size_m, driving_side, time_ns };
     let drive = trove_build::place_drive(&map, &plan, seed, report)
         .with_context(|| format!("{}: around {}, {}", extract.display(), place.lat_deg, place.lon_deg))?;
     Ok((drive, Some(map)))
@@ -37,7 +39,6 @@ pub(crate) fn drive(sources: &Sources, report: &Report) -> Result<(Drive, Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::Recipe;
 
     /// An extract whose nodes are the corners of a square of half a degree, without a way.
     fn square(lat_deg: f64, lon_deg: f64) -> String {
@@ -62,7 +63,7 @@ mod tests {
             std::fs::write(&path, format!("{place}[map]\nosm = {extracts:?}\n")).unwrap();
             format!("{:#}", {
                 let (recipe, report) = (Recipe::read(&path).unwrap(), Report::default());
-                drive(&Sources::open(&recipe, &report).unwrap(), &report).unwrap_err()
+                drive(&recipe, recipe.place.as_ref().unwrap(), DrivingSide::Left, &report).unwrap_err()
             })
         };
         let found = error(["far.osm", "here.osm"]);

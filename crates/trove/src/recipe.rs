@@ -3,6 +3,7 @@
 mod camera;
 mod check;
 mod light;
+mod season;
 mod variations;
 
 use std::collections::BTreeSet;
@@ -12,13 +13,14 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
 use trove_format::FrameFile;
-use trove_model::Season;
-use trove_read::drive_source::{DATASETS, Opener};
+use trove_read::DATASETS;
+use trove_read::drive_source::Opener;
 use trove_render::Denoising;
 
 use self::check::check;
 pub use camera::CameraSection;
 pub use light::LightSection;
+pub use season::SeasonChoice;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
@@ -280,32 +282,6 @@ pub struct WeatherSection {
     pub dirt: f64,
     /// What time of the year plants show.
     pub season: SeasonChoice,
-}
-
-/// A season, or the recording's.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[allow(missing_docs)] // the names are the definition
-pub enum SeasonChoice {
-    /// Of the recording, or of `light.time` where that is given.
-    #[default]
-    Recorded,
-    Spring,
-    Summer,
-    Autumn,
-    Winter,
-}
-
-impl From<SeasonChoice> for Option<Season> {
-    fn from(chosen: SeasonChoice) -> Self {
-        match chosen {
-            SeasonChoice::Recorded => None,
-            SeasonChoice::Spring => Some(Season::Spring),
-            SeasonChoice::Summer => Some(Season::Summer),
-            SeasonChoice::Autumn => Some(Season::Autumn),
-            SeasonChoice::Winter => Some(Season::Winter),
-        }
-    }
 }
 
 /// `[render]`

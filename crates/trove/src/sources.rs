@@ -4,14 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_model::{
-    Bounds, Drive, DrivingSide, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap,
-};
+use trove_model::{Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
 use trove_read::drive_source::DriveSource;
+use trove_read::environment;
 use trove_read::locale::{self, Locales};
-use trove_read::{ReadError, environment, osm};
 
 use crate::recipe::Recipe;
+use crate::street_map::street_map;
 use crate::{cache, place};
 
 /// Opened sources of a recipe.
@@ -112,36 +111,19 @@ impl<'a> Sources<'a> {
 
     /// One scene's drive and the map around it.
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
-        let Some(dataset) = &self.dataset else { return place::drive(self, report) };
+        // What is guessed is reported when the place is built.
+        let side = |lat_deg, lon_deg| self.locale(lat_deg, lon_deg, &Report::default()).driving_side;
+        let Some(dataset) = &self.dataset else {
+            let place = self.recipe.place.as_ref().context("the recipe has no [place]")?;
+            return place::drive(self.recipe, place, side(place.lat_deg, place.lon_deg), report);
+        };
         let drive = dataset.read(scene, report)?;
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
         let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
-        // What is guessed is reported when the place is built.
-        let driving_side = self.locale(origin_lat_deg, origin_lon_deg, &Report::default()).driving_side;
-        let map = street_map(self.recipe, &drive.projection, area, driving_side, report)?;
+        let map = street_map(self.recipe, &drive.projection, area, side(origin_lat_deg, origin_lon_deg), report)?;
         if map.is_none() {
             report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
         }
         Ok((drive, map.map(|(_, map)| map)))
     }
-}
-
-/// The map around a place from the first of the recipe's extracts that covers it, and that extract's path as the recipe
-/// has it; `None` if the recipe has none.
-pub(crate) fn street_map<'r>(
-    recipe: &'r Recipe,
-    projection: &MapProjection,
-    area: Bounds,
-    driving_side: DrivingSide,
-    report: &Report,
-) -> Result<Option<(&'r Path, StreetMap)>> {
-    let mut elsewhere = None;
-    for path in recipe.map.osm.paths() {
-        match osm::read(&recipe.at(path), projection, area, driving_side, report) {
-            Ok(map) => return Ok(Some((path, map))),
-            Err(error @ ReadError::Elsewhere { .. }) => elsewhere = Some(error),
-            Err(error) => return Err(error.into()),
-        }
-    }
-    elsewhere.map_or(Ok(None), |error| Err(error.into()))
 }

@@ -4,6 +4,7 @@
 //! or crosses it becomes roads, buildings, land, lines and furniture. Everything else in the area is reported.
 
 mod account;
+mod areas;
 mod buildings;
 mod coast;
 mod colors;

@@ -6,11 +6,11 @@ use glam::DVec2;
 use trove_model::{Outcome, Report, StreetMap};
 
 use super::account::Account;
+use super::areas::{add_areas, note_repairs};
 use super::meaning::{Meaning, Outline, meaning};
 use super::places::Places;
 use super::raw::{Raw, RawRelation, RawWay, Tags};
 use super::rings::{polygons, trace};
-use super::ways::{add_areas, note_repairs};
 
 /// Ways that are an edge of an area that a relation shapes.
 #[derive(Debug, Default)]

@@ -1,18 +1,17 @@
 //! Ways → roads, buildings, land, lines, and furniture that is drawn as a line.
 
 use glam::DVec2;
-use trove_model::{
-    BarrierStyle, Furniture, FurnitureKind, Land, LineKind, MapLine, Outcome, Polygon, Report, StreetMap,
-};
+use trove_model::{BarrierStyle, Furniture, FurnitureKind, LineKind, MapLine, Outcome, Report, StreetMap};
 
 use super::account::Account;
-use super::buildings::{building, is_shop};
+use super::areas::{add_areas, note_repairs};
+use super::buildings::is_shop;
 use super::coast::is_coastline;
 use super::meaning::{Meaning, Outline, line_kind, meaning};
 use super::places::Places;
 use super::raw::{Raw, RawWay, Tags};
 use super::relations::Edges;
-use super::rings::{Repaired, polygons};
+use super::rings::polygons;
 use super::roads::road;
 use super::tagged::Tagged;
 use super::things::furniture;
@@ -191,35 +190,4 @@ fn spaced(line: &[DVec2], spacing_m: f64) -> Vec<DVec2> {
         ahead_m -= length_m;
     }
     points
-}
-
-/// Notes what had to be repaired in an outline.
-pub(super) fn note_repairs(repaired: &Repaired, owner: &str, report: &Report) {
-    if repaired.crossed {
-        report.note(Outcome::Substituted, "osm: outline that crosses itself, cut where it does", owner);
-    }
-    if repaired.vanished {
-        report.note(Outcome::Dropped, "osm: outline or hole without an area", owner);
-    }
-}
-
-/// Adds buildings or land of some outlines; whether any lies in the area.
-pub(super) fn add_areas(
-    (id, tags): (i64, &Tags),
-    meaning: Meaning,
-    outlines: Vec<Polygon>,
-    places: &Places,
-    map: &mut StreetMap,
-    report: &Report,
-) -> bool {
-    let mut added = false;
-    for polygon in outlines.into_iter().filter(|p| places.touched_by(&p.exterior)) {
-        added = true;
-        match meaning {
-            Meaning::Building => map.buildings.push(building(id, polygon, tags, report)),
-            Meaning::Land(kind) => map.land.push(Land { id, kind, polygon }),
-            _ => {}
-        }
-    }
-    added
 }

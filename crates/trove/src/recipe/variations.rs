@@ -6,7 +6,8 @@ use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 
 use super::check::check;
-use super::{LightSection, SeasonChoice};
+use super::light::LightSection;
+use super::season::SeasonChoice;
 
 /// What may differ between variations; each has a seed of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
