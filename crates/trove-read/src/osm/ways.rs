@@ -9,7 +9,7 @@ use super::buildings::is_shop;
 use super::coast::is_coastline;
 use super::meaning::{Meaning, Outline, line_kind, meaning};
 use super::places::Places;
-use super::raw::{Raw, RawWay, Tags};
+use super::raw::{Raw, RawWay};
 use super::relations::Edges;
 use super::rings::polygons;
 use super::roads::road;

@@ -3,7 +3,6 @@ use trove_model::{HeightField, Seed};
 
 use super::*;
 use crate::testing;
-use trove_model::BuildingKind;
 
 /// South of the made-up street, off its sidewalk.
 fn square(id: i64, x: f64, y: f64, size: [f64; 2], height_m: f64) -> Building {
