@@ -16,8 +16,7 @@ use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
-use crate::place::Conditions;
-use crate::place::Seeds;
+use crate::place::{Conditions, Place, Seeds};
 use crate::place::{apart_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::surroundings::Clearance;
@@ -120,9 +119,9 @@ pub fn build(
 
     // What lies and stands for good.
     let ground = ground::height_field(drive, locale.kerb.height_m, bounds, report);
-    let surfaces = roads::surfaces(drive, map, locale, &ground, bounds, library, conditions, &seeds, report);
-    let buildings =
-        buildings::buildings(drive, map, &locale.buildings, &surfaces, &ground, bounds, library, &seeds, report);
+    let place = Place { drive, map, bounds, ground: &ground, library, locale, conditions, seeds: &seeds, report };
+    let surfaces = roads::surfaces(&place);
+    let buildings = buildings::buildings(&place, &surfaces);
 
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
@@ -133,11 +132,10 @@ pub fn build(
     // What is made up keeps clear of everything recorded; poles come before plants.
     let mut clearance = Clearance::new(drive, &surfaces, &buildings.footprints, bounds);
     let kerbs = Kerbs::new(drive, map, &surfaces, bounds);
-    let around = Surroundings { drive, map, locale, bounds, kerbs: &kerbs, stand };
-    let furniture = furniture(&around, library, &mut clearance, seeds.furniture.child("furniture"), report);
+    let around = Surroundings { place: &place, kerbs: &kerbs, stand };
+    let furniture = furniture(&around, &mut clearance, seeds.furniture.child("furniture"));
     let seed = seeds.vegetation;
-    let mut plants =
-        vegetation(&around, library, &mut clearance, conditions.climate(), seed.child("vegetation"), report);
+    let mut plants = vegetation(&around, &mut clearance, seed.child("vegetation"));
 
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
     let mut assembly = Assembly::default();
@@ -149,7 +147,7 @@ pub fn build(
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
     let others = furniture.scenery.len() + traffic::wanted(drive, settings.traffic.density);
     drop_farthest(&mut plants, drive, left.saturating_sub(others), report);
-    let undergrowth = undergrowth(&around, library, &clearance, &plants, conditions, seed.child("undergrowth"), report);
+    let undergrowth = undergrowth(&around, &clearance, &plants, seed.child("undergrowth"));
     for piece in &undergrowth {
         assembly.piece(piece, &mut next_id);
     }
@@ -160,7 +158,7 @@ pub fn build(
     }
     // Road users whom nobody recorded come last: they take the room that is left.
     let seed = seeds.traffic.child("added");
-    let users = traffic::added(&around, &absent, &clearance, &assembly, library, settings.traffic, seed, report);
+    let users = traffic::added(&around, &absent, &clearance, &assembly, settings.traffic, seed);
     let mut added = Vec::new();
     for user in &users {
         let Some(role) = casting.added(&user.track, user.speed_mps) else { continue };

@@ -5,13 +5,13 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, BuildingCustoms, Camera, Cuboid, Distortion, Drive, DriveOrigin, Ego, EgoBody, Exposure,
-    HeightField, Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox, Polygon, Pose,
-    Report, RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
+    Asset, AssetLibrary, Bounds, BuildingCustoms, Camera, Cuboid, Distortion, Drive, DriveOrigin, Ego, EgoBody,
+    Exposure, HeightField, Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox,
+    Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
 };
 use trove_read::locale::Locales;
 
-use crate::place::Conditions;
+use crate::place::{Conditions, Place, Seeds};
 use crate::roads::{self, RoadSurfaces};
 
 static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
@@ -87,17 +87,21 @@ fn street() -> LaneMap {
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
-    roads::surfaces(
-        drive,
-        None,
-        &locale("SG"),
-        ground,
-        bounds,
-        &library(),
-        conditions(),
-        &Seed(0).into(),
-        &Report::default(),
-    )
+    roads::surfaces(&place(drive, None, bounds, ground, &library(), &Seed(0).into(), &Report::default()))
+}
+
+/// What a place in Singapore is built from, in the climate and season of the made-up drive.
+pub(crate) fn place<'a>(
+    drive: &'a Drive,
+    map: Option<&'a StreetMap>,
+    bounds: Bounds,
+    ground: &'a HeightField,
+    library: &'a AssetLibrary,
+    seeds: &'a Seeds,
+    report: &'a Report,
+) -> Place<'a> {
+    static SINGAPORE: LazyLock<Locale> = LazyLock::new(|| locale("SG"));
+    Place { drive, map, bounds, ground, library, locale: &SINGAPORE, conditions: conditions(), seeds, report }
 }
 
 /// The climate and season of the made-up drive.

@@ -17,14 +17,11 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 use rayon::prelude::*;
-use trove_model::{
-    AssetLibrary, Bounds, Building, BuildingCustoms, Class, Drive, HeightField, Kind, Material, Outcome, Polygon,
-    Random, Report, Slot, StreetMap,
-};
+use trove_model::{AssetLibrary, Building, Class, Kind, Material, Outcome, Polygon, Random, Report, Slot};
 
 use crate::pieces::Palette;
 use crate::pieces::Piece;
-use crate::place::Seeds;
+use crate::place::Place;
 use crate::roads::RoadSurfaces;
 use sight::Sight;
 use volumes::House;
@@ -39,18 +36,9 @@ pub(crate) struct BuiltBuildings {
 }
 
 /// Builds every building of the map that does not stand in the way, and those that only the LiDAR saw.
-#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
-pub(crate) fn buildings(
-    drive: &Drive,
-    map: Option<&StreetMap>,
-    customs: &BuildingCustoms,
-    keep_clear: &RoadSurfaces,
-    ground: &HeightField,
-    bounds: Bounds,
-    library: &AssetLibrary,
-    seeds: &Seeds,
-    report: &Report,
-) -> BuiltBuildings {
+pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBuildings {
+    let Place { drive, map, bounds, ground, library, locale, seeds, report, .. } = *place;
+    let customs = &locale.buildings;
     let mapped = map.map_or(&[][..], |m| &m.buildings);
     let seed = seeds.facades.child("buildings");
     let plan_seed = seeds.place.child("buildings");

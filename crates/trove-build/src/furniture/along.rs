@@ -27,11 +27,11 @@ const ROAD_REACH_M: f64 = 16.0;
 /// Furnishes every run of kerb.
 pub(super) fn furnish(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
     let around = yard.around;
-    let roads: Vec<&Road> = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let roads: Vec<&Road> = around.place.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
     let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
     let road = |kerb: &KerbPoint| index.nearest(kerb.position, ROAD_REACH_M).map(|n| roads[n.line]);
     let path: Vec<glam::DVec2> =
-        around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+        around.place.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([path.as_slice()]);
     let is_seen = |kerb: &KerbPoint| path.nearest(kerb.position, SEEN_M).is_some();
     for (i, run) in around.kerbs.runs.iter().enumerate().filter(|(_, r)| r.len() as f64 * KERB_STEP_M >= MIN_RUN_M) {

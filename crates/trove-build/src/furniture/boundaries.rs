@@ -32,7 +32,7 @@ const HEIGHTS: [f64; 2] = [0.85, 1.1];
 /// Lays what bounds the land along all sidewalks of streets.
 pub(super) fn along_sidewalks(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
     let (around, customs) = (layer.yard.around, &layer.yard.locale.street);
-    let Some(map) = around.map else { return };
+    let Some(map) = around.place.map else { return };
     let streets: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel).collect();
     let index = SegmentIndex::new(streets.iter().map(|r| r.centreline.as_slice()));
     let is_boundary = |kind| matches!(kind, LineKind::Fence | LineKind::Wall | LineKind::GuardRail | LineKind::Hedge);

@@ -22,9 +22,10 @@ const SEEN_M: f64 = 100.0;
 /// Tables along the wall of a shop that looks at a sidewalk.
 pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
     let around = yard.around;
-    let path: Vec<DVec2> = around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let path: Vec<DVec2> =
+        around.place.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([path.as_slice()]);
-    let shops = around.map.iter().flat_map(|m| &m.buildings).filter(|b| b.shop);
+    let shops = around.place.map.iter().flat_map(|m| &m.buildings).filter(|b| b.shop);
     for shop in shops {
         let mut random = seed.nth(shop.id as u64).random();
         let (wanted, parasols) = (random.chance(SHARE), random.chance(PARASOL_SHARE));

@@ -46,12 +46,12 @@ type Vertex = (usize, usize);
 
 /// All junctions of roads for cars, in the order of their places.
 pub(super) fn junctions<'m>(around: &Surroundings<'m>, report: &Report) -> Vec<Junction<'m>> {
-    let Some(map) = around.map else { return Vec::new() };
+    let Some(map) = around.place.map else { return Vec::new() };
     let is_street = |r: &Road| r.kind < RoadKind::Service && !r.tunnel;
     let roads: Vec<&Road> = map.roads.iter().filter(|r| is_street(r)).collect();
     let mut vertices: BTreeMap<(i32, [i64; 2]), Vec<Vertex>> = BTreeMap::new();
     for (i, road) in roads.iter().enumerate() {
-        for (k, p) in road.centreline.iter().enumerate().filter(|(_, p)| around.bounds.contains(**p)) {
+        for (k, p) in road.centreline.iter().enumerate().filter(|(_, p)| around.place.bounds.contains(**p)) {
             let millimetres = (*p * 1000.0).round();
             vertices.entry((road.layer, [millimetres.x as i64, millimetres.y as i64])).or_default().push((i, k));
         }
@@ -103,9 +103,9 @@ fn arm(road: &Road, k: usize, forward: bool) -> Option<Arm<'_>> {
 
 /// Marks junctions with signals: those that the map has, and where it has none at all, those of main roads.
 fn signals<'m>(around: &Surroundings<'m>, roads: &[&'m Road], junctions: &mut Vec<Junction<'m>>, report: &Report) {
-    let furniture = around.map.iter().flat_map(|m| &m.furniture);
+    let furniture = around.place.map.iter().flat_map(|m| &m.furniture);
     let mapped: Vec<DVec2> = furniture
-        .filter(|f| f.kind == FurnitureKind::TrafficSignal && around.bounds.contains(f.position))
+        .filter(|f| f.kind == FurnitureKind::TrafficSignal && around.place.bounds.contains(f.position))
         .map(|f| f.position)
         .collect();
     if mapped.is_empty() {

@@ -63,7 +63,7 @@ pub(super) struct Layer<'y, 'a, 'b, 'c> {
 impl<'y, 'a, 'b, 'c> Layer<'y, 'a, 'b, 'c> {
     pub(super) fn new(yard: &'y mut Yard<'a, 'b, 'c>, map: &StreetMap, seed: Seed) -> Self {
         let ways: Vec<&Road> = map.roads.iter().filter(|r| !r.tunnel).collect();
-        let path = yard.around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
+        let path = yard.around.place.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
         let path: Vec<DVec2> = path.collect();
         Self {
             yard,
@@ -133,7 +133,7 @@ impl<'y, 'a, 'b, 'c> Layer<'y, 'a, 'b, 'c> {
         let out_of_sight =
             |p: DVec2| in_sight_m.is_none_or(|width_m| !self.yard.in_sight(p, width_m) && self.is_seen(p));
         let free = |p: DVec2| {
-            self.yard.around.bounds.contains(p)
+            self.yard.around.place.bounds.contains(p)
                 && self.yard.clearance.is_free(p, &room)
                 && !crossed(p)
                 && out_of_sight(p)

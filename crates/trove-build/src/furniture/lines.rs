@@ -23,7 +23,7 @@ const HEIGHTS: [f64; 2] = [0.7, 1.0];
 
 /// Everything along lines: mapped, then by rule along the kerbs and around building sites.
 pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) -> Vec<Piece> {
-    let Some(map) = yard.around.map else { return Vec::new() };
+    let Some(map) = yard.around.place.map else { return Vec::new() };
     let mut layer = Layer::new(yard, map, seed);
     for line in &map.lines {
         let mut random = seed.child("line").nth(line.id as u64).random();
@@ -48,7 +48,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
 /// Guard rails along motorways, railings along the sidewalks of main roads where the region has them.
 fn along_kerbs(layer: &mut Layer<'_, '_, '_, '_>, seed: Seed, report: &Report) {
     let around = layer.yard.around;
-    let roads: Vec<&Road> = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let roads: Vec<&Road> = around.place.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
     let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
     for (i, run) in around.kerbs.runs.iter().enumerate() {
         let mut random = seed.child("kerb").nth(i as u64).random();

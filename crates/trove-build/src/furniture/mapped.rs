@@ -16,7 +16,8 @@ const LOOK_REACH_M: f64 = 25.0;
 /// What is mapped within the place; traffic signals are drawn on the road's line and have rules of their own.
 pub(super) fn place(yard: &mut Yard<'_, '_, '_>, report: &Report) {
     let around = yard.around;
-    let furniture = around.map.iter().flat_map(|m| &m.furniture).filter(|f| around.bounds.contains(f.position));
+    let furniture =
+        around.place.map.iter().flat_map(|m| &m.furniture).filter(|f| around.place.bounds.contains(f.position));
     for thing in furniture {
         let wanted = models(thing, yard, report);
         for (kind, tags) in &wanted {

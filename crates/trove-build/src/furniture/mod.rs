@@ -16,10 +16,11 @@ mod tests;
 mod wires;
 mod yard;
 
-use trove_model::{AssetLibrary, Report, Seed};
+use trove_model::Seed;
 
 use crate::pieces::Piece;
 use crate::pieces::Scenery;
+use crate::place::Place;
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use yard::Yard;
@@ -33,13 +34,8 @@ pub(crate) struct Furniture<'a> {
 }
 
 /// Furnishes a place: what is mapped comes first, then what has to be somewhere, then what may be anywhere.
-pub(crate) fn furniture<'a>(
-    around: &Surroundings,
-    library: &'a AssetLibrary,
-    clearance: &mut Clearance,
-    seed: Seed,
-    report: &Report,
-) -> Furniture<'a> {
+pub(crate) fn furniture<'a>(around: &Surroundings<'a>, clearance: &mut Clearance, seed: Seed) -> Furniture<'a> {
+    let Place { library, report, .. } = *around.place;
     let mut yard = Yard::new(around, library, clearance, seed);
     let junctions = junctions::junctions(around, report);
     mapped::place(&mut yard, report);

@@ -31,7 +31,7 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, rep
     let library = yard.library;
     let Some(asset) = library.tagged(Kind::TrafficSign, TAGS).next() else { return Vec::new() };
     let path: Vec<DVec2> =
-        yard.around.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+        yard.around.place.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let path = SegmentIndex::new([path.as_slice()]);
     let mut written = BTreeMap::new();
     let mut signs = Vec::new();

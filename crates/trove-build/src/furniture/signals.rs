@@ -29,7 +29,7 @@ const STANDS_MPS: f64 = 0.3;
 pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
     for (i, junction) in junctions.iter().enumerate().filter(|(_, j)| j.signalled) {
         let Some(first) = junction.arms.iter().find(|a| a.enters) else { continue };
-        let recorded = recorded_green(yard.around.drive, junction.centre);
+        let recorded = recorded_green(yard.around.place.drive, junction.centre);
         let first_is_green = seed.nth(i as u64).random().chance(0.5);
         let mut heads: Vec<(DVec2, DVec2)> = Vec::new();
         for arm in junction.arms.iter().filter(|a| a.enters) {

@@ -30,7 +30,7 @@ const CROSSING_REACH_M: f64 = 14.0;
 /// Signs of priority, entry and crossings, then those along the kerbs.
 pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
     let is_priority = |kind| matches!(kind, FurnitureKind::StopSign | FurnitureKind::GiveWaySign);
-    let furniture = yard.around.map.iter().flat_map(|m| &m.furniture);
+    let furniture = yard.around.place.map.iter().flat_map(|m| &m.furniture);
     let mapped: Vec<DVec2> = furniture.filter(|f| is_priority(f.kind)).map(|f| f.position).collect();
     for junction in junctions.iter().filter(|j| j.arms.len() > 2) {
         if !junction.signalled && !mapped.iter().any(|p| p.distance(junction.centre) < MAPPED_REACH_M) {
@@ -101,7 +101,7 @@ fn one_way(junction: &Junction<'_>, arm: &Arm<'_>, yard: &mut Yard<'_, '_, '_>, 
 
 /// Both directions of traffic see a crossing without signals.
 fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &Report) {
-    let Some(map) = yard.around.map else { return };
+    let Some(map) = yard.around.place.map else { return };
     let is_marked = |marking: Option<CrossingMarking>| {
         marking.is_some_and(|m| !matches!(m, CrossingMarking::Unmarked | CrossingMarking::Signals))
     };
@@ -111,7 +111,7 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
     let tags = yard.locale.signs.tags("crossing");
     for middle in middles.chain(nodes.map(|f| f.position)) {
         let signalled = junctions.iter().any(|j| j.signalled && j.centre.distance(middle) < MAPPED_REACH_M);
-        if signalled || !yard.around.bounds.contains(middle) {
+        if signalled || !yard.around.place.bounds.contains(middle) {
             continue;
         }
         for kerb in yard.around.kerbs.near(middle, CROSSING_REACH_M) {
@@ -127,7 +127,8 @@ fn crossings(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, report: &R
 
 /// Limits, and where one may park, along the kerbs.
 fn along(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) {
-    let roads: Vec<&Road> = yard.around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let roads: Vec<&Road> =
+        yard.around.place.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
     let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
     let mut shown: BTreeMap<String, Vec<KerbPoint>> = BTreeMap::new();
     for (i, run) in yard.around.kerbs.runs.iter().enumerate() {

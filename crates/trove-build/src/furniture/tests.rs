@@ -10,6 +10,7 @@ use trove_model::{
 
 use super::furniture;
 use crate::pieces::Piece;
+use crate::place::Place;
 use crate::placement::Stand;
 use crate::roads::{self, Footing};
 use crate::surroundings::Clearance;
@@ -40,23 +41,15 @@ fn furnished(country: &str, map: &StreetMap) -> Furnished {
     let (library, report) = (library(), Report::default());
     let bounds = Bounds::square(DVec2::ZERO, 400.0);
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
-    let surfaces = roads::surfaces(
-        &drive,
-        Some(map),
-        locale,
-        &ground,
-        bounds,
-        &library,
-        testing::conditions(),
-        &Seed(0).into(),
-        &report,
-    );
+    let seeds = Seed(0).into();
+    let place = Place { locale, ..testing::place(&drive, Some(map), bounds, &ground, &library, &seeds, &report) };
+    let surfaces = roads::surfaces(&place);
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
     let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let around = Surroundings { drive: &drive, map: Some(map), locale, bounds, kerbs: &kerbs, stand };
-    let found = furniture(&around, &library, &mut clearance, Seed(1), &report);
+    let around = Surroundings { place: &place, kerbs: &kerbs, stand };
+    let found = furniture(&around, &mut clearance, Seed(1));
     let feet = || found.scenery.iter().map(|s| s.foot_world);
     Furnished {
         on_carriageway: feet().filter(|p| surfaces.footing(p.truncate()) == Footing::Carriageway).count(),

@@ -48,7 +48,7 @@ struct Pole {
 /// Poles with their wires; the wires are one piece a line.
 pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) -> Vec<Piece> {
     let around = yard.around;
-    let Some(map) = around.map else { return Vec::new() };
+    let Some(map) = around.place.map else { return Vec::new() };
     let mut pieces = Vec::new();
     for line in map.lines.iter().filter(|l| l.kind == LineKind::PowerLine) {
         let at = |i: usize| line.line[i.min(line.line.len() - 1)];
@@ -75,7 +75,7 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
 /// Along one side of residential streets.
 fn by_rule(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) -> Vec<Piece> {
     let around = yard.around;
-    let roads: Vec<&Road> = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
+    let roads: Vec<&Road> = around.place.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind.is_for_cars()).collect();
     let index = SegmentIndex::new(roads.iter().map(|r| r.centreline.as_slice()));
     let mut pieces = Vec::new();
     for (i, run) in around.kerbs.runs.iter().enumerate() {
@@ -177,7 +177,8 @@ fn piece(mesh: Mesh, origin: DVec3) -> Option<Piece> {
 /// The contact wire over a tram's track, held between poles on both sides of the street where there is room for them.
 fn over_track(track: &[DVec2], yard: &mut Yard<'_, '_, '_>, report: &Report) -> Option<Piece> {
     let around = yard.around;
-    let places: Vec<DVec2> = spaced(track, TRAM_SPAN_M).into_iter().filter(|p| around.bounds.contains(*p)).collect();
+    let places: Vec<DVec2> =
+        spaced(track, TRAM_SPAN_M).into_iter().filter(|p| around.place.bounds.contains(*p)).collect();
     let over = |p: &DVec2| p.extend(around.stand.surface_m(*p) + TRAM_WIRE_M);
     let origin = over(places.first()?);
     let mut mesh = Mesh::default();

@@ -91,13 +91,13 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         clearance: &'b mut Clearance<'c>,
         seed: Seed,
     ) -> Self {
-        let roads = around.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind == RoadKind::Crossing);
+        let roads = around.place.map.iter().flat_map(|m| &m.roads).filter(|r| r.kind == RoadKind::Crossing);
         let crossings: Vec<Vec<DVec2>> = roads.map(|r| lengthened(&r.centreline)).collect();
-        let lane_map = around.drive.lane_map.as_ref();
+        let lane_map = around.place.drive.lane_map.as_ref();
         let recorded = lane_map.map_or(&[][..], |m| &m.crossings);
         let edges: Vec<[DVec2; 2]> = recorded.iter().flat_map(|p| p.edges()).map(|(a, b)| [a, b]).collect();
         let mut cameras: HashMap<[i64; 2], Vec<DVec2>> = HashMap::new();
-        for exposure in around.drive.keyframes.iter().flat_map(|k| &k.exposures) {
+        for exposure in around.place.drive.keyframes.iter().flat_map(|k| &k.exposures) {
             let eye = exposure.world_from_ego.point(exposure.ego_from_camera.translation).truncate();
             if eye.is_finite() {
                 cameras.entry(bucket(eye, BUCKET_M)).or_default().push(eye);
@@ -107,7 +107,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             library,
             around,
             clearance,
-            locale: around.locale,
+            locale: around.place.locale,
             placed: Vec::new(),
             seed,
             plans: BTreeMap::new(),
@@ -177,7 +177,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
             radius_m: radius_m + 0.05,
         };
         let free = |&p: &DVec2| {
-            self.around.bounds.contains(p)
+            self.around.place.bounds.contains(p)
                 && self.clearance.is_free(p, &room)
                 && !self.on_crossing(p, radius_m)
                 && !(made_up && self.in_sight(p, if wish.kind.is_on_pole() { 0.0 } else { radius_m + POLE_M }))

@@ -17,9 +17,7 @@ mod tests;
 mod wear;
 
 use glam::DVec2;
-use trove_model::{
-    AssetLibrary, Bounds, Class, Drive, DrivingSide, HeightField, Locale, Mesh, Polygon, Report, StreetMap, SurfaceKind,
-};
+use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, SurfaceKind};
 
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
@@ -31,8 +29,7 @@ use crate::geometry::plane;
 use crate::ground::{Drape, Lawn, Ramps};
 use crate::pieces::Palette;
 use crate::pieces::Piece;
-use crate::place::Conditions;
-use crate::place::Seeds;
+use crate::place::Place;
 
 /// The lowest of kerbs: what stands on the ground beside the road begins here, metres.
 pub(crate) const KERB_M: f64 = 0.12;
@@ -96,18 +93,8 @@ impl RoadSurfaces {
 }
 
 /// Builds the surfaces of a place: the dataset's map where it has one, OpenStreetMap beyond it.
-#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
-pub(crate) fn surfaces(
-    drive: &Drive,
-    map: Option<&StreetMap>,
-    locale: &Locale,
-    ground: &HeightField,
-    bounds: Bounds,
-    library: &AssetLibrary,
-    conditions: Conditions,
-    seeds: &Seeds,
-    report: &Report,
-) -> RoadSurfaces {
+pub(crate) fn surfaces(place: &Place<'_>) -> RoadSurfaces {
+    let Place { drive, map, bounds, ground, library, locale, conditions, seeds, report } = *place;
     let seed = seeds.materials.child("roads");
     let kerb_m = locale.kerb.height_m;
     // Up to the end of the height field, where the apron begins.

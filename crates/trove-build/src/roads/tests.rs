@@ -10,7 +10,7 @@ use super::{Footing, RoadSurfaces, land, surfaces};
 use crate::geometry::plane;
 use crate::ground::Drape;
 use crate::pieces::Piece;
-use crate::testing::{conditions, drive, locale};
+use crate::testing::{drive, place};
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.
 fn map() -> StreetMap {
@@ -34,17 +34,15 @@ fn hilly() -> HeightField {
 }
 
 fn built() -> RoadSurfaces {
-    surfaces(
+    surfaces(&place(
         &drive(),
         Some(&map()),
-        &locale("SG"),
-        &hilly(),
         bounds(),
+        &hilly(),
         &AssetLibrary::default(),
-        conditions(),
         &Seed(7).into(),
         &Report::default(),
-    )
+    ))
 }
 
 fn area_m2(area: &[Polygon]) -> f64 {
@@ -130,17 +128,8 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
 fn a_drive_without_any_map_has_a_road_under_it() {
     let drive = trove_model::Drive { lane_map: None, ..drive() };
     let flat = HeightField::flat(bounds(), 0.0);
-    let built = surfaces(
-        &drive,
-        None,
-        &locale("SG"),
-        &flat,
-        bounds(),
-        &AssetLibrary::default(),
-        conditions(),
-        &Seed(7).into(),
-        &Report::default(),
-    );
+    let built =
+        surfaces(&place(&drive, None, bounds(), &flat, &AssetLibrary::default(), &Seed(7).into(), &Report::default()));
     for keyframe in &drive.keyframes {
         assert_eq!(built.footing(keyframe.world_from_ego.translation.truncate()), Footing::Carriageway);
     }
@@ -157,17 +146,7 @@ fn a_patchy_recording_is_closed_where_vehicles_drove() {
     drive.lane_map = Some(LaneMap { drivable, ..LaneMap::default() });
     let flat = HeightField::flat(bounds(), 0.0);
     let report = Report::default();
-    let built = surfaces(
-        &drive,
-        None,
-        &locale("SG"),
-        &flat,
-        bounds(),
-        &AssetLibrary::default(),
-        conditions(),
-        &Seed(7).into(),
-        &report,
-    );
+    let built = surfaces(&place(&drive, None, bounds(), &flat, &AssetLibrary::default(), &Seed(7).into(), &report));
     assert_eq!(built.footing(DVec2::new(15.0, 0.0)), Footing::Carriageway);
     assert!(report.entries().iter().any(|e| e.what.contains("gaps")));
 }

@@ -10,10 +10,10 @@ mod ways;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use trove_model::{AssetLibrary, Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
+use trove_model::{Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
 
 use crate::assembly::Assembly;
-use crate::place::{next, previous};
+use crate::place::{Place, next, previous};
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use motion::Motion;
@@ -76,24 +76,21 @@ pub(crate) fn wanted(drive: &Drive, density: f64) -> usize {
 }
 
 /// Makes road users up, who meet nobody at any keyframe nor halfway between two; `assembly` has all that stands still.
-#[allow(clippy::too_many_arguments)] // one call, from the builder of the place
 pub(crate) fn added(
     around: &Surroundings,
     absent: &BTreeSet<usize>,
     clearance: &Clearance,
     assembly: &Assembly,
-    library: &AssetLibrary,
     traffic: Traffic,
     seed: Seed,
-    report: &Report,
 ) -> Vec<RoadUser> {
-    let drive = around.drive;
+    let Place { drive, library, report, .. } = *around.place;
     let wanted = wanted(drive, traffic.density);
     let mut users: Vec<RoadUser> = Vec::new();
     if wanted == 0 {
         return users;
     }
-    let shares = Shares::of(&around.locale.traffic, library, traffic.cyclists);
+    let shares = Shares::of(&around.place.locale.traffic, library, traffic.cyclists);
     let ways = Ways::new(around);
     let mut room = Room::new(around, absent, clearance, assembly);
     // Some find no place, and some come together.

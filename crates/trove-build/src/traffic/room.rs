@@ -116,7 +116,7 @@ impl<'a> Room<'a> {
                 standing.entry(key).or_default().push(outline);
             }
         }
-        let drive = around.drive;
+        let drive = around.place.drive;
         let mut taken = vec![Vec::new(); 2 * drive.keyframes.len()];
         for (k, keyframe) in drive.keyframes.iter().enumerate() {
             let ego = Outline::of(&ego_cuboid(drive, keyframe)).grown(EGO_M, EGO_M / 2.0);

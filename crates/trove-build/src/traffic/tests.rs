@@ -3,7 +3,7 @@ use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
 use crate::{LightChoice, OnDisagreement, Weather, testing};
 use room::Outline;
-use trove_model::{Instance, Origin, Scene, SceneObject};
+use trove_model::{AssetLibrary, Instance, Origin, Scene, SceneObject};
 
 const RIDER: &str = "bicycle/rider";
 

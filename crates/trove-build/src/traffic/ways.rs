@@ -63,8 +63,9 @@ impl<'a> Ways<'a> {
             .filter(|(point, ..)| point.sidewalk)
             .map(|(point, run, i)| (point.position, run, i))
             .collect();
-        let areas: Vec<&Polygon> = around.drive.lane_map.iter().flat_map(|map| &map.crossings).collect();
-        let crossings = around.map.iter().flat_map(|map| &map.roads).filter(|road| road.kind == RoadKind::Crossing);
+        let areas: Vec<&Polygon> = around.place.drive.lane_map.iter().flat_map(|map| &map.crossings).collect();
+        let crossings =
+            around.place.map.iter().flat_map(|map| &map.roads).filter(|road| road.kind == RoadKind::Crossing);
         let lines = SegmentIndex::new(crossings.map(|road| road.centreline.as_slice()));
         let crosses = |p: DVec2| {
             let near = |area: &&Polygon| area.bounds().is_some_and(|b| b.grown(CROSSING_M).contains(p));
@@ -266,7 +267,7 @@ impl<'a> Ways<'a> {
         random: &mut Random,
         position: impl Fn(&S) -> DVec2,
     ) -> Option<&'s S> {
-        let ego = self.around.drive.keyframes[keyframe].world_from_ego;
+        let ego = self.around.place.drive.keyframes[keyframe].world_from_ego;
         let (eye, yaw_rad) = (ego.translation.truncate(), ego.yaw_rad());
         let forward = DVec2::from_angle(yaw_rad);
         let sees = |spot: &&S| {

@@ -65,11 +65,11 @@ struct Leaf {
 impl Seen {
     /// Gathers the points of all sweeps.
     pub(super) fn new(around: &Surroundings, clearance: &Clearance) -> Self {
-        let keyframes: Vec<&Keyframe> = around.drive.keyframes.iter().filter(|k| k.lidar.is_some()).collect();
+        let keyframes: Vec<&Keyframe> = around.place.drive.keyframes.iter().filter(|k| k.lidar.is_some()).collect();
         let leaves: Vec<Vec<Leaf>> = keyframes.par_iter().map(|k| leaves(k, around, clearance)).collect();
         let leaves: Vec<Leaf> = leaves.into_iter().flatten().collect();
         let cubes = cubes(leaves.iter().filter(|l| !l.labelled));
-        let mut columns = Columns::new(around.bounds, CELL_M);
+        let mut columns = Columns::new(around.place.bounds, CELL_M);
         let foliage = |l: &&Leaf| l.labelled || cubes.get(&cube(l.position)).is_some_and(Moments::is_scattered);
         for leaf in leaves.iter().filter(foliage) {
             columns.add(leaf.position.truncate(), leaf.above_m, leaf.mass, leaf.above_m < BUSH_TOP_M, leaf.cut);
@@ -135,7 +135,7 @@ fn leaves(keyframe: &Keyframe, around: &Surroundings, clearance: &Clearance) -> 
         let ray = position - sweep.origin_world;
         let range_m = ray.length();
         let plane = position.truncate();
-        if !(OWN_BODY_M..REACH_M).contains(&range_m) || !around.bounds.contains(plane) {
+        if !(OWN_BODY_M..REACH_M).contains(&range_m) || !around.place.bounds.contains(plane) {
             continue;
         }
         let above_m = position.z - around.stand.ground.height_m(plane);
@@ -236,7 +236,7 @@ mod tests {
     use crate::placement::Stand;
     use crate::surroundings::Kerbs;
     use crate::testing;
-    use trove_model::HeightField;
+    use trove_model::{HeightField, Report};
 
     /// A crown 4 m above the land, a wall beside it, and a sensor on the road.
     fn sweep(labelled: bool) -> LidarSweep {
@@ -266,8 +266,9 @@ mod tests {
             let clearance = Clearance::new(&drive, &surfaces, &[], bounds);
             let kerbs = Kerbs::new(&drive, None, &surfaces, bounds);
             let stand = Stand { ground: &ground, surfaces: &surfaces };
-            let around =
-                Surroundings { drive: &drive, map: None, locale: &testing::locale("SG"), bounds, kerbs: &kerbs, stand };
+            let (library, seeds, report) = (testing::library(), Seed(0).into(), Report::default());
+            let place = testing::place(&drive, None, bounds, &ground, &library, &seeds, &report);
+            let around = Surroundings { place: &place, kerbs: &kerbs, stand };
             let seen = Seen::new(&around, &clearance);
             let wishes = seen.wishes(Seed(1));
             assert!(wishes.iter().any(|w| w.kind == Kind::Tree));

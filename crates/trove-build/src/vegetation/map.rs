@@ -38,9 +38,11 @@ fn planting(kind: LandKind) -> Option<Planting> {
 
 /// Mapped trees and hedges first, then plants scattered over green land.
 pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) -> Vec<Wish> {
-    let Some(map) = around.map else { return Vec::new() };
+    let Some(map) = around.place.map else { return Vec::new() };
     let mut wishes = Vec::new();
-    for tree in map.furniture.iter().filter(|f| f.kind == FurnitureKind::Tree && around.bounds.contains(f.position)) {
+    for tree in
+        map.furniture.iter().filter(|f| f.kind == FurnitureKind::Tree && around.place.bounds.contains(f.position))
+    {
         let seed = seed.child("tree").nth(tree.id as u64);
         let drawn_m = seed.random().range(5.5, 10.0);
         wishes.push(Wish {
@@ -57,13 +59,14 @@ pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) 
     for line in map.lines.iter().filter(|l| l.kind == LineKind::Hedge) {
         let seed = seed.child("hedge").nth(line.id as u64);
         let height_m = line.height_m.unwrap_or(seed.random().range(0.9, 1.8)).clamp(0.4, 4.0);
-        wishes.extend(hedge(&line.line, height_m, seed).filter(|w| around.bounds.contains(w.position)));
+        wishes.extend(hedge(&line.line, height_m, seed).filter(|w| around.place.bounds.contains(w.position)));
     }
     for land in &map.land {
         let Some(planting) = planting(land.kind) else { continue };
-        let Some(bounds) = land.polygon.bounds().filter(|b| b.overlaps(&around.bounds)) else { continue };
+        let Some(bounds) = land.polygon.bounds().filter(|b| b.overlaps(&around.place.bounds)) else { continue };
         let seed = seed.child("land").nth(land.id as u64);
-        let inside = Bounds { min: bounds.min.max(around.bounds.min), max: bounds.max.min(around.bounds.max) };
+        let inside =
+            Bounds { min: bounds.min.max(around.place.bounds.min), max: bounds.max.min(around.place.bounds.max) };
         let mut random = seed.random();
         for (kind, least_m, share) in
             [(Kind::Tree, planting.trees_m, planting.tree_share), (Kind::Bush, planting.bushes_m, planting.bush_share)]

@@ -16,10 +16,11 @@ mod walls;
 mod wish;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Climate, Kind, Outcome, PlantForm, Report, Seed};
+use trove_model::{Kind, Outcome, PlantForm, Seed};
 
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::pieces::Scenery;
+use crate::place::Place;
 use crate::surroundings::Surroundings;
 use crate::surroundings::{Clearance, Room};
 use blue_noise::BlueNoise;
@@ -37,15 +38,9 @@ const MOST_SUNK_M: f64 = 0.025;
 
 /// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along walls, along streets, on
 /// open land.
-pub(crate) fn vegetation<'a>(
-    around: &Surroundings,
-    library: &'a AssetLibrary,
-    clearance: &mut Clearance,
-    climate: Climate,
-    seed: Seed,
-    report: &Report,
-) -> Vec<Scenery<'a>> {
-    let species = Species::new(library, climate);
+pub(crate) fn vegetation<'a>(around: &Surroundings<'a>, clearance: &mut Clearance, seed: Seed) -> Vec<Scenery<'a>> {
+    let Place { library, conditions, report, .. } = *around.place;
+    let species = Species::new(library, conditions.climate());
     for kind in [Kind::Tree, Kind::Bush].into_iter().filter(|&kind| species.lacks(kind)) {
         let what = format!("plants without an asset of kind {}", kind.name());
         report.note(Outcome::Dropped, &what, kind.class().row().name);
@@ -63,10 +58,10 @@ pub(crate) fn vegetation<'a>(
     report.measure("vegetation.lidar_wishes", counted as f64);
     report.measure("vegetation.wishes", wishes.len() as f64);
 
-    let mut lawns = PlaneRaster::new(around.bounds, LAWN_CELL_M);
+    let mut lawns = PlaneRaster::new(around.place.bounds, LAWN_CELL_M);
     lawns.fill(&around.stand.surfaces.lawns, 1);
     let mut plants = Vec::new();
-    for (i, wish) in wishes.iter().enumerate().filter(|(_, w)| around.bounds.contains(w.position)) {
+    for (i, wish) in wishes.iter().enumerate().filter(|(_, w)| around.place.bounds.contains(w.position)) {
         let space = Space {
             lane_m: clearance.road_distance_m(wish.position) - UNSURE_M,
             wall_m: clearance.building_distance_m(wish.position) - UNSURE_M,

@@ -27,17 +27,17 @@ const OFF_BUILDING_M: f64 = 2.0;
 
 /// Groves where there is neither road, sidewalk, building nor land that the map knows.
 pub(super) fn wishes(around: &Surroundings, clearance: &Clearance, blue_noise: &BlueNoise, seed: Seed) -> Vec<Wish> {
-    let mut mapped = PlaneRaster::new(around.bounds, 2.0);
-    let known = around.map.iter().flat_map(|m| &m.land).filter(|l| !spans_towns(l.kind));
+    let mut mapped = PlaneRaster::new(around.place.bounds, 2.0);
+    let known = around.place.map.iter().flat_map(|m| &m.land).filter(|l| !spans_towns(l.kind));
     for land in known {
         mapped.fill(std::slice::from_ref::<Polygon>(&land.polygon), 1);
     }
-    let has_buildings = around.map.is_some_and(|m| !m.buildings.is_empty());
+    let has_buildings = around.place.map.is_some_and(|m| !m.buildings.is_empty());
     let share = if has_buildings { TOWN_SHARE } else { BARE_SHARE };
 
     let mut random = seed.random();
     let mut wishes = Vec::new();
-    for position in blue_noise.over(around.bounds, LEAST_M, seed) {
+    for position in blue_noise.over(around.place.bounds, LEAST_M, seed) {
         let [keep, what, height] = std::array::from_fn(|_| random.unit());
         let free = clearance.is_land(position)
             && mapped.at(position) == 0

@@ -73,11 +73,11 @@ fn on_a_slope(check: impl FnOnce(&Surroundings, &[crate::pieces::Scenery], &[Pie
     let mut clearance = Clearance::new(&drive, &surfaces, std::slice::from_ref(&house), bounds);
     let kerbs = Kerbs::new(&drive, None, &surfaces, bounds);
     let stand = Stand { ground: &ground, surfaces: &surfaces };
-    let around =
-        Surroundings { drive: &drive, map: Some(&map), locale: &testing::locale("SG"), bounds, kerbs: &kerbs, stand };
-    let conditions = testing::conditions();
-    let plants = vegetation(&around, &library, &mut clearance, conditions.climate(), Seed(3), &report);
-    let pieces = undergrowth(&around, &library, &clearance, &plants, conditions, Seed(4), &report);
+    let seeds = Seed(0).into();
+    let place = testing::place(&drive, Some(&map), bounds, &ground, &library, &seeds, &report);
+    let around = Surroundings { place: &place, kerbs: &kerbs, stand };
+    let plants = vegetation(&around, &mut clearance, Seed(3));
+    let pieces = undergrowth(&around, &clearance, &plants, Seed(4));
     check(&around, &plants, &pieces, &house);
 }
 

@@ -24,18 +24,18 @@ const GARDEN_BED_LENGTH_M: [f64; 2] = [2.0, 7.0];
 
 /// Rows along walls, where there is a lawn before them, and beds in gardens.
 pub(super) fn wishes(around: &Surroundings, blue_noise: &BlueNoise, seed: Seed) -> Vec<Wish> {
-    let Some(map) = around.map else { return Vec::new() };
+    let Some(map) = around.place.map else { return Vec::new() };
     let mut wishes = Vec::new();
     for building in &map.buildings {
         let seed = seed.child("building").nth(building.id as u64);
         for (i, (a, b)) in building.footprint.edges().enumerate() {
-            if a.distance(b) >= LEAST_WALL_M && around.bounds.contains(a) && around.bounds.contains(b) {
+            if a.distance(b) >= LEAST_WALL_M && around.place.bounds.contains(a) && around.place.bounds.contains(b) {
                 along_wall([a, b], seed.nth(i as u64), &mut wishes);
             }
         }
     }
     for land in map.land.iter().filter(|l| matches!(l.kind, LandKind::Garden | LandKind::Park)) {
-        let Some(bounds) = land.polygon.bounds().filter(|b| b.overlaps(&around.bounds)) else { continue };
+        let Some(bounds) = land.polygon.bounds().filter(|b| b.overlaps(&around.place.bounds)) else { continue };
         let seed = seed.child("garden").nth(land.id as u64);
         for (i, middle) in blue_noise.over(bounds, GARDEN_BED_M, seed).enumerate() {
             let seed = seed.nth(i as u64);

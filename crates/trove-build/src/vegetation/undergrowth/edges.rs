@@ -27,7 +27,7 @@ pub(super) fn weeds(sower: &Sower) -> Vec<Piece> {
         let place = |p: DVec2| (!sower.is_lawn(p - inward * 0.25)).then_some(p + inward * INSIDE_M);
         along(sower, [a, b], 0.55, place, &mut random, &mut pieces);
     }
-    let lines = sower.around.map.iter().flat_map(|m| &m.lines);
+    let lines = sower.around.place.map.iter().flat_map(|m| &m.lines);
     for line in lines.filter(|l| matches!(l.kind, LineKind::Fence | LineKind::Wall)) {
         for pair in line.line.windows(2) {
             let side = (pair[1] - pair[0]).perp().normalize_or_zero() * 0.12;

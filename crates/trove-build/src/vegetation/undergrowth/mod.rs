@@ -9,7 +9,7 @@ mod pits;
 mod sower;
 
 use glam::DVec2;
-use trove_model::{AssetLibrary, Bounds, Drive, Polygon, Report, Seed};
+use trove_model::{Bounds, Drive, Polygon, Seed};
 
 use self::sower::{LAWN_CELL_M, REACH_M, Sower};
 use super::blue_noise::BlueNoise;
@@ -17,7 +17,7 @@ use crate::geometry::distance_field::DistanceField;
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::pieces::Piece;
 use crate::pieces::Scenery;
-use crate::place::Conditions;
+use crate::place::Place;
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 
@@ -26,16 +26,9 @@ const MOST_CELLS: f64 = 6000.0;
 const APART_M: f64 = 60.0;
 
 /// Covers the ground near the driven path; `plants` stand already.
-pub(crate) fn undergrowth(
-    around: &Surroundings,
-    library: &AssetLibrary,
-    clearance: &Clearance,
-    plants: &[Scenery],
-    conditions: Conditions,
-    seed: Seed,
-    report: &Report,
-) -> Vec<Piece> {
-    let path = driven_path(around.drive);
+pub(crate) fn undergrowth(around: &Surroundings, clearance: &Clearance, plants: &[Scenery], seed: Seed) -> Vec<Piece> {
+    let Place { drive, library, conditions, report, .. } = *around.place;
+    let path = driven_path(drive);
     let Some(bounds) = Bounds::around(path.iter().copied()).map(|b| b.grown(REACH_M)) else { return Vec::new() };
     let points = path.iter().map(|p| square(*p, 1.0));
     let cell_m = LAWN_CELL_M.max(bounds.size_m().max_element() / MOST_CELLS);
