@@ -5,18 +5,16 @@
 //! alike. Nothing is called back: what counts as a hit follows from data that could lie on a card as well.
 
 mod embree;
+mod kernel;
 mod obvhs;
 mod shapes;
 mod watertight;
 
 use std::path::PathBuf;
-use std::sync::Arc;
-
-use glam::Vec3;
 
 use crate::RenderError;
-use crate::ray::{Hit, Ray};
 
+pub(crate) use kernel::{Accel, Coherence, Kernel, PACKET};
 pub(crate) use shapes::Shapes;
 
 /// Which ray-tracing kernel to use.
@@ -29,47 +27,6 @@ pub enum KernelChoice {
     Embree,
     /// The built-in kernel: the same bytes on every machine.
     Obvhs,
-}
-
-/// How the rays of a batch lie to each other; it decides speed alone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coherence {
-    /// [`PACKET`] successive ones start and run alike.
-    Coherent,
-    /// Each on its own.
-    Incoherent,
-}
-
-/// Most rays that a kernel traces together.
-pub(crate) const PACKET: usize = 16;
-
-/// A kernel without a scene; it remembers what it built of every mesh.
-pub(crate) trait Kernel: Send + Sync {
-    /// Name and version, for people.
-    fn name(&self) -> String;
-
-    /// Builds what traces rays among the shapes.
-    fn build(&self, shapes: &Arc<Shapes>) -> Result<Box<dyn Accel>, RenderError>;
-}
-
-/// A kernel's scene, which answers batches of rays. Results have the rays' order and number.
-pub(crate) trait Accel: Send + Sync {
-    /// The nearest surface of each ray, holes and what the ray passes through left out.
-    fn closest(&self, rays: &[Ray], coherence: Coherence, hits: &mut [Option<Hit>]);
-
-    /// Leaves of the light along each ray what no hit keeps back: nothing behind what is opaque, a tinted share behind
-    /// panes.
-    fn any(&self, rays: &[Ray], coherence: Coherence, light: &mut [Vec3]);
-
-    /// The nearest surface of one instance as if nothing else were there, at the moment of the labels.
-    fn closest_on(&self, instance: u32, rays: &[Ray], hits: &mut [Option<Hit>]);
-
-    /// How many rays meet a triangle, found as the nearest one with nothing judged: the kernel as its makers deliver it, to
-    /// measure against.
-    fn bare_closest(&self, rays: &[Ray]) -> usize;
-
-    /// The same, found as any.
-    fn bare_any(&self, rays: &[Ray]) -> usize;
 }
 
 /// The chosen kernel; `search` are folders or files in which to look for Embree.

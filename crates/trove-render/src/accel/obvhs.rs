@@ -12,8 +12,9 @@ use obvhs::ray::RayHit;
 use obvhs::triangle::Triangle;
 use trove_model::Mesh;
 
+use super::kernel::{Accel, Coherence, Kernel};
+use super::shapes::Shapes;
 use super::watertight::Sheared;
-use super::{Accel, Coherence, Kernel, Shapes};
 use crate::RenderError;
 use crate::cache::Cache;
 use crate::motion::MIDDLE;

@@ -2,7 +2,7 @@
 
 use trove_model::Raster;
 
-use super::{luminance, tone};
+use super::tone::{self, luminance};
 
 /// Steps of the metering histogram in a stop, and the stops that it spans around 1.
 const STEPS_PER_STOP: f64 = 32.0;

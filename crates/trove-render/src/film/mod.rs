@@ -36,11 +36,6 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
     (Raster { width: radiance.width, height: radiance.height, data }, ev)
 }
 
-/// Brightness of a colour (Rec. 709).
-fn luminance(rgb: [f32; 3]) -> f32 {
-    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,8 +4,6 @@
 //! hundredth, nearly as the sRGB encoding alone would have it, clouds and white walls reach white, and their colours are
 //! paler than the things that they show.
 
-use super::luminance;
-
 /// Exposed radiance that just becomes white: three stops above a grey card.
 pub(super) const WHITE: f32 = 1.5;
 
@@ -31,6 +29,11 @@ fn held_back(exposed: f32) -> f32 {
 /// sRGB's encoding (IEC 61966-2-1).
 fn encoded(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Brightness of a colour (Rec. 709).
+pub(super) fn luminance(rgb: [f32; 3]) -> f32 {
+    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ mod change;
 mod flow;
 mod objects;
 mod outline;
+mod pixel;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -16,32 +17,7 @@ use crate::accel::PACKET;
 use crate::prepare::Carrier;
 use crate::sight::{self, Seen};
 use flow::Neighbour;
-
-/// Indices of no instance: the sky, and what lies outside the lens's image circle.
-const SKY: u32 = u32::MAX;
-const OUTSIDE: u32 = u32::MAX - 1;
-
-/// Everything that one pixel shows.
-struct Pixel {
-    /// Index into the scene's instances, [`SKY`] or [`OUTSIDE`].
-    instance: u32,
-    /// From the camera, infinite where there is nothing.
-    range_m: f64,
-    depth_m: f32,
-    normal: [f32; 3],
-    flow_forward: [f32; 2],
-    flow_backward: [f32; 2],
-}
-
-/// A pixel that no ray belongs to.
-const OUTSIDE_LENS: Pixel = Pixel {
-    instance: OUTSIDE,
-    range_m: f64::INFINITY,
-    depth_m: f32::INFINITY,
-    normal: [0.0; 3],
-    flow_forward: flow::NONE,
-    flow_backward: flow::NONE,
-};
+use pixel::{OUTSIDE, OUTSIDE_LENS, Pixel, SKY};
 
 /// All labels of a picture, computed with the current thread pool; `None` once `stop` answers true, which it then does
 /// for good.

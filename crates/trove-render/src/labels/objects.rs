@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
 
-use super::{Pixel, outline};
+use super::outline;
+use super::pixel::Pixel;
 use crate::PreparedScene;
 use crate::placed::Placed;
 use crate::ray::Ray;

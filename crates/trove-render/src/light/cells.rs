@@ -4,7 +4,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::cdf::Cdf;
-use super::luminance;
+use super::luminance::luminance;
 
 /// Mean radiance by direction, with directions drawn in proportion to its brightness.
 ///

@@ -5,8 +5,10 @@ use std::f32::consts::{PI, TAU};
 use glam::Vec3;
 use trove_model::EnvironmentMap;
 
-use super::WIDE_RAD;
 use super::cells::Cells;
+
+/// From this width on a cone is wider than any cell of the sky.
+const WIDE_RAD: f32 = 0.1;
 
 /// Radiance by direction: a picture for narrow cones, and cells for wide ones and for drawing directions.
 pub(super) struct Dome {

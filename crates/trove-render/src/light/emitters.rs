@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::{DVec3, Vec2, Vec3};
 use trove_model::Scene;
 
-use super::luminance;
+use super::luminance::luminance;
 use super::tree::{Tree, TreeEntry};
 
 /// How far light of the outermost emitters reaches, roughly.

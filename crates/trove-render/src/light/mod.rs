@@ -8,6 +8,7 @@ mod cells;
 mod clouds;
 mod dome;
 mod emitters;
+mod luminance;
 mod noise;
 mod sky;
 mod sun;
@@ -24,6 +25,7 @@ pub(crate) use noise::Plane;
 
 use dome::Dome;
 use emitters::Emitters;
+use luminance::luminance;
 pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
 use sun::Sun;
@@ -35,9 +37,6 @@ const MAP_CELLS: usize = 256;
 
 /// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
 const SHARE_BELOW: f64 = 0.05;
-
-/// From this width on a cone is wider than any cell of the sky.
-const WIDE_RAD: f32 = 0.1;
 
 /// One way for light to reach a point.
 pub(crate) struct LightSample {
@@ -195,11 +194,6 @@ impl Lights {
     pub(crate) fn sky_radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
         self.around.dome.radiance(direction, spread_rad)
     }
-}
-
-/// Brightness of a colour (Rec. 709).
-fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 #[cfg(test)]

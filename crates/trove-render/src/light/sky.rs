@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use trove_model::{EnvironmentMap, PhysicalSky};
 
 use super::clouds::Clouds;
-use super::{dome, luminance, sun};
+use super::luminance::luminance;
+use super::{dome, sun};
 
 /// Columns of the picture, and twice its rows.
 const WIDTH: usize = 1280;

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use trove_model::Texture;
 
-use super::MipMap;
+use super::mip_map::MipMap;
 
 /// Cells a texel's side: between texels the edge runs as filtered alpha has it.
 const FINER: u32 = 2;

@@ -6,7 +6,7 @@
 use glam::{Vec2, Vec3, Vec4};
 use trove_model::{ColorSpace, Texture};
 
-use super::{Level, MipMap, PLAIN, decode, encode};
+use super::mip_map::{Level, MipMap, PLAIN, decode, encode};
 
 /// The normals' directions, with √(1 − length of their mean) in alpha.
 pub(super) fn from_normals(texture: &Texture) -> MipMap {

@@ -17,7 +17,9 @@ use trove_model::{ColorSpace, InstanceId, Mesh, Texture};
 
 use self::api::Api;
 use self::device::{BuiltScene, Device, made, take_down};
-use super::{Accel, Coherence, Kernel, PACKET, Shapes, obvhs};
+use super::kernel::{Accel, Coherence, Kernel, PACKET};
+use super::obvhs;
+use super::shapes::Shapes;
 use crate::RenderError;
 use crate::cache::Cache;
 use crate::material::Opacity;
