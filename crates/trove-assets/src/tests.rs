@@ -28,7 +28,7 @@ fn every_asset_is_sound_and_stands_centred_on_the_ground() {
         assert!(foot.length() < tolerance, "{id} is off by {foot}");
         assert_eq!(asset.size_m, high.as_dvec3() - low.as_dvec3(), "{id}");
         assert!(mesh.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-3), "{id} has normals that are not unit");
-        assert_eq!(asset.licence, crate::LICENCE, "{id}");
+        assert_eq!(asset.licence, crate::licence::LICENCE, "{id}");
     }
     assert!(ASSETS.is_sorted_by(|a, b| a.id < b.id));
 }

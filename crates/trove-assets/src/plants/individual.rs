@@ -85,7 +85,7 @@ impl Individual {
                 Coarser { from_m: level.begins_m(height_m), mesh: Arc::new(mesh) }
             })
             .to_vec();
-        let asset = Asset::new(id, kind, kind.class(), near, self.slots, crate::LICENCE);
+        let asset = Asset::new(id, kind, kind.class(), near, self.slots, crate::licence::LICENCE);
         let species = plant.species.clone();
         Asset { coarser, plant: Some(plant), ..asset }.tagged(species)
     }

@@ -103,6 +103,6 @@ impl Model {
         let mut meshes = meshes.into_iter();
         let mesh = meshes.next().unwrap_or_default();
         let extras = extras.into_iter().zip(meshes).map(|(e, mesh)| Extra { mesh: Arc::new(mesh), ..e }).collect();
-        Asset { extras, ..Asset::new(id, kind, class, mesh, slots, crate::LICENCE) }
+        Asset { extras, ..Asset::new(id, kind, class, mesh, slots, crate::licence::LICENCE) }
     }
 }

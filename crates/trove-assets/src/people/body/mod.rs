@@ -11,6 +11,7 @@ mod persons;
 mod posture;
 mod skeleton;
 mod stance;
+mod stock;
 mod tailor;
 mod thin;
 mod wearer;
@@ -24,17 +25,7 @@ use trove_model::{Asset, HumanBody};
 use fabric::Fabrics;
 use outfit::Cutter;
 use pattern::Pattern;
-
-/// The body's surfaces with few triangles, shared by all.
-#[derive(Clone, Debug)]
-struct Stock<'a> {
-    body: &'a HumanBody,
-    cutter: Cutter,
-    skin: Pattern,
-    tights: Pattern,
-    skirt: Pattern,
-    fabrics: Fabrics,
-}
+use stock::Stock;
 
 /// Everyone in every posture; nobody where the body lacks its clothing helpers.
 pub(super) fn assets(body: &HumanBody) -> Vec<Asset> {

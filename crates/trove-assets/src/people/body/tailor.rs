@@ -4,7 +4,6 @@ use glam::{Vec2, Vec3, vec3};
 use rayon::prelude::*;
 use trove_model::{Asset, Figure, Kind, Material, Mesh, Posture, Seed, Slot};
 
-use super::Stock;
 use super::carried::Held;
 use super::fabric::Fabrics;
 use super::head::{Face, HairCut};
@@ -12,6 +11,7 @@ use super::outfit::{Bottom, Cutter, Top, WAIST_M, bare};
 use super::persons::{Bag, Fabric, Headgear, Layer, Person, SCARVES};
 use super::posture::Act;
 use super::stance::Arm;
+use super::stock::Stock;
 use super::wearer::{Cut, Piece, Wearer, normals};
 
 /// A person dressed, with the slots of what they wear.
