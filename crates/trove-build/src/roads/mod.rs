@@ -12,6 +12,7 @@ mod layout;
 mod markings;
 mod network;
 mod path;
+mod seed_name;
 #[cfg(test)]
 mod tests;
 mod wear;
@@ -24,6 +25,7 @@ pub(crate) use footings::Footing;
 pub(crate) use path::Path;
 
 use footings::Footings;
+use seed_name::seed_name;
 
 use crate::geometry::plane;
 use crate::ground::{Drape, Lawn, Ramps};
@@ -203,30 +205,5 @@ pub(crate) fn surfaces(place: &Place<'_>) -> RoadSurfaces {
         ramps,
         footings,
         below,
-    }
-}
-
-/// Where the choice of a kind's surface is drawn; the names are part of what a recipe's seed means and never change.
-fn seed_name(kind: SurfaceKind) -> &'static str {
-    match kind {
-        SurfaceKind::Asphalt => "Asphalt",
-        SurfaceKind::MarkingWhite => "MarkingWhite",
-        SurfaceKind::MarkingYellow => "MarkingYellow",
-        SurfaceKind::RoadCover => "RoadCover",
-        SurfaceKind::Paving => "Paving",
-        SurfaceKind::Kerb => "Kerb",
-        SurfaceKind::Concrete => "Concrete",
-        SurfaceKind::Grass => "Grass",
-        SurfaceKind::Soil => "Soil",
-        SurfaceKind::Gravel => "Gravel",
-        SurfaceKind::Water => "Water",
-        SurfaceKind::FlatRoof => "FlatRoof",
-        SurfaceKind::RoofTiles => "RoofTiles",
-        SurfaceKind::Facade => "Facade",
-        SurfaceKind::FacadeGroundFloor => "FacadeGroundFloor",
-        SurfaceKind::Wall => "Wall",
-        SurfaceKind::ShopSign => "ShopSign",
-        SurfaceKind::RoomBack => "RoomBack",
-        SurfaceKind::Thing => "Thing",
     }
 }

@@ -24,7 +24,7 @@ use self::stretches::{Look, Region};
 use self::tone::Tone;
 use super::layout::Layout;
 use super::markings::Markings;
-use super::seed_name;
+use super::seed_name::seed_name;
 use crate::geometry::plane::{difference, grown, intersection, rectangle, strip};
 use crate::geometry::segments::SegmentIndex;
 use crate::ground::Drape;
