@@ -7,7 +7,7 @@ use trove_model::{ColorSpace, Texture};
 
 /// A texture and its smaller copies, 8 bits a channel as they came.
 pub(crate) struct MipMap {
-    pub levels: Vec<Level>,
+    pub(super) levels: Vec<Level>,
     pub color_space: ColorSpace,
 }
 
