@@ -6,9 +6,11 @@ use std::sync::{LazyLock, OnceLock};
 use glam::{Vec3, vec3};
 use trove_model::{Asset, Mapping, Material, Surface, SurfaceKind, Texture};
 
+use super::canvas::Canvas;
 use super::masonry::Bond;
+use super::recipe::{NEW, Recipe, WORN, plain, surface};
 use super::road::Wear;
-use super::{Recipe, cloth, ground, masonry, metal, paving, plain, road, surface, synthetic, timber};
+use super::{cloth, ground, masonry, metal, paving, road, synthetic, timber};
 
 /// A set and, once it was asked for, its surface at the ordinary resolution.
 type Kept = (Recipe, OnceLock<Surface>);
@@ -52,7 +54,7 @@ pub(crate) fn refine(assets: &mut [Asset], surfaces: &[Surface]) {
 
 #[rustfmt::skip]
 fn recipes() -> Vec<Recipe> {
-    let thing = |id, tags, paint: fn(u32) -> super::Canvas| plain(id, SurfaceKind::Thing, tags, paint);
+    let thing = |id, tags, paint: fn(u32) -> Canvas| plain(id, SurfaceKind::Thing, tags, paint);
     vec![
         thing("metal/galvanised", &["metal", "galvanised"], metal::galvanised),
         thing("metal/brushed", &["metal", "brushed"], metal::brushed),
@@ -95,8 +97,8 @@ fn recipes() -> Vec<Recipe> {
         thing("stone/granite", &["stone", "granite"], masonry::granite),
         thing("tile/glazed", &["tile", "glazed"], |d| masonry::tiles(vec3(0.55, 0.57, 0.55), 0.1, true, 331, d)),
         thing("tile/quarry", &["tile", "quarry"], |d| masonry::tiles(vec3(0.27, 0.12, 0.075), 0.15, false, 332, d)),
-        thing("asphalt/patched", &["asphalt", "patched"], |d| road::patched(super::WORN, super::NEW, d)),
-        thing("asphalt/wet", &["asphalt", "wet"], |d| road::asphalt(Wear { size_m: 3.0, ..super::WORN }, d)),
+        thing("asphalt/patched", &["asphalt", "patched"], |d| road::patched(WORN, NEW, d)),
+        thing("asphalt/wet", &["asphalt", "wet"], |d| road::asphalt(Wear { size_m: 3.0, ..WORN }, d)),
         thing("soil/earth-dry", &["soil", "earth-dry"], |d| ground::soil(343, d)),
         thing("soil/mud", &["soil", "mud"], |d| ground::mud(341, d)),
         thing("soil/sand", &["soil", "sand"], |d| ground::sand(342, d)),

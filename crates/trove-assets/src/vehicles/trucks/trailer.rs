@@ -5,7 +5,7 @@ use trove_model::{Asset, Kind};
 
 use super::bed::Bed;
 use super::chassis::Frame;
-use super::{BOXES, CANVAS, TANKS};
+use super::paints::{BOXES, CANVAS, TANKS};
 use crate::shape::Shape;
 use crate::vehicles::coverings::metric;
 use crate::vehicles::slots::COMMERCIAL;
