@@ -140,13 +140,13 @@ def test_the_thirteen_classes_are_the_default_and_void_is_left_out(tmp_path):
     ("spoil", "expected"),
     [
         (lambda p: shutil.rmtree(p), ["predicted", "check its name"]),
-        (lambda p: [file.unlink() for file in p.iterdir()], ["label pictures", "none"]),
+        (lambda p: [file.unlink() for file in p.iterdir()], ["label images", "none"]),
         (lambda p: (p / "a.png").rename(p / "b.png"), ["a prediction of", "a.png"]),
-        (lambda p: (p / "a.png").write_text("no picture"), ["a.png", "make the file again"]),
+        (lambda p: (p / "a.png").write_text("no picture"), ["a.png", "write the file again"]),
         (lambda p: save(p / "a.png", np.zeros((3, 3), np.uint8)), ["4×2", "3×3"]),
         (lambda p: save(p / "a.png", np.full((2, 4), 99, np.uint8)), ["99 at x 0, y 0", "--classes"]),
         (lambda p: save(p / "a.png", np.zeros((2, 4), np.uint16)), ["16 bits", "8-bit"]),
-        (lambda p: save(p / "a.png", np.zeros((2, 4, 3), np.uint8)), ["Rgb", "rather than colours"]),
+        (lambda p: save(p / "a.png", np.zeros((2, 4, 3), np.uint8)), ["Rgb", "instead of colours"]),
     ],
 )
 def test_wrong_predictions_are_named_with_a_remedy(tmp_path, spoil, expected):
@@ -188,9 +188,9 @@ def test_recoloured_pictures_lie_under_the_same_paths_and_a_second_run_keeps_the
 @pytest.mark.parametrize(
     ("args", "status", "expected"),
     [
-        (["recolor", "empty", "--to", "t"], 1, ["empty", "PNG or JPEG pictures", "none"]),
+        (["recolor", "empty", "--to", "t"], 1, ["empty", "PNG or JPEG images", "none"]),
         (["recolor", "none", "--to", "t"], 1, ["none", "check its name"]),
-        (["recolor", "text", "--to", "t"], 1, ["a.png", "make the file again"]),
+        (["recolor", "text", "--to", "t"], 1, ["a.png", "write the file again"]),
         (["recolor", "t", "--to", "t", "--out", "t/within"], 1, ["outside", "another --out"]),
         (["recolor", "t", "--to", "t", "--out", "text"], 1, ["other files", "another --out"]),
         (["recolor", "t", "--to", "t", "--method", "classes"], 2, ["--to-labels"]),

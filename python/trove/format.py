@@ -105,7 +105,7 @@ def read_manifest(root: Path) -> Manifest:
     manifest: Manifest = _read(path)
     found = manifest.get("format", "none")
     if found != FORMAT:
-        remedy = "generate the folder anew, or use that version of trove"
+        remedy = "generate the folder again, or use that version of trove"
         raise ValueError(f"{path}: expected format {FORMAT}, found {found}; {remedy}")
     return manifest
 
@@ -126,4 +126,4 @@ def _read(path: Path) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except ValueError as fault:
-        raise ValueError(f"{path}: expected JSON that trove wrote, found a fault ({fault})") from fault
+        raise ValueError(f"{path}: expected JSON that trove wrote, found an error ({fault})") from fault

@@ -16,7 +16,7 @@ pub enum FormatError {
     },
     /// The file is cut off, was edited, or is something else.
     #[error(
-        "{}:{line}:{column}: expected {expected}, found a fault ({found}); remove it and run the command that wrote it again",
+        "{}:{line}:{column}: expected {expected}, found an error ({found}); delete it and rerun the command that wrote it",
         path.display()
     )]
     Damaged {
@@ -34,7 +34,7 @@ pub enum FormatError {
     /// The file is of another version of the format.
     #[error(
         "{}: expected format {expected}, found {}, which another version of trove writes; \
-         generate the folder anew, or use that version",
+         generate the folder again, or use that version",
         path.display(),
         found.map_or("none".to_owned(), |found| format!("format {found}"))
     )]

@@ -113,7 +113,7 @@ fn a_damaged_file_is_told_with_its_place() {
         std::fs::write(&path, damaged).unwrap();
         let message = SiteFile::read(dir.path()).unwrap_err().to_string();
         assert!(message.contains("site.json:") && message.contains(expect), "{message}");
-        assert!(message.contains("remove it and run"), "{message}");
+        assert!(message.contains("delete it and rerun"), "{message}");
     }
 }
 

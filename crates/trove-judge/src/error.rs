@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum JudgeError {
     /// A file or folder cannot be read or written.
-    #[error("{}: expected to be able to use it, found: {source}; check its name and permissions", path.display())]
+    #[error("{}: expected an accessible file or folder, found \"{source}\"; check its name and permissions", path.display())]
     Io {
         /// Which.
         path: PathBuf,

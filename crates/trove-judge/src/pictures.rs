@@ -65,7 +65,7 @@ pub(crate) fn by_key(root: &Path, files: Vec<PathBuf>) -> Result<BTreeMap<String
         let key = cityscapes_key(&name(&path)).unwrap_or_else(|| below.to_string_lossy().replace('\\', "/"));
         if let Some(other) = found.get(&key) {
             let two = format!("{} and {}", other.display(), path.display());
-            return Err(JudgeError::unexpected(root, format!("one picture of {key}"), two, "remove one of them"));
+            return Err(JudgeError::unexpected(root, format!("one image of {key}"), two, "remove one of them"));
         }
         found.insert(key, path);
     }
@@ -83,7 +83,7 @@ pub(crate) fn label_files(root: &Path, set: &LabelSet) -> Result<Vec<PathBuf>, J
         }
     }
     match all.is_empty() {
-        true => Err(JudgeError::unexpected(root, "label pictures (.png)", "none", "give the folder that holds them")),
+        true => Err(JudgeError::unexpected(root, "label images (.png)", "none", "give the folder that contains them")),
         false => Ok(all),
     }
 }
@@ -96,7 +96,7 @@ pub(crate) fn photographs(root: &Path) -> Result<Vec<PathBuf>, JudgeError> {
         (false, _) => Ok(ours),
         (true, false) => Ok(all),
         (true, true) => {
-            Err(JudgeError::unexpected(root, "PNG or JPEG pictures", "none", "give the folder that holds them"))
+            Err(JudgeError::unexpected(root, "PNG or JPEG images", "none", "give the folder that contains them"))
         }
     }
 }
@@ -117,7 +117,7 @@ pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
     let reader = ImageReader::open(path).map_err(JudgeError::io(path))?;
     reader
         .decode()
-        .map_err(|e| JudgeError::unexpected(path, "a PNG or JPEG picture", e.to_string(), "make the file again"))
+        .map_err(|e| JudgeError::unexpected(path, "a PNG or JPEG image", e.to_string(), "write the file again"))
 }
 
 /// A small picture of a picture, `width` pixels wide.
@@ -137,8 +137,9 @@ pub(crate) struct Labels {
 
 /// Reads labels: a PNG of greys, or of indices into a palette.
 pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
-    let bad = |found: String, remedy| JudgeError::unexpected(path, "8-bit labels, a class id a pixel", found, remedy);
-    let broken = |e: png::DecodingError| bad(e.to_string(), "make the file again, as PNG");
+    let bad =
+        |found: String, remedy| JudgeError::unexpected(path, "8-bit labels, one class id per pixel", found, remedy);
+    let broken = |e: png::DecodingError| bad(e.to_string(), "write the file again, as PNG");
     let mut decoder = png::Decoder::new(BufReader::new(File::open(path).map_err(JudgeError::io(path))?));
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(broken)?;
@@ -151,10 +152,11 @@ pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
         (ColorType::Grayscale | ColorType::Indexed, BitDepth::Eight) => 8,
         _ => {
             let found = format!("{color:?} of {} bits", depth as u8);
-            return Err(bad(found, "write the ids themselves, as 8-bit greys, rather than colours"));
+            return Err(bad(found, "write the ids themselves as 8-bit greyscale instead of colours"));
         }
     };
-    let bytes = reader.output_buffer_size().ok_or_else(|| bad("a picture too large".into(), "make it smaller"))?;
+    let bytes =
+        reader.output_buffer_size().ok_or_else(|| bad("an image that is too large".into(), "make it smaller"))?;
     let mut ids = vec![0; bytes];
     let line = reader.next_frame(&mut ids).map_err(broken)?.line_size;
     if bits < 8 {

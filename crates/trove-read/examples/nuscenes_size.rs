@@ -58,7 +58,11 @@ fn measure_all(scenes: usize) -> Outcome<()> {
     let cache = root.path().join("cache");
     let start = Instant::now();
     let bytes = write_tables(&root.path().join(VERSION), scenes)?;
-    println!("tables: {scenes} scenes, {:.2} GB, made in {:.0} s", bytes as f64 / 1e9, start.elapsed().as_secs_f64());
+    println!(
+        "tables: {scenes} scenes, {:.2} GB, generated in {:.0} s",
+        bytes as f64 / 1e9,
+        start.elapsed().as_secs_f64()
+    );
     for pass in ["first pass and one scene", "later, one scene"] {
         println!("{pass}:");
         let status = Command::new(std::env::current_exe()?).arg("load").arg(root.path()).arg(&cache).status()?;

@@ -76,12 +76,12 @@ fn read_exr(path: &Path) -> Result<Picture, ReadError> {
 
 fn check_size(path: &Path, width: usize, height: usize) -> Result<(), ReadError> {
     if width == 0 || width != 2 * height {
-        let expected = "a latitude-longitude picture, twice as wide as it is high";
-        let remedy = "give one of the whole sphere (equirectangular)";
+        let expected = "a latitude-longitude image, twice as wide as it is high";
+        let remedy = "give a full equirectangular panorama";
         return Err(format(path, expected, &format!("{width}×{height} pixels"), remedy));
     }
     if width > MAX_WIDTH {
-        let expected = format!("a picture at most {MAX_WIDTH} pixels wide");
+        let expected = format!("an image at most {MAX_WIDTH} pixels wide");
         return Err(format(path, &expected, &format!("{width} pixels"), "scale it down"));
     }
     Ok(())

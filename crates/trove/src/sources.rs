@@ -35,7 +35,7 @@ impl<'a> Sources<'a> {
             let file = recipe.at(&file);
             ensure!(
                 file.is_file(),
-                "variations.light.environments: expected the picture of a sky (.hdr or .exr), found no file {}",
+                "variations.light.environments: expected a sky image (.hdr or .exr), found no file {}",
                 file.display()
             );
         }
@@ -59,7 +59,7 @@ impl<'a> Sources<'a> {
 
     /// The recipe's picture of a sky.
     pub(crate) fn environment(&self) -> Result<Arc<EnvironmentMap>> {
-        self.environment.clone().context("the recipe has no picture of a sky")
+        self.environment.clone().context("the recipe has no sky image")
     }
 
     /// Another picture of a sky by its path in the recipe, turned counter-clockwise seen from above.

@@ -53,7 +53,7 @@ pub fn agreed(
         }
         Fit::TooFar(correction) => {
             let example = format!("{}: by {:.1} m", drive.id, correction.shift_m.length());
-            report.note(Outcome::Warned, "street map that would have to move too far", example);
+            report.note(Outcome::Warned, "street map that would need too large a shift", example);
             map.clone()
         }
     };
@@ -65,13 +65,13 @@ pub fn agreed(
     if offsets.agree() {
         return Some(corrected);
     }
-    let what = "street map and drive do not lie on each other";
+    let what = "street map and drive do not match";
     match on_disagreement {
         OnDisagreement::Warn => report.note(Outcome::Warned, what, &drive.id),
         OnDisagreement::BuildingsOnly => {
-            report.note(Outcome::Dropped, &format!("all but buildings: {what}"), &drive.id)
+            report.note(Outcome::Dropped, &format!("everything except buildings: {what}"), &drive.id)
         }
-        OnDisagreement::Refuse => report.note(Outcome::Dropped, &format!("all of the map: {what}"), &drive.id),
+        OnDisagreement::Refuse => report.note(Outcome::Dropped, &format!("the whole map: {what}"), &drive.id),
     }
     match on_disagreement {
         OnDisagreement::Warn => Some(corrected),

@@ -155,7 +155,7 @@ fn what_becomes_of_a_map_that_does_not_agree_is_the_users_choice() {
         let report = Report::default();
         let kept = agreed(&drive, &map, DrivingSide::Right, bounds, on_disagreement, &report)
             .map(|m| (m.roads.len(), m.buildings.len()));
-        let said = report.entries().iter().any(|e: &Entry| e.what.contains("do not lie on each other"));
+        let said = report.entries().iter().any(|e: &Entry| e.what.contains("do not match"));
         (kept, said)
     };
     assert_eq!(check(OnDisagreement::Warn), (Some((1, 1)), true));

@@ -106,7 +106,7 @@ pub(super) fn unmapped(
         let centre = footprint.centroid();
         report.note(
             Outcome::Guessed,
-            "building that no map has, from LiDAR",
+            "building that is on no map, from LiDAR",
             format_args!("{:.0}, {:.0}", centre.x, centre.y),
         );
         taken = union(&[taken, vec![footprint.clone()]].concat());

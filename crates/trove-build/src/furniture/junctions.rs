@@ -116,7 +116,7 @@ fn signals<'m>(around: &Surroundings<'m>, roads: &[&'m Road], junctions: &mut Ve
             junction.signalled = kinds.first().is_some_and(|k| (RoadKind::Primary..=RoadKind::Secondary).contains(k))
                 && kinds.get(2).is_some_and(|k| *k <= RoadKind::Tertiary);
             if junction.signalled {
-                let what = "signals at a junction of main roads, of which the map has none";
+                let what = "signals at a junction of main roads, where the map has none";
                 report.note(Outcome::Guessed, what, format_args!("at {:.0}", junction.centre));
             }
         }

@@ -92,7 +92,7 @@ impl<'y, 'a, 'b, 'c> Layer<'y, 'a, 'b, 'c> {
         self.runs += 1;
         let library = self.yard.library;
         let Some(near) = library.tagged(run.kind, run.tags).find(|a| !a.tags.has(FAR)) else {
-            let what = "line without an asset to build it of";
+            let what = "line without an asset to build it from";
             return report.note(Outcome::Dropped, what, run.tags.join("/"));
         };
         let is_like_near = |a: &&Asset| near.tags.iter().all(|tag| a.tags.has(tag));

@@ -69,7 +69,7 @@ fn models(thing: &Furniture, yard: &Yard<'_, '_, '_>, report: &Report) -> Vec<(K
         FurnitureKind::TrafficSign => {
             let tags = thing.sign().and_then(|said| sign(said, yard));
             if tags.is_none() {
-                let what = "mapped sign that the library has no picture of";
+                let what = "mapped sign without a model in the library";
                 report.note(Outcome::Dropped, what, format_args!("osm {}", thing.id));
             }
             tags.map(|tags| vec![(Kind::TrafficSign, tags)]).unwrap_or_default()

@@ -46,7 +46,7 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, rep
         let [(first, along), (second, _), ..] = streets[..] else { continue };
         let names = [first, second].map(|name| plate(name, yard, &mut written));
         if let Some(unwritten) = [first, second].iter().zip(&names).find_map(|(name, p)| p.is_none().then_some(name)) {
-            report.note(Outcome::Dropped, "street name in letters that cannot be written", unwritten);
+            report.note(Outcome::Dropped, "street name in letters that cannot be drawn", unwritten);
         }
         let [Some(first), Some(second)] = names else { continue };
         signs.extend(corner(junction, along, yard, asset).map(|world_from_mesh| Piece {

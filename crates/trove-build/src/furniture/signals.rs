@@ -38,7 +38,7 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, see
                 None => (arm.inward.dot(first.inward).abs() > ONE_AXIS) == first_is_green,
             };
             if !approach(junction, arm, green, yard, &mut heads, report) {
-                let what = "signal of an approach, which has no kerb to stand on";
+                let what = "signal of an approach without a kerb to stand on";
                 report.note(Outcome::Dropped, what, format_args!("osm way {}", arm.road.id));
             }
         }

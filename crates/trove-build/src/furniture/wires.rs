@@ -137,11 +137,7 @@ fn strung(poles: &[Option<Pole>], yard: &Yard<'_, '_, '_>, report: &Report) -> O
     for pair in poles.windows(2) {
         let [Some(a), Some(b)] = pair else { continue };
         if !is_open(a.foot_world.truncate(), b.foot_world.truncate(), yard) {
-            report.note(
-                Outcome::Dropped,
-                "wires that a building is in the way of",
-                format_args!("at {:.0}", a.foot_world),
-            );
+            report.note(Outcome::Dropped, "wires blocked by a building", format_args!("at {:.0}", a.foot_world));
             continue;
         }
         let same_way = DVec2::from_angle(a.yaw_rad).dot(DVec2::from_angle(b.yaw_rad)) > 0.0;

@@ -219,7 +219,7 @@ impl<'a, 'b, 'c> Yard<'a, 'b, 'c> {
         let found = seed.child(&wish.name()).random().pick(&models).copied();
         if found.is_none_or(|asset| !asset.tags.has_all(wish.tags)) {
             let outcome = if found.is_none() { Outcome::Dropped } else { Outcome::Substituted };
-            report.note(outcome, "furniture of a model that the asset library lacks", wish.name());
+            report.note(outcome, "furniture whose model the asset library lacks", wish.name());
         }
         found
     }

@@ -20,7 +20,7 @@ impl Palette<'_> {
         match random.pick(if fits.is_empty() { &others } else { &fits }) {
             Some(surface) => (*surface).clone(),
             None => {
-                let what = "surface of a kind that the asset library lacks, by a plain colour";
+                let what = "surface whose kind the asset library lacks, replaced by a plain colour";
                 self.report.note(Outcome::Substituted, what, format_args!("{kind:?}"));
                 plain(kind)
             }

@@ -113,7 +113,7 @@ impl<'a> Casting<'a, '_> {
     fn sound_boxes(&self, track: &Track) -> Vec<(usize, Cuboid)> {
         let boxes: Vec<(usize, Cuboid)> = track.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
         for _ in boxes.len()..track.boxes.len() {
-            let what = "box without size or with numbers that are not finite";
+            let what = "box without size or with non-finite numbers";
             self.report.note(Outcome::Dropped, what, &track.token);
         }
         boxes

@@ -128,7 +128,7 @@ pub(super) fn layout<'a>(
     }
     let path = untouched_path(drive, &carriageway);
     if !path.is_empty() {
-        report.note(Outcome::Guessed, "road under the driven path, which no map has", &drive.id);
+        report.note(Outcome::Guessed, "road under the driven path that is on no map", &drive.id);
         let strips: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
         carriageway = union(&[carriageway, closed(&union(&strips), CORNER_M)].concat());
     }
@@ -140,7 +140,7 @@ pub(super) fn layout<'a>(
     // Walkways of the dataset, bands along the other roads, footpaths.
     let mut walks = lanes.map(|m| m.walkways.clone()).unwrap_or_default();
     if lanes.is_some() && walks.is_empty() {
-        report.note(Outcome::Guessed, "sidewalks along recorded roads, which have none", &drive.id);
+        report.note(Outcome::Guessed, "sidewalks along recorded roads that have none", &drive.id);
         walks.extend(grown(&carriageway, SIDEWALK_M));
         walks.extend(evidence::walked(drive).iter().flat_map(|t| strip(&t.line, WALKED_HALF_WIDTH_M)));
     }

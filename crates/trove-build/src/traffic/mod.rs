@@ -61,7 +61,7 @@ pub(crate) fn absent(drive: &Drive, density: f64, seed: Seed, report: &Report) -
     tracks
         .map(|(i, track)| {
             let example = format!("{} ({})", track.token, track.kind.name());
-            report.note(Outcome::Dropped, "recorded road user, for less traffic", example);
+            report.note(Outcome::Dropped, "recorded road user left out for less traffic", example);
             i
         })
         .collect()
@@ -107,7 +107,7 @@ pub(crate) fn added(
                 if users.len() < wanted {
                     room.take(&visit);
                     users.push(user(around, motion, &visit, users.len()));
-                    report.note(Outcome::Guessed, "road user whom nobody recorded, for more traffic", doing);
+                    report.note(Outcome::Guessed, "road user added for more traffic", doing);
                 }
             }
             break;
@@ -118,7 +118,7 @@ pub(crate) fn added(
     }
     if users.len() < wanted {
         let example = format!("{}: {} of {wanted}", drive.id, users.len());
-        report.note(Outcome::Warned, "fewer road users than asked for find room", example);
+        report.note(Outcome::Warned, "no room for all road users asked for", example);
     }
     users
 }

@@ -59,7 +59,7 @@ pub(super) fn shots(
             break;
         }
         let Some(lift_m) = obstacles.clear_lift_m(drive, views, vehicle.track, &cuboid) else {
-            report.note(Outcome::Dropped, "vehicle that cannot carry a rig clear of geometry", &vehicle.token);
+            report.note(Outcome::Dropped, "vehicle whose rig would be inside other geometry", &vehicle.token);
             continue;
         };
         carriers += 1;

@@ -41,7 +41,7 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
     let count = |wanted: Split| splits.iter().filter(|s| **s == wanted).count();
     let mut page = format!(
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
-         <title>What {name} holds</title><style>{STYLE}</style><h1>What {name} holds</h1>\
+         <title>Contents of {name}</title><style>{STYLE}</style><h1>Contents of {name}</h1>\
          <p>{all} frames; {kept} kept: {train} for training, {val} for validation, {gap} near to both and in neither.<br>\
          Dropped: {poor} with fewer than {least} classes, {duplicates} near-duplicates, {rest} that add less.<br>\
          Entropy of the classes: {before:.2} bits of all frames, {after:.2} of those kept.</p>",
@@ -58,25 +58,25 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
         before = entropy(&curation.shares(false)),
         after = entropy(&curation.shares(true)),
     );
-    page += "<h2>Pixels by class</h2><p>Upper bars: all frames; lower bars: those kept. Each line is ten times the one before.</p>";
+    page += "<h2>Pixels by class</h2><p>Upper bars: all frames; lower bars: those kept. Each line is ten times the previous one.</p>";
     page += &class_bars(&curation.shares(false), &curation.shares(true));
-    page += "<h2>Classes a frame</h2><p>How many frames show so many classes; pale those that were dropped.</p>";
+    page += "<h2>Classes per frame</h2><p>Number of frames by number of classes; pale: dropped frames.</p>";
     let classes = |f: &CandidateFrame| f.classes() as f64;
     let [all, chosen] = [histogram(frames, 20, 20.0, classes), histogram(kept.iter().copied(), 20, 20.0, classes)];
     page += &bars(&all, &chosen, |i| i.to_string());
-    page += "<h2>Entropy a frame</h2><p>Bits, from a bar's number on; pale those that were dropped.</p>";
+    page += "<h2>Entropy per frame</h2><p>Bits, from the number under each bar; pale: dropped frames.</p>";
     let bits = CandidateFrame::entropy;
     let [all, chosen] = [histogram(frames, 16, 4.0, bits), histogram(kept.iter().copied(), 16, 4.0, bits)];
     page += &bars(&all, &chosen, |i| format!("{:.2}", i as f64 / 4.0));
     page += "<h2>Where the cameras stand</h2><p>North is up. \
              <span class=\"train\">●</span> training <span class=\"val\">●</span> validation \
-             <span class=\"gap\">●</span> near to both <span class=\"rest\">●</span> dropped</p>";
+             <span class=\"gap\">●</span> between both <span class=\"rest\">●</span> dropped</p>";
     page += &places(curation);
     page += "<h2>Objects kept, by distance</h2>";
     page += &objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into());
     page += "<h2>Objects kept, by visible pixels</h2>";
     page += &objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into());
-    page += "<h2>The frames that are worth most</h2><div class=\"frames\">";
+    page += "<h2>Most valuable frames</h2><div class=\"frames\">";
     let shown: Vec<String> = kept
         .par_iter()
         .zip(splits)
@@ -112,6 +112,6 @@ fn thumbnail(root: &Path, frame: &CandidateFrame) -> Result<String, JudgeError> 
     let mut jpeg = Vec::new();
     JpegEncoder::new_with_quality(&mut jpeg, 80)
         .encode_image(&small)
-        .map_err(|e| JudgeError::unexpected(&folder, "a picture that can be encoded", e.to_string(), "report it"))?;
+        .map_err(|e| JudgeError::unexpected(&folder, "an image that can be encoded", e.to_string(), "report it"))?;
     Ok(STANDARD.encode(jpeg))
 }

@@ -144,11 +144,11 @@ fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf
         (true, true) => return Ok((vec![(predicted.to_owned(), truth.to_owned())], 0)),
         (true, false) if truth.is_dir() => {
             let remedy = "give two files or two folders";
-            return Err(JudgeError::unexpected(truth, "a file, as the prediction is one", "a folder", remedy));
+            return Err(JudgeError::unexpected(truth, "a file, like the prediction", "a folder", remedy));
         }
         (false, true) if predicted.is_dir() => {
             let remedy = "give two files or two folders";
-            return Err(JudgeError::unexpected(predicted, "a file, as the truth is one", "a folder", remedy));
+            return Err(JudgeError::unexpected(predicted, "a file, like the ground truth", "a folder", remedy));
         }
         _ => {}
     }
@@ -160,7 +160,7 @@ fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf
             predicted,
             format!("a prediction of {}", t.display()),
             "none of that name",
-            "name predictions as the truth's files below their folder",
+            "name predictions like the ground-truth files, relative to their folder",
         )),
     };
     let pairs = truths.into_iter().map(pair).collect::<Result<_, _>>()?;
@@ -175,7 +175,7 @@ fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Counts, 
             predicted,
             format!("{}×{} pixels as {}", t.width, t.height, truth.display()),
             format!("{}×{}", p.width, p.height),
-            "scale it by nearest neighbours",
+            "scale it with nearest-neighbour sampling",
         ));
     }
     let mut counts = Counts { confusion: Confusion::of(set, &p.ids, &t.ids), ..Counts::none(set.classes.len()) };
@@ -199,7 +199,7 @@ fn read_known(path: &Path, set: &LabelSet) -> Result<Labels, JudgeError> {
             let expected = format!("{}'s ids ({}, ignored {})", set.name, known.join(" "), ignored.join(" "));
             let (x, y) = (i as u32 % labels.width, i as u32 / labels.width);
             let found = format!("{} at x {x}, y {y}", labels.ids[i]);
-            Err(JudgeError::unexpected(path, expected, found, "name the numbering with --classes"))
+            Err(JudgeError::unexpected(path, expected, found, "choose the label set with --classes"))
         }
     }
 }
@@ -213,9 +213,9 @@ fn segments(classes: &Path, ids: &[u8], set: &LabelSet) -> Result<Vec<Segment>, 
         false => "instance.png".into(),
     });
     let bad = |expected: String, found: String| {
-        JudgeError::unexpected(&beside, expected, found, "make the file again, or leave --panoptic out")
+        JudgeError::unexpected(&beside, expected, found, "write the file again, or omit --panoptic")
     };
-    let wanted = || format!("16-bit grey numbers of the objects in {name}");
+    let wanted = || format!("16-bit greyscale ids of the objects in {name}");
     if !beside.is_file() {
         return Err(bad(wanted(), "no file".into()));
     }
@@ -225,7 +225,7 @@ fn segments(classes: &Path, ids: &[u8], set: &LabelSet) -> Result<Vec<Segment>, 
         other => return Err(bad(wanted(), format!("{:?}", other.color()))),
     };
     if objects.len() != ids.len() {
-        return Err(bad(format!("{} pixels as {name}", ids.len()), objects.len().to_string()));
+        return Err(bad(format!("{} pixels, like {name}", ids.len()), objects.len().to_string()));
     }
     let index = set.index();
     let segment = |(id, object): (&u8, u16)| {

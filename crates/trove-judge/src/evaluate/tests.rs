@@ -68,19 +68,19 @@ fn what_does_not_fit_together_is_named() {
     write(&p, "a/class.png", &[1, 1, 1], 3);
     check(message(), &["2×1", "3×1", "nearest"]);
     image::RgbImage::new(2, 1).save(p.join("a/class.png")).unwrap();
-    check(message(), &["class id a pixel", "rather than colours"]);
+    check(message(), &["class id per pixel", "instead of colours"]);
     write(&p, "a/class.png", &[1, 17], 2);
     check(message(), &["trove13's ids", "17 at x 1, y 0", "--classes"]);
     std::fs::write(p.join("a/class.png"), b"not a picture").unwrap();
-    check(message(), &["a/class.png", "make the file again"]);
+    check(message(), &["a/class.png", "write the file again"]);
     write(&t, "x_000000_000001_a.png", &[1], 1);
     std::fs::remove_dir_all(t.join("a")).unwrap();
     write(&t, "x_000000_000001_b.png", &[1], 1);
-    check(message(), &["one picture of x_000000_000001", "remove one"]);
+    check(message(), &["one image of x_000000_000001", "remove one"]);
     std::fs::remove_dir_all(&t).unwrap();
     check(message(), &["check its name"]);
     std::fs::create_dir(&t).unwrap();
-    check(message(), &["label pictures", "none"]);
+    check(message(), &["label images", "none"]);
     std::fs::remove_dir(&t).unwrap();
     std::fs::write(&t, b"").unwrap();
     check(message(), &["two files or two folders"]);
@@ -101,5 +101,5 @@ fn objects_beside_the_classes_give_panoptic_quality() {
     assert_eq!(run(&p, &t, &settings("trove20")).unwrap().pq, None);
     std::fs::remove_file(p.join("k/instance.png")).unwrap();
     let message = run(&p, &t, &panoptic).unwrap_err().to_string();
-    assert!(message.contains("instance.png") && message.contains("leave --panoptic out"), "{message}");
+    assert!(message.contains("instance.png") && message.contains("omit --panoptic"), "{message}");
 }

@@ -249,9 +249,9 @@ fn ids(labels: &Path, picture: &RgbImage) -> Result<Vec<u8>, JudgeError> {
     match (found.width, found.height) == (width, height) {
         true => Ok(found.ids),
         false => {
-            let (expected, size) = (format!("{width}×{height} pixels as the picture"), (found.width, found.height));
+            let (expected, size) = (format!("{width}×{height} pixels, like the image"), (found.width, found.height));
             let found = format!("{}×{}", size.0, size.1);
-            Err(JudgeError::unexpected(labels, expected, found, "scale the labels by nearest neighbours"))
+            Err(JudgeError::unexpected(labels, expected, found, "scale the labels with nearest-neighbour sampling"))
         }
     }
 }
@@ -266,7 +266,7 @@ fn own_classes(path: &Path, picture: &RgbImage, set: &LabelSet) -> Result<Vec<u8
     let labels = own_labels(path);
     let index = set.index();
     let number = |id: u8| {
-        let found = || JudgeError::unexpected(&labels, "ids of the 20 classes", id.to_string(), "make the file again");
+        let found = || JudgeError::unexpected(&labels, "ids of the 20 classes", id.to_string(), "write the file again");
         let number = set.number(CLASSES.get(usize::from(id)).ok_or_else(found)?);
         Ok(index[usize::from(number)].map_or(Histograms::NONE, |_| number))
     };
@@ -302,7 +302,7 @@ fn with_labels(
                 folder,
                 expected,
                 "none of that name",
-                "name labels as their pictures below their folder",
+                "name labels like their images, relative to their folder",
             ))
         }
     };
@@ -313,7 +313,7 @@ fn encoded(path: &Path, picture: &RgbImage) -> Result<Vec<u8>, JudgeError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
         .write_image(picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
-        .map_err(|e| JudgeError::unexpected(path, "a picture that can be encoded", e.to_string(), "report it"))?;
+        .map_err(|e| JudgeError::unexpected(path, "an image that can be encoded", e.to_string(), "report it"))?;
     Ok(bytes)
 }
 

@@ -62,7 +62,7 @@ impl OutputFolder {
                 let differs = found.lines().zip(identity.lines()).find(|(was, is)| was != is);
                 let (was, is) = differs.map_or(("", ""), |(was, is)| (was.trim(), is.trim()));
                 return refuse(
-                    "the settings and pictures that this folder was begun with",
+                    "the settings and images that this folder was started with",
                     format!("others (it was {was} it is {is})"),
                 );
             }

@@ -45,7 +45,7 @@ pub fn check(folder: &Path) -> Vec<Finding> {
     findings
         .extend(file.surfaces.par_iter().flat_map_iter(|entry| of_surface(folder, &file, entry)).collect::<Vec<_>>());
     for sky in file.environments.iter().filter(|e| !folder.join(&e.file).is_file()) {
-        findings.push(finding(&sky.file, true, "no such file", "put it there, or take it out of library.toml"));
+        findings.push(finding(&sky.file, true, "no such file", "put it there, or remove it from library.toml"));
     }
     findings.sort();
     findings.dedup();
@@ -68,7 +68,7 @@ fn of_asset(folder: &Path, file: &LibraryFile, entry: &AssetEntry, pictures: &Pi
     let mut model = match load_raw(folder, entry, pictures) {
         Ok(model) => model,
         Err(e) => {
-            say(true, e.to_string(), "mend the file, or take it out of library.toml");
+            say(true, e.to_string(), "fix the file, or remove it from library.toml");
             return findings;
         }
     };
@@ -86,11 +86,11 @@ fn of_asset(folder: &Path, file: &LibraryFile, entry: &AssetEntry, pictures: &Pi
         say(
             false,
             what,
-            "it is thinned out at each reading; simplify it once: `gltfpack -i in.glb -o out.glb -si 0.1 -noq`",
+            "it is simplified every time it is read; simplify it once: `gltfpack -i in.glb -o out.glb -si 0.1 -noq`",
         );
     }
     if let Err(e) = repair::repair(&mut model) {
-        say(true, e.at(&folder.join(&entry.file)).to_string(), "mend the file, or take it out of library.toml");
+        say(true, e.at(&folder.join(&entry.file)).to_string(), "fix the file, or remove it from library.toml");
         return findings;
     }
     for (outcome, what, example) in model.notices.iter().filter(|n| n.1.starts_with("triangles")) {
@@ -117,7 +117,7 @@ fn of_asset(folder: &Path, file: &LibraryFile, entry: &AssetEntry, pictures: &Pi
     let needed = kind.map(tags::needed).unwrap_or_default();
     let has = entry.tags.as_deref().unwrap_or_default();
     if !needed.is_empty() && !has.iter().any(|tag| needed.contains(&tag.as_str())) {
-        let what = format!("tags = {has:?}, of which none is asked for of its kind: it will hardly be placed");
+        let what = format!("tags = {has:?}, none of which is asked for with its kind: it will hardly ever be placed");
         say(false, what, &format!("give it some of: {}", needed.join(", ")));
     }
     if let Ok(Some(asset)) = asset("", &entry, model)
@@ -173,7 +173,7 @@ fn of_surface(folder: &Path, file: &LibraryFile, entry: &SurfaceEntry) -> Vec<Fi
     for map in maps.into_iter().flatten().chain([&entry.color]) {
         let bytes = std::fs::read(folder.join(map)).map_err(|e| e.to_string());
         if let Err(found) = bytes.and_then(|bytes| decode(&bytes, map, GLANCE_LIMIT)) {
-            findings.push(finding(map, *map == entry.color, found, "replace it, or take it out of library.toml"));
+            findings.push(finding(map, *map == entry.color, found, "replace it, or remove it from library.toml"));
         }
     }
     findings

@@ -1,4 +1,4 @@
-//! Which way a model looks: by names of its pieces and by its shape.
+//! Which way a model looks: by names of its parts and by its shape.
 
 use glam::{Mat3, Vec2, Vec3};
 use trove_model::Kind;
@@ -69,7 +69,7 @@ pub(super) fn front(samples: &[Sample], marks: &[Mark], kind: Option<Kind>, upri
         evidence.iter().map(|e| (e.score(direction), e.reason)).filter(|r| r.0 > 0.1).collect();
     reasons.sort_by(|a, b| b.0.total_cmp(&a.0));
     let reason: Vec<&str> = reasons.iter().take(2).map(|r| r.1).collect();
-    let reason = if reason.is_empty() { "where most files look".to_owned() } else { reason.join(", ") };
+    let reason = if reason.is_empty() { "as in most files".to_owned() } else { reason.join(", ") };
     Front { front, confidence: 1.0 / (1.0 + (-1.5 * margin).exp()), reason }
 }
 
@@ -97,5 +97,5 @@ fn by_names(marks: &[Mark], samples: &[Sample], turn: Mat3) -> Option<Evidence> 
             count += 1.0;
         }
     }
-    (count > 0.0).then(|| Evidence { towards: sum / count * 4.0, either: false, reason: "names of its pieces" })
+    (count > 0.0).then(|| Evidence { towards: sum / count * 4.0, either: false, reason: "names of its parts" })
 }

@@ -28,7 +28,7 @@ struct SurfacePlace {
 
 const HEADER: &str = "\
 # A library of models, textures and skies for TRoVE; docs/assets.md explains the keys.
-# Guesses say how sure they are (0 to 1) and why. Change what is wrong: what stands here is kept.
+# Guesses state their confidence (0 to 1) and reason. Correct what is wrong: imports keep what is here.
 ";
 
 /// The text with the guesses of the entries that it has, and with those that it lacks at its end. `old` are the entries

@@ -65,7 +65,7 @@ pub(super) fn restore(model: &mut Model) {
     let names: Vec<String> = model.materials.iter().map(|m| m.name.clone()).collect();
     if all_metal {
         model.materials.iter_mut().for_each(|m| m.metalness = 0.0);
-        let what = "a model whose every material is bare metal is taken for painted";
+        let what = "a model with only bare metal materials is treated as painted";
         model.notice(Outcome::Substituted, what, names.join(", "));
     }
     if !alike {
@@ -78,7 +78,7 @@ pub(super) fn restore(model: &mut Model) {
     }
     model.notice(
         Outcome::Guessed,
-        "colours of a model whose materials all have one, from their names",
+        "colours of a model whose materials all share one, from their names",
         names.join(", "),
     );
 }

@@ -102,7 +102,7 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
         for guess in entry.guesses.iter().filter(|g| g.confidence < 0.7) {
             let example =
                 format!("{}: {} = {} ({:.2}: {})", entry.file, guess.key, guess.value, guess.confidence, guess.reason);
-            report.note(Outcome::Guessed, "a key of library.toml, with little to go by", example);
+            report.note(Outcome::Guessed, "a key of library.toml, with low confidence", example);
         }
     }
     let new = library_text::completed(&text, &old, &file);
@@ -141,8 +141,8 @@ pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, Read
         return Err(ReadError::Missing {
             path: folder.to_owned(),
             expected: "a model or a texture set that can be used".into(),
-            found: format!("{} models and {} texture sets that cannot", file.assets.len(), file.surfaces.len()),
-            remedy: "see what `trove assets check FOLDER` says of them".into(),
+            found: format!("{} models and {} texture sets that cannot be used", file.assets.len(), file.surfaces.len()),
+            remedy: "run `trove assets check FOLDER` for details".into(),
         });
     }
     Ok(AssetLibrary { assets, surfaces, ..AssetLibrary::default() })

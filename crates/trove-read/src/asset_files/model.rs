@@ -68,7 +68,7 @@ impl Model {
         two_sided_light: bool,
     ) -> Result<(), Fault> {
         let slot = u16::try_from(slot).map_err(|_| {
-            Fault::new(name, "at most 65,535 materials", "more", "join the model's materials in a 3D program")
+            Fault::new(name, "at most 65,535 materials", "more", "merge the model's materials in a 3D program")
         })?;
         for p in &mut piece.positions {
             *p = file_from_piece.transform_point3(*p);

@@ -104,14 +104,14 @@ fn unknown(bytes: &[u8]) -> String {
         [b'I', b'I', 42, ..] | [b'M', b'M', 0, 42, ..] => "TIFF; save it as PNG",
         [b'8', b'B', b'P', b'S', ..] => "a Photoshop file; save it as PNG",
         [] => "an empty file; download it again",
-        _ => "no picture; save it as PNG or JPEG",
+        _ => "not an image; save it as PNG or JPEG",
     };
     what.to_owned()
 }
 
 fn check(width: u32, height: u32) -> Result<(), String> {
     if width == 0 || height == 0 {
-        return Err("a picture without pixels".into());
+        return Err("an image without pixels".into());
     }
     if width > LARGEST || height > LARGEST {
         return Err(format!("{width} × {height} pixels; scale it to at most {LARGEST}"));
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn what_is_no_picture_is_named() {
         assert!(decode(b"", "a.png", 64).unwrap_err().contains("empty"));
-        assert!(decode(b"hello world", "a.png", 64).unwrap_err().contains("no picture"));
+        assert!(decode(b"hello world", "a.png", 64).unwrap_err().contains("not an image"));
         assert!(decode(&[0xab, b'K', b'T', b'X', b' '], "a.ktx2", 64).unwrap_err().contains("ktxdecompress"));
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn vehicle(points: &[Sample], length: Vec2, kind: Kind) -> Vec<Eviden
         (first(0.93) - first(0.7)) / BINS as f32
     };
     let (back, fore) = (run(&mut tops.into_iter()), run(&mut tops.into_iter().rev()));
-    evidence.push(towards(((fore - back) * 10.0).clamp(-1.0, 1.0), "the lean of its windscreen"));
+    evidence.push(towards(((fore - back) * 10.0).clamp(-1.0, 1.0), "the slope of its windscreen"));
     let ends = |range: std::ops::Range<usize>| tops[range].iter().map(|t| t.min(roof)).sum::<f32>() / (BINS / 5) as f32;
     let lower_front = (ends(0..BINS / 5) - ends(BINS - BINS / 5..BINS)) / roof.max(1e-6);
     evidence.push(towards((lower_front * 5.0).clamp(-1.5, 1.5), "its hood"));
@@ -138,7 +138,7 @@ pub(super) fn plate(points: &[Sample]) -> Vec<Evidence> {
         Evidence {
             towards: axis * (offset * 200.0).clamp(-1.5, 1.5),
             either: false,
-            reason: "its plate before the pole",
+            reason: "its plate in front of the pole",
         },
         Evidence { towards: axis * painted, either: false, reason: "what is painted on it" },
         Evidence { towards: axis * 0.5, either: true, reason: "its plate" },

@@ -28,7 +28,7 @@ pub(super) fn kept<T>(result: Result<T, String>, name: &str, model: &mut Model) 
 pub(super) fn repair(model: &mut Model) -> Result<(), Fault> {
     let (broken, flat) = drop_broken(&mut model.mesh);
     for (count, what) in
-        [(broken, "triangles whose corners are no points were dropped"), (flat, "triangles without area were dropped")]
+        [(broken, "triangles with invalid vertices were dropped"), (flat, "triangles without area were dropped")]
     {
         if count > 0 {
             model.notice(Outcome::Dropped, what, format!("{count}"));
@@ -43,7 +43,7 @@ pub(super) fn repair(model: &mut Model) -> Result<(), Fault> {
         simplify(&mut model.mesh, BUDGET);
         model.notice(
             Outcome::Substituted,
-            "a model was thinned out",
+            "a model was simplified",
             format!("{before} triangles became {}", model.mesh.triangles.len()),
         );
     }

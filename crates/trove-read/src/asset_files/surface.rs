@@ -30,7 +30,7 @@ pub(super) fn surface(
         let path = folder.join(file);
         let bytes = std::fs::read(&path).map_err(|source| ReadError::io(&path, source))?;
         let mut pixels = decode(&bytes, file, pictures.limit).map_err(|found| {
-            Fault::new("picture", "a picture", found, "replace it, or take it out of library.toml").at(&path)
+            Fault::new("picture", "a picture", found, "replace it, or remove it from library.toml").at(&path)
         })?;
         if let Some(notice) = pixels.notice.take() {
             report.note(Outcome::Substituted, "a texture was scaled down", format!("{file}: {notice}"));
@@ -57,7 +57,7 @@ pub(super) fn surface(
             None => {
                 let dx = height.as_ref().and_then(|h| points_down(&normal, h)).unwrap_or(false);
                 let style = if dx { "dx" } else { "gl" };
-                report.note(Outcome::Guessed, "which way a normal map's green points", format!("{id}: {style}"));
+                report.note(Outcome::Guessed, "direction of a normal map's green channel", format!("{id}: {style}"));
                 dx
             }
         };
@@ -111,7 +111,7 @@ fn cells(kind: SurfaceKind, entry: &SurfaceEntry, place: &str) -> Result<[u32; 2
         Some([u, v]) if u > 0 && v > 0 => Ok([u, v]),
         None if !counted => Ok([1, 1]),
         other => {
-            let remedy = "count the bays and the storeys in the picture and write `cells = [bays, storeys]`";
+            let remedy = "count the bays and storeys in the image and write `cells = [bays, storeys]`";
             Err(Fault::new(format!("{place}: cells"), "two numbers above 0", format!("{other:?}"), remedy))
         }
     }

@@ -161,9 +161,8 @@ fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEn
     };
     let found = kind_of(&e.name).or_else(|| kind_of(folder_of(&e.color)));
     let kind = found.as_ref().map(|f| f.0);
-    let (confidence, reason) = found.map_or((0.4, "no word of its name is a surface that is placed".into()), |f| {
-        (0.85, format!("{:?} in its name", f.1))
-    });
+    let (confidence, reason) = found
+        .map_or((0.4, "no word in its name is a known surface".into()), |f| (0.85, format!("{:?} in its name", f.1)));
     guess("kind", format!("{:?}", surface_kind_name(kind)), confidence, &reason);
     e.kind = Some(surface_kind_name(kind));
     if let Some((tags, tagged)) = kind.and_then(|kind| tags::of_surface(&e.name, kind)) {
@@ -174,12 +173,7 @@ fn entry(maps: &BTreeMap<Role, &String>, terms: &[(String, Terms)]) -> SurfaceEn
         Some(SurfaceKind::Asphalt | SurfaceKind::Grass | SurfaceKind::Soil) => 3.0,
         _ => 2.0,
     };
-    guess(
-        "size_m",
-        format!("[{side:?}, {side:?}]"),
-        0.4,
-        "usual for its kind; measure a stone or a tile in the picture",
-    );
+    guess("size_m", format!("[{side:?}, {side:?}]"), 0.4, "usual for its kind; measure a stone or a tile in the image");
     e.size_m = Some([side, side]);
     if let Some(style) = style {
         guess("normal_style", format!("{style:?}"), 0.95, "its name");

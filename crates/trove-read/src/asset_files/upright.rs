@@ -96,7 +96,7 @@ fn among(ups: &[Axis], size: Vec3, samples: &[Sample], expected: Option<Expected
         scale,
         up_confidence: sureness(up_margin),
         up_reason: if best.up == Axis::PlusY && declared {
-            "as the file says, and proportions agree".into()
+            "as the file says; proportions agree".into()
         } else {
             format!("proportions of {:.1} × {:.1} × {:.1} m", best.shape[0], best.shape[1], best.shape[2])
         },
@@ -117,9 +117,9 @@ fn as_declared(ups: &[Axis], size: Vec3, declared: bool) -> Upright {
         along_is_sure: false,
         scale: Scale::Unit(1.0),
         up_confidence: confidence,
-        up_reason: "as most files have it".into(),
+        up_reason: "as in most files".into(),
         scale_confidence: confidence,
-        scale_reason: "as most files have it".into(),
+        scale_reason: "as in most files".into(),
     }
 }
 

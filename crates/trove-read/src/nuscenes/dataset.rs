@@ -63,7 +63,7 @@ impl NuScenes {
                     (f, kept)
                 }) {
                     let example = format!("{}: {e}", file.path().display());
-                    report.note(Outcome::Warned, "index of the nuScenes tables could not be kept", example);
+                    report.note(Outcome::Warned, "index of the nuScenes tables could not be saved", example);
                 }
                 index
             }
@@ -123,7 +123,7 @@ impl NuScenes {
 fn no_such_version(root: &Path, version: &str) -> ReadError {
     let versions = NuScenes::versions(root);
     let (found, remedy) = match versions.as_slice() {
-        [] => ("none", "give the folder that holds v1.0-trainval or v1.0-mini as the root".to_owned()),
+        [] => ("none", "give the folder that contains v1.0-trainval or v1.0-mini as the root".to_owned()),
         some => ("others", format!("choose one of {}", some.join(", "))),
     };
     ReadError::Missing {

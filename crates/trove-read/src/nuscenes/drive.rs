@@ -135,7 +135,7 @@ fn empty(dataset: &NuScenes, scene: &str) -> ReadError {
         path: dataset.folder.join("sample.json"),
         place: scene.to_owned(),
         expected: "at least one keyframe with an ego pose".to_owned(),
-        found: "none that can be used".to_owned(),
+        found: "none usable".to_owned(),
         remedy: "choose another scene, or unpack the tables again".to_owned(),
     }
 }

@@ -85,7 +85,7 @@ pub(super) fn join(
             continue;
         };
         let Some(global_from_ego) = poses::pose(pose.translation, pose.rotation) else {
-            dropped("ego_pose that is no pose");
+            dropped("ego_pose without a valid pose");
             continue;
         };
         let of_sample = taken.entry(record.sample_token.clone()).or_default();
@@ -99,7 +99,7 @@ pub(super) fn join(
             }
         } else {
             let Some(ego_from_sensor) = poses::pose(calibration.translation, calibration.rotation) else {
-                dropped("calibration that is no pose");
+                dropped("calibration without a valid pose");
                 continue;
             };
             let (token, file) = (record.token.clone(), existing(root, &record.filename, report));
@@ -126,7 +126,7 @@ fn picture(
         global_from_ego,
         lens: poses::lens(record.width, record.height, &calibration.camera_intrinsic)?,
         ego_from_camera: poses::pose(calibration.translation, calibration.rotation)
-            .ok_or("calibration that is no pose")?,
+            .ok_or("calibration without a valid pose")?,
         token: record.token.clone(),
         file: existing(root, &record.filename, report),
     })
@@ -136,7 +136,7 @@ fn picture(
 pub(super) fn existing(root: &Path, file: &str, report: &Report) -> Option<String> {
     let path = Path::new(file);
     if !path.components().all(|c| matches!(c, Component::Normal(_))) {
-        report.note(Outcome::Dropped, "file name that leaves the dataset's folder", file);
+        report.note(Outcome::Dropped, "file name outside the dataset's folder", file);
         return None;
     }
     (!file.is_empty() && root.join(path).is_file()).then(|| file.to_owned())

@@ -11,17 +11,17 @@ use super::tables::Tables;
 pub(super) fn in_order<'a>(tables: &'a Tables, scene: usize, report: &Report) -> Vec<&'a SampleRecord> {
     let (record, tokens) = (&tables.scenes[scene], &tables.samples_of_scene[scene]);
     if record.nbr_samples != tokens.len() as i64 {
-        let example = format!("{}: {} said, {} found", record.name, record.nbr_samples, tokens.len());
-        report.note(Outcome::Warned, "nuScenes scene with another number of samples than it says", example);
+        let example = format!("{}: {} declared, {} found", record.name, record.nbr_samples, tokens.len());
+        report.note(Outcome::Warned, "nuScenes scene with a wrong number of samples", example);
     }
     let chain = chain(tables, record);
     if chain.len() == tokens.len() && chain.is_sorted_by_key(|s| s.timestamp) {
         if let Some(last) = chain.last().filter(|s| !s.next.is_empty()) {
-            report.note(Outcome::Warned, "nuScenes keyframe chain that goes on after its scene", &last.token);
+            report.note(Outcome::Warned, "nuScenes keyframe chain that continues past its scene", &last.token);
         }
         return chain;
     }
-    report.note(Outcome::Substituted, "broken nuScenes keyframe chain by the order of time", &record.name);
+    report.note(Outcome::Substituted, "broken nuScenes keyframe chain, put in order of time", &record.name);
     let mut by_time: Vec<_> = tokens.iter().filter_map(|token| tables.samples.get(token)).collect();
     by_time.sort_by_key(|s| s.timestamp);
     by_time

@@ -58,7 +58,7 @@ pub(super) fn level(drive: &mut Drive, report: &Report) {
     }
     report.measure("nuscenes.standing_height_error_after_m", median_residual_m(&objects));
     if motion.iter().any(|m| m.abs() > NOTICEABLE) {
-        report.note(Outcome::Guessed, "height and tilt of the vehicle, from what stands still", &drive.id);
+        report.note(Outcome::Guessed, "height and tilt of the vehicle, from static objects", &drive.id);
     }
     apply(drive, &motion);
 }

@@ -21,7 +21,7 @@ pub(super) fn projection(log: Option<&LogRecord>, anchor_m: DVec2, report: &Repo
     let known = ORIGINS.iter().find(|(name, ..)| *name == place).map(|&(_, lat, lon)| (lat, lon));
     let (origin_lat_deg, origin_lon_deg) = own.or(known).unwrap_or_else(|| {
         let example = if place.is_empty() { "a log without location" } else { place };
-        report.note(Outcome::Warned, "place of unknown origin: no street map can be laid under the drive", example);
+        report.note(Outcome::Warned, "place of unknown origin: no street map can be aligned with the drive", example);
         (0.0, 0.0)
     });
     MapProjection { origin_lat_deg, origin_lon_deg, anchor_m }

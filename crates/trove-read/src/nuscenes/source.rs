@@ -41,7 +41,7 @@ fn only_version(root: &Path) -> Result<String, ReadError> {
         [] => Err(missing(
             "a nuScenes root with a folder v1.0-* of tables",
             "none".into(),
-            "give the folder that holds v1.0-trainval or v1.0-mini as the root",
+            "give the folder that contains v1.0-trainval or v1.0-mini as the root",
         )),
         several => Err(missing("one version", several.join(", "), "name one as the dataset's version")),
     }

@@ -104,7 +104,7 @@ fn read_table<T: Record>(folder: &Path, report: &Report) -> Result<Vec<T>, ReadE
 
 /// Notes that a second record has the same token.
 pub(super) fn note_duplicate<T: Record>(token: &str, report: &Report) {
-    report.note(Outcome::Dropped, &format!("nuScenes {} record with a token that is taken", T::TABLE), token);
+    report.note(Outcome::Dropped, &format!("nuScenes {} record with a duplicate token", T::TABLE), token);
 }
 
 fn by_token<T: Record>(records: Vec<T>) -> ByToken<T> {

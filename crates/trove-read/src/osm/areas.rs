@@ -11,7 +11,7 @@ use super::rings::Repaired;
 /// Notes what had to be repaired in an outline.
 pub(super) fn note_repairs(repaired: &Repaired, owner: &str, report: &Report) {
     if repaired.crossed {
-        report.note(Outcome::Substituted, "osm: outline that crosses itself, cut where it does", owner);
+        report.note(Outcome::Substituted, "osm: self-intersecting outline, split where it crosses", owner);
     }
     if repaired.vanished {
         report.note(Outcome::Dropped, "osm: outline or hole without an area", owner);

@@ -64,7 +64,7 @@ fn kind(tagged: &Tagged, key: &str) -> Option<BuildingKind> {
         Said::Nothing => None,
         Said::Unknown => {
             let example = format!("{}: {}", tagged.owner, tagged.tags.get(key));
-            tagged.report.note(Outcome::Substituted, "osm: building of a kind that is not known", example);
+            tagged.report.note(Outcome::Substituted, "osm: building of an unknown kind", example);
             Some(BuildingKind::Other)
         }
     }

@@ -56,7 +56,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
     if flooded_share(&sea, map) > MAX_FLOODED {
         report.note(
             Outcome::Dropped,
-            "osm: sea that would flood the streets (is its coast whole?)",
+            "osm: sea that would flood the streets (is its coastline complete?)",
             format!("way {id}"),
         );
         return;

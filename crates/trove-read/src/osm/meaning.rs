@@ -35,7 +35,7 @@ pub(super) fn meaning(tags: &Tags, outline: Outline) -> Meaning {
         return match (closed, underground) {
             (true, false) => Meaning::Building,
             (true, true) => Meaning::Nothing("underground"),
-            (false, _) => Meaning::Nothing("building's outline does not close"),
+            (false, _) => Meaning::Nothing("building's outline is not closed"),
         };
     }
     let highway = tags.get("highway");
@@ -235,7 +235,7 @@ mod tests {
         check("building=yes amenity=parking", Outline::Ring, Meaning::Building);
         check("building=no landuse=grass", Outline::Ring, Meaning::Land(LandKind::Grass));
         check("building:part=yes", Outline::Ring, Meaning::Building);
-        check("building=yes", Outline::Line, Meaning::Nothing("building's outline does not close"));
+        check("building=yes", Outline::Line, Meaning::Nothing("building's outline is not closed"));
         check("building=yes layer=-1", Outline::Ring, Meaning::Nothing("underground"));
         check("highway=pedestrian", Outline::Ring, Meaning::Road(RoadKind::Pedestrian));
         check("highway=pedestrian area=yes", Outline::Ring, Meaning::Land(LandKind::Paved));

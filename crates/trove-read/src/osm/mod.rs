@@ -86,8 +86,8 @@ fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
     let packed =
         [(&[0x1f, 0x8b][..], "gzip"), (b"BZh", "bzip2"), (b"PK\x03\x04", "zip"), (b"\x28\xb5\x2f\xfd", "zstd")];
     let (parsed, binary) = if let Some((_, packer)) = packed.iter().find(|(magic, _)| head.starts_with(magic)) {
-        let remedy = format!("unpack it with {packer} first");
-        (Err(Fault::new("OpenStreetMap XML or PBF", format!("a file packed with {packer}"), &remedy)), true)
+        let remedy = format!("decompress it with {packer} first");
+        (Err(Fault::new("OpenStreetMap XML or PBF", format!("a file compressed with {packer}"), &remedy)), true)
     } else if pbf::is_pbf(&head) {
         (pbf::parse(input, report), true)
     } else {

@@ -34,7 +34,7 @@ pub(super) fn parse(mut input: impl Read, report: &Report) -> Result<Raw, Fault>
         }
         let header = read_exactly(&mut input, u64::from(length)).map_err(|e| e.at(byte))?;
         let (kind, size) =
-            blob_header(&header).map_err(|_| damaged("a blob's header", "bytes that are no message").at(byte))?;
+            blob_header(&header).map_err(|_| damaged("a blob's header", "bytes that are not a message").at(byte))?;
         if size > MAX_BLOB_BYTES {
             return Err(damaged("a blob of at most 32 MiB", format!("{size} bytes")).at(byte));
         }
@@ -42,7 +42,7 @@ pub(super) fn parse(mut input: impl Read, report: &Report) -> Result<Raw, Fault>
         let read = match kind {
             b"OSMHeader" => unpacked(&blob).and_then(|data| check_features(&data)),
             b"OSMData" => unpacked(&blob).and_then(|data| {
-                let malformed = |_| damaged("a block of nodes, ways and relations", "bytes that are no message");
+                let malformed = |_| damaged("a block of nodes, ways and relations", "bytes that are not a message");
                 add_block(&data, &mut raw, report).map_err(malformed)
             }),
             // Other kinds are to be skipped.
@@ -96,7 +96,7 @@ fn blob_header(header: &[u8]) -> Result<(&[u8], u64), Malformed> {
 /// A blob's content, unpacked where it is packed.
 fn unpacked(blob: &[u8]) -> Result<Vec<u8>, Fault> {
     for field in Fields::new(blob) {
-        let malformed = |_| damaged("a blob", "bytes that are no message");
+        let malformed = |_| damaged("a blob", "bytes that are not a message");
         let (number, value) = field.map_err(malformed)?;
         match number {
             1 => return Ok(value.bytes().map_err(malformed)?.to_vec()),
@@ -104,7 +104,7 @@ fn unpacked(blob: &[u8]) -> Result<Vec<u8>, Fault> {
                 let mut data = Vec::new();
                 let packed = ZlibDecoder::new(value.bytes().map_err(malformed)?);
                 let unpacked = packed.take(MAX_BLOB_BYTES + 1).read_to_end(&mut data);
-                unpacked.map_err(|e| damaged("data packed with zlib", e.to_string()))?;
+                unpacked.map_err(|e| damaged("data compressed with zlib", e.to_string()))?;
                 if data.len() as u64 > MAX_BLOB_BYTES {
                     return Err(damaged("a blob of at most 32 MiB", "a longer one"));
                 }
@@ -113,7 +113,7 @@ fn unpacked(blob: &[u8]) -> Result<Vec<u8>, Fault> {
             2 => {}
             _ => {
                 let remedy = "write it again with zlib: osmium cat in.osm.pbf -o out.osm.pbf -f pbf";
-                return Err(Fault::new("data packed with zlib or not at all", "another way of packing", remedy));
+                return Err(Fault::new("data compressed with zlib or uncompressed", "another compression", remedy));
             }
         }
     }
@@ -123,7 +123,7 @@ fn unpacked(blob: &[u8]) -> Result<Vec<u8>, Fault> {
 /// Refuses files that cannot be understood without more than is known here.
 fn check_features(header: &[u8]) -> Result<(), Fault> {
     for field in Fields::new(header) {
-        let malformed = |_| damaged("the file's header", "bytes that are no message");
+        let malformed = |_| damaged("the file's header", "bytes that are not a message");
         if let (4, value) = field.map_err(malformed)? {
             let feature = value.bytes().map_err(malformed)?;
             if !matches!(feature, b"OsmSchema-V0.6" | b"DenseNodes") {

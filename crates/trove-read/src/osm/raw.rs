@@ -128,7 +128,7 @@ impl Raw {
         let (lat_deg, lon_deg) = (node.lat_deg, node.lon_deg);
         if !(lat_deg.abs() <= 90.0 && lon_deg.abs() <= 180.0) {
             let example = format!("node {} at latitude {lat_deg}, longitude {lon_deg}", node.id);
-            report.note(Outcome::Dropped, "osm: node that is nowhere on earth", example);
+            report.note(Outcome::Dropped, "osm: node with impossible coordinates", example);
             return;
         }
         self.nodes.push(node);

@@ -45,7 +45,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
             // Its outline and parts say themselves what they are.
             "building" => Ok(()),
             "" => Err("no type".into()),
-            kind => Err(format!("{kind}, which draws nothing")),
+            kind => Err(format!("{kind}, which is not drawn")),
         };
         account.add(done, "relation", relation.id, report);
     }
@@ -72,7 +72,7 @@ fn add_area(
         Meaning::Building | Meaning::Land(_) => {}
         _ if old_style => {}
         Meaning::Nothing(reason) if !reason.is_empty() => return Err(reason.into()),
-        _ => return Err(format!("{kind}, which draws nothing")),
+        _ => return Err(format!("{kind}, which is not drawn")),
     }
     let traced = trace(members.iter().map(|way| way.nodes.as_slice()));
     if traced.open {
@@ -93,7 +93,7 @@ fn add_area(
     let Some((meaning, tags)) = tagged else {
         return Err(match relation.tags.main_key() {
             "" => format!("{kind} without a tag that says what it looks like"),
-            key => format!("{kind} with {key} that is nothing of ours"),
+            key => format!("{kind} with {key} that is not used"),
         });
     };
     note_repairs(&outlines, owner, report);

@@ -18,7 +18,7 @@ pub(super) fn sign(tagged: &Tagged) -> Option<MappedSign> {
         Said::Nothing | Said::Unknown => None,
     });
     if known.is_none() {
-        tagged.refuse("traffic_sign that is not known", text);
+        tagged.refuse("unknown traffic_sign", text);
     }
     Some(known.unwrap_or(MappedSign::Other))
 }

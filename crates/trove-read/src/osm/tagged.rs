@@ -55,7 +55,7 @@ impl Tagged<'_> {
             }
         }
         for key in unknown.into_iter().filter(|_| meanings.is_empty()) {
-            self.refuse(&format!("{key} that is not known"), self.tags.get(key));
+            self.refuse(&format!("unknown {key}"), self.tags.get(key));
         }
         meanings
     }

@@ -32,9 +32,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, shops: &mut V
             }
             (None, "") => {}
             (None, _) if shop => {}
-            (None, key) => {
-                report.note(Outcome::Dropped, &format!("osm: node with {key} that is nothing of ours"), owner)
-            }
+            (None, key) => report.note(Outcome::Dropped, &format!("osm: node with {key} that is not used"), owner),
         }
     }
 }

@@ -101,7 +101,7 @@ fn add_way(
         return match (reason, way.tags.main_key()) {
             _ if drawn || shop => Ok(()),
             ("", "") => Err("no tag says what it looks like".into()),
-            ("", key) => Err(format!("{key} that is nothing of ours")),
+            ("", key) => Err(format!("{key} that is not used")),
             (reason, _) => Err(reason.into()),
         };
     }
@@ -109,7 +109,7 @@ fn add_way(
         note(Outcome::Warned, "osm: way with nodes that are not in the file");
     }
     if line.repeated {
-        note(Outcome::Warned, "osm: way with the same place twice in a row");
+        note(Outcome::Warned, "osm: way with the same point twice in a row");
     }
     match meaning {
         Meaning::Building | Meaning::Land(_) => {
@@ -127,7 +127,7 @@ fn add_way(
             for run in line.runs.iter().filter(|run| run.len() > 1 && places.touched_by(run)) {
                 map.roads.push(road(way.id, kind, run.clone(), &way.tags, places.driving_side.is_left(), report));
             }
-            if map.roads.len() > before { Ok(()) } else { Err("road of a single place".into()) }
+            if map.roads.len() > before { Ok(()) } else { Err("road with a single point".into()) }
         }
         Meaning::Furniture(kind) => {
             let thing = furniture(way.id, kind, middle, &way.tags, &owner, report);
@@ -135,7 +135,7 @@ fn add_way(
             Ok(())
         }
         Meaning::Row(kind) => {
-            note(Outcome::Guessed, "osm: places of the things in a row");
+            note(Outcome::Guessed, "osm: positions of the things in a row");
             let template = furniture(way.id, kind, middle, &way.tags, &owner, report);
             let spacing_m = if kind == FurnitureKind::Tree { TREE_SPACING_M } else { BOLLARD_SPACING_M };
             let positions =

@@ -106,7 +106,7 @@ fn begin(
                     (Some(id), _) => way.nodes.push(id),
                     (None, _) => report.note(
                         Outcome::Dropped,
-                        "osm: reference to a node that is no number",
+                        "osm: node reference that is not a number",
                         format!("way {}", way.id),
                     ),
                 }
@@ -146,7 +146,7 @@ fn element_named(name: &str, element: &BytesStart, report: &Report) -> Result<Op
         return Ok(Open::Ignored);
     }
     let Some(id) = id else {
-        report.note(Outcome::Dropped, "osm: element without a number for its id", name);
+        report.note(Outcome::Dropped, "osm: element whose id is not a number", name);
         return Ok(Open::Ignored);
     };
     Ok(match (name, lat_deg, lon_deg) {

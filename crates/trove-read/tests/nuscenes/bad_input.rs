@@ -29,7 +29,12 @@ fn a_broken_record_is_left_out_and_reported() {
         (3, 6),
         "ego_pose record that cannot be read",
     );
-    check("ego_pose", |t| row(t, "d-CAM_BACK-0")["rotation"] = json!([0, 0, 0, 0]), (3, 6), "ego_pose that is no pose");
+    check(
+        "ego_pose",
+        |t| row(t, "d-CAM_BACK-0")["rotation"] = json!([0, 0, 0, 0]),
+        (3, 6),
+        "ego_pose without a valid pose",
+    );
     check("ego_pose", |t| t.retain(|p| p["token"] != "d-CAM_BACK-0"), (3, 6), "sample_data: unknown ego_pose");
     check("ego_pose", |t| t.retain(|p| p["token"] != "d-LIDAR_TOP-1"), (3, 6), "ego pose from its cameras'");
     check(
@@ -44,23 +49,23 @@ fn a_broken_record_is_left_out_and_reported() {
         "sample_data",
         |t| row(t, "d-CAM_FRONT-1")["filename"] = json!("../x.jpg"),
         (3, 6),
-        "leaves the dataset's folder",
+        "outside the dataset's folder",
     );
     check("calibrated_sensor", |t| t[1]["camera_intrinsic"] = json!([]), (3, 6), "camera without usable intrinsics");
     check("calibrated_sensor", |t| drop(t.remove(2)), (3, 6), "sample_data: unknown calibrated_sensor");
     check("sample_annotation", |t| t[0]["size"] = json!([2.0, 0.0, 1.5]), (3, 5), "box of zero or negative size");
     check("sample_annotation", |t| t[0]["size"] = json!([2.0, -4.0, 1.5]), (3, 5), "box of zero or negative size");
-    check("sample_annotation", |t| t[0]["translation"] = json!([1e300, 0, 0]), (3, 5), "box whose pose is none");
+    check("sample_annotation", |t| t[0]["translation"] = json!([1e300, 0, 0]), (3, 5), "box without a valid pose");
     check("sample_annotation", |t| t[0]["instance_token"] = json!("?"), (3, 5), "annotation: unknown instance");
     check("sample_annotation", |t| t[0]["next"] = json!("?"), (3, 6), "neighbour in time missing");
     check("sample_annotation", |t| t[0]["visibility_token"] = json!("9"), (3, 6), "unknown visibility");
-    check("sample_annotation", |t| t[1] = t[0].clone(), (3, 5), "sample_annotation record with a token that is taken");
+    check("sample_annotation", |t| t[1] = t[0].clone(), (3, 5), "sample_annotation record with a duplicate token");
     check("sample_annotation", |t| t[1]["sample_token"] = json!("k0"), (3, 5), "second of its instance in a sample");
     check("category", |t| t[1]["name"] = json!("vehicle.hovercraft"), (3, 3), "unknown category 'vehicle.hovercraft'");
     check("sample", |t| t[0]["next"] = json!("k2"), (3, 6), "broken nuScenes keyframe chain");
-    check("sample", |t| t[2]["next"] = json!("k0"), (3, 6), "keyframe chain that goes on");
-    check("sample", |t| t[1] = t[0].clone(), (2, 4), "sample record with a token that is taken");
-    check("sample", |t| drop(t.remove(1)), (2, 4), "another number of samples");
+    check("sample", |t| t[2]["next"] = json!("k0"), (3, 6), "keyframe chain that continues");
+    check("sample", |t| t[1] = t[0].clone(), (2, 4), "sample record with a duplicate token");
+    check("sample", |t| drop(t.remove(1)), (2, 4), "wrong number of samples");
     check("scene", |t| t[0]["first_sample_token"] = json!(""), (3, 6), "broken nuScenes keyframe chain");
     check("log", Vec::clear, (3, 6), "scene of an unknown log");
     check("attribute", Vec::clear, (3, 6), "rider of a cycle without attributes");

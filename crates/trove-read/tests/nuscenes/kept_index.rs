@@ -45,5 +45,5 @@ fn a_cache_folder_that_cannot_be_written_is_only_warned_about() {
     let not_a_folder = root.path().join(VERSION).join("scene.json");
     let dataset = NuScenes::open(root.path(), VERSION, Some(&not_a_folder), &report).unwrap();
     assert!(dataset.drive(SCENE, &report).is_ok());
-    assert!(notes(&report).iter().any(|(_, what, _)| what.contains("could not be kept")));
+    assert!(notes(&report).iter().any(|(_, what, _)| what.contains("could not be saved")));
 }

@@ -132,7 +132,7 @@ impl Denoiser {
         match clean() {
             Ok(picture) => Some(picture),
             Err(problem) => {
-                tracing::warn!(problem, "the denoiser failed; the picture stays as it is");
+                tracing::warn!(problem, "the denoiser failed; the image stays noisy");
                 None
             }
         }
@@ -144,7 +144,7 @@ impl Device {
     fn run(&mut self, what: Cleans, images: &[(&CStr, &Raster<[f32; 3]>)]) -> Result<Raster<[f32; 3]>, String> {
         let (width, height) = (images[0].1.width, images[0].1.height);
         if images.iter().any(|(_, image)| (image.width, image.height) != (width, height)) {
-            return Err("pictures of different sizes".into());
+            return Err("images of different sizes".into());
         }
         let mut output = Raster::filled(width, height, [0.0f32; 3]);
         if output.data.is_empty() {

@@ -67,7 +67,7 @@ impl Sheet {
         })?;
         if let Some(folder) = &self.each {
             std::fs::create_dir_all(folder)
-                .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
+                .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
         }
         let subjects = self.chosen(library);
         ensure!(

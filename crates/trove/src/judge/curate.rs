@@ -98,7 +98,7 @@ impl Curate {
             return Ok(());
         }
         println!(
-            "{} of {} frames kept: {} for training, {} for validation, {} near to both; {} have fewer than {} classes, {} \
+            "{} of {} frames kept: {} for training, {} for validation, {} between both; {} have fewer than {} classes, {} \
              are near-duplicates",
             selection.kept.len(),
             curation.frames.len(),
@@ -110,7 +110,7 @@ impl Curate {
             selection.duplicates,
         );
         println!(
-            "see {}; trove generate RECIPE --out DIR --frames {} renders these alone",
+            "see {}; trove generate RECIPE --out DIR --frames {} renders only these",
             page.display(),
             out.display()
         );

@@ -114,9 +114,9 @@ fn print(found: &Evaluation) {
     };
     let asked = |e: &Option<Estimate>, name| if e.is_some() { name } else { "" };
     let (boundary, panoptic) = (asked(&found.boundary_miou, "boundary IoU"), asked(&found.pq, "panoptic quality"));
-    println!("{} pictures; percent, with 95 % intervals over pictures", found.pictures);
+    println!("{} images; percent, with 95 % intervals over images", found.pictures);
     if found.unused > 0 {
-        println!("{} predictions have no truth and were left out", found.unused);
+        println!("{} predictions have no ground truth and were left out", found.unused);
     }
     println!("{}", format!("{:16} {:22}   {boundary:22}   {panoptic}", "", "IoU").trim_end());
     for (i, class) in found.set.classes.iter().enumerate() {

@@ -107,7 +107,7 @@ impl Recolor {
             return Ok(());
         }
         let new = done.pictures.len() - done.kept;
-        println!("{} pictures, {new} of them new; means and deviations of the three channels:", done.pictures.len());
+        println!("{} images, {new} of them new; means and deviations of the three channels:", done.pictures.len());
         for (name, s) in [("before", before), ("target", target), ("after", after)] {
             println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
         }

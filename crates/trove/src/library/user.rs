@@ -49,7 +49,7 @@ pub(crate) fn check(folder: &Path) -> Vec<Finding> {
     }
     for asset in plans.iter().flat_map(|plans| plans.library(&asset_files::library_name(folder)).assets) {
         if let Some(defect) = asset.mesh.defect() {
-            findings.push(finding(format!("{}: {defect}", asset.id), "give it measures nearer to those of real ones"));
+            findings.push(finding(format!("{}: {defect}", asset.id), "give it measurements closer to real ones"));
         }
     }
     findings

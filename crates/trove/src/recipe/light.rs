@@ -66,13 +66,13 @@ impl LightSection {
         let of_sky = self.time.is_some() || self.turbidity.or(self.ground_albedo).or(self.clouds).is_some();
         ensure!(
             !(is_file && of_sky),
-            "light: time, turbidity, ground_albedo and clouds are those of a computed sky; remove them or the file \
+            "light: time, turbidity, ground_albedo and clouds apply only to a computed sky; remove them or the file \
              {:?} in light.environment",
             self.environment
         );
         ensure!(
             is_file || self.rotation_deg == 0.0,
-            "light.rotation_deg: only a file can be turned; the computed sun stands where it stood"
+            "light.rotation_deg: only a sky image can be rotated; the computed sun follows place and time"
         );
         Ok(())
     }

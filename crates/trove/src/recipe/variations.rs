@@ -244,7 +244,7 @@ impl VariationsSection {
             )?;
         }
         let has_seasons = self.seasons.as_ref().is_none_or(|s| !s.is_empty());
-        ensure!(has_seasons, "variations.seasons: expected at least one season, found none; leave it out for all");
+        ensure!(has_seasons, "variations.seasons: expected at least one season, found none; omit it for all");
         let of_sky = self.light.hours.or(self.light.clouds).or(self.light.turbidity).is_some();
         let has_sky = match self.light.environments.as_slice() {
             [] => !light.is_file(),
@@ -252,7 +252,7 @@ impl VariationsSection {
         };
         ensure!(
             !of_sky || has_sky,
-            "variations.light: hours, clouds and turbidity are those of a computed sky, found pictures alone; add \
+            "variations.light: hours, clouds and turbidity apply only to a computed sky, found only sky images; add \
              {COMPUTED_SKY:?} to variations.light.environments or remove them"
         );
         self.check_counterfactual()?;
@@ -274,18 +274,15 @@ impl VariationsSection {
     fn check_counterfactual(&self) -> Result<()> {
         let Some(only) = self.counterfactual else { return Ok(()) };
         let key = "variations.counterfactual";
-        ensure!(
-            self.count > 1,
-            "{key}: expected variations.count of 2 or more, found 1; v00 is what others differ from"
-        );
+        ensure!(self.count > 1, "{key}: expected variations.count of 2 or more, found 1; the others differ from v00");
         ensure!(self.first_as_recorded, "{key}: v00 is the recipe's own scene; remove variations.first_as_recorded");
         ensure!(
             self.factors.is_none(),
-            "{key}: expected one factor alone, found variations.factors too; remove one of them"
+            "{key}: expected a single factor, found variations.factors too; remove one of them"
         );
         ensure!(
             !matches!(only, Factor::Camera | Factor::Rigs),
-            "{key}: expected a factor that leaves the views where they are, found \"{}\"",
+            "{key}: expected a factor that does not move the views, found \"{}\"",
             only.name()
         );
         let is_somewhere = only != Factor::Place || self.places.is_some();
@@ -293,7 +290,7 @@ impl VariationsSection {
         for (factor, range, given) in self.ranges() {
             ensure!(
                 !given || factor == only,
-                "variations.{range}: expected ranges of \"{}\", which alone varies ({key}); remove the key",
+                "variations.{range}: expected ranges only of \"{}\", the one factor that varies ({key}); remove the key",
                 only.name()
             );
         }
@@ -347,17 +344,17 @@ mod tests {
             ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),
             ("[variations.light]\nhours = [7, 25]\n", "variations.light.hours"),
             ("places = [[100, 0]]\n", "variations.places: expected a latitude"),
-            ("seasons = []\n", "leave it out for all"),
+            ("seasons = []\n", "omit it for all"),
             ("seasons = [\"monsoon\"]\n", "monsoon"),
             ("factors = [\"paint\"]\nwetness = [0, 1]\n", "add \"wetness\" there or remove the key"),
             ("factors = [\"colour\"]\n", "colour"),
             ("cyclists = -1\n", "variations.cyclists: expected 0 to 100"),
             ("traffic = [-1, 1]\n", "variations.traffic: expected two numbers from 0 to 10"),
             ("counterfactual = \"paint\"\n", "expected variations.count of 2 or more, found 1"),
-            ("count = 2\ncounterfactual = \"camera\"\n", "leaves the views where they are, found \"camera\""),
+            ("count = 2\ncounterfactual = \"camera\"\n", "does not move the views, found \"camera\""),
             ("count = 2\ncounterfactual = \"paint\"\nfactors = [\"paint\"]\n", "remove one of them"),
             ("count = 2\ncounterfactual = \"paint\"\nfirst_as_recorded = false\n", "v00 is the recipe's own scene"),
-            ("count = 2\ncounterfactual = \"paint\"\ntraffic = [0, 2]\n", "expected ranges of \"paint\""),
+            ("count = 2\ncounterfactual = \"paint\"\ntraffic = [0, 2]\n", "expected ranges only of \"paint\""),
             ("exposre_ev = [0, 1]\n", "did you mean `exposure_ev`?"),
         ] {
             let message = format!("{:#}", variations(text).unwrap_err());

@@ -78,8 +78,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let identity = identity(recipe, options, &renderer)?;
     let report = Report::default();
     if let (true, Err(why)) = (recipe.denoising() != Denoising::None, renderer.capabilities().denoiser) {
-        tracing::warn!("pictures keep their noise: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
-        report.note(Outcome::Warned, "pictures keep their noise: no denoiser", why);
+        tracing::warn!("images stay noisy: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
+        report.note(Outcome::Warned, "images stay noisy: no denoiser", why);
     }
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
@@ -333,7 +333,7 @@ impl Run<'_> {
         for (key, name) in in_views.chain(with_lens.map(|name| ("camera.lens", name.clone()))) {
             if drive.rig.iter().all(|camera| camera.name != name) {
                 let known: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
-                bail!("{key}: expected cameras out of {}, found {name}", known.join(", "));
+                bail!("{key}: expected cameras among {}, found {name}", known.join(", "));
             }
         }
         Ok(())
@@ -364,7 +364,7 @@ impl Run<'_> {
             }
         }
         let Some((_, keys)) = missing.first() else { return Ok(()) };
-        let built = built.with_context(|| format!("{}: vanished during the run", keys[0].path()))?;
+        let built = built.with_context(|| format!("{}: removed during the run", keys[0].path()))?;
         let renderer = self.renderer;
         let ready = &|keyframe| -> Result<_> {
             let before = base.map(|base| base.photographed(renderer, keyframe)).transpose()?;
@@ -471,7 +471,7 @@ impl Run<'_> {
                 let key = FrameKey { scene: scene.clone(), variation, keyframe: *keyframe, view: view.clone() };
                 if self.wants(&key) {
                     let path = key.path();
-                    let files = self.finished(&key)?.with_context(|| format!("{path}: vanished during the run"))?;
+                    let files = self.finished(&key)?.with_context(|| format!("{path}: removed during the run"))?;
                     let counterfactual = self.recipe.variations.counterfactual.filter(|_| variation > 0);
                     rows.push(FrameRow {
                         path,
@@ -500,7 +500,7 @@ impl Run<'_> {
         let rows = self.rows()?;
         let given: BTreeSet<&str> = rows.iter().map(|row| row.path.as_str()).collect();
         for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
-            self.report.note(Outcome::Dropped, "frame that the recipe does not give", frame.clone());
+            self.report.note(Outcome::Dropped, "frame that the recipe does not produce", frame.clone());
         }
         ensure!(!rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
         let frames = rows.len();

@@ -26,7 +26,7 @@ impl OutputFolder {
         let private = root.join(PRIVATE);
         refuse_foreign(root)?;
         std::fs::create_dir_all(&private)
-            .with_context(|| format!("{}: expected a folder that can be made and written to", root.display()))?;
+            .with_context(|| format!("{}: expected a folder that can be created and written to", root.display()))?;
         let lock = lock(&private.join("lock"))?;
         check_identity(root, &private, identity)?;
         let path = private.join(FrameLine::JOURNAL);
@@ -49,7 +49,7 @@ impl OutputFolder {
     pub(super) fn write_site(&self, folder: &str, site: &SiteFile) -> Result<()> {
         let folder = self.root.join(folder);
         std::fs::create_dir_all(&folder)
-            .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
+            .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
         Ok(write_atomically(&folder.join(SiteFile::NAME), &site.to_json())?)
     }
 
@@ -130,12 +130,12 @@ fn check_identity(root: &Path, private: &Path, identity: &RunIdentity) -> Result
         return Ok(());
     }
     // Another version of the format is told as such, rather than by the first line that differs.
-    RunIdentity::read(private).context("the folder cannot be gone on with; choose another --out")?;
+    RunIdentity::read(private).context("the folder cannot be resumed; choose another --out")?;
     let [found, expected] = [found, identity.to_json()].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     let differs = found.lines().zip(expected.lines()).find(|(a, b)| a != b);
     let (was, is) = differs.unwrap_or(("", ""));
     bail!(
-        "{}: expected the recipe and program that this folder was begun with, found others (it was {}, it is {}); \
+        "{}: expected the recipe and program that this folder was started with, found others (it was {}, it is {}); \
          choose another --out",
         root.display(),
         was.trim().trim_end_matches(','),

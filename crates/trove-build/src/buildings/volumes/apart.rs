@@ -47,12 +47,12 @@ pub(super) fn apart(houses: &mut [House<'_>], report: &Report) {
                 is_cut = true;
                 left = left.into_iter().flat_map(|v| around_and_below(v, other, bottom_m)).collect();
                 if other_house != house {
-                    let what = "building cut where another stands in the same place";
+                    let what = "building cut where it overlaps another";
                     report.note(Outcome::Substituted, what, name(volume.building));
                 }
             }
             if is_cut && left.is_empty() {
-                report.note(Outcome::Dropped, "building or part within another", name(volume.building));
+                report.note(Outcome::Dropped, "building or part inside another", name(volume.building));
             }
             is_cut.then_some(left)
         })

@@ -47,7 +47,7 @@ pub(super) fn trenches<'a>(
     let met: BTreeSet<Key> = ground.iter().flat_map(|r| &r.centreline).map(|&p| key(p)).collect();
     let mut trenches = Vec::new();
     for &road in tunnels {
-        report.note(Outcome::Dropped, "road in a tunnel, but for its mouths", format_args!("osm way {}", road.id));
+        report.note(Outcome::Dropped, "road in a tunnel, except its mouths", format_args!("osm way {}", road.id));
         let mut line = road.centreline.clone();
         for _ in 0..2 {
             if met.contains(&key(line[0])) {
@@ -55,7 +55,7 @@ pub(super) fn trenches<'a>(
                 if is_free(&trench, ground, map, recorded) {
                     trenches.push(trench);
                 } else {
-                    let what = "mouth of a tunnel, without room for its ramp";
+                    let what = "tunnel mouth without room for its ramp";
                     report.note(Outcome::Dropped, what, format_args!("osm way {}", road.id));
                 }
             }

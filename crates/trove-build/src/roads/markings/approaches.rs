@@ -106,7 +106,7 @@ pub(super) fn approach(
     let gives_way = control.gives_way(at);
     let stops = signalised || control.stops(at) || (minor && !gives_way && customs.minor == MinorRoad::Stop);
     if minor && !signalised && !gives_way && !control.stops(at) && customs.minor != MinorRoad::Unmarked {
-        let what = "who gives way at a junction, by the classes of its roads";
+        let what = "priority at a junction, from the classes of its roads";
         report.note(Outcome::Guessed, what, format_args!("osm way {}", leg.road().id));
     }
     let mut paint = Vec::new();
@@ -131,7 +131,7 @@ pub(super) fn approach(
     let turns: Vec<Turns> = if tagged.len() == lanes.len() {
         tagged.clone()
     } else if lanes.len() > 1 && (signalised || leg.road().kind <= RoadKind::Secondary) {
-        let what = "where lanes lead at a junction, from its roads";
+        let what = "lane directions at a junction, from its roads";
         report.note(Outcome::Guessed, what, format_args!("osm way {}", leg.road().id));
         shared_out(junction.turns(along(0.0)), lanes.len())
     } else {

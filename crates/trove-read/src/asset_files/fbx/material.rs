@@ -86,7 +86,7 @@ fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, PathBuf), St
     let named = [relative.as_str(), &texture.filename, &texture.absolute_filename].map(|n| n.replace('\\', "/"));
     let last = named.iter().filter_map(|n| n.rsplit('/').next()).find(|n| !n.is_empty()).unwrap_or_default().to_owned();
     if last.is_empty() {
-        return Err("a texture without a file's name".into());
+        return Err("a texture without a file name".into());
     }
     let mut places = vec![folder.join(&relative), folder.join(&last)];
     for around in [Some(folder), folder.parent()].into_iter().flatten() {

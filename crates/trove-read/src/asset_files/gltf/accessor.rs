@@ -59,7 +59,7 @@ impl Container {
         let count = self.root.accessors.len();
         let a = self.root.accessors.get(accessor).ok_or_else(|| none(&place, "accessor", accessor, count))?;
         if width(&a.shape) != components {
-            return Err(Fault::damaged(place, format!("{components} numbers a value"), format!("{:?}", a.shape)));
+            return Err(Fault::damaged(place, format!("{components} numbers per value"), format!("{:?}", a.shape)));
         }
         Ok((a, place))
     }

@@ -169,10 +169,10 @@ fn resource(folder: &Path, uri: &str) -> Result<Vec<u8>, Unavailable> {
     let fail = |found: String| Unavailable { uri: uri.chars().take(80).collect(), found };
     if let Some(data) = uri.strip_prefix("data:") {
         let base64 = data.split_once(";base64,").ok_or_else(|| fail("a data URI without base64".into()))?.1;
-        return decode_base64(base64).ok_or_else(|| fail("letters that are not base64".into()));
+        return decode_base64(base64).ok_or_else(|| fail("characters that are not base64".into()));
     }
     if uri.contains("://") {
-        return Err(fail("an address in the network".into()));
+        return Err(fail("a network address".into()));
     }
     let file = folder.join(percent_decoded(uri));
     std::fs::read(&file).map_err(|e| fail(e.to_string()))

@@ -136,7 +136,7 @@ impl<'a> Looks<'a> {
         if others.into_iter().flatten().any(|r| moved(r) != (uv_set, turn, offset)) {
             model.notice(
                 Outcome::Substituted,
-                "maps of one material with texture coordinates of their own use the base colour's",
+                "maps with their own texture coordinates use the base colour's",
                 material.name.clone(),
             );
         }

@@ -39,7 +39,7 @@ fn assemble(container: &Container, part: Option<&str>, pictures: &Pictures) -> R
     model.source = extra("source");
     let pose = Pose::of(container)?;
     if let Some(repair) = &pose.repair {
-        model.notice(Outcome::Substituted, "a tree of nodes with a loop was cut", repair.clone());
+        model.notice(Outcome::Substituted, "a loop in the tree of nodes was cut", repair.clone());
     }
     let mut looks = Looks::new(container, pictures);
     let wanted = part.map(|part| descendants(container, part)).transpose()?;

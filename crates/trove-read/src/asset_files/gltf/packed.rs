@@ -72,7 +72,7 @@ fn meshopt_view(container: &Container, ext: &Value, place: &str) -> Result<Vec<u
         }
     };
     if code != 0 {
-        return Err(Fault::new(place, "whole meshopt data", format!("error {code} of its decoder"), REMEDY));
+        return Err(Fault::new(place, "whole meshopt data", format!("decoder error {code}"), REMEDY));
     }
     // SAFETY: as above; filters work in place on count × stride bytes.
     unsafe {

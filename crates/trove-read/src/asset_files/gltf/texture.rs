@@ -78,11 +78,7 @@ impl Textures<'_> {
         let image = texture.and_then(|t| t.source).or_else(|| ext("EXT_texture_webp"));
         let image = image.or_else(|| ext("KHR_texture_basisu")).or_else(|| ext("EXT_texture_avif"));
         if image.is_none() {
-            model.notice(
-                Outcome::Dropped,
-                "a texture without a picture was left out",
-                format!("textures[{}]", r.index),
-            );
+            model.notice(Outcome::Dropped, "a texture without an image was left out", format!("textures[{}]", r.index));
         }
         image
     }
