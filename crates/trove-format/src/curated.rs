@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::{FormatError, file};
 
-/// Frames by what they serve for, as paths below the dataset's folder (`scene-0103/v00/k005/ego.CAM_FRONT`).
+/// Frames by use, as paths relative to the dataset's folder (`scene-0103/v00/k005/ego.CAM_FRONT`).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Curated {
-    /// Training, the most worth first.
+    /// For training, most valuable first.
     pub train: Vec<String>,
-    /// Validation, the most worth first.
+    /// For validation, most valuable first.
     pub val: Vec<String>,
-    /// Kept, but too near to both sides' places.
+    /// Kept, but too close to places of both sides.
     #[serde(default)]
     pub gap: Vec<String>,
 }

@@ -21,7 +21,7 @@ pub struct FrameTable {
     pub scene: String,
     /// The dataset (`nuscenes`).
     pub dataset: String,
-    /// The dataset's name of the place (`boston-seaport`); empty where unknown.
+    /// The dataset's name of the place (`boston-seaport`); empty if unknown.
     #[serde(default)]
     pub place: String,
     /// Number of the variation, from 0.
@@ -29,7 +29,7 @@ pub struct FrameTable {
     pub variation: u32,
     /// Index of the keyframe in its drive, from 0.
     pub keyframe: u32,
-    /// The dataset's token of the keyframe; empty where there is none.
+    /// The dataset's token of the keyframe; empty if there is none.
     #[serde(default)]
     pub keyframe_token: String,
     /// Time of the keyframe, nanoseconds since 1970 UTC.
@@ -38,17 +38,17 @@ pub struct FrameTable {
     pub view: String,
     /// Time of the middle of the exposure, nanoseconds since 1970 UTC; it differs from the keyframe's.
     pub time_ns: i64,
-    /// The dataset's token of the recorded picture that the view clones; empty where it clones none.
+    /// The dataset's token of the recorded image that the view clones; empty if it clones none.
     #[serde(default)]
     pub source_token: String,
-    /// Path of that picture below the dataset's root; empty where it clones none.
+    /// Path of that image relative to the dataset's root; empty if it clones none.
     #[serde(default)]
     pub source_image: String,
-    /// Width of the pictures, pixels.
+    /// Width of the image, pixels.
     pub width_px: u32,
-    /// Height of the pictures, pixels.
+    /// Height of the image, pixels.
     pub height_px: u32,
-    /// The camera matrix K, rows first, pixels; pixel centres are at .5.
+    /// The camera matrix K, row-major, pixels; pixel centres are at .5.
     pub intrinsics: [[f64; 3]; 3],
     /// How the lens distorts.
     pub lens_model: LensModel,
@@ -56,10 +56,10 @@ pub struct FrameTable {
     /// k₁ k₂ k₃ k₄ of Kannala-Brandt.
     #[serde(default)]
     pub distortion: Vec<f64>,
-    /// For how long a row is exposed, seconds; 0 is a moment.
+    /// Exposure time of a row, seconds; 0 is an instant.
     #[serde(default)]
     pub exposure_s: f64,
-    /// How long after the first row the last one is exposed, seconds; 0 is a global shutter.
+    /// Time from the exposure of the first row to that of the last, seconds; 0 is a global shutter.
     #[serde(default)]
     pub readout_s: f64,
     /// From Camera to World, at the middle of the exposure, to which all labels belong.
@@ -68,25 +68,25 @@ pub struct FrameTable {
     pub world_from_camera_rotation_wxyz: [f64; 4],
     /// The camera's position in World, metres.
     pub world_from_camera_translation_m: [f64; 3],
-    /// The same camera at the previous keyframe, which `flow_backward.exr` leads to; null where there is none.
+    /// The same camera at the previous keyframe, which `flow_backward.exr` points to; null if there is none.
     pub world_from_camera_previous: Option<Matrix4>,
-    /// The same camera at the next keyframe, which `flow_forward.exr` leads to; null where there is none.
+    /// The same camera at the next keyframe, which `flow_forward.exr` points to; null if there is none.
     pub world_from_camera_next: Option<Matrix4>,
-    /// From Ego to World, of the vehicle that carries the camera, at `time_ns`; null where it stands on its own.
+    /// From Ego to World, of the vehicle that carries the camera, at `time_ns`; null if none does.
     pub world_from_ego: Option<Matrix4>,
-    /// Id of that vehicle where it is one of the scene's objects, which the camera does not see; null otherwise.
+    /// Id of that vehicle if it is one of the scene's objects, which the camera does not see; null otherwise.
     pub carrier: Option<u32>,
     /// From latitude and longitude to World.
     pub projection: Projection,
-    /// Radiance was multiplied by 2 to this power; null without a picture.
+    /// Radiance was multiplied by 2 to this power; null without an image.
     pub exposure_ev: Option<f64>,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub spp: u32,
-    /// Whether the picture was denoised.
+    /// Whether the image was denoised.
     pub denoised: bool,
     /// The seed of its noise.
     pub seed: u64,
-    /// Every object of which a pixel would be seen if nothing else were there, in the order of ids.
+    /// Every object that would cover a pixel if nothing else were there, ordered by id.
     pub objects: Vec<ObjectRow>,
 }
 
@@ -127,11 +127,11 @@ pub struct ObjectRow {
     pub class: Class,
     /// The class's value in `class.png`.
     pub class_id: u8,
-    /// What it is, finer than its class.
+    /// A finer category than its class.
     #[serde(with = "names::kind")]
     #[cfg_attr(test, schemars(schema_with = "names::kind::schema"))]
     pub kind: Kind,
-    /// The dataset's category; empty for scenery and for road users whom nobody recorded.
+    /// The dataset's category; empty for scenery and for added road users.
     #[serde(default)]
     pub category: String,
     /// The dataset's token of the annotation; empty as for `category`.
@@ -140,28 +140,28 @@ pub struct ObjectRow {
     /// The dataset's token of the track; empty as for `category`.
     #[serde(default)]
     pub track_token: String,
-    /// Id of the model that stands for it; empty for what was built for this place.
+    /// Id of the model that stands for it; empty for what was built for this place alone.
     #[serde(default)]
     pub asset: String,
-    /// From Body to World; Body's origin is the middle of the object's box.
+    /// From Body to World; Body's origin is the centre of the object's box.
     pub world_from_body: Matrix4,
     /// Length, width and height of its box, metres.
     pub size_m: [f64; 3],
-    /// Its velocity in World, metres a second; null where unknown.
+    /// Its velocity in World, metres per second; null if unknown.
     pub velocity_mps: Option<[f64; 3]>,
     /// How many pixels show it.
     pub visible_px: u32,
     /// How many pixels would show it if nothing else were there.
     pub amodal_px: u32,
-    /// First column, first row, last column and last row of the pixels that show it, both included; null without any.
+    /// First column, first row, last column and last row of the pixels that show it, inclusive; null if there are none.
     pub visible_box: Option<[u32; 4]>,
-    /// The same of those that would; null without any.
+    /// The same for pixels that would if nothing else were there; null if there are none.
     pub amodal_box: Option<[u32; 4]>,
-    /// Share of it that is outside the picture, 0 to 1.
+    /// Share of it that is outside the image, 0 to 1.
     pub truncation: f32,
-    /// Share of its amodal pixels that other things hide, 0 to 1.
+    /// Share of its amodal pixels hidden by other things, 0 to 1.
     pub occlusion: f32,
-    /// Distance from the camera to the middle of its box, metres.
+    /// Distance from the camera to the centre of its box, metres.
     pub range_m: f32,
 }
 

@@ -13,11 +13,11 @@ use crate::{FormatError, file};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RunIdentity {
-    /// Version of the form of all the folder's files: 2.
+    /// Version of the format of all the folder's files: 2.
     pub format: u32,
     /// The recipe, with its defaults filled in.
     pub recipe: serde_json::Value,
-    /// Everything beside the recipe that decides the bytes.
+    /// Everything besides the recipe that decides the bytes.
     pub versions: Versions,
 }
 
@@ -35,7 +35,7 @@ pub struct Versions {
     pub denoiser: Option<String>,
 }
 
-/// A file that lies on the disk.
+/// A file on disk.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WrittenFile {
@@ -47,11 +47,11 @@ pub struct WrittenFile {
     pub bytes: u64,
 }
 
-/// A line of the journal: a frame that is finished.
+/// A line of the journal: a finished frame.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FrameLine {
-    /// Its folder below the output folder, with `/` between the parts.
+    /// Its folder relative to the output folder, with `/` between the parts.
     pub frame: String,
     /// Its files.
     pub files: Vec<WrittenFile>,

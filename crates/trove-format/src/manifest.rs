@@ -12,25 +12,25 @@ use crate::{DriveRow, Factors, FormatError, Source, Versions, file};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Manifest {
-    /// Version of the form of all the folder's files: 2.
+    /// Version of the format of all the folder's files: 2.
     pub format: u32,
     /// The recipe's seed.
     pub seed: u64,
     /// The recipe, with its defaults filled in.
     pub recipe: serde_json::Value,
-    /// Everything beside the recipe that decides the bytes.
+    /// Everything besides the recipe that decides the bytes.
     pub versions: Versions,
-    /// The class table, in the order of ids.
+    /// The class table, ordered by id.
     pub classes: Vec<ClassEntry>,
     /// The drives that frames were made from.
     pub drives: Vec<ManifestDrive>,
-    /// Every source of any drive, each once, in alphabetical order.
+    /// Every source of all drives, each once, in alphabetical order.
     pub licences: Vec<Source>,
-    /// The finished frames, in the order of scene, variation and keyframe.
+    /// The finished frames, ordered by scene, variation and keyframe.
     pub frames: Vec<FrameRow>,
 }
 
-/// A class in every numbering.
+/// A class in every label set.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassEntry {
@@ -40,7 +40,7 @@ pub struct ClassEntry {
     pub name: String,
     /// Whether it is countable, with ids in `instance.png`.
     pub thing: bool,
-    /// Colour in pictures of labels, 8-bit sRGB.
+    /// Colour in label images, 8-bit sRGB.
     pub rgb: [u8; 3],
     /// Id among the paper's 13 classes.
     pub class13: u8,
@@ -54,7 +54,7 @@ pub struct ClassEntry {
     pub camvid_id: u8,
 }
 
-/// A drive, with the sources of what was built for it.
+/// A drive, with the sources of what was built from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ManifestDrive {
@@ -69,7 +69,7 @@ pub struct ManifestDrive {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FrameRow {
-    /// Its folder below the output folder, with `/` between the parts.
+    /// Its folder relative to the output folder, with `/` between the parts.
     pub path: String,
     /// The drive (`scene-0103`).
     pub scene: String,
@@ -79,11 +79,11 @@ pub struct FrameRow {
     pub keyframe: u32,
     /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`).
     pub view: String,
-    /// What its variation differs in.
+    /// How its variation differs.
     pub factors: Factors,
-    /// SHA-256 of each of its files, lower-case hexadecimal, by the file's name.
+    /// SHA-256 of each of its files, lower-case hexadecimal, by file name.
     pub files: BTreeMap<String, String>,
-    /// What it is compared with; only frames of a counterfactual set but v00's have it.
+    /// What it is compared with; only frames of a counterfactual set other than v00's have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counterfactual: Option<Counterfactual>,
 }
@@ -115,7 +115,7 @@ impl From<&ClassRow> for ClassEntry {
 }
 
 impl ClassEntry {
-    /// The class table, in the order of ids.
+    /// The class table, ordered by id.
     pub fn all() -> Vec<Self> {
         CLASSES.iter().map(Self::from).collect()
     }

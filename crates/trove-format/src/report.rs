@@ -11,18 +11,18 @@ use crate::{file, names};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ReportTable {
-    /// What happened, in the order of outcome and `what`.
+    /// What happened, ordered by outcome and `what`.
     pub entries: Vec<EntryRow>,
     /// Values by name, whose unit is the name's ending (`map.path_to_road_median_m`); null where a value is not a finite
     /// number.
     pub measurements: BTreeMap<String, Option<f64>>,
 }
 
-/// All that happened of one kind.
+/// All events of one kind.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct EntryRow {
-    /// Whether things were dropped, substituted, guessed, or used with a warning.
+    /// Whether something was dropped, substituted, guessed, or used with a warning.
     #[serde(with = "names::outcome")]
     #[cfg_attr(test, schemars(schema_with = "names::outcome::schema"))]
     pub outcome: Outcome,
@@ -30,7 +30,7 @@ pub struct EntryRow {
     pub what: String,
     /// How often.
     pub count: u64,
-    /// The first few by name, in alphabetical order.
+    /// The first few, in alphabetical order.
     pub examples: Vec<String>,
 }
 

@@ -21,9 +21,9 @@ pub struct SiteFile {
     /// Which asset stands for which recorded object, and how well it fits.
     #[serde(default)]
     pub fits: Vec<FitRow>,
-    /// What the variation differs in.
+    /// How the variation differs.
     pub factors: Factors,
-    /// Whose customs it follows; null in folders of earlier versions.
+    /// Whose customs it follows; null in folders written by earlier versions.
     #[serde(default)]
     pub locale: Option<LocaleRow>,
     /// The frames that were planned: index of the keyframe in the drive, from 0, and the view (`ego.CAM_FRONT`).
@@ -34,7 +34,7 @@ pub struct SiteFile {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct LocaleRow {
-    /// ISO 3166-1 code of the country (`GB`); null where none is known.
+    /// ISO 3166-1 code of the country (`GB`); null if unknown.
     pub country: Option<String>,
     /// The side of the road that traffic keeps to: `left` or `right`.
     pub driving_side: String,
@@ -60,10 +60,10 @@ pub struct DriveRow {
     pub scene: String,
     /// The dataset (`nuscenes`).
     pub dataset: String,
-    /// The dataset's name of the place (`boston-seaport`); empty where unknown.
+    /// The dataset's name of the place (`boston-seaport`); empty if unknown.
     #[serde(default)]
     pub place: String,
-    /// How many keyframes it has, rendered or not.
+    /// Number of keyframes it has, rendered or not.
     pub keyframes: u32,
     /// The licence of the recording.
     pub licence: String,
@@ -71,7 +71,7 @@ pub struct DriveRow {
     pub projection: DriveProjection,
 }
 
-/// A drive's projection, with its kind.
+/// A drive's projection, with its type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DriveProjection {
@@ -97,7 +97,7 @@ pub enum ProjectionKind {
 pub struct Source {
     /// What it is (`nuscenes scene-0103`, `boston-seaport.osm`).
     pub source: String,
-    /// Under which licence it is given.
+    /// Its licence.
     pub licence: String,
 }
 
@@ -111,11 +111,11 @@ pub struct FitRow {
     #[serde(with = "names::kind")]
     #[cfg_attr(test, schemars(schema_with = "names::kind::schema"))]
     pub kind: Kind,
-    /// Length, width and height of its box, the medians of all keyframes, metres.
+    /// Length, width and height of its box, medians over all keyframes, metres.
     pub size_m: [f64; 3],
-    /// The asset that was taken.
+    /// The chosen asset.
     pub chosen: AssetFitRow,
-    /// Other assets, the best first by `quality_m`.
+    /// Other assets, best first by `quality_m`.
     pub runners_up: Vec<AssetFitRow>,
 }
 
@@ -127,11 +127,11 @@ pub struct AssetFitRow {
     pub asset: String,
     /// The paper's measure: IoU of the outlines seen from above times the lower height, metres, with the aspect kept.
     pub quality_m: f64,
-    /// Intersection over union in three dimensions after the asset was made to fit, 0 to 1.
+    /// Intersection over union in three dimensions after fitting, 0 to 1.
     pub iou3d: f64,
 }
 
-/// What a variation differs in. Of a factor without a quantity it is the number of the variation whose seed it has.
+/// How a variation differs. A factor without a quantity has the number of the variation whose seed it uses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Factors {
@@ -139,7 +139,7 @@ pub struct Factors {
     pub assets: u32,
     /// Colours, wear and extras of vehicles: a variation's number.
     pub paint: u32,
-    /// Who the people on foot are: a variation's number.
+    /// Who the pedestrians are: a variation's number.
     pub people: u32,
     /// Styles and colours of buildings: a variation's number.
     pub facades: u32,
@@ -149,7 +149,7 @@ pub struct Factors {
     pub furniture: u32,
     /// Plants, lawns and undergrowth: a variation's number.
     pub vegetation: u32,
-    /// Latitude and longitude of the place whose customs, climate and sun it has, degrees.
+    /// Latitude and longitude of the place whose customs, climate and sun it follows, degrees.
     pub place: [f64; 2],
     /// What plants, lawns and fallen leaves show.
     #[serde(with = "names::season")]
@@ -157,15 +157,15 @@ pub struct Factors {
     pub season: Season,
     /// Sun and sky.
     pub light: LightFactor,
-    /// How many road users there are against the recorded number.
+    /// Number of road users relative to the recorded number.
     pub traffic: f64,
     /// How wet the ground is, 0 (dry) to 1.
     pub wetness: f64,
     /// What was added to the recipe's exposure, stops.
     pub exposure_ev: f64,
-    /// How far the cameras are above their recorded places, metres.
+    /// Height of the cameras above their recorded positions, metres.
     pub camera_height_m: f64,
-    /// How far the cameras look up from their recorded views, degrees.
+    /// Upward tilt of the cameras from their recorded views, degrees.
     pub camera_pitch_deg: f64,
     /// How many other vehicles may carry the rig.
     pub other_vehicles: u32,
@@ -180,20 +180,20 @@ pub enum LightFactor {
     Sky {
         /// `sky`.
         environment: String,
-        /// Elevation of the sun over the horizon, degrees; negative at night.
+        /// Elevation of the sun above the horizon, degrees; negative at night.
         sun_elevation_deg: f64,
-        /// Where the sun is, degrees clockwise from north.
+        /// Azimuth of the sun, degrees clockwise from north.
         sun_azimuth_deg: f64,
         /// Linke turbidity, 1.7 (crystal clear) to 10 (hazy).
         turbidity: f64,
-        /// Share of the sky that is clouded, 0 to 1.
+        /// Share of the sky covered by clouds, 0 to 1.
         clouds: f64,
     },
-    /// A picture of a sky.
+    /// A sky image.
     Picture {
         /// The file, as the recipe names it.
         environment: String,
-        /// How far it is turned counter-clockwise, degrees.
+        /// Its rotation counter-clockwise, degrees.
         rotation_deg: f64,
     },
 }
