@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 FORMAT = 2
-"""Version of the files' form that this module reads."""
+"""Version of the format that this module reads."""
 
 Matrix4 = list[list[float]]
-"""A 4×4 matrix, rows first."""
+"""A 4×4 matrix, row-major."""
 
 
 class FrameRow(TypedDict):
-    """A frame's row in the manifest; `counterfactual` is there only where it is compared with another frame."""
+    """A frame's row in the manifest; `counterfactual` is present only if it is compared with another frame."""
 
     path: str
     scene: str
@@ -100,7 +100,7 @@ class FrameTable(TypedDict):
 
 
 def read_manifest(root: Path) -> Manifest:
-    """An output folder's manifest; another version of the format is an error."""
+    """The manifest of an output folder; another version of the format is an error."""
     path = root / "manifest.json"
     manifest: Manifest = _read(path)
     found = manifest.get("format", "none")
@@ -111,7 +111,7 @@ def read_manifest(root: Path) -> Manifest:
 
 
 def read_frame(folder: Path) -> FrameTable:
-    """A frame's table, by its folder."""
+    """The table of the frame in `folder`."""
     table: FrameTable = _read(folder / "frame.json")
     return table
 

@@ -11,20 +11,20 @@ from pathlib import Path
 def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m trove.train",
-        description="Measures what datasets are worth for training.",
+        description="Measure what datasets are worth for training.",
         epilog="Example: python -m trove.train camvid.toml --out results",
     )
-    parser.add_argument("experiment", type=Path, help="the experiment, TOML")
+    parser.add_argument("experiment", type=Path, help="experiment file (TOML)")
     parser.add_argument(
-        "--out", type=Path, required=True, help="folder for runs and table; what is finished there is kept"
+        "--out", type=Path, required=True, help="output folder for runs and table; finished runs are kept"
     )
-    parser.add_argument("--rows", nargs="*", help="only these rows of the experiment")
-    parser.add_argument("--threads", type=int, default=0, help="threads on the CPU for a job; 0 is all")
+    parser.add_argument("--rows", nargs="*", help="train only these rows")
+    parser.add_argument("--threads", type=int, default=0, help="CPU threads per job; 0 uses all")
     parser.add_argument(
         "--jobs",
         type=int,
         default=1,
-        help="seeds and rows that are trained at the same time, each in a process of its own",
+        help="seeds and rows to train in parallel, each in its own process",
     )
     options = parser.parse_args()
     try:
@@ -55,7 +55,7 @@ def main() -> int:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("interrupted; the same command goes on from here", file=sys.stderr)
+        print("interrupted; run the same command to resume", file=sys.stderr)
         return 1
     print((options.out / "table.md").read_text())
     return 0

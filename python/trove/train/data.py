@@ -1,4 +1,4 @@
-"""Pictures with labels, from every dataset's own layout."""
+"""Images with labels, from each dataset's own layout."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from trove.train.labels import CROWNS, lookup
 
 @dataclass(frozen=True)
 class Sample:
-    """A picture and its labels, as files."""
+    """The files of an image and its labels."""
 
     picture: Path
     labels: Path
@@ -22,8 +22,8 @@ class Sample:
 def native(root: Path, pictures: Path | None = None, frames: Path | None = None, split: str = "train") -> list[Sample]:
     """Frames of `trove generate`.
 
-    `pictures` is a folder of `trove recolor` whose pictures stand in for the frames' own; `frames` a list of
-    `trove curate`, of which `split` is taken.
+    `pictures` is a folder of `trove recolor` whose images replace the frames' own; `frames` is a list of
+    `trove curate`, from which `split` is used.
     """
     if frames is None:
         folders = sorted(path.parent.relative_to(root) for path in root.rglob("rgb.png"))
@@ -66,11 +66,11 @@ _ZOOM = 1.4
 
 
 class Pictures:
-    """Pairs of a picture (H, W, 3) and its labels (H, W) in the target's numbers, both `uint8`.
+    """Pairs of an image (H, W, 3) and its labels (H, W) in the target's ids, both `uint8`.
 
-    Pictures are scaled to cover `size` (width, height) and cut to it, in the middle, or with `augment` at random with a
-    random scale of 1 to 1.4 and a random mirroring that `epoch` and the index decide.
-    Up to 2 GiB of pictures are kept, as small as the largest of these scales allows.
+    Images are scaled to cover `size` (width, height) and cropped to it, at the centre, or with `augment` at random with
+    a random scale of 1 to 1.4 and a random flip, all determined by `epoch` and the index.
+    Up to 2 GiB of images are cached, as small as the largest of these scales allows.
     """
 
     KEPT_BYTES = 2 << 30
@@ -107,11 +107,11 @@ class Pictures:
         return rgb, ids
 
     def labels(self, index: int) -> np.ndarray:
-        """All labels of a picture, not cut, in the target's numbers."""
+        """All labels of an image, uncropped, in the target's ids."""
         return np.asarray(self._pair(index)[1])
 
     def _pair(self, index: int) -> tuple[Image.Image, Image.Image]:
-        """The picture and its labels in the target's numbers, as large as the largest zoom needs."""
+        """The image and its labels in the target's ids, as large as the largest zoom needs."""
         if index in self._kept:
             return self._kept[index]
         sample = self.samples[index]
@@ -120,7 +120,7 @@ class Pictures:
         if labels.mode not in ("L", "P"):
             labels = labels.getchannel(0)
         if picture.size != labels.size:
-            raise ValueError(f"{sample.labels}: expected {picture.size} pixels as the picture, found {labels.size}")
+            raise ValueError(f"{sample.labels}: expected {picture.size} pixels, like the image, found {labels.size}")
         labels = Image.fromarray(self.table[np.asarray(labels)])
         if self.crowns is not None:
             labels = _outlined_crowns(labels, *self.crowns)
@@ -139,7 +139,7 @@ class Pictures:
 
 
 def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) -> Image.Image:
-    """Labels as people draw them: a crown is one surface, so sky and houses seen between twigs are tree.
+    """Labels as annotators draw them: a crown is one surface, so sky and houses seen between twigs are tree.
 
     Trees are closed by a hundredth of the width on each side.
     """
@@ -151,7 +151,7 @@ def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) ->
 
 
 def _spread(mask: np.ndarray, radius: int) -> np.ndarray:
-    """Where the mask (H, W) is true within so many pixels along both axes."""
+    """Where the mask (H, W) is true within `radius` pixels along both axes."""
     for _ in range(2):
         wide = mask.copy()
         for shift in range(1, radius + 1):
@@ -162,7 +162,7 @@ def _spread(mask: np.ndarray, radius: int) -> np.ndarray:
 
 
 def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list[list[tuple[int, int]]]:
-    """Batches of (set, index): each holds as many of every set, and each set runs through all its pictures in turn."""
+    """Batches of (set, index): each has equally many of every set, and each set cycles through all its images."""
     random = np.random.default_rng(seed)
     queues: list[list[int]] = [[] for _ in lengths]
     shares = [batch // len(lengths) + (i < batch % len(lengths)) for i in range(len(lengths))]

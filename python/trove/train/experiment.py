@@ -1,9 +1,9 @@
-"""What is to be trained on what: a TOML file.
+"""What to train on what: a TOML file.
 
 classes = "camvid"            # or "paper", the 12 classes
 size    = [480, 360]          # width and height that networks see
-rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: first without, then on the real set alone; [M]: mixed batches
-compare = { "S+R[M]" = "R" }  # rows whose gain is told
+rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: fine-tuned on the last set; [M]: mixed batches
+compare = { "S+R[M]" = "R" }  # rows whose gain is shown
 
 [sets.R]
 format = "camvid"             # native | camvid | cityscapes | kitti-step
@@ -19,7 +19,7 @@ format = "native"
 root   = "out/camvid-twin"
 frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
 
-[sets.C]                      # S in other colours: a row with C holds these in place of S
+[sets.C]                      # S recoloured: a row with C uses it instead of S
 format   = "native"
 root     = "out/camvid-twin"
 pictures = "out/camvid-twin-recolored"
@@ -31,7 +31,7 @@ split  = "val"
 
 [training]
 model  = "small"              # or "deeplab"
-steps  = 600                  # the same for every row; or epochs = 30, of a row's own pictures
+steps  = 600                  # the same for every row; or epochs = 30, of a row's own images
 batch  = 10
 rate   = 1e-3
 seeds  = [1, 2, 3]
@@ -60,7 +60,7 @@ else:
 
 
 class ExperimentError(ValueError):
-    """The file asks for something that cannot be; the message names the place and what was expected."""
+    """The file asks for something impossible; the message names the place and what was expected."""
 
 
 @dataclass(frozen=True)
@@ -77,20 +77,20 @@ class Training:
     balanced: bool = False
 
     def settings(self) -> list[Any]:
-        """All that changes what a run finds, but for its seed."""
+        """Everything that affects the result of a run except its seed."""
         weights = self.weights and [self.weights.name, self.weights.stat().st_size]
         return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced]
 
 
 @dataclass(frozen=True)
 class Pool:
-    """A set of samples with the numbering of its labels."""
+    """A set of samples and the numbering of their labels."""
 
     samples: list[Sample]
     numbering: str
 
     def digest(self, base: Path) -> str:
-        """A hash of the numbering and of the sizes of all files and their paths from `base`, wherever that lies."""
+        """A hash of the numbering and of all file sizes and paths relative to `base`, wherever `base` is."""
         files = [
             (os.path.relpath(f, base), f.stat().st_size)
             for sample in self.samples
@@ -101,7 +101,7 @@ class Pool:
 
 @dataclass(frozen=True)
 class Experiment:
-    """An experiment, with its sets found."""
+    """An experiment with its sets resolved."""
 
     folder: Path
     classes: str
@@ -115,7 +115,7 @@ class Experiment:
     def stages(self, row: str) -> list[list[str]]:
         """The sets of each stage of a row: `S+R[F]` is trained on S, then on R; `S+C+R[M]` on C and R at once.
 
-        C is S in other colours, so it stands in for S.
+        C is S recoloured, so it replaces S.
         """
         names = re.sub(r"\[.\]$", "", row).split("+")
         names = [name for name in names if not (name == "S" and "C" in names)]
@@ -124,7 +124,7 @@ class Experiment:
         return [names]
 
     def alike(self, rows: list[str]) -> list[list[str]]:
-        """Rows in groups that share their first stage: groups may be trained at the same time, rows of one in turn."""
+        """Rows grouped by their first stage: groups can be trained in parallel, the rows of a group one after another."""
         groups: dict[tuple[str, ...], list[str]] = {}
         for row in rows:
             groups.setdefault(tuple(self.stages(row)[0]), []).append(row)
@@ -145,12 +145,12 @@ class Experiment:
 
     @cached_property
     def digests(self) -> dict[str, str]:
-        """Of every set."""
+        """A digest of every set."""
         return {name: pool.digest(self.folder) for name, pool in self.pools.items()}
 
 
 def read(path: Path) -> Experiment:
-    """Reads an experiment and finds its pictures; raises `ExperimentError`."""
+    """Reads an experiment and finds its images; raises `ExperimentError`."""
     try:
         table = tomllib.loads(path.read_text())
     except (OSError, tomllib.TOMLDecodeError) as error:
@@ -209,7 +209,7 @@ def _pool(path: Path, place: str, entry: dict[str, Any]) -> Pool:
     samples = find(root, split=entry.get("split", "train"), **options)
     if not samples:
         raise ExperimentError(
-            f"{path}: {place}.root: expected pictures laid out as {entry['format']} in {root}, found none"
+            f"{path}: {place}.root: expected images laid out as {entry['format']} in {root}, found none"
         )
     return Pool(samples, numbering)
 

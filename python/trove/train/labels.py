@@ -1,4 +1,4 @@
-"""What the label numbers of every dataset become, by the tables that the program itself reads.
+"""Maps the label ids of every dataset, using the tables that the program itself reads.
 
 A target is a list of classes; a network predicts their indices, and `IGNORED` is left out of loss and metrics.
 """
@@ -20,7 +20,7 @@ def _rows(label_set: str) -> list[dict[str, str]]:
 
 
 def _counted(label_set: str) -> list[str]:
-    """The names of the classes that count, in the order of their training ids."""
+    """The names of the classes that count, ordered by training id."""
     rows = [row for row in _rows(label_set) if int(row["train_id"]) != IGNORED]
     return [row["name"] for row in sorted(rows, key=lambda row: int(row["train_id"]))]
 
@@ -46,7 +46,7 @@ _NUMBERINGS = {
 
 
 def lookup(numbering: str, target: str) -> np.ndarray:
-    """The target's index for each of 256 numbers, `uint8`; `IGNORED` where it has none.
+    """The target's index for each of 256 ids, `uint8`; `IGNORED` if it has none.
 
     `numbering` is `native` (class.png), `camvid`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
     shares). Raises `ValueError` for a numbering that has no counterpart in the target.
@@ -56,7 +56,7 @@ def lookup(numbering: str, target: str) -> np.ndarray:
     # A set names its classes in a column for each other set that it has a counterpart in.
     names = "name" if label_set == _SETS[target] else _SETS[target]
     if not rows or names not in rows[0]:
-        raise ValueError(f"labels numbered as {numbering} cannot be turned into the classes {target}")
+        raise ValueError(f"labels numbered as {numbering} cannot be converted to the classes {target}")
     classes = TARGETS[target]
     table = np.full(256, IGNORED, np.uint8)
     for row in rows:

@@ -1,4 +1,4 @@
-"""Networks that give a class to every pixel: (N, 3, H, W), 0 to 1 → logits (N, classes, h, w) of a smaller size."""
+"""Segmentation networks: (N, 3, H, W), 0 to 1 → logits (N, classes, h, w) of a smaller size."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 
 
 class Normalised(nn.Module):
-    """Brings pictures to the mean and deviation that ImageNet's networks expect."""
+    """Normalises images to the mean and deviation that ImageNet networks expect."""
 
     def __init__(self, body: nn.Module):
         super().__init__()
@@ -47,7 +47,7 @@ def _convolution(inside: int, outside: int, stride: int = 1) -> nn.Sequential:
 
 
 class _Pointwise(nn.Conv2d):
-    """A convolution of 1 × 1 as one product of matrices: PyTorch's own is slow for few pictures on one thread."""
+    """A 1 × 1 convolution as one matrix product: PyTorch's own is slow for few images on one thread."""
 
     def __init__(self, inside: int, outside: int):
         super().__init__(inside, outside, 1)
@@ -57,7 +57,7 @@ class _Pointwise(nn.Conv2d):
 
 
 class _Residual(nn.Module):
-    """Two convolutions beside a projection (He et al. 2016)."""
+    """Two convolutions with a projection shortcut (He et al. 2016)."""
 
     def __init__(self, inside: int, outside: int, stride: int):
         super().__init__()
@@ -100,7 +100,7 @@ class Small(nn.Module):
 
 
 def network(name: str, classes: int, weights: Path | None) -> nn.Module:
-    """`deeplab` or `small`; `weights` is a file of torchvision's ResNet-50 for `deeplab`, `None` is from scratch."""
+    """`deeplab` or `small`; `weights` is a file of torchvision's ResNet-50 for `deeplab`, `None` trains from scratch."""
     if name == "deeplab":
         return Normalised(DeepLabV2(classes, weights))
     if name == "small":

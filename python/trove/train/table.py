@@ -1,4 +1,4 @@
-"""The results in the paper's form."""
+"""The results in the paper's format."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ def _interval(values: np.ndarray) -> float:
 
 
 def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
-    """Means over the seeds of one row, percent: `iou` by class, `miou` and its interval, `accuracy`."""
+    """Means over the seeds of one row, percent: `iou` per class, `miou` and its interval, `accuracy`."""
     counts = [np.array(result["confusion"]) for result in results]
     ious = np.array([iou(c) for c in counts]) * 100
     mious = np.nanmean(ious, axis=1)
@@ -43,7 +43,7 @@ def _rows(summaries: dict[str, dict[str, Any]]) -> list[list[str]]:
 
 
 def markdown(classes: list[str], summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
-    """A Markdown table with a line for every gain asked for."""
+    """A Markdown table with a line for every gain requested."""
     head = ["trained on", *classes, "mIoU", "accuracy"]
     lines = [head, ["---"] * len(head), *_rows(summaries)]
     text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
@@ -68,7 +68,7 @@ def latex(classes: list[str], summaries: dict[str, dict[str, Any]]) -> str:
 
 
 def curves(results: list[dict[str, Any]]) -> str:
-    """The curves of the loss as an SVG picture, a line a run."""
+    """The loss curves as an SVG image, one line per run."""
     most = max((point[2] for r in results for point in r["curve"]), default=1.0)
     parts = []
     for i, result in enumerate(results):

@@ -22,7 +22,7 @@ _LINE_EVERY, _SAVE_EVERY = 20, 100
 
 
 def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.device) -> np.ndarray:
-    """Counts of pixels (truth, prediction) over all pictures."""
+    """Pixel counts (truth, prediction) over all images."""
     model.eval()
     confusion = np.zeros((classes, classes), np.int64)
     with torch.no_grad():
@@ -39,7 +39,7 @@ def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.de
 
 
 def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) -> list[dict[str, Any]]:
-    """Trains and measures rows of the experiment in the file `path` with one seed, on so many threads; 0 is all."""
+    """Trains and measures rows of the experiment in the file `path` with one seed; `threads` 0 uses all."""
     if threads:
         torch.set_num_threads(threads)
     experiment = read(path)
@@ -49,8 +49,8 @@ def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) ->
 def run(experiment: Experiment, row: str, seed: int, out: Path, say: Callable[[str], None]) -> dict[str, Any]:
     """Trains and measures one row with one seed.
 
-    What is finished in `out` is not done again, what was begun goes on, and rows that begin alike share their first
-    stage; a folder's name holds a hash of all that went into it, so that other data or settings get another.
+    Finished work in `out` is not repeated, started work is resumed, and rows with the same first stage share it; a
+    folder's name contains a hash of everything that went into it, so other data or settings get another folder.
     Returns `{"row", "seed", "confusion", "curve"}`; `curve` holds (stage, step, loss).
     """
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
@@ -84,7 +84,7 @@ def run(experiment: Experiment, row: str, seed: int, out: Path, say: Callable[[s
 
 @dataclass(frozen=True)
 class _Stage:
-    """What one stage of a row trains on, and the file that it resumes from."""
+    """What one stage of a row trains on, and the file it resumes from."""
 
     experiment: Experiment
     names: list[str]
@@ -96,7 +96,7 @@ class _Stage:
 def _train(
     stage: _Stage, model: nn.Module, device: torch.device, curve: list[list[float]], say: Callable[[str], None]
 ) -> None:
-    """Trains on all `names` in mixed batches; the checkpoint is what an interrupted stage goes on from."""
+    """Trains on all `names` in mixed batches; an interrupted stage resumes from the checkpoint."""
     experiment, names, seed, checkpoint = stage.experiment, stage.names, stage.seed, stage.checkpoint
     training = experiment.training
     pools = [experiment.pools[name] for name in names]
@@ -154,7 +154,7 @@ def _train(
 
 
 def _weights(sets: list[Pictures], classes: int) -> np.ndarray:
-    """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set counting alike."""
+    """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set weighted equally."""
     shares = np.zeros(classes)
     for pictures in sets:
         counts = np.zeros(classes)
@@ -165,7 +165,7 @@ def _weights(sets: list[Pictures], classes: int) -> np.ndarray:
 
 
 def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
-    """AdamW that decays weights, and neither biases nor normalisation."""
+    """AdamW that decays weights, but not biases or normalisation."""
     decayed = [p for p in model.parameters() if p.ndim > 1]
     plain = [p for p in model.parameters() if p.ndim <= 1]
     return torch.optim.AdamW(
@@ -174,13 +174,13 @@ def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
 
 
 def _tensor(items: list[tuple[np.ndarray, np.ndarray]], device: torch.device) -> torch.Tensor:
-    """The pictures of pairs as (N, 3, H, W), 0 to 1, channels last."""
+    """The images of pairs as (N, 3, H, W), 0 to 1, channels last."""
     pictures = torch.from_numpy(np.stack([picture for picture, _ in items])).to(device)
     return pictures.permute(0, 3, 1, 2).float() / 255
 
 
 def _fast_bfloat16() -> bool:
-    """Whether the processor has matrix units for bfloat16 (AMX); without them training in it is slower than in float32."""
+    """Whether the CPU has matrix units for bfloat16 (AMX); without them bfloat16 is slower than float32."""
     return getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
 
 
