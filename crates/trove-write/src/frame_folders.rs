@@ -77,7 +77,8 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
         FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
         FrameFile::Change => {
             let change = frame.change.as_ref();
-            let change = change.ok_or_else(|| WriteError::Mismatch(format!("{name} without another scene")))?;
+            let change =
+                change.ok_or_else(|| WriteError::Mismatch(format!("{name} without a scene to compare with")))?;
             png_file::grey(name, width, height, &change.map(|&differs| if differs { u8::MAX } else { 0 }).data)
         }
     }

@@ -92,7 +92,11 @@ fn replaced(
 ) -> Option<Piece> {
     let found = replace::replacement(house, library, streets, random)?;
     let name = volumes::name(house.building);
-    report.note(Outcome::Substituted, "rectangular building, by an asset", format_args!("{name}: {}", found.asset.id));
+    report.note(
+        Outcome::Substituted,
+        "rectangular building, replaced by an asset",
+        format_args!("{name}: {}", found.asset.id),
+    );
     Some(Piece {
         mesh: Arc::clone(&found.asset.mesh),
         world_from_mesh: found.world_from_mesh,

@@ -187,9 +187,9 @@ fn stays_up(track: &Track, boxes: &[(usize, Cuboid)], stand: &Stand, report: &Re
     let stays_up = lift_m > if alive { PLATFORM_M } else { STOREY_M };
     let example = || format!("{} ({}), {lift_m:.1} m", track.token, track.kind.name());
     if stays_up {
-        report.note(Outcome::Warned, "object stands above the ground as annotated", example());
+        report.note(Outcome::Warned, "object left above the ground, as annotated", example());
     } else if lift_m.abs() > PLATFORM_M {
-        report.note(Outcome::Substituted, "ground for an annotated height that is far from it", example());
+        report.note(Outcome::Substituted, "annotated height far from the ground, replaced by the ground", example());
     }
     stays_up
 }

@@ -120,7 +120,7 @@ fn posture(file: &str) -> (&'static str, &'static str) {
             return (posture, "its name");
         }
     }
-    ("standing", "its name says nothing else")
+    ("standing", "nothing else in its name")
 }
 
 /// Licence, author and source: of the model itself, else of a licence file beside it.

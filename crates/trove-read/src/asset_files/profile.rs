@@ -215,7 +215,7 @@ pub(super) fn open_side(points: &[Sample]) -> Vec<Evidence> {
     let lower = mean(points.iter().filter(|s| s.at.z < 0.65).map(|s| s.at));
     if let (Some(upper), Some(lower)) = (upper, lower) {
         let towards = ((lower - upper).truncate() * 6.0).clamp_length_max(1.0);
-        evidence.push(Evidence { towards, either: false, reason: "what is higher behind" });
+        evidence.push(Evidence { towards, either: false, reason: "it is higher at the back" });
     }
     evidence
 }

@@ -47,7 +47,7 @@ pub(super) fn meaning(tags: &Tags, outline: Outline) -> Meaning {
             (Some(_), true) => Meaning::Land(LandKind::Paved),
             (None, _) if closed && highway == "platform" => Meaning::Land(LandKind::Paved),
             (Some(kind), false) => Meaning::Road(kind),
-            (None, _) => Meaning::Nothing("highway that is not there or not a way"),
+            (None, _) => Meaning::Nothing("highway that does not exist or is not a road"),
         };
     }
     if let Some(kind) = land_kind(tags).filter(|_| closed) {
@@ -243,7 +243,7 @@ mod tests {
         check("highway=primary_link", Outline::Line, Meaning::Road(RoadKind::Primary));
         check("highway=footway footway=crossing", Outline::Line, Meaning::Road(RoadKind::Crossing));
         check("highway=footway indoor=yes", Outline::Line, Meaning::Nothing("indoors"));
-        check("highway=proposed", Outline::Line, Meaning::Nothing("highway that is not there or not a way"));
+        check("highway=proposed", Outline::Line, Meaning::Nothing("highway that does not exist or is not a road"));
         check("natural=water landuse=basin", Outline::Area, Meaning::Land(LandKind::Water));
         check("natural=water", Outline::Line, Meaning::Nothing(""));
         check("amenity=parking parking=underground", Outline::Ring, Meaning::Nothing("underground"));

@@ -19,10 +19,10 @@ pub(crate) fn run(dir: &Path, as_json: bool) -> Result<i32> {
         println!("{}", serde_json::to_string_pretty(&json!({ "findings": rows, "severe": severe }))?);
     } else {
         for finding in &findings {
-            let mark = if finding.severe { "error" } else { "look at" };
+            let mark = if finding.severe { "error" } else { "warning" };
             println!("{mark}: {}: {}; {}", finding.file, finding.what, finding.remedy);
         }
-        println!("{} findings, {severe} of them of what cannot be used", findings.len());
+        println!("{} findings, {severe} of them about things that cannot be used", findings.len());
     }
     Ok(i32::from(severe > 0))
 }

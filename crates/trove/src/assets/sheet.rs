@@ -97,7 +97,7 @@ impl Sheet {
         progress.finish();
         if let Some(path) = &self.out {
             write_sheet(path, &pictures)?;
-            println!("{}: {} pictures", path.display(), pictures.len());
+            println!("{}: {} images", path.display(), pictures.len());
         }
         Ok(())
     }

@@ -168,7 +168,7 @@ pub(super) fn heights<'a>(
             let guessed_m = bottom_m + guessed_walls_m();
             match seen_m.filter(|seen_m| *seen_m > guessed_m) {
                 Some(seen_m) => {
-                    report.note(Outcome::Guessed, "height of a building, raised to what the LiDAR saw", name(source));
+                    report.note(Outcome::Guessed, "height of a building, raised to LiDAR points", name(source));
                     (None, seen_m)
                 }
                 None => (None, guessed_m),

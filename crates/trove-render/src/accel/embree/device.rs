@@ -62,7 +62,7 @@ pub(super) fn check(api: &Api, device: Handle, doing: &str) -> Result<(), String
 pub(super) fn made<T>(api: &Api, device: Handle, what: &str, made: *mut T) -> Result<*mut T, String> {
     if made.is_null() {
         check(api, device, what)?;
-        return Err(format!("{what}: got nothing, and no reason"));
+        return Err(format!("{what}: failed without a reason"));
     }
     Ok(made)
 }
