@@ -107,7 +107,7 @@ fn repair(rgb: &mut [[f32; 3]]) {
 }
 
 fn damaged(path: &Path, found: String) -> ReadError {
-    format(path, "a whole picture", &found, "download it again")
+    format(path, "a complete image", &found, "download it again")
 }
 
 fn format(path: &Path, expected: &str, found: &str, remedy: &str) -> ReadError {

@@ -280,7 +280,7 @@ fn with_own_labels(pictures: &[PathBuf]) -> Result<Vec<(PathBuf, PathBuf)>, Judg
             true => Ok((path.clone(), labels)),
             false => {
                 let remedy = "histograms by class need a folder of trove generate";
-                Err(JudgeError::unexpected(&labels, "the picture's labels", "no file", remedy))
+                Err(JudgeError::unexpected(&labels, "the image's labels", "no file", remedy))
             }
         }
     };
