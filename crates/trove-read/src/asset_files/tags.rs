@@ -181,7 +181,7 @@ fn speed_limit(stem: &str) -> Option<String> {
         return None;
     }
     let number: u32 = stem.split(|c: char| !c.is_ascii_digit()).find(|part| !part.is_empty())?.parse().ok()?;
-    (number % 5 == 0 && (5..=130).contains(&number)).then(|| format!("speed-{number}"))
+    (number.is_multiple_of(5) && (5..=130).contains(&number)).then(|| format!("speed-{number}"))
 }
 
 fn guess(tags: Vec<String>, confidence: f32, place: &str) -> (Vec<String>, Guess) {
