@@ -1,6 +1,17 @@
 //! Files that are whole or not there.
 //!
 //! What goes in: a path and bytes. What comes out: a file. This crate must not know what the bytes mean.
+//!
+//! ```
+//! use trove_files::write_atomically;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("journal.json");
+//! write_atomically(&path, b"[]")?;
+//! write_atomically(&path, b"[1]")?; // whoever reads meanwhile finds one or the other
+//! assert_eq!(std::fs::read(&path)?, b"[1]");
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::ffi::OsString;
 use std::fs::{self, File};

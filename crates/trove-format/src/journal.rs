@@ -90,6 +90,7 @@ impl FrameLine {
     pub const JOURNAL: &str = "frames.jsonl";
 
     /// The line's bytes, with the line break.
+    #[allow(clippy::missing_panics_doc)] // serde_json refuses keys that are not strings, and nothing else
     pub fn to_json(&self) -> Vec<u8> {
         let mut line = serde_json::to_vec(self).expect("a line has keys that are strings");
         line.push(b'\n');

@@ -7,7 +7,7 @@
 //! Readers ignore fields that they do not know, and take `null` or an empty value where an optional field is missing.
 //!
 //! ```
-//! use trove_format::{FormatError, FrameTable, Manifest};
+//! use trove_format::{Curated, FormatError, FrameTable, Manifest};
 //!
 //! /// How many cars a finished folder's frames show.
 //! fn cars(folder: &std::path::Path) -> Result<usize, FormatError> {
@@ -19,8 +19,17 @@
 //!     }
 //!     Ok(cars)
 //! }
-//! assert_eq!(cars(std::path::Path::new("a folder that is not there"))?, 0);
-//! # Ok::<(), FormatError>(())
+//!
+//! let folder = tempfile::tempdir()?;
+//! assert_eq!(cars(folder.path())?, 0, "nothing is finished yet");
+//! std::fs::write(folder.path().join("manifest.json"), r#"{"format": 1, "frames": []}"#)?;
+//! assert!(matches!(cars(folder.path()), Err(FormatError::Version { found: Some(1), .. })), "an older trove's folder");
+//!
+//! let chosen = Curated { train: vec!["demo-0001/v00/k002/ego.CAM_FRONT".into()], ..Curated::default() };
+//! let path = folder.path().join(Curated::NAME);
+//! std::fs::write(&path, chosen.to_json())?;
+//! assert_eq!(Curated::read(&path)?, chosen);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod curated;

@@ -2,6 +2,26 @@
 //!
 //! What goes in: folders of pictures and labels, ours or others'. What comes out: numbers, choices, and pictures in
 //! other colours. This crate must not know how any of them were made.
+//!
+//! ```
+//! use image::GrayImage;
+//! use trove_judge::{LabelSet, evaluate};
+//! use trove_model::Seed;
+//!
+//! // Ids of Cityscapes: 7 is the road, 26 a car. The prediction takes one of the car's two pixels for road.
+//! let folder = tempfile::tempdir()?;
+//! let [predicted, truth] = ["predicted.png", "truth.png"].map(|name| folder.path().join(name));
+//! GrayImage::from_raw(4, 1, vec![7, 7, 7, 26]).expect("four pixels").save(&predicted)?;
+//! GrayImage::from_raw(4, 1, vec![7, 7, 26, 26]).expect("four pixels").save(&truth)?;
+//!
+//! let set = LabelSet::named("cityscapes").expect("a known set");
+//! let settings = evaluate::Settings { set, boundary: false, panoptic: false, seed: Seed(0) };
+//! let result = evaluate::evaluate(&predicted, &truth, &settings, &|_, _| {})?;
+//! let miou = result.miou.expect("classes that are there").value;
+//! assert!((miou - (2.0 / 3.0 + 1.0 / 2.0) / 2.0).abs() < 1e-12);
+//! assert_eq!(result.accuracy.map(|share| share.value), Some(0.75));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod curate;
 mod error;

@@ -121,6 +121,9 @@ pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
 }
 
 /// A small picture of a picture, `width` pixels wide.
+///
+/// # Errors
+/// A file that is missing or is not a picture that can be decoded.
 pub fn thumbnail(path: &Path, width: u32) -> Result<Raster<[u8; 3]>, JudgeError> {
     let picture = read(path)?.into_rgb8();
     let height = (picture.height() * width / picture.width().max(1)).max(1);

@@ -2,6 +2,33 @@
 //!
 //! What goes in: numbers. What comes out: types with meaning. This crate must not know files, clocks, threads, the
 //! environment, or any third-party type but glam's.
+//!
+//! Poses compose only where their frames meet, and a [`Lens`] takes points in the camera's frame to pixels:
+//!
+//! ```
+//! use glam::{DMat3, DQuat, DVec2, DVec3};
+//! use trove_model::{Camera, Distortion, Ego, Lens, Pose, World};
+//!
+//! // A vehicle that heads north, with a camera on its roof that looks forward.
+//! let world_from_ego = Pose::<World, Ego>::from_yaw(std::f64::consts::FRAC_PI_2, DVec3::new(10.0, 20.0, 0.0));
+//! let forward = DQuat::from_mat3(&DMat3::from_cols(-DVec3::Y, -DVec3::Z, DVec3::X));
+//! let ego_from_camera = Pose::<Ego, Camera>::new(forward, DVec3::new(1.7, 0.0, 1.5));
+//! let world_from_camera = world_from_ego * ego_from_camera; // the other way round it does not compile
+//!
+//! let lens = Lens {
+//!     width_px: 1600,
+//!     height_px: 900,
+//!     fx_px: 1266.0,
+//!     fy_px: 1266.0,
+//!     cx_px: 800.0,
+//!     cy_px: 450.0,
+//!     distortion: Distortion::None,
+//! };
+//! let project = |point_world| lens.project(world_from_camera.inverse().point(point_world));
+//! let ahead = project(DVec3::new(10.0, 50.0, 1.5)).expect("a point before the camera");
+//! assert!(ahead.distance(DVec2::new(800.0, 450.0)) < 1e-9);
+//! assert_eq!(project(DVec3::new(10.0, -50.0, 1.5)), None, "a point behind it");
+//! ```
 
 mod asset;
 mod capture;

@@ -30,12 +30,18 @@ impl<T> Raster<T> {
         Self { width, height, data }
     }
 
-    /// The value at (x, y); panics outside the image.
+    /// The value at (x, y).
+    ///
+    /// # Panics
+    /// Outside the image.
     pub fn at(&self, x: u32, y: u32) -> &T {
         &self.data[self.index(x, y)]
     }
 
-    /// The value at (x, y), to change; panics outside the image.
+    /// The value at (x, y), to change.
+    ///
+    /// # Panics
+    /// Outside the image.
     pub fn at_mut(&mut self, x: u32, y: u32) -> &mut T {
         let i = self.index(x, y);
         &mut self.data[i]

@@ -50,7 +50,10 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform in 0..len; panics where `len` is 0.
+    /// Uniform in 0..len.
+    ///
+    /// # Panics
+    /// Where `len` is 0.
     pub fn index(&mut self, len: usize) -> usize {
         assert!(len > 0, "nothing to draw from");
         ((u128::from(self.bits()) * len as u128) >> 64) as usize

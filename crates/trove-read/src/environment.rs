@@ -18,6 +18,9 @@ use crate::ReadError;
 const MAX_WIDTH: usize = 16_384;
 
 /// Reads a picture whose width is twice its height. Values that are no radiance (NaN, infinite, negative) are repaired.
+///
+/// # Errors
+/// A file that cannot be read, is neither Radiance HDR nor OpenEXR, or is not twice as wide as high, 16384 pixels wide at most.
 pub fn read(path: &Path) -> Result<EnvironmentMap, ReadError> {
     let mut magic = [0; 4];
     let io = |source| ReadError::io(path, source);

@@ -2,6 +2,33 @@
 //!
 //! What goes in: paths. What comes out: the model's nouns. A dataset's peculiarities (axis order, quaternion order,
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
+//!
+//! ```
+//! use glam::DVec2;
+//! use trove_model::{Bounds, MapProjection, Report, RoadKind};
+//! use trove_read::{locale::Locales, osm};
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("street.osm");
+//! let street = r#"<osm>
+//!   <node id="1" lat="51.501" lon="-0.142"/>
+//!   <node id="2" lat="51.501" lon="-0.140"/>
+//!   <way id="7"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way>
+//! </osm>"#;
+//! std::fs::write(&path, street)?;
+//!
+//! let report = Report::default();
+//! let locale = Locales::built_in().at(51.501, -0.141, &report);
+//! assert!(locale.driving_side.is_left(), "London");
+//!
+//! let projection = MapProjection { origin_lat_deg: 51.501, origin_lon_deg: -0.141, anchor_m: DVec2::ZERO };
+//! let area = Bounds::square(DVec2::ZERO, 400.0);
+//! let map = osm::read(&path, &projection, area, locale.driving_side, &report)?;
+//! assert_eq!(map.roads[0].kind, RoadKind::Residential);
+//! let length_m = map.roads[0].centreline[0].distance(map.roads[0].centreline[1]);
+//! assert!((length_m - 138.6).abs() < 0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod asset_files;
 mod datasets;

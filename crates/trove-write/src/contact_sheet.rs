@@ -26,6 +26,9 @@ pub struct Frame {
 }
 
 /// Writes the sheet: all frames where they are few, else some spread evenly over the names in alphabetical order.
+///
+/// # Errors
+/// A frame whose files cannot be read, or a sheet that cannot be written.
 pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
     let chosen = spread(frames);
     let mut columns = 1;

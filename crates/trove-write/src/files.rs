@@ -11,6 +11,9 @@ use trove_format::WrittenFile;
 use crate::WriteError;
 
 /// SHA-256 of a file's bytes, lower-case hexadecimal.
+///
+/// # Errors
+/// A file that cannot be read.
 pub fn sha256_file(path: &Path) -> Result<String, WriteError> {
     let unreadable = || WriteError::storage(path, "read the file");
     let mut file = File::open(path).map_err(unreadable())?;
@@ -24,6 +27,9 @@ pub fn sha256_file(path: &Path) -> Result<String, WriteError> {
 }
 
 /// Writes a file so that `path` holds the old bytes or the new ones, never some.
+///
+/// # Errors
+/// A file system that refuses; what was at `path` is still there then.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     trove_files::write_atomically(path, bytes).map_err(WriteError::storage(path, "write the file"))
 }

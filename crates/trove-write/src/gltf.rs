@@ -42,12 +42,18 @@ pub struct GlbStats {
 
 /// Writes the picture of a sky as OpenEXR, in the rows and columns of [`EnvironmentMap`], which are those of Blender's
 /// environment texture too.
+///
+/// # Errors
+/// A map that does not have as many values as pixels, or a file system that refuses.
 pub fn write_environment(path: &Path, map: &EnvironmentMap) -> Result<(), WriteError> {
     let raster = Raster { width: map.width, height: map.height, data: map.rgb.clone() };
     write_atomically(path, &exr_file::encode(&file_name(path), &raster, ["R", "G", "B"])?)
 }
 
 /// Writes a scene with its cameras and its sun into one file, whole or not at all.
+///
+/// # Errors
+/// A mesh with a defect, a placement that is not finite, a texture that cannot be encoded, or a file system that refuses.
 pub fn write_glb(path: &Path, scene: &Scene, shots: &[Shot], sun: Option<&SunLight>) -> Result<GlbStats, WriteError> {
     let mut binary = Binary::default();
     let materials = Materials::encode(scene, &mut binary)?;

@@ -2,6 +2,21 @@
 //!
 //! What goes in: pictures, labels and the scene they show. What comes out: files that other tools open, each whole or
 //! not there. This crate must not know how any of it was made.
+//!
+//! ```
+//! use trove_model::Raster;
+//! use trove_write::{sha256_file, write_picture};
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("gradient.png");
+//! let gradient = Raster::from_fn(16, 9, |x, y| [16 * x as u8, 28 * y as u8, 128]);
+//! write_picture(&path, &gradient)?;
+//!
+//! let back = image::open(&path)?.into_rgb8();
+//! assert_eq!((back.dimensions(), back.get_pixel(15, 8).0), ((16, 9), [240, 224, 128]));
+//! assert_eq!(sha256_file(&path)?.len(), 64);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod contact_sheet;
 mod error;

@@ -61,6 +61,9 @@ impl Sheet {
 }
 
 /// Writes pictures of one size with their names above them, row by row in a page about as wide as high, as PNG.
+///
+/// # Errors
+/// A page too large for a PNG, or a file system that refuses.
 pub fn write_sheet(path: &Path, pictures: &[(String, Raster<[u8; 3]>)]) -> Result<(), WriteError> {
     let size = |of: fn(&Raster<[u8; 3]>) -> u32| pictures.iter().map(|(_, p)| of(p)).max().unwrap_or(0) + GAP_PX;
     let (width, height) = (size(|p| p.width), size(|p| p.height) + CAPTION_PX);

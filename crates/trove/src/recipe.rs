@@ -387,6 +387,9 @@ mod all {
 
 impl Recipe {
     /// Reads a recipe file; relative paths in it start from its folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a recipe that [`Recipe::parse`] refuses.
     pub fn read(path: &Path) -> Result<Self> {
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("{}: expected a recipe (TOML) that can be read", path.display()))?;
@@ -396,6 +399,9 @@ impl Recipe {
     }
 
     /// Reads a recipe's text and checks its values.
+    ///
+    /// # Errors
+    /// Text that is not TOML, a key that recipes do not have, or a value out of its range.
     pub fn parse(text: &str) -> Result<Self> {
         let recipe: Self = toml::from_str(text).map_err(|error| explain(&error))?;
         recipe.check()?;
@@ -537,7 +543,10 @@ impl RenderSection {
 }
 
 impl Keyframes {
-    /// The keyframes' numbers out of `count`, ascending; an error for one that is not there.
+    /// The keyframes' numbers out of `count`, ascending.
+    ///
+    /// # Errors
+    /// A listed keyframe that is not there.
     pub fn of(&self, count: usize) -> Result<Vec<usize>> {
         match self {
             Self::All => Ok((0..count).collect()),
@@ -590,6 +599,13 @@ mod tests {
         assert_eq!((recipe.render.spp, recipe.assets.top_k, recipe.variations.count), (64, 3, 1));
         assert_eq!(recipe.drive.unwrap().keyframes, Keyframes::All);
         assert_eq!(recipe.views.rig, Rig::All);
+    }
+
+    #[test]
+    fn the_example_is_a_recipe() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/boston.toml");
+        let recipe = Recipe::read(&path).unwrap();
+        assert_eq!((recipe.render.scale, recipe.variations.count), (Some(0.5), 4));
     }
 
     #[test]

@@ -151,7 +151,10 @@ impl<'de> Deserialize<'de> for Axis {
 }
 
 impl LibraryFile {
-    /// Reads a folder's `library.toml`. Errors: it is not there, or something in it is not what it should be.
+    /// Reads a folder's `library.toml`.
+    ///
+    /// # Errors
+    /// A file that is missing, is not TOML, or has a key or a value that libraries do not have.
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let path = folder.join(FILE_NAME);
         let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {

@@ -59,6 +59,9 @@ const GLANCE_LIMIT: u32 = 256;
 
 /// Looks through a folder, writes its `library.toml` or completes the one that is there, and returns what then stands
 /// in it with the guesses. What cannot be read is reported and left out.
+///
+/// # Errors
+/// A folder that cannot be listed, a `library.toml` that is damaged, or one that cannot be written.
 pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> {
     let found = scan::scan(folder, report)?;
     let path = folder.join(FILE_NAME);
@@ -114,7 +117,10 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
 
 /// Reads a folder with a `library.toml`. Ids are `<folder>/<file's stem>`, with `-<part>` for a part of a file, and
 /// with the names of folders in between where stems are not unique. What the file leaves open is guessed and reported;
-/// a model that cannot be read is reported and left out. Errors: the file is missing or wrong, or no entry is usable.
+/// a model that cannot be read is reported and left out.
+///
+/// # Errors
+/// A `library.toml` that is missing or damaged, or entries of which none can be used.
 pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, ReadError> {
     let file = LibraryFile::read(folder)?;
     let name = library_name(folder);

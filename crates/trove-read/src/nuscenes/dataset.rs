@@ -46,6 +46,9 @@ pub struct SceneSummary {
 impl NuScenes {
     /// Opens a version (`v1.0-mini`) below a root folder; the index of the big tables is kept in `cache_dir`, or
     /// made anew and not kept where that is `None`.
+    ///
+    /// # Errors
+    /// A folder without that version, or a table that is missing or damaged.
     pub fn open(root: &Path, version: &str, cache_dir: Option<&Path>, report: &Report) -> Result<Self, ReadError> {
         let folder = root.join(version);
         if !folder.is_dir() || version.is_empty() {

@@ -41,8 +41,11 @@ pub use crate::geo_extent::GeoExtent;
 
 const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
 
-/// Reads what lies in `area` or crosses it, where traffic keeps to the `driving_side`; ways are kept whole. An extract
-/// of another place is [`ReadError::Elsewhere`].
+/// Reads what lies in `area` or crosses it, where traffic keeps to the `driving_side`; ways are kept whole.
+///
+/// # Errors
+/// A file that cannot be read, is packed or damaged, or has no nodes; an extract of another place is
+/// [`ReadError::Elsewhere`].
 pub fn read(
     path: &Path,
     projection: &MapProjection,
@@ -72,6 +75,9 @@ pub fn read(
 }
 
 /// The latitudes and longitudes that a file's nodes lie in.
+///
+/// # Errors
+/// A file that cannot be read, is packed or damaged, or has no nodes.
 pub fn extent(path: &Path) -> Result<GeoExtent, ReadError> {
     let raw = parse_file(path, &Report::default())?;
     extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))

@@ -157,6 +157,9 @@ impl CameraSection {
     }
 
     /// The lenses that replace recorded ones.
+    ///
+    /// # Errors
+    /// A lens whose model, coefficients or focal length cannot be used.
     pub fn lenses(&self) -> Result<BTreeMap<String, LensChange>> {
         let change = |(name, section): (&String, &LensSection)| {
             Ok((name.clone(), section.change().map_err(|e| anyhow!("camera.lens.{name}.{e}"))?))

@@ -44,6 +44,9 @@ impl LightSection {
     }
 
     /// The computed sky: the recording's own, or one that is drawn.
+    ///
+    /// # Errors
+    /// As [`LightSection::time_ns`].
     pub fn sky(&self, is_drawn: bool) -> Result<SkyChoice> {
         let moment = match self.time_ns()? {
             Some(time_ns) => Moment::At(time_ns),
@@ -78,6 +81,9 @@ impl LightSection {
     }
 
     /// The time that is told, nanoseconds since 1970 UTC.
+    ///
+    /// # Errors
+    /// A `light.time` that is not RFC 3339 with date, time and offset.
     pub fn time_ns(&self) -> Result<Option<i64>> {
         let Some(text) = &self.time else { return Ok(None) };
         let wrong = || format!("light.time: expected a time such as \"2018-08-01T15:26:00Z\", found {text:?}");

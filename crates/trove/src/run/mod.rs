@@ -68,6 +68,10 @@ pub struct RenderedFrame {
 }
 
 /// Runs a recipe; what `out` already holds of it is kept.
+///
+/// # Errors
+/// Input that cannot be read, a place that cannot be built or rendered, an output folder that holds another run or that
+/// another process writes to, or a file system that refuses.
 pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Summary> {
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
