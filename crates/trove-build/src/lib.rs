@@ -2,6 +2,44 @@
 //!
 //! What goes in: the model's nouns. What comes out: the virtual scene of every keyframe and the cameras in it. This
 //! crate must not know files, datasets' formats or the renderer.
+//!
+//! ```
+//! use glam::DVec2;
+//! use trove_build::{BuildSettings, LightChoice, OnDisagreement, PlacePlan, Traffic, ViewSettings, Weather};
+//! use trove_model::{AssetLibrary, Class, DrivingSide, MapProjection, Report, Road, RoadKind, Seed, StreetMap};
+//!
+//! // One street in London, without models to furnish it.
+//! let ends = vec![DVec2::new(-100.0, 0.0), DVec2::new(100.0, 0.0)];
+//! let map = StreetMap { roads: vec![Road::new(1, RoadKind::Residential, ends)], ..StreetMap::default() };
+//! let plan = PlacePlan {
+//!     name: "a street",
+//!     projection: MapProjection { origin_lat_deg: 51.501, origin_lon_deg: -0.141, anchor_m: DVec2::ZERO },
+//!     size_m: 120.0,
+//!     driving_side: DrivingSide::Left,
+//!     time_ns: 1_718_452_800_000_000_000, // noon in June
+//! };
+//! let (seed, report) = (Seed(7), Report::default());
+//! let drive = trove_build::place_drive(&map, &plan, seed, &report)?;
+//!
+//! let settings = BuildSettings {
+//!     seeds: seed.into(),
+//!     top_k: 1,
+//!     traffic: Traffic::default(),
+//!     light: LightChoice::default(),
+//!     weather: Weather::default(),
+//!     on_disagreement: OnDisagreement::default(),
+//!     locale: trove_read::locale::Locales::built_in().country("GB").expect("a country of the table").clone(),
+//!     borders: None,
+//! };
+//! let site = trove_build::build(&drive, Some(&map), &AssetLibrary::default(), &settings, &report)?;
+//!
+//! let scene = site.scene(&drive, 0);
+//! assert!(scene.instances.iter().any(|instance| instance.class == Class::Road));
+//! let views = ViewSettings { spp: 16, ..ViewSettings::default() };
+//! let shots = trove_build::shots(&drive, &site, 0, &views, &seed.into(), &report);
+//! assert_eq!(shots.len(), 6, "cameras around the roof");
+//! # Ok::<(), trove_build::BuildError>(())
+//! ```
 
 mod agreement;
 mod assembly;

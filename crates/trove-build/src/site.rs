@@ -101,6 +101,9 @@ pub fn area(drive: &Drive) -> Option<Bounds> {
 }
 
 /// Builds the place of a drive.
+///
+/// # Errors
+/// A drive without keyframes, a vehicle pose that is not finite, or a place wider than 3 km.
 pub fn build(
     drive: &Drive,
     map: Option<&StreetMap>,

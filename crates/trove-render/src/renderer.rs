@@ -48,6 +48,9 @@ pub struct Renderer {
 
 impl Renderer {
     /// Loads the kernel and the denoiser and starts the threads.
+    ///
+    /// # Errors
+    /// A kernel that was asked for and is not installed, or threads that the system refuses to start.
     pub fn new(options: &RendererOptions) -> Result<Self, RenderError> {
         let pool = |name: &'static str| {
             rayon::ThreadPoolBuilder::new()
@@ -83,6 +86,10 @@ impl Renderer {
 
     /// Checks a scene and makes it ready, also while a picture of another one is taken; what it shares with earlier
     /// scenes (by `Arc`) is not made again.
+    ///
+    /// # Errors
+    /// A mesh, material or instance that breaks the rules of [`Scene`], which the error names, or a kernel that cannot build
+    /// its tree, such as for want of memory.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
         self.preparing.install(|| PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings))
     }
