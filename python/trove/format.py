@@ -36,7 +36,7 @@ class Manifest(TypedDict):
     frames: list[FrameRow]
 
 
-# In this form since `class` is a word of the language.
+# In this form because `class` is a keyword.
 ObjectRow = TypedDict(
     "ObjectRow",
     {
@@ -44,6 +44,7 @@ ObjectRow = TypedDict(
         "class": str,
         "class_id": int,
         "kind": str,
+        "origin": str,
         "category": str,
         "token": str,
         "track_token": str,

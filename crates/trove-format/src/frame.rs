@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::ser::Formatter;
-use trove_model::{Class, Distortion, Kind, MapProjection};
+use trove_model::{Class, Distortion, Kind, MapProjection, Origin};
 
 use crate::{FormatError, file, names};
 
@@ -131,7 +131,9 @@ pub struct ObjectRow {
     #[serde(with = "names::kind")]
     #[cfg_attr(test, schemars(schema_with = "names::kind::schema"))]
     pub kind: Kind,
-    /// The dataset's category; empty for scenery and for added road users.
+    /// How it comes to be in the scene.
+    pub origin: ObjectOrigin,
+    /// The dataset's category; empty unless it was recorded.
     #[serde(default)]
     pub category: String,
     /// The dataset's token of the annotation; empty as for `category`.
@@ -163,6 +165,32 @@ pub struct ObjectRow {
     pub occlusion: f32,
     /// Distance from the camera to the centre of its box, metres.
     pub range_m: f32,
+}
+
+/// How an object comes to be in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ObjectOrigin {
+    /// The dataset annotated it.
+    Recorded,
+    /// The vehicle that carried the cameras, which no dataset annotates.
+    Carrier,
+    /// A road user added by `variations.traffic`.
+    Added,
+    /// A building, a plant or street furniture.
+    Scenery,
+}
+
+impl From<&Origin> for ObjectOrigin {
+    fn from(origin: &Origin) -> Self {
+        match origin {
+            Origin::Recorded { .. } => Self::Recorded,
+            Origin::Carrier => Self::Carrier,
+            Origin::Added => Self::Added,
+            Origin::Scenery => Self::Scenery,
+        }
+    }
 }
 
 impl From<&Distortion> for LensModel {

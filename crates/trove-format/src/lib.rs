@@ -50,7 +50,7 @@ mod tests;
 pub use curated::Curated;
 pub use error::FormatError;
 pub use file::FORMAT;
-pub use frame::{FrameTable, LensModel, Matrix4, ObjectRow, Projection};
+pub use frame::{FrameTable, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
 pub use frame_file::FrameFile;
 pub use journal::{FrameLine, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};

@@ -94,14 +94,14 @@ fn row(label: &ObjectLabel, instances: &BTreeMap<u32, &Instance>) -> Result<Obje
         Origin::Recorded { category, annotation_token, track_token } => {
             [category.clone(), annotation_token.clone(), track_token.clone()]
         }
-        Origin::Carrier => ["ego".into(), String::new(), String::new()],
-        Origin::Added | Origin::Scenery => Default::default(),
+        Origin::Carrier | Origin::Added | Origin::Scenery => Default::default(),
     };
     Ok(ObjectRow {
         id,
         class,
         class_id: class.id(),
         kind: object.kind,
+        origin: (&object.origin).into(),
         category,
         token,
         track_token,

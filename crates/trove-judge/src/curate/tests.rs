@@ -1,7 +1,7 @@
 use super::*;
 use crate::LabelSet;
 use image::GrayImage;
-use trove_format::{FrameTable, LensModel, ObjectRow, Projection};
+use trove_format::{FrameTable, LensModel, ObjectOrigin, ObjectRow, Projection};
 use trove_model::{Class, Kind};
 
 fn classes() -> [Option<u8>; 20] {
@@ -15,6 +15,7 @@ fn frame(i: u32) -> FrameTable {
         class,
         class_id: class.id(),
         kind,
+        origin: ObjectOrigin::Recorded,
         category: String::new(),
         token: String::new(),
         track_token: String::new(),
