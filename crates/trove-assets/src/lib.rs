@@ -2,6 +2,21 @@
 //!
 //! What goes in: [`Ingredients`]. What comes out: models and surfaces, the same for the same ingredients. This crate
 //! must not know files, datasets or how scenes are built and rendered.
+//!
+//! A library of its own from a plan, as users' libraries bring them:
+//!
+//! ```
+//! use trove_assets::Plans;
+//!
+//! let text = "[[car]]\nid = \"long\"\nlike = \"car/estate\"\n[car.profile]\nlength_m = 4.9\n";
+//! let library = Plans::parse(text)?.library("mine");
+//! assert_eq!(library.assets[0].id, "mine/long");
+//! assert!((library.assets[0].size_m.x - 4.9).abs() < 0.1);
+//!
+//! let mistake = Plans::parse(&text.replace("estate", "estat")).unwrap_err();
+//! assert!(mistake.to_string().contains("car/estate"));
+//! # Ok::<(), trove_assets::PlanError>(())
+//! ```
 
 mod buildings;
 mod cycles;
