@@ -146,12 +146,12 @@ impl Crate {
     }
 
     /// Reads a file as a module whose children lie in a folder.
-    fn file(&mut self, file: &Path, folder: &PathBuf, name: Vec<String>) {
+    fn file(&mut self, file: &Path, folder: &Path, name: Vec<String>) {
         self.modules.insert(name.clone(), Module { file: file.into(), ..Module::default() });
         self.code(&tokens(&read_to_string(file).unwrap()), &name, folder);
     }
 
-    fn code(&mut self, tokens: &[String], name: &[String], folder: &PathBuf) {
+    fn code(&mut self, tokens: &[String], name: &[String], folder: &Path) {
         const ITEMS: [&str; 9] = ["fn", "struct", "enum", "trait", "type", "const", "static", "union", "macro_rules"];
         let child = |at: usize| [name, &[tokens[at].clone()]].concat();
         let (mut i, mut depth, mut public) = (0, 0, false);

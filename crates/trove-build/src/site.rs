@@ -396,8 +396,8 @@ mod tests {
             let settings = BuildSettings { seeds, ..settings(1) };
             build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
         };
-        // What an instance looks like, by its number.
-        let looks = |scene: &Scene| -> Vec<(InstanceId, Option<String>, [f64; 3], Vec<glam::Vec3>)> {
+        type Look = (InstanceId, Option<String>, [f64; 3], Vec<glam::Vec3>);
+        let looks = |scene: &Scene| -> Vec<Look> {
             let asset = |i: &Instance| i.object.as_ref().and_then(|o| o.asset.clone());
             let paints = |i: &Instance| i.materials.iter().map(|&m| scene.materials[m].base_color).collect();
             let place = |i: &Instance| i.world_from_mesh.translation.to_array();

@@ -52,9 +52,13 @@ fn moved(map: &StreetMap, east_m: f64, north_m: f64, turn_deg: f64) -> StreetMap
 }
 
 fn checked(drive: &Drive, map: &StreetMap) -> (StreetMap, Report) {
+    checked_on(DrivingSide::Right, drive, map)
+}
+
+fn checked_on(side: DrivingSide, drive: &Drive, map: &StreetMap) -> (StreetMap, Report) {
     let report = Report::default();
     let bounds = crate::area(drive).unwrap();
-    (agreed(drive, map, DrivingSide::Right, bounds, OnDisagreement::default(), &report).unwrap(), report)
+    (agreed(drive, map, side, bounds, OnDisagreement::default(), &report).unwrap(), report)
 }
 
 fn measured(report: &Report, name: &str) -> Option<f64> {
@@ -165,7 +169,8 @@ fn what_becomes_of_a_map_that_does_not_agree_is_the_users_choice() {
 
 #[test]
 fn distances_of_path_and_lanes_to_the_roads_are_measured() {
-    let (_, report) = checked(&testing::drive(), &testing::map_with_road([[-300.0, -1.5], [300.0, -1.5]]));
+    let map = testing::map_with_road([[-300.0, -1.5], [300.0, -1.5]]);
+    let (_, report) = checked_on(DrivingSide::Left, &testing::drive(), &map);
     assert!((measured(&report, "map.path_to_road_median_m").unwrap() - 1.5).abs() < 0.1);
     let (_, report) = checked(&testing::drive(), &StreetMap::default());
     assert!(report.measurements().is_empty());

@@ -305,7 +305,7 @@ mod tests {
         let report = Report::default();
         let roles = roles(&library, 3, Seed(1), &report);
         assert!(roles[2].is_none() && roles[3].is_none());
-        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.what.contains("Truck")));
+        assert!(report.entries().iter().any(|e| e.outcome == Outcome::Dropped && e.what.contains("truck")));
     }
 
     #[test]
