@@ -104,9 +104,11 @@ fn the_documentation_lists_the_tags_of_surfaces() {
     use SurfaceKind::*;
     let recipes: Vec<super::Recipe> = super::ground_recipes().into_iter().chain(super::building_recipes()).collect();
     let asked = [Asphalt, RoadCover, Paving, Kerb, Concrete, FlatRoof, RoofTiles, Facade, FacadeGroundFloor, Wall];
+    let facades = super::facades(&crate::Plans::built_in().facades);
     let row = |kind: SurfaceKind| {
-        let tags = recipes.iter().filter(|r| r.1 == kind).flat_map(|r| r.2.iter().copied());
-        crate::tests::tag_row(&format!("{kind:?}"), "", tags)
+        let painted = recipes.iter().filter(|r| r.1 == kind).flat_map(|r| r.2.iter().copied());
+        let planned = facades.iter().filter(|s| s.kind == kind).flat_map(|s| s.tags.iter());
+        crate::tests::tag_row(&format!("{kind:?}"), "", painted.chain(planned))
     };
     crate::tests::assert_documented(&asked.map(row));
 }
