@@ -56,7 +56,7 @@ lint: .tools/bin/cargo-deny $(VENV)/.lint-installed
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --quiet
 	.tools/bin/cargo-deny --locked check licenses bans sources
-	if .tools/bin/cargo-deny fetch db 2>/dev/null; then .tools/bin/cargo-deny --locked check advisories; \
+	if .tools/bin/cargo-deny fetch db >/dev/null 2>&1; then .tools/bin/cargo-deny --locked check advisories; \
 	else echo "cargo deny check advisories: left out, its database cannot be reached from here"; fi
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check

@@ -22,7 +22,7 @@ pub struct ViewSettings {
     pub pitch_rad: f64,
     /// Samples a pixel, or the most of them.
     pub spp: u32,
-    /// As in [`Shot::noise`].
+    /// As in [`Shot::noise`](trove_model::Shot::noise).
     pub noise: f32,
     /// Lenses in place of the recorded ones, by the camera's name; [`ALL_CAMERAS`] is for those that are not named.
     pub lenses: BTreeMap<String, LensChange>,

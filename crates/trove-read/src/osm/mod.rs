@@ -1,6 +1,6 @@
 //! OpenStreetMap extracts (`.osm`, `.osm.pbf`) → `StreetMap`.
 //!
-//! A file is read whole into nodes, ways and relations ([`raw`]), places become World's, and what lies in the wanted area
+//! A file is read whole into nodes, ways and relations (`raw`), places become World's, and what lies in the wanted area
 //! or crosses it becomes roads, buildings, land, lines and furniture. Everything else in the area is reported.
 
 mod account;
