@@ -42,12 +42,17 @@ impl Shapes {
         *light == Vec3::ZERO
     }
 
+    /// Whether what a ray has met is the object that it passes through.
+    pub(super) fn is_passed(&self, ray: &Ray, met: Option<Hit>) -> bool {
+        met.is_some_and(|hit| ray.past == Some(self.placed[hit.instance as usize].id))
+    }
+
     /// What a ray meets behind the object that it passes through, given what it meets first and how to ask again.
     pub(super) fn past(&self, ray: &Ray, first: Option<Hit>, closest: impl Fn(&Ray) -> Option<Hit>) -> Option<Hit> {
         let mut met = first;
         let mut ray = *ray;
         while let Some(hit) = met
-            && ray.past == Some(self.placed[hit.instance as usize].id)
+            && self.is_passed(&ray, met)
         {
             ray.t_min = hit.t * (1.0 + 1e-6) + 1e-6;
             met = closest(&ray);

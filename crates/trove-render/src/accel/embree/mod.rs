@@ -164,7 +164,9 @@ impl Accel for Scene {
             Coherence::Incoherent => rays.iter().zip(&mut *hits).for_each(|(ray, hit)| *hit = closest(ray)),
         }
         for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.shapes.past(ray, *hit, closest);
+            // A packet's distances differ from a single ray's in the last digit: what is passed through is met by one.
+            let again = coherence == Coherence::Coherent && self.shapes.is_passed(ray, *hit);
+            *hit = self.shapes.past(ray, if again { closest(ray) } else { *hit }, closest);
         }
     }
 
