@@ -141,7 +141,7 @@ fn use_tree(tokens: &[String], prefix: &[String], found: &mut Vec<(String, Vec<S
 impl Crate {
     pub(crate) fn read(root: &Path) -> Self {
         let mut all = Self::default();
-        all.file(root, &root.parent().unwrap().to_path_buf(), Vec::new());
+        all.file(root, root.parent().unwrap(), Vec::new());
         all
     }
 
