@@ -198,7 +198,7 @@ def test_recoloured_pictures_lie_under_the_same_paths_and_a_second_run_keeps_the
         (["recolor", "t", "--to", "t", "--strength", "2"], 2, ["from 0 to 1"]),
         (["curate", "empty"], 1, ["frames of trove generate", "none"]),
         (["curate", "text"], 1, ["frames of trove generate", "none"]),
-        (["curate", "text/a.png"], 1, ["a.png", "check its name"]),
+        (["curate", "text/a.png"], 1, ["a.png", "check its path"]),
         (["evaluate", "t", "t", "--classes", "pascal"], 2, ["expected one of trove13"]),
     ],
 )
