@@ -51,7 +51,7 @@ def lookup(numbering: str, target: str) -> np.ndarray:
     `numbering` is `native` (class.png), `camvid`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
     shares). Raises `ValueError` for a numbering that has no counterpart in the target.
     """
-    label_set, column = _NUMBERINGS.get(numbering, (None, None))
+    label_set, column = _NUMBERINGS.get(numbering, ("", ""))
     rows = _rows(label_set) if label_set else []
     # A set names its classes in a column for each other set that it has a counterpart in.
     names = "name" if label_set == _SETS[target] else _SETS[target]
