@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, Tags, Texture};
+use crate::{Class, FacadeDesign, Kind, Material, Mesh, Plant, SurfaceKind, Tags, Texture};
 
 /// A model.
 ///
@@ -144,41 +144,6 @@ pub struct Slot {
     pub material: Material,
     /// Base colours to draw from, linear RGB, a colour as often as it is common; empty: always the material's own.
     pub paints: Vec<Vec3>,
-}
-
-/// What a surface of the built place is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[allow(missing_docs)] // the names are the definition
-pub enum SurfaceKind {
-    Asphalt,
-    /// White paint on the road.
-    MarkingWhite,
-    /// Yellow paint on the road.
-    MarkingYellow,
-    /// An iron cover or grating in the road: its texture is one of them.
-    RoadCover,
-    Paving,
-    Kerb,
-    Concrete,
-    Grass,
-    Soil,
-    Gravel,
-    Water,
-    FlatRoof,
-    RoofTiles,
-    /// A facade: its texture holds whole bays and whole storeys (see [`Surface::size_m`] and [`Surface::cells`]).
-    Facade,
-    /// A facade's ground floor: shops, entrances, loading bays.
-    FacadeGroundFloor,
-    /// A wall without openings.
-    Wall,
-    /// Names of shops, a cell each.
-    ShopSign,
-    /// Back walls of rooms, a cell each, in rows: homes, offices, shops.
-    RoomBack,
-    /// What things are made of (steel, cloth, timber, masonry); nothing that is built in place draws among them.
-    Thing,
 }
 
 /// A material for built surfaces, whose textures tile.

@@ -53,17 +53,17 @@ mod polygon;
 mod projection;
 mod raster;
 mod report;
+mod role;
 mod scene;
 mod seed;
 mod sensor;
 mod shot;
 mod street_map;
+mod surface_kind;
 mod tags;
 mod variation;
 
-pub use asset::{
-    Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface, SurfaceKind,
-};
+pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
 pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, LabelRow, label_rows, label_table};
 pub use cuboid::Cuboid;
@@ -90,6 +90,7 @@ pub use polygon::{Bounds, Polygon};
 pub use projection::MapProjection;
 pub use raster::Raster;
 pub use report::{Entry, Measurement, Outcome, Report};
+pub use role::Role;
 pub use scene::{Instance, InstanceId, Origin, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
@@ -99,4 +100,5 @@ pub use street_map::{
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
     RoadSurface, RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
 };
+pub use surface_kind::SurfaceKind;
 pub use tags::Tags;

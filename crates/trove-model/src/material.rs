@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
+use crate::Role;
+
 /// What a texture's numbers mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -106,6 +108,8 @@ pub struct Material {
     pub mapping: Mapping,
     /// What is beyond a texture's edges.
     pub tiling: Tiling,
+    /// What it does in the scene, if more than it looks.
+    pub role: Option<Role>,
 }
 
 impl Default for Material {
@@ -135,6 +139,7 @@ impl Default for Material {
             uv_scale: Vec2::ONE,
             mapping: Mapping::Uv,
             tiling: Tiling::Repeat,
+            role: None,
         }
     }
 }
@@ -177,6 +182,7 @@ impl Material {
             uv_scale: _,
             mapping: _,
             tiling: _,
+            role: _,
         } = self;
         [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
     }

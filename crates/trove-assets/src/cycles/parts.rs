@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::Material;
+use trove_model::{Material, Role};
 
 use crate::shape::{Model, Shape};
 use crate::vehicles::number_plate;
@@ -60,8 +60,8 @@ impl Parts {
             rubber: model.slot(Material { dirt: 0.6, ..Material::plain("rubber", Vec3::splat(0.024), 0.8) }, &[]),
             steel: model.slot(steel, &[]),
             black: model.slot(Material::plain("black", Vec3::splat(0.018), 0.5), &[]),
-            lamp: model.slot(lens("lamp", vec3(0.75, 0.77, 0.8)), &[]),
-            red: model.slot(lens("reflector", vec3(0.5, 0.01, 0.01)), &[]),
+            lamp: model.slot(Material { role: Some(Role::Headlamp), ..lens("lamp", vec3(0.75, 0.77, 0.8)) }, &[]),
+            red: model.slot(Material { role: Some(Role::TailLamp), ..lens("reflector", vec3(0.5, 0.01, 0.01)) }, &[]),
             amber: model.slot(lens("blinker", vec3(0.6, 0.2, 0.01)), &[]),
             plate: model.slot(number_plate(id), &[]),
             wood: model.slot(Material::plain("plywood", vec3(0.38, 0.25, 0.13), 0.6), &[]),

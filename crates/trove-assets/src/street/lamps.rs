@@ -1,7 +1,7 @@
 //! Street lamps and utility poles; a lamp's arm reaches along x.
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Material};
+use trove_model::{Asset, Class, Kind, Material, Role};
 
 use super::finish::{
     bar, board, concrete, foot_plate, galvanised, glass, grey_timber, mast_of, painted, post, rubber, rust_at_foot,
@@ -17,7 +17,7 @@ fn lamp(model: Model, name: &str) -> Asset {
 }
 
 fn lens() -> Material {
-    Material::plain("lamp lens", vec3(0.62, 0.62, 0.58), 0.15)
+    Material { role: Some(Role::StreetLamp), ..Material::plain("lamp lens", vec3(0.62, 0.62, 0.58), 0.15) }
 }
 
 /// A straight pole with a bow beside it that swings out into the arm.
@@ -173,8 +173,10 @@ fn historic() -> Asset {
     lamp(model, "historic")
 }
 
-/// Wires hang where a pole has parts of this material.
-const INSULATOR: &str = "insulator";
+/// What wires hang on.
+fn insulator(material: Material) -> Material {
+    Material { name: "insulator".into(), role: Some(Role::Insulator), ..material }
+}
 
 fn pole(model: Model, name: &str) -> Asset {
     model.asset(&format!("utility-pole/{name}"), Kind::UtilityPole, Class::TrafficSign).tagged([name])
@@ -185,7 +187,7 @@ fn wooden_pole() -> Asset {
     let mut model = Model::default();
     let wood = model.slot(grey_timber(), &[]);
     let steel = model.slot(galvanised(), &[]);
-    let clay = model.slot(Material { name: INSULATOR.into(), ..painted(vec3(0.14, 0.06, 0.035)) }, &[]);
+    let clay = model.slot(insulator(painted(vec3(0.14, 0.06, 0.035))), &[]);
     model.add(wood, mast_of([0.16, 0.1], 10.0).laid(Vec3::Z, Vec2::ZERO));
     for z in [9.6, 8.7] {
         model.add(wood, board(vec3(0.12, 0.0, z), vec3(0.1, 2.3, 0.12)));
@@ -208,7 +210,7 @@ fn concrete_pole() -> Asset {
     let mut model = Model::default();
     let body = model.slot(concrete(), &[]);
     let steel = model.slot(galvanised(), &[]);
-    let black = model.slot(Material { name: INSULATOR.into(), ..rubber() }, &[]);
+    let black = model.slot(insulator(rubber()), &[]);
     model.add(body, mast_of([0.17, 0.1], 9.0));
     for z in [8.3, 8.7] {
         model.add(steel, post(vec3(0.0, 0.0, z), 0.125, 0.05, 16));

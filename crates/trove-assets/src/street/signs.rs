@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
-use trove_model::{Asset, Class, Kind, Lettering, Material};
+use trove_model::{Asset, Class, Kind, Lettering, Material, Role};
 
 use super::finish::{galvanised, painted, polygon, post, rounded, rust_at_foot, upright};
 use crate::shape::{Model, Shape};
@@ -336,14 +336,16 @@ fn haltestelle() -> Picture {
     })
 }
 
-/// A post with two crossing plates, blank: the builder writes on the sides of slot `street name along x` and `… along y`.
+/// A post with two crossing plates, blank: the builder writes on the sides of both.
 fn street_name() -> Asset {
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     model.add(steel, post(Vec3::ZERO, 0.032, 2.95, 14));
     let size = vec2(0.96, 0.2);
-    for (name, up_m, turn) in [("along x", 2.6, FRAC_PI_2), ("along y", 2.82, 0.0)] {
-        let slot = model.slot(Material::plain(&format!("street name {name}"), WHITE, 0.35), &[]);
+    let plates = [(Role::NameAlongX, "along x", 2.6, FRAC_PI_2), (Role::NameAlongY, "along y", 2.82, 0.0)];
+    for (role, name, up_m, turn) in plates {
+        let blank = Material::plain(&format!("street name {name}"), WHITE, 0.35);
+        let slot = model.slot(Material { role: Some(role), ..blank }, &[]);
         for back in [0.0, PI] {
             let side = face(size).moved(Vec3::X * 0.008).turned(Quat::from_rotation_z(turn + back));
             model.add(slot, side.moved(Vec3::Z * up_m));

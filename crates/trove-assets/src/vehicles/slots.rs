@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 use serde::Deserialize;
-use trove_model::Material;
+use trove_model::{Material, Role};
 
 use super::coverings::{BOARDS, CANVAS, GRAVEL, PANEL, SLATS};
 use crate::shape::Model;
@@ -171,8 +171,13 @@ impl Slots {
             disc: slot(metal("brake disc", 0.34, 0.35)),
             rubber: slot(Material { dirt: 0.25, ..Material::plain("tyre", Vec3::splat(0.018), 0.75) }),
             chrome: slot(metal("chrome", 0.7, 0.1)),
-            lamp: slot(Material { metalness: 0.75, coat: 1.0, ..Material::plain("lamp", vec3(0.75, 0.78, 0.8), 0.15) }),
-            red: slot(lens("red lens", vec3(0.26, 0.006, 0.008))),
+            lamp: slot(Material {
+                metalness: 0.75,
+                coat: 1.0,
+                role: Some(Role::Headlamp),
+                ..Material::plain("lamp", vec3(0.75, 0.78, 0.8), 0.15)
+            }),
+            red: slot(Material { role: Some(Role::TailLamp), ..lens("red lens", vec3(0.26, 0.006, 0.008)) }),
             amber: slot(lens("amber lens", vec3(0.6, 0.2, 0.01))),
             interior: slot(Material::plain("interior", vec3(0.035, 0.035, 0.037), 0.8)),
             plate: slot(Material::plain("number plate", vec3(0.72, 0.72, 0.7), 0.45)),

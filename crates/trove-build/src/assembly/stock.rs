@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use trove_model::{Asset, Mapping, Material, Mesh, Seed, Texture, Tiling};
+use trove_model::{Asset, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
 /// Meshes and materials, numbered in the order of their first use.
 #[derive(Clone, Debug, Default)]
@@ -19,13 +19,14 @@ pub(crate) struct Stock {
     individuals: HashMap<(usize, Vec<usize>), usize>,
 }
 
-/// Two materials with the same key look the same; images are told apart by where they lie.
+/// Two materials with the same key are the same; images are told apart by where they lie.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct MaterialKey {
     name: String,
     numbers: Vec<u32>,
     images: [usize; 4],
     mapping: (Mapping, Tiling),
+    role: Option<Role>,
 }
 
 impl Stock {
@@ -97,6 +98,7 @@ fn key(material: &Material) -> MaterialKey {
         uv_scale,
         mapping,
         tiling,
+        role,
     } = material;
     let shares = [alpha_cutoff, roughness, metalness, coat, flakes, sheen, subsurface, transmission, translucency];
     let others = [dirt, wetness, ior, height_m];
@@ -108,6 +110,7 @@ fn key(material: &Material) -> MaterialKey {
         numbers: numbers.map(|number| number.to_bits()).collect(),
         images: [base_color_map, orm_map, normal_map, height_map].map(image),
         mapping: (*mapping, *tiling),
+        role: *role,
     }
 }
 

@@ -55,6 +55,7 @@ impl Weather {
                 uv_scale: _,
                 mapping: _,
                 tiling: _,
+                role: _,
             } = material;
             *dirt *= self.dirt as f32;
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{Vec3, vec3};
 use trove_model::{
     Building, BuildingCustoms, BuildingKind, FacadeDesign, FacadeRule, FacadeUse, Mapping, Material, Mesh, Random,
-    Surface, SurfaceKind, Tags, WallMaterial,
+    Role, Surface, SurfaceKind, Tags, WallMaterial,
 };
 
 use super::volumes::House;
@@ -169,8 +169,8 @@ fn fittings(
         plain("room warm", warm, 0.9),
         plain("room floor", floor, 0.5),
         back,
-        plain("lit room", vec3(0.6, 0.55, 0.46), 0.9),
-        plain("wall lamp", Vec3::splat(0.6), 0.3),
+        Material { role: Some(Role::LitRoom), ..plain("lit room", vec3(0.6, 0.55, 0.46), 0.9) },
+        Material { role: Some(Role::WallLamp), ..plain("wall lamp", Vec3::splat(0.6), 0.3) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
         sign,

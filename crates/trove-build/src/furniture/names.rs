@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec2, Vec2, Vec3, vec2};
-use trove_model::{Asset, ColorSpace, Kind, Lettering, Material, Outcome, Report, Texture};
+use trove_model::{Asset, ColorSpace, Kind, Lettering, Material, Outcome, Report, Role, Texture};
 
 use super::junctions::Junction;
 use super::yard::{Source, Wish, Yard};
@@ -63,12 +63,12 @@ pub(super) fn place(junctions: &[Junction<'_>], yard: &mut Yard<'_, '_, '_>, rep
 
 /// The asset's materials with both plates written on.
 fn dressed(asset: &Asset, first: &Material, second: &Material) -> Vec<Material> {
-    let of = |name: &str| match name {
-        "street name along x" => Some(first.clone()),
-        "street name along y" => Some(second.clone()),
-        _ => None,
+    let of = |material: &Material| match material.role {
+        Some(Role::NameAlongX) => first.clone(),
+        Some(Role::NameAlongY) => second.clone(),
+        _ => material.clone(),
     };
-    asset.slots.iter().map(|slot| of(&slot.material.name).unwrap_or_else(|| slot.material.clone())).collect()
+    asset.slots.iter().map(|slot| of(&slot.material)).collect()
 }
 
 /// Where the sign stands, with its x along a street: the free corner that is nearest to the middle.

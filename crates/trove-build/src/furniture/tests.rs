@@ -90,7 +90,7 @@ fn library() -> AssetLibrary {
         mesh.slots.push(1);
     }
     let mut insulator = pole.slots[0].material.clone();
-    insulator.name = "insulator".into();
+    insulator.role = Some(trove_model::Role::Insulator);
     let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new() }];
     assets.push(Asset { mesh: Arc::new(mesh), slots, ..pole });
     for (make, size_m) in [

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3, Vec3};
-use trove_model::{Asset, Class, FurnitureKind, Kind, LineKind, Material, Mesh, Outcome, Report, Road, RoadKind, Seed};
+use trove_model::{
+    Asset, Class, FurnitureKind, Kind, LineKind, Material, Mesh, Outcome, Report, Road, RoadKind, Role, Seed,
+};
 
 use super::yard::{Source, Wish, Yard};
 use crate::geometry::segments::SegmentIndex;
@@ -23,9 +25,7 @@ const FROM_BUILDINGS_M: f64 = 1.6;
 /// A wire's radius, metres; it is a prism of three sides with so many joints.
 const RADIUS_M: f64 = 0.011;
 const JOINTS: usize = 10;
-/// The name of the material of what wires hang on.
-const INSULATOR: &str = "insulator";
-/// Parts of it nearer than this are one insulator, metres.
+/// Insulators' corners nearer than this belong to one, metres.
 const INSULATOR_M: f32 = 0.15;
 /// A tram's wire hangs this high over the track, its holders rise by so much to their poles, every so many metres; poles
 /// stand within reach of the track, metres.
@@ -112,7 +112,7 @@ fn pole(p: DVec2, along: DVec2, source: Source, yard: &mut Yard<'_, '_, '_>, rep
 
 /// Tops of a pole's insulators.
 fn hooks(asset: &Asset) -> Vec<DVec3> {
-    let slot = asset.slots.iter().position(|s| s.material.name == INSULATOR).map(|s| s as u16);
+    let slot = asset.slots.iter().position(|s| s.material.role == Some(Role::Insulator)).map(|s| s as u16);
     let mesh = &asset.mesh;
     let mut found: Vec<Vec3> = Vec::new();
     for (_, corners) in mesh.triangles.iter().enumerate().filter(|(t, _)| Some(mesh.slot(*t)) == slot) {

@@ -1,7 +1,7 @@
 //! Lamps that people switch on in the dark.
 
 use glam::{Vec3, vec3};
-use trove_model::{Environment, Light, Material};
+use trove_model::{Environment, Light, Material, Role};
 
 use crate::assembly::Actor;
 use crate::assembly::Stock;
@@ -13,15 +13,14 @@ const DARK_IRRADIANCE: f32 = 0.5;
 /// Signals are dimmed in the dark.
 const DIMMED: f32 = 0.15;
 
-/// Radiance of lamps by their material's name, in the light's scale, where 1 is 32,000 cd/m²: a street lamp's lens of
+/// Radiance of lamps, in the light's scale, where 1 is 32,000 cd/m²: a street lamp's lens of
 /// 0.1 m² that gives 10,000 lm, the walls of a room (60 cd/m²), a headlamp's beam spread over its lens, tail lamps of 5 cd.
-const STREET: [(&str, Vec3); 3] = [
-    ("lamp lens", vec3(1.4, 0.95, 0.5)),
-    ("wall lamp", vec3(0.14, 0.1, 0.06)),
-    ("lit room", vec3(0.0024, 0.0018, 0.0011)),
+const STREET: [(Role, Vec3); 3] = [
+    (Role::StreetLamp, vec3(1.4, 0.95, 0.5)),
+    (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
+    (Role::LitRoom, vec3(0.0024, 0.0018, 0.0011)),
 ];
-const VEHICLE: [(&str, Vec3); 3] =
-    [("lamp", vec3(0.5, 0.47, 0.4)), ("red lens", vec3(0.03, 0.001, 0.001)), ("reflector", vec3(0.03, 0.001, 0.001))];
+const VEHICLE: [(Role, Vec3); 2] = [(Role::Headlamp, vec3(0.5, 0.47, 0.4)), (Role::TailLamp, vec3(0.03, 0.001, 0.001))];
 
 /// Switches street lamps and lights in rooms on, and the lamps of the vehicles that move during the recording, if it is dark.
 pub(crate) fn switch_on<'a>(light: &Light, stock: &mut Stock, actors: impl Iterator<Item = &'a mut Actor>) {
@@ -42,8 +41,8 @@ pub(crate) fn switch_on<'a>(light: &Light, stock: &mut Stock, actors: impl Itera
     }
 }
 
-fn glow(lamps: &[(&str, Vec3)], material: &Material) -> Option<Vec3> {
-    lamps.iter().find(|(name, _)| material.name == *name).map(|(_, emission)| *emission)
+fn glow(lamps: &[(Role, Vec3)], material: &Material) -> Option<Vec3> {
+    lamps.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
 }
 
 fn is_dark(environment: &Environment) -> bool {
@@ -75,7 +74,7 @@ mod tests {
     /// Emission of a street lamp and of a signal under a sky.
     fn shining(environment: Environment) -> [Vec3; 2] {
         let mut stock = Stock::default();
-        stock.material(&Material::plain("lamp lens", Vec3::splat(0.6), 0.2));
+        stock.material(&Material { role: Some(Role::StreetLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
         switch_on(&Light { environment }, &mut stock, std::iter::empty());
         [stock.materials[0].emission, stock.materials[1].emission]

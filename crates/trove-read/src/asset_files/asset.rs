@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::guess::scale;
 use super::library_file::AssetEntry;
 use super::model::Model;
-use super::names::{class_named, kind_named};
+use super::names::{class_named, kind_named, role_named};
 use super::repair::thinned;
 
 /// Turns, scales and places a model by a completed entry; `None` for one that is not to be placed.
@@ -25,7 +25,17 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     }
     let mut mesh = model.mesh;
     stand(&mut mesh, Axis::turn(front, up), entry, kind);
-    let slots = model.materials.into_iter().map(|material| Slot { material, paints: Vec::new() }).collect();
+    let mut slots: Vec<Slot> =
+        model.materials.into_iter().map(|material| Slot { material, paints: Vec::new() }).collect();
+    for (name, role) in &entry.roles {
+        let role = role_named(role, &place)?;
+        let mut named = slots.iter_mut().filter(|slot| slot.material.name == *name).peekable();
+        if named.peek().is_none() {
+            let remedy = "name a material of the model, or remove the line";
+            return Err(Fault::new(format!("{place}: roles"), "the model's materials", format!("{name:?}"), remedy));
+        }
+        named.for_each(|slot| slot.material.role = Some(role));
+    }
     let mut asset = Asset::new(id, kind, class, mesh, slots, &licence(entry));
     asset = asset.tagged(entry.tags.iter().flatten());
     asset.commonness = entry.commonness.filter(|c| c.is_finite() && *c >= 0.0).unwrap_or(1.0);

@@ -1,5 +1,6 @@
 //! `library.toml`: what a folder of models, textures and skies holds, and how to take it.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DVec3;
@@ -7,7 +8,7 @@ use serde::Deserialize;
 
 use super::axes::Axis;
 use super::fault::Fault;
-use super::names::{class_named, kind_named, surface_kind_named};
+use super::names::{class_named, kind_named, role_named, surface_kind_named};
 use crate::ReadError;
 
 /// The file's name in its folder.
@@ -73,6 +74,8 @@ pub struct AssetEntry {
     pub length_m: Option<f64>,
     /// `standing`, `walking`, `running` or `sitting`, for people on foot.
     pub posture: Option<String>,
+    /// What its materials do in a scene: names of [`Role`](trove_model::Role)s by the materials' names.
+    pub roles: BTreeMap<String, String>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: Option<f32>,
     /// As the library's.
@@ -180,6 +183,7 @@ impl LibraryFile {
             tags_are_words(entry.tags.as_deref(), &place)?;
             kind_named(entry.kind.as_deref(), &place)?;
             class_named(entry.class.as_deref(), &place)?;
+            entry.roles.values().try_for_each(|role| role_named(role, &place).map(drop))?;
             let sizes = [entry.unit_m, entry.height_m, entry.length_m];
             if sizes.iter().flatten().count() > 1 {
                 let expected = "one of unit_m, height_m and length_m";

@@ -1,20 +1,8 @@
 //! Kinds and classes as `library.toml` writes them.
 
-use trove_model::{Class, Kind, SurfaceKind};
+use trove_model::{Class, Kind, Role, SurfaceKind};
 
 use super::fault::Fault;
-
-/// `TrafficCone` → `traffic_cone`.
-fn snake(name: &str) -> String {
-    let mut out = String::new();
-    for c in name.chars() {
-        if c.is_uppercase() && !out.is_empty() {
-            out.push('_');
-        }
-        out.extend(c.to_lowercase());
-    }
-    out
-}
 
 /// A kind as `library.toml` writes it.
 pub(super) fn kind_name(kind: Option<Kind>) -> String {
@@ -23,7 +11,7 @@ pub(super) fn kind_name(kind: Option<Kind>) -> String {
 
 /// A surface's kind as `library.toml` writes it.
 pub(super) fn surface_kind_name(kind: Option<SurfaceKind>) -> String {
-    kind.map_or("none".into(), |k| snake(&format!("{k:?}")))
+    kind.map_or("none", SurfaceKind::name).into()
 }
 
 /// The kind of a name: `None` without a name, `Some(None)` for `none`.
@@ -33,7 +21,11 @@ pub(super) fn kind_named(name: Option<&str>, place: &str) -> Result<Option<Optio
 }
 
 pub(super) fn surface_kind_named(name: Option<&str>, place: &str) -> Result<Option<Option<SurfaceKind>>, Fault> {
-    let all: Vec<(String, SurfaceKind)> = SURFACE_KINDS.iter().map(|k| (surface_kind_name(Some(*k)), *k)).collect();
+    let all: Vec<(String, SurfaceKind)> = SurfaceKind::ALL
+        .iter()
+        .filter(|(kind, _)| *kind != SurfaceKind::Thing)
+        .map(|(kind, name)| ((*name).to_owned(), *kind))
+        .collect();
     looked_up(name, &all, place, "kind")
 }
 
@@ -42,26 +34,13 @@ pub(super) fn class_named(name: Option<&str>, place: &str) -> Result<Option<Opti
     looked_up(name, &all, place, "class")
 }
 
-const SURFACE_KINDS: [SurfaceKind; 18] = [
-    SurfaceKind::Asphalt,
-    SurfaceKind::MarkingWhite,
-    SurfaceKind::MarkingYellow,
-    SurfaceKind::RoadCover,
-    SurfaceKind::Paving,
-    SurfaceKind::Kerb,
-    SurfaceKind::Concrete,
-    SurfaceKind::Grass,
-    SurfaceKind::Soil,
-    SurfaceKind::Gravel,
-    SurfaceKind::Water,
-    SurfaceKind::FlatRoof,
-    SurfaceKind::RoofTiles,
-    SurfaceKind::Facade,
-    SurfaceKind::FacadeGroundFloor,
-    SurfaceKind::Wall,
-    SurfaceKind::ShopSign,
-    SurfaceKind::RoomBack,
-];
+pub(super) fn role_named(name: &str, place: &str) -> Result<Role, Fault> {
+    Role::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = Role::ALL.iter().map(|(_, name)| *name).collect();
+        let expected = format!("roles out of {}", known.join(", "));
+        Fault::new(format!("{place}: roles"), &expected, format!("{name:?}"), "correct it")
+    })
+}
 
 fn looked_up<T: Copy>(
     name: Option<&str>,

@@ -1,7 +1,7 @@
 //! `library.toml` written, completed, read and checked.
 
 use serde_json::json;
-use trove_model::{Kind, Report, SurfaceKind};
+use trove_model::{Kind, Report, Role, SurfaceKind};
 use trove_read::asset_files;
 
 use crate::files::{Folder, Glb, png};
@@ -128,4 +128,26 @@ fn a_library_without_its_file_says_how_to_make_one() {
     let folder = Folder::new(&[]);
     let error = asset_files::read_library(&folder.path, &Report::default()).unwrap_err().to_string();
     assert!(error.contains("trove assets import"), "{error}");
+}
+
+#[test]
+fn materials_have_the_roles_that_the_file_gives_them() {
+    let folder = Folder::new(&[("lantern.glb", &Glb::cuboid([0.4, 4.0, 0.4]).bytes())]);
+    folder.read();
+    let toml = folder.toml();
+    let (library, report) = folder.read();
+    let name = library.expect(&report).assets[0].slots[0].material.name.clone();
+    let with =
+        |roles: &str| toml.replace("file = \"lantern.glb\"", &format!("file = \"lantern.glb\"\nroles = {roles}"));
+    folder.write("library.toml", with(&format!("{{ {name:?} = \"street_lamp\" }}")).as_bytes());
+    let (library, report) = folder.read();
+    assert_eq!(library.expect(&report).assets[0].slots[0].material.role, Some(Role::StreetLamp));
+    for (roles, part) in [
+        (format!("{{ {name:?} = \"lamp\" }}"), "street_lamp, wall_lamp"),
+        ("{ lense = \"street_lamp\" }".into(), "lense"),
+    ] {
+        folder.write("library.toml", with(&roles).as_bytes());
+        let (_, report) = folder.read();
+        assert!(report.contains(part), "{report}");
+    }
 }

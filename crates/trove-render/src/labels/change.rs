@@ -116,6 +116,8 @@ impl<'a> Look<'a> {
             uv_scale,
             mapping,
             tiling,
+            // What it does is seen elsewhere, if at all.
+            role: _,
         } = material;
         let image = |texture: &'a Option<Arc<Texture>>| texture.as_ref().map(|t| t.name.as_str());
         Self {

@@ -94,6 +94,8 @@ impl PreparedMaterial {
             uv_scale,
             mapping,
             tiling,
+            // For whoever builds scenes.
+            role: _,
         } = material;
         let ior = ior.max(1.0);
         let share = |x: &f32| x.clamp(0.0, 1.0);

@@ -83,6 +83,7 @@ fn is_finite(material: &Material) -> bool {
         uv_scale,
         mapping: _,
         tiling: _,
+        role: _,
     } = material;
     let layers = [coat, flakes, sheen, subsurface, transmission, translucency, dirt, wetness];
     let numbers = [alpha_cutoff, roughness, metalness, ior, height_m].into_iter().chain(layers);

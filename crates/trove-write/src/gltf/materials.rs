@@ -71,6 +71,8 @@ impl Materials {
             mapping: _,
             // Textures repeat; how their period is hidden is the renderer's.
             tiling: _,
+            // For whoever builds scenes.
+            role: _,
         } = plain.as_ref().unwrap_or(material);
         let mut reference = |texture: &Texture| {
             let mut info = json!({ "index": texture_of[texture.name.as_str()] });

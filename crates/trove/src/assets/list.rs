@@ -22,7 +22,7 @@ pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
         );
     }
     for s in &library.surfaces {
-        println!("{:36} {:22} {:6.2} × {:5.2} m", s.id, format!("{:?}", s.kind), s.size_m[0], s.size_m[1]);
+        println!("{:36} {:22} {:6.2} × {:5.2} m", s.id, s.kind.name(), s.size_m[0], s.size_m[1]);
     }
     println!("{} models, {} materials", library.assets.len(), library.surfaces.len());
     Ok(())
@@ -46,7 +46,7 @@ fn asset(a: &Asset) -> Value {
 fn material(s: &Surface) -> Value {
     json!({
         "id": s.id,
-        "kind": format!("{:?}", s.kind),
+        "kind": s.kind.name(),
         "tags": s.tags.iter().collect::<Vec<_>>(),
         "size_m": s.size_m,
         "textures": s.material.textures().map(|t| json!({ "name": t.name, "size_px": [t.width, t.height] })).collect::<Vec<_>>(),

@@ -1,0 +1,42 @@
+//! Roles of materials, by which a scene does something with their surfaces.
+
+/// What the surfaces of a material do in a scene besides looking as they look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Role {
+    /// The lens of a street lamp: it shines in the dark.
+    StreetLamp,
+    /// A lamp on a wall: it shines in the dark.
+    WallLamp,
+    /// The walls of a room where people are in: they are lit in the dark.
+    LitRoom,
+    /// A headlamp of a vehicle: it shines in the dark while the vehicle is driven.
+    Headlamp,
+    /// A tail lamp of a vehicle, likewise.
+    TailLamp,
+    /// What wires hang on.
+    Insulator,
+    /// The plate of a street name that lies along the sign's x axis: a name is written on it.
+    NameAlongX,
+    /// The plate that lies along the y axis, likewise.
+    NameAlongY,
+}
+
+impl Role {
+    /// Every role with its name in files.
+    pub const ALL: [(Self, &str); 8] = [
+        (Self::StreetLamp, "street_lamp"),
+        (Self::WallLamp, "wall_lamp"),
+        (Self::LitRoom, "lit_room"),
+        (Self::Headlamp, "headlamp"),
+        (Self::TailLamp, "tail_lamp"),
+        (Self::Insulator, "insulator"),
+        (Self::NameAlongX, "name_along_x"),
+        (Self::NameAlongY, "name_along_y"),
+    ];
+
+    /// The role with a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(_, known)| *known == name).map(|(role, _)| role)
+    }
+}
