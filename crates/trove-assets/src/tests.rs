@@ -1,6 +1,7 @@
 //! What holds for every asset.
 
 mod cars;
+mod street;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;

@@ -11,10 +11,13 @@ mod tests;
 
 use std::sync::LazyLock;
 
+use serde::de::DeserializeOwned;
 use trove_model::AssetLibrary;
 
 pub use error::PlanError;
 
+use crate::measure::Wrong;
+use crate::street::{self, ConePlan, FurniturePlan, SignalPlan, StreetPlans, WallPlan};
 use crate::surfaces::{self, FacadePlan};
 use crate::vehicles::{self, CarPlan};
 use file::PlanFile;
@@ -22,7 +25,13 @@ use file::PlanFile;
 /// The name of the file in a user's library.
 pub const FILE_NAME: &str = "plans.toml";
 
-const BUILT_IN: &str = concat!(include_str!("../../plans/cars.toml"), "\n", include_str!("../../plans/facades.toml"));
+const BUILT_IN: &str = concat!(
+    include_str!("../../plans/cars.toml"),
+    "\n",
+    include_str!("../../plans/facades.toml"),
+    "\n",
+    include_str!("../../plans/furniture.toml")
+);
 
 static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
     LazyLock::new(|| PlanFile::parse(BUILT_IN, None).expect("a test reads the built-in plans"));
@@ -32,6 +41,7 @@ static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
 pub struct Plans {
     pub(crate) cars: Vec<CarPlan>,
     pub(crate) facades: Vec<FacadePlan>,
+    pub(crate) street: StreetPlans,
     licence: Option<String>,
 }
 
@@ -52,25 +62,23 @@ impl Plans {
     }
 
     fn of(file: &PlanFile<'_>) -> Result<Self, PlanError> {
-        let at = |place: &str, (key, expected, found): (&str, &str, String)| {
-            PlanError::new(format!("{place}: {key}"), expected, found)
-        };
-        let mut plans = Self { cars: Vec::new(), facades: Vec::new(), licence: file.licence.clone() };
-        for (place, plan) in file.read::<CarPlan>("car")? {
-            plan.check().map_err(|wrong| at(&place, wrong))?;
-            plans.cars.push(plan);
-        }
-        for (place, plan) in file.read::<FacadePlan>("facade")? {
-            plan.check().map_err(|wrong| at(&place, wrong))?;
-            plans.facades.push(plan);
-        }
-        Ok(plans)
+        Ok(Self {
+            cars: checked(file, "car", CarPlan::check)?,
+            facades: checked(file, "facade", FacadePlan::check)?,
+            street: StreetPlans {
+                cones: checked(file, "cone", ConePlan::check)?,
+                furniture: checked(file, "furniture", FurniturePlan::check)?,
+                signals: checked(file, "signal", SignalPlan::check)?,
+                walls: checked(file, "wall", WallPlan::check)?,
+            },
+            licence: file.licence.clone(),
+        })
     }
 
     /// The library of a user's plans, with ids that begin with the library's name; sorted by id.
     pub fn library(&self, name: &str) -> AssetLibrary {
         let mut library = AssetLibrary {
-            assets: vehicles::cars(&self.cars),
+            assets: [vehicles::cars(&self.cars), street::planned(&self.street)].concat(),
             surfaces: surfaces::facades(&self.facades),
             ..AssetLibrary::default()
         };
@@ -85,4 +93,17 @@ impl Plans {
         library.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
         library
     }
+}
+
+/// The entries under a key, none of which holds a number that cannot be built from.
+fn checked<T: DeserializeOwned>(
+    file: &PlanFile<'_>,
+    key: &'static str,
+    check: impl Fn(&T) -> Result<(), Wrong>,
+) -> Result<Vec<T>, PlanError> {
+    let checked = |(place, plan): (String, T)| match check(&plan) {
+        Ok(()) => Ok(plan),
+        Err((key, expected, found)) => Err(PlanError::new(format!("{place}: {key}"), expected, found)),
+    };
+    file.read(key)?.into_iter().map(checked).collect()
 }

@@ -3,6 +3,8 @@
 use super::Plans;
 
 const CAR: &str = "[[car]]\nid = \"kombi\"\nlike = \"car/estate\"\n";
+const CONE: &str = "[[cone]]\nid = \"red\"\nlike = \"cone/standard\"\n";
+const FURNITURE: &str = "[[furniture]]\nid = \"post\"\nkind = \"bollard\"\n";
 const FACADE: &str = "[[facade]]\nid = \"clinker\"\nlike = \"facade/brick-row\"\n";
 
 #[test]
@@ -33,6 +35,21 @@ fn pieces_are_named_or_written_out_and_may_be_like_others() {
 }
 
 #[test]
+fn what_stands_along_streets_is_built_with_the_measures_of_its_plan() {
+    let text = format!(
+        "{CONE}height_m = 0.9\n[[signal]]\nid = \"own\"\ntags = [\"own\"]\n{FURNITURE}parts = [{{ finish = \"stainless\", \
+         shapes = [{{ post = {{ foot = [0, 0, 0], radius = 0.1, height = 1.2, around = 12 }} }}] }}]\n"
+    );
+    let assets = Plans::parse(&text).unwrap().library("mine").assets;
+    let ids: Vec<&str> = assets.iter().map(|a| a.id.as_str()).collect();
+    let signals = ["mine/own/left/green", "mine/own/left/red", "mine/own/right/green", "mine/own/right/red"];
+    assert_eq!(ids, [signals.as_slice(), &["mine/post", "mine/red"]].concat());
+    let [.., post, cone] = assets.as_slice() else { unreachable!() };
+    assert!((cone.size_m.z - 0.9).abs() < 0.02 && (post.size_m - glam::dvec3(0.2, 0.2, 1.2)).length() < 0.01);
+    assert!(assets[0].tags.iter().any(|tag| tag == "own") && assets[0].tags.iter().any(|tag| tag == "green"));
+}
+
+#[test]
 fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
     for (text, parts) in [
         (format!("{CAR}rimm = 3\n"), &["car \"kombi\": rimm", "did you mean `rim`?"][..]),
@@ -53,6 +70,27 @@ fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
         (format!("{FACADE}cells = [0, 4]\n"), &["cells", "from 1 to 16"]),
         (format!("{FACADE}fixtures = {{ balcony = 1 }}\n"), &["fixtures.balcony", "did you mean `balconies`?"]),
         (format!("{FACADE}bays = [[{{ low_m = [9, 0], size_m = [1, 1] }}]]\n"), &["bays", "inside their bay"]),
+        (format!("{CONE}height_m = 9.0\n"), &["cone \"red\": height_m", "from 0.2 to 3", "9.0"]),
+        (format!("{CONE}bands = [[0.5, 0.2]]\n"), &["bands", "from a lower to a higher share"]),
+        (format!("{FURNITURE}parts = []\n"), &["furniture \"post\": parts", "1 to 400 shapes"]),
+        (
+            format!(
+                "{FURNITURE}parts = [{{ finish = \"painted\", shapes = [{{ bar = {{ at = [0, 0, 1], size = [1, 1, 1] }} }}] }}]\n"
+            ),
+            &["parts.colors", "a colour for this finish"],
+        ),
+        (
+            format!(
+                "{FURNITURE}parts = [{{ finish = \"rusty\", shapes = [{{ tube = {{ path = [[0, 0, 0], [0, 0, nan]], radius = 0.1, around = 8 }} }}] }}]\n"
+            ),
+            &["parts.shapes", "within 20 metres", "NaN"],
+        ),
+        (FURNITURE.replace("bollard", "bolard"), &["furniture \"post\": kind", "did you mean `bollard`?"]),
+        ("[[signal]]\nid = \"s\"\narm_m = 99\n".into(), &["signal \"s\": arm_m", "from 1 to 20"]),
+        (
+            "[[wall]]\nid = \"w\"\nfinish = \"brick\"\nheight_m = 1\nthick_m = -1\n".into(),
+            &["wall \"w\": thick_m", "-1.0"],
+        ),
         ("[[cra]]\nid = 3\n".into(), &["`cra`", "did you mean `car`?"]),
         ("[[car]\n".into(), &["line 1", "TOML"]),
     ] {

@@ -1,44 +1,71 @@
 //! Traffic cones and what else is set out on roads in their place.
 
 use glam::{Quat, Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::{Asset, Class, Kind};
 
 use super::finish::{plastic, reflective, rubber, upright};
+use crate::measure::{Wrong, ordinary, refuse, within};
 use crate::shape::{Model, Shape};
 
 const ORANGE: Vec3 = vec3(0.82, 0.15, 0.025);
 const PALE: Vec3 = vec3(0.72, 0.2, 0.07);
 const WHITE: Vec3 = vec3(0.74, 0.74, 0.71);
 
-struct Cone {
-    name: &'static str,
+/// A traffic cone: a `[[cone]]` of a file of plans. Lengths are metres, colours linear RGB.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ConePlan {
+    /// Unique in its library.
+    pub(crate) id: String,
+    /// Words that say what it is.
+    #[serde(default)]
+    tags: Vec<String>,
+    #[serde(default = "ordinary")]
+    commonness: f32,
+    /// The first is the cone's as it is new, the others are those of faded ones.
+    colors: Vec<[f32; 3]>,
     /// Side of the foot.
-    base_m: f32,
+    foot_m: f32,
+    /// The foot is of black rubber, not of the cone's plastic.
+    #[serde(default)]
+    has_rubber_foot: bool,
     height_m: f32,
+    /// Below and above.
     radii_m: [f32; 2],
     /// White from and to, as shares of the height.
-    bands: &'static [[f32; 2]],
-    black_base: bool,
+    #[serde(default)]
+    bands: Vec<[f32; 2]>,
     /// A round reflector on a stem.
-    disc: bool,
+    #[serde(default)]
+    has_disc: bool,
     /// How far its top is bent aside, for it was driven over.
+    #[serde(default)]
     bent_m: f32,
-    commonness: f32,
 }
 
-#[rustfmt::skip]
-pub(super) fn assets() -> Vec<Asset> {
-    let two: &[[f32; 2]] = &[[0.32, 0.5], [0.66, 0.84]];
-    let plain = Cone { name: "standard", base_m: 0.42, height_m: 0.75, radii_m: [0.145, 0.03], bands: two, black_base: true, disc: false, bent_m: 0.0, commonness: 3.0 };
-    let cones = [
-        Cone { name: "tall", base_m: 0.46, height_m: 1.05, radii_m: [0.15, 0.045], bands: &[[0.4, 0.55], [0.68, 0.8]], black_base: false, commonness: 1.5, ..plain },
-        Cone { name: "small", base_m: 0.33, height_m: 0.56, radii_m: [0.11, 0.025], bands: &[[0.45, 0.75]], commonness: 1.0, ..plain },
-        Cone { name: "bare", height_m: 0.7, bands: &[], black_base: false, commonness: 0.6, ..plain },
-        Cone { name: "disc", disc: true, commonness: 0.7, ..plain },
-        Cone { name: "battered", bent_m: 0.09, commonness: 0.6, ..plain },
-        plain,
-    ];
-    cones.into_iter().map(cone).chain([tube(), drum(), panel()]).collect()
+impl ConePlan {
+    /// The key of a value that no cone can have, with what was expected and what it is.
+    pub(crate) fn check(&self) -> Result<(), Wrong> {
+        within("commonness", "a number from 0 to 1000", 0.0..=1000.0, [&self.commonness])?;
+        if self.colors.is_empty() {
+            return refuse("colors", "at least one colour", &self.colors);
+        }
+        within("colors", "linear RGB from 0 to 1", 0.0..=1.0, self.colors.iter().flatten())?;
+        within("foot_m", "metres from 0.1 to 1", 0.1..=1.0, [&self.foot_m])?;
+        within("height_m", "metres from 0.2 to 3", 0.2..=3.0, [&self.height_m])?;
+        within("radii_m", "metres from 0.02 to half the foot", 0.02..=self.foot_m / 2.0, &self.radii_m)?;
+        within("bands", "shares from 0 to 1", 0.0..=1.0, self.bands.iter().flatten())?;
+        if self.bands.len() > 10 || self.bands.iter().any(|[from, to]| from >= to) {
+            return refuse("bands", "at most 10, each from a lower to a higher share", &self.bands);
+        }
+        within("bent_m", "metres from 0 to 0.5", 0.0..=0.5, [&self.bent_m])
+    }
+}
+
+/// What else stands in the place of cones.
+pub(super) fn others() -> Vec<Asset> {
+    vec![tube(), drum(), panel()]
 }
 
 fn asset(model: Model, name: &str, commonness: f32) -> Asset {
@@ -46,17 +73,19 @@ fn asset(model: Model, name: &str, commonness: f32) -> Asset {
     Asset { commonness, ..asset }.tagged([name])
 }
 
-fn cone(make: Cone) -> Asset {
+/// What a plan tells of.
+pub(super) fn cone(plan: &ConePlan) -> Asset {
     let mut model = Model::default();
-    let orange = model.slot(plastic(ORANGE), &[ORANGE, ORANGE * 0.85, PALE, vec3(0.76, 0.11, 0.03)]);
+    let colors: Vec<Vec3> = plan.colors.iter().copied().map(Vec3::from_array).collect();
+    let orange = model.slot(plastic(colors[0]), &colors);
     let white = model.slot(reflective(WHITE), &[WHITE, WHITE * 0.8, vec3(0.6, 0.58, 0.52)]);
-    let base = model.slot(if make.black_base { rubber() } else { plastic(ORANGE * 0.85) }, &[]);
+    let base = model.slot(if plan.has_rubber_foot { rubber() } else { plastic(colors[0] * 0.85) }, &[]);
     let foot_m = 0.045;
     // A flat foot with rounded corners whose middle is raised.
     let slab = |size: f32, corner: f32, z: f32| -> Vec<Vec3> {
         super::finish::rounded(vec2(size, size), corner).into_iter().map(|p| p.extend(z)).collect()
     };
-    let side = make.base_m;
+    let side = plan.foot_m;
     let sections = [
         (side - 0.012, 0.0),
         (side, 0.008),
@@ -66,11 +95,11 @@ fn cone(make: Cone) -> Asset {
         (side * 0.76, foot_m),
     ];
     model.add(base, Shape::loft(&sections.map(|(size, z)| slab(size, 0.045, z))));
-    let rise = make.height_m - foot_m;
-    let radius = |share: f32| make.radii_m[0] + (make.radii_m[1] - make.radii_m[0]) * share;
+    let rise = plan.height_m - foot_m;
+    let radius = |share: f32| plan.radii_m[0] + (plan.radii_m[1] - plan.radii_m[0]) * share;
     let point = |share: f32, more_m: f32| vec2(radius(share) + more_m, foot_m + rise * share);
     let bend = |shape: Shape| {
-        let bent_m = make.bent_m;
+        let bent_m = plan.bent_m;
         if bent_m == 0.0 {
             return shape;
         }
@@ -84,25 +113,26 @@ fn cone(make: Cone) -> Asset {
     // A collar at the foot, the body in rings, a rounded hole at the top.
     model.add(
         orange,
-        Shape::lathe(&[vec2(make.radii_m[0] + 0.03, foot_m - 0.002), point(0.03, 0.018), point(0.05, 0.003)], 28),
+        Shape::lathe(&[vec2(plan.radii_m[0] + 0.03, foot_m - 0.002), point(0.03, 0.018), point(0.05, 0.003)], 28),
     );
     let body: Vec<_> = (0..=16).map(|i| point(0.05 + 0.95 * i as f32 / 16.0, 0.0)).collect();
-    let (top, rim) = (make.height_m, make.radii_m[1]);
+    let (top, rim) = (plan.height_m, plan.radii_m[1]);
     let lip = [vec2(rim, top), vec2(rim - 0.005, top + 0.005), vec2(rim - 0.012, top), vec2(rim - 0.014, top - 0.08)];
     model.add(orange, bend(Shape::lathe(&[body.as_slice(), &lip].concat(), 28)));
-    for &[from, to] in make.bands {
+    for &[from, to] in &plan.bands {
         let inner = (0..=4).map(|i| point(from + (to - from) * i as f32 / 4.0, 0.003));
         let sleeve: Vec<_> = std::iter::once(point(from, 0.0)).chain(inner).chain([point(to, 0.0)]).collect();
         model.add(white, bend(Shape::lathe(&sleeve, 28)));
     }
-    if make.disc {
+    if plan.has_disc {
         let disc = |radius: f32, thick: f32| upright(Shape::cylinder(radius, thick, 28));
         let amber = model.slot(reflective(vec3(0.85, 0.3, 0.02)), &[]);
         model.add(orange, Shape::tube(&[vec3(0.0, 0.0, top - 0.05), vec3(0.0, 0.0, top + 0.1)], 0.012, 8));
         model.add(orange, disc(0.105, 0.02).moved(vec3(-0.01, 0.0, top + 0.18)));
         model.add(amber, disc(0.092, 0.024).moved(vec3(-0.012, 0.0, top + 0.18)));
     }
-    asset(model, make.name, make.commonness)
+    let asset = model.asset(&plan.id, Kind::TrafficCone, Class::TrafficCone);
+    Asset { commonness: plan.commonness, ..asset }.tagged(&plan.tags)
 }
 
 /// An upright tube on a heavy foot, which divides lanes.

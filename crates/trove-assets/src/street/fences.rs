@@ -2,9 +2,12 @@
 //! and y is across; the side towards +y is the outer one.
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::{Asset, Class, Kind, Material};
 
 use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plastic, rubber, swept};
+use super::plan::Finish;
+use crate::measure::{Wrong, ordinary, within};
 use crate::shape::{Model, Shape};
 use crate::surfaces::{self, Canvas, Texel, hash};
 
@@ -19,11 +22,6 @@ pub(super) fn assets() -> Vec<Asset> {
         hoarding(),
         site_fence(),
         picket(),
-        wall("concrete", surfaces::set("concrete/board-marked"), 2.0, 0.2),
-        wall("brick", surfaces::set("brick/flemish"), 2.4, 0.24),
-        wall("garden", surfaces::set("brick/flemish"), 1.15, 0.24),
-        wall("dwarf", surfaces::set("brick/flemish"), 0.6, 0.24),
-        wall("stone", surfaces::set("stone/rubble"), 2.2, 0.35),
         railed(true),
         railed(false),
         w_beam(),
@@ -31,6 +29,39 @@ pub(super) fn assets() -> Vec<Asset> {
         railing("railing-painted", painted(GREEN), &[GREEN, vec3(0.4, 0.4, 0.39)]).tagged(["railing", "painted"]),
         parapet(),
     ]
+}
+
+/// A wall under a coping: a `[[wall]]` of a file of plans. Lengths are metres.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WallPlan {
+    /// Unique in its library.
+    pub(crate) id: String,
+    /// Words that say what it is.
+    #[serde(default)]
+    tags: Vec<String>,
+    #[serde(default = "ordinary")]
+    commonness: f32,
+    finish: Finish,
+    /// Of what can have any, linear RGB.
+    #[serde(default = "white")]
+    color: [f32; 3],
+    height_m: f32,
+    thick_m: f32,
+}
+
+fn white() -> [f32; 3] {
+    [1.0; 3]
+}
+
+impl WallPlan {
+    /// The key of a value that no wall can have, with what was expected and what it is.
+    pub(crate) fn check(&self) -> Result<(), Wrong> {
+        within("commonness", "a number from 0 to 1000", 0.0..=1000.0, [&self.commonness])?;
+        within("color", "linear RGB from 0 to 1", 0.0..=1.0, &self.color)?;
+        within("height_m", "metres from 0.2 to 10", 0.2..=10.0, [&self.height_m])?;
+        within("thick_m", "metres from 0.02 to 2", 0.02..=2.0, [&self.thick_m])
+    }
 }
 
 const GREEN: Vec3 = vec3(0.02, 0.085, 0.045);
@@ -202,8 +233,10 @@ fn site_fence() -> Asset {
 }
 
 /// A wall under a coping.
-fn wall(name: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
+pub(super) fn wall(plan: &WallPlan) -> Asset {
+    let (height_m, thick_m) = (plan.height_m, plan.thick_m);
     let mut model = Model::default();
+    let body = plan.finish.material(plan.color.into());
     let body = model.slot(Material { dirt: 0.8, ..body }, &[]);
     let coping = model.slot(concrete(), &[]);
     let length_m = 2.0;
@@ -211,7 +244,8 @@ fn wall(name: &str, body: Material, height_m: f32, thick_m: f32) -> Asset {
     let half = thick_m / 2.0 + 0.04;
     let profile = [vec2(-half, 0.0), vec2(half, 0.0), vec2(half, 0.05), vec2(0.0, 0.08), vec2(-half, 0.05)];
     model.add(coping, along_x(&profile, length_m).moved(Vec3::Z * (height_m - 0.08)));
-    model.asset(&format!("wall/{name}"), Kind::Wall, Class::Barrier).tagged([name])
+    let asset = model.asset(&plan.id, Kind::Wall, Class::Barrier);
+    Asset { commonness: plan.commonness, ..asset }.tagged(&plan.tags)
 }
 
 /// Pointed iron bars in the coping of a dwarf wall, every eighth a stronger one; from afar a stripe for three of them.

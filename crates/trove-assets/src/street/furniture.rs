@@ -5,87 +5,18 @@ use std::f32::consts::{PI, TAU};
 use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind};
 
-use super::finish::{
-    bar, board, galvanised, glass, grey_timber, painted, plastic, post, reflective, rubber, stainless, timber,
-};
+use super::finish::{bar, board, galvanised, glass, grey_timber, painted, post, reflective, rubber, stainless, timber};
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
     vec![
-        steel_bollard(),
-        iron_bollard(),
         hydrant("pillar", vec3(0.42, 0.03, 0.02)),
         hydrant("yellow", vec3(0.52, 0.34, 0.02)),
-        flexible_bollard(),
-        concrete_bollard(),
         timber_bollard(),
         rack(true),
         rack(false),
         shelter(),
     ]
-}
-
-fn steel_bollard() -> Asset {
-    let mut model = Model::default();
-    let steel = model.slot(stainless(), &[]);
-    let tape = model.slot(reflective(vec3(0.6, 0.6, 0.58)), &[]);
-    let profile = [(0.0, 0.0), (0.08, 0.0), (0.08, 0.01), (0.057, 0.012), (0.057, 0.93), (0.05, 0.95), (0.0, 0.955)];
-    model.add(steel, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 24));
-    model
-        .add(tape, Shape::lathe(&[vec2(0.0575, 0.78), vec2(0.0585, 0.78), vec2(0.0585, 0.86), vec2(0.0575, 0.86)], 24));
-    model.asset("bollard/steel", Kind::Bollard, Class::TrafficSign).tagged(["steel"])
-}
-
-fn iron_bollard() -> Asset {
-    let mut model = Model::default();
-    let iron = model.slot(painted(Vec3::splat(0.025)), &[]);
-    let white = model.slot(reflective(vec3(0.62, 0.62, 0.6)), &[]);
-    let profile = [
-        (0.0, 0.0),
-        (0.14, 0.0),
-        (0.14, 0.12),
-        (0.11, 0.16),
-        (0.085, 0.78),
-        (0.11, 0.8),
-        (0.11, 0.83),
-        (0.07, 0.86),
-        (0.09, 0.92),
-        (0.07, 0.98),
-        (0.0, 1.0),
-    ];
-    model.add(iron, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 20));
-    model.add(
-        white,
-        Shape::lathe(&[(0.0905, 0.68), (0.0925, 0.68), (0.0895, 0.75), (0.087, 0.75)].map(|(r, z)| vec2(r, z)), 20),
-    );
-    model.asset("bollard/iron", Kind::Bollard, Class::TrafficSign).tagged(["iron"])
-}
-
-/// A plastic post that springs back, with bands.
-fn flexible_bollard() -> Asset {
-    let mut model = Model::default();
-    let orange = vec3(0.75, 0.16, 0.03);
-    let body = model.slot(plastic(orange), &[orange, vec3(0.68, 0.68, 0.64), vec3(0.05, 0.2, 0.08)]);
-    let tape = model.slot(reflective(vec3(0.7, 0.7, 0.66)), &[]);
-    let black = model.slot(rubber(), &[]);
-    let profile = [(0.0, 0.02), (0.05, 0.02), (0.04, 0.05), (0.04, 0.7), (0.044, 0.72), (0.036, 0.75), (0.0, 0.755)];
-    model.add(body, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 20));
-    for z in [0.45, 0.58] {
-        let band = [(0.0405, z), (0.042, z), (0.042, z + 0.07), (0.0405, z + 0.07)];
-        model.add(tape, Shape::lathe(&band.map(|(r, z)| vec2(r, z)), 20));
-    }
-    let foot = [(0.0, 0.0), (0.11, 0.0), (0.105, 0.015), (0.06, 0.035), (0.0, 0.035)];
-    model.add(black, Shape::lathe(&foot.map(|(r, z)| vec2(r, z)), 24));
-    model.asset("bollard/flexible", Kind::Bollard, Class::TrafficSign).tagged(["flexible"])
-}
-
-fn concrete_bollard() -> Asset {
-    let mut model = Model::default();
-    let body = model.slot(crate::surfaces::set("concrete/weathered"), &[]);
-    let profile =
-        [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02), (0.13, 0.7), (0.135, 0.72), (0.135, 0.78), (0.115, 0.85), (0.0, 0.88)];
-    model.add(body, Shape::lathe(&profile.map(|(r, z)| vec2(r, z)), 28));
-    model.asset("bollard/concrete", Kind::Bollard, Class::TrafficSign).tagged(["concrete"])
 }
 
 fn timber_bollard() -> Asset {

@@ -3,12 +3,12 @@
 use glam::{Quat, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind};
 
-use super::finish::{bar, board, concrete, galvanised, painted, timber};
+use super::finish::{bar, board, galvanised, painted, timber};
 use crate::shape::{Model, Shape};
 use crate::surfaces;
 
 pub(super) fn assets() -> Vec<Asset> {
-    vec![slatted_bench(), stone_bench(), mesh_bench(), granite_bench()]
+    vec![slatted_bench(), mesh_bench(), granite_bench()]
 }
 
 fn slatted_bench() -> Asset {
@@ -34,19 +34,6 @@ fn slatted_bench() -> Asset {
         }
     }
     model.asset("bench/slatted", Kind::Bench, Class::Void).tagged(["slatted"])
-}
-
-fn stone_bench() -> Asset {
-    let mut model = Model::default();
-    let stone = model.slot(concrete(), &[]);
-    let wood = model.slot(timber(), &[]);
-    for y in [-0.75, 0.75] {
-        model.add(stone, bar(vec3(0.0, y, 0.2), vec3(0.42, 0.25, 0.4)));
-    }
-    for i in 0..6 {
-        model.add(wood, board(vec3(-0.2 + 0.08 * i as f32, 0.0, 0.43), vec3(0.065, 2.0, 0.05)));
-    }
-    model.asset("bench/stone", Kind::Bench, Class::Void).tagged(["stone"])
 }
 
 /// A seat of steel rods on two frames, its back bent from the same rods.

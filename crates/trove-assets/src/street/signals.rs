@@ -4,47 +4,56 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::{Asset, Class, Kind, Material};
 
 use super::finish::{bar, foot_plate, galvanised, mast_of, painted, plastic, polygon, post, rust_at_foot, upright};
+use crate::measure::{Wrong, within};
 use crate::shape::{Model, Shape};
 
-/// How a signal is built.
-#[derive(Clone, Copy)]
-struct Make {
-    name: &'static str,
-    /// Reach of its arm; 0 for heads on the pole alone.
+/// How a signal is built: a `[[signal]]` of a file of plans.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SignalPlan {
+    /// Unique in its library, and what the ids of its models begin with.
+    pub(crate) id: String,
+    /// Words that say what it is.
+    #[serde(default)]
+    tags: Vec<String>,
+    /// Reach of its arm, metres; 0 for heads on the pole alone.
+    #[serde(default)]
     arm_m: f32,
     /// Heads lie along the arm, as in eastern Asia.
-    lying: bool,
+    #[serde(default)]
+    is_lying: bool,
     /// A board behind every head.
-    board: bool,
+    #[serde(default)]
+    has_boards: bool,
     /// The head for pedestrians shows a hand, as in America.
-    hand: bool,
+    #[serde(default)]
+    shows_hand: bool,
 }
 
-#[rustfmt::skip]
-const MAKES: [Make; 5] = [
-    Make { name: "post", arm_m: 0.0, lying: false, board: false, hand: false },
-    Make { name: "arm", arm_m: 5.0, lying: false, board: true, hand: false },
-    Make { name: "us-arm", arm_m: 6.0, lying: false, board: true, hand: true },
-    Make { name: "us-long-arm", arm_m: 9.5, lying: false, board: true, hand: true },
-    Make { name: "lying-arm", arm_m: 6.0, lying: true, board: false, hand: false },
-];
+impl SignalPlan {
+    /// The key of a value that no signal can have, with what was expected and what it is.
+    pub(crate) fn check(&self) -> Result<(), Wrong> {
+        if self.arm_m == 0.0 { Ok(()) } else { within("arm_m", "metres from 1 to 20, or 0", 1.0..=20.0, [&self.arm_m]) }
+    }
+}
 
-/// All makes for both sides of traffic, with the traffic's lamp red or green: `signal/us-arm/right/red`. An arm reaches to
-/// the middle of the road: towards −y where traffic keeps right.
-pub(super) fn assets() -> Vec<Asset> {
-    let each = |make: Make| {
-        [("right", 1.0), ("left", -1.0)].into_iter().flat_map(move |(name, side)| {
+/// All signals for both sides of traffic, with the traffic's lamp red or green: `signal/us-arm/right/red`. An arm reaches
+/// to the middle of the road: towards −y where traffic keeps right.
+pub(super) fn assets(signals: &[SignalPlan]) -> Vec<Asset> {
+    let each = |plan: &SignalPlan| {
+        [("right", 1.0), ("left", -1.0)].map(|(name, side)| {
             [Lamp::Red, Lamp::Green].map(|lit| {
                 let state = if lit == Lamp::Red { "red" } else { "green" };
-                signal(&format!("signal/{}/{name}/{state}", make.name), make, side, lit)
-                    .tagged([make.name, name, state])
+                let asset = signal(&format!("{}/{name}/{state}", plan.id), plan, side, lit);
+                asset.tagged(&plan.tags).tagged([name, state])
             })
         })
     };
-    MAKES.into_iter().flat_map(each).collect()
+    signals.iter().flat_map(each).flatten().collect()
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -92,13 +101,20 @@ impl Slots {
     }
 }
 
+/// How a head is built.
+#[derive(Clone, Copy)]
+struct Head {
+    is_lying: bool,
+    has_board: bool,
+}
+
 /// Three lamps under hoods, the middle one at a point: the red one on top, or towards `-side` where they lie.
-fn head(model: &mut Model, slots: &Slots, make: Make, side: f32, at: Vec3) {
+fn head(model: &mut Model, slots: &Slots, make: Head, side: f32, at: Vec3) {
     // The body stands, or lies with its top to the side where red is.
     let lay = |shape: Shape| {
-        if make.lying { shape.turned(Quat::from_rotation_x(side * FRAC_PI_2)) } else { shape }
+        if make.is_lying { shape.turned(Quat::from_rotation_x(side * FRAC_PI_2)) } else { shape }
     };
-    if make.board {
+    if make.has_board {
         let board = upright(Shape::extruded(&super::finish::rounded(vec2(0.62, 1.32), 0.08), 0.012));
         let rim = upright(Shape::extruded(&super::finish::rounded(vec2(0.66, 1.36), 0.1), 0.006));
         model.add(slots.rim, lay(rim).moved(at + vec3(-0.012, 0.0, 0.0)));
@@ -107,7 +123,7 @@ fn head(model: &mut Model, slots: &Slots, make: Make, side: f32, at: Vec3) {
     model.add(slots.black, lay(bar(Vec3::ZERO, vec3(0.22, 0.33, 1.02))).moved(at + vec3(-0.02, 0.0, 0.0)));
     for (i, &lamp) in slots.lamps.iter().enumerate() {
         let along = 0.32 * (1.0 - i as f32);
-        let centre = at + if make.lying { vec3(0.09, -side * along, 0.0) } else { vec3(0.09, 0.0, along) };
+        let centre = at + if make.is_lying { vec3(0.09, -side * along, 0.0) } else { vec3(0.09, 0.0, along) };
         let lens = upright(Shape::lathe(&[vec2(0.105, 0.0), vec2(0.075, 0.02), vec2(0.0, 0.032)], 20));
         model.add(lamp, lens.moved(centre));
         let ring = upright(Shape::extruded(&polygon(20, 0.12, 0.0), 0.01));
@@ -158,11 +174,14 @@ fn hand() -> Shape {
 }
 
 /// The head for those who cross while this traffic waits, its back at a point; it looks along `turn`.
-fn walkers(model: &mut Model, black: u16, make: Make, may_walk: bool, at: Vec3, turn: Quat) {
-    let [stand, walk] =
-        if make.hand { [vec3(0.6, 0.16, 0.01), vec3(0.5, 0.5, 0.5)] } else { [Lamp::Red.color(), Lamp::Green.color()] };
+fn walkers(model: &mut Model, black: u16, shows_hand: bool, may_walk: bool, at: Vec3, turn: Quat) {
+    let [stand, walk] = if shows_hand {
+        [vec3(0.6, 0.16, 0.01), vec3(0.5, 0.5, 0.5)]
+    } else {
+        [Lamp::Red.color(), Lamp::Green.color()]
+    };
     let [stand, walk] = [(stand, !may_walk), (walk, may_walk)].map(|(c, lit)| model.slot(lamp(c, lit), &[]));
-    let waiting = if make.hand { hand() } else { man(false) };
+    let waiting = if shows_hand { hand() } else { man(false) };
     for (z, slot, sign) in [(0.14, stand, waiting), (-0.14, walk, man(true))] {
         let place = |shape: Shape| shape.turned(turn).moved(at + Vec3::Z * z);
         model.add(black, place(bar(vec3(0.1, 0.0, 0.0), vec3(0.18, 0.29, 0.275))));
@@ -172,11 +191,11 @@ fn walkers(model: &mut Model, black: u16, make: Make, may_walk: bool, at: Vec3, 
 }
 
 /// A pole with a head and a push button, and an arm over the road with one or two heads.
-fn signal(id: &str, make: Make, side: f32, lit: Lamp) -> Asset {
+fn signal(id: &str, plan: &SignalPlan, side: f32, lit: Lamp) -> Asset {
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     let slots = Slots::new(&mut model, lit);
-    let long = make.arm_m > 0.0;
+    let long = plan.arm_m > 0.0;
     let (radius_m, height_m) = if long { (0.13, 6.3) } else { (0.06, 3.4) };
     model.add(steel, mast_of([radius_m, radius_m * 0.75], height_m));
     foot_plate(&mut model, steel, 0.2 + 2.0 * radius_m);
@@ -184,25 +203,26 @@ fn signal(id: &str, make: Make, side: f32, lit: Lamp) -> Asset {
     for z in [2.5, 3.0] {
         model.add(steel, bar(vec3(0.09 + radius_m / 2.0, 0.0, z), vec3(0.16, 0.05, 0.05)));
     }
-    let standing = Make { lying: false, board: make.board && !long, ..make };
+    let standing = Head { is_lying: false, has_board: plan.has_boards && !long };
     head(&mut model, &slots, standing, side, vec3(0.19 + radius_m, 0.0, 2.75));
     let amber = model.slot(plastic(vec3(0.55, 0.33, 0.02)), &[]);
     let over_road = Quat::from_rotation_z(-side * FRAC_PI_2);
     let button = over_road * vec3(radius_m + 0.03, 0.0, 0.0);
     model.add(amber, bar(button + vec3(0.0, 0.0, 1.1), vec3(0.1, 0.1, 0.19)));
     let at = over_road * vec3(radius_m, 0.0, 0.0) + Vec3::Z * 2.6;
-    walkers(&mut model, slots.black, make, lit == Lamp::Red, at, over_road);
+    walkers(&mut model, slots.black, plan.shows_hand, lit == Lamp::Red, at, over_road);
     if long {
-        let bend = |t: f32| vec3(0.0, -side * (0.4 + (make.arm_m - 0.4) * t), 5.75 + 0.4 * (t * 1.6).sin());
+        let bend = |t: f32| vec3(0.0, -side * (0.4 + (plan.arm_m - 0.4) * t), 5.75 + 0.4 * (t * 1.6).sin());
         let arm: Vec<(Vec3, f32)> = std::iter::once((vec3(0.0, 0.0, 5.6), 0.085))
             .chain((0..=8).map(|i| i as f32 / 8.0).map(|t| (bend(t), 0.08 - 0.035 * t)))
             .collect();
         model.add(steel, Shape::tapered_tube(&arm, 12));
         model.add(steel, post(vec3(0.0, 0.0, height_m), 0.1, 0.03, 16));
-        let places: &[f32] = if make.arm_m > 8.0 { &[0.55, 0.95] } else { &[0.93] };
+        let places: &[f32] = if plan.arm_m > 8.0 { &[0.55, 0.95] } else { &[0.93] };
         for &t in places {
             let at = bend(t);
             model.add(steel, bar(at + vec3(0.07, 0.0, 0.0), vec3(0.14, 0.06, 0.06)));
+            let make = Head { is_lying: plan.is_lying, has_board: plan.has_boards };
             head(&mut model, &slots, make, side, at + vec3(0.18, 0.0, 0.0));
         }
     }
