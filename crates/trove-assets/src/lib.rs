@@ -69,8 +69,9 @@ pub fn library(ingredients: &Ingredients<'_>) -> AssetLibrary {
 /// Every model, sorted by id; buildings wear these surfaces, or plain colours where one is not there.
 fn assets(ingredients: &Ingredients<'_>, surfaces: &[Surface]) -> Vec<Asset> {
     let cars = || vehicles::assets(&Plans::built_in().cars);
+    let plants = || plants::assets(&Plans::built_in().plants);
     let street = || street::assets(&Plans::built_in().street);
-    let families: [fn() -> Vec<Asset>; 4] = [cars, cycles::assets, plants::assets, street];
+    let families: [fn() -> Vec<Asset>; 4] = [cars, cycles::assets, plants, street];
     let (mut assets, people): (Vec<Asset>, Vec<Asset>) = rayon::join(
         || families.par_iter().flat_map_iter(|family| family()).collect(),
         || people::assets(ingredients.human_body),

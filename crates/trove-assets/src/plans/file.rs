@@ -10,7 +10,8 @@ use super::error::PlanError;
 /// Keys whose value may be the name of a table of the same key: `paint = "fleet"` is `[paint.fleet]`.
 const PIECES: [&str; 4] = ["paint", "plate", "face", "back"];
 /// Lists of entries.
-const ENTRIES: [&str; 6] = ["car", "facade", "cone", "furniture", "signal", "wall"];
+const ENTRIES: [&str; 10] =
+    ["car", "facade", "cone", "furniture", "signal", "wall", "tree", "shrub", "hedge", "bed"];
 /// Tables of which an entry may change single keys, taking the others from the entry that it is like.
 const MERGED: [&str; 1] = ["profile"];
 

@@ -1,8 +1,9 @@
 //! Plans of what is generated, as data: the built-in ones, and those of users' libraries in the same form.
 //!
-//! A file of plans is TOML. `[[car]]` and `[[facade]]` are entries, each of which becomes an asset or a surface;
-//! `[paint.NAME]`, `[plate.NAME]`, `[face.NAME]` and `[back.NAME]` are pieces that entries name. An entry or a piece
-//! takes from the one that it is `like` what it does not say itself; users' files take from the built-in ones too.
+//! A file of plans is TOML. `[[car]]`, `[[facade]]`, `[[tree]]`, `[[shrub]]`, `[[hedge]]` and `[[bed]]` are entries, which
+//! become assets or surfaces; `[paint.NAME]`, `[plate.NAME]`, `[face.NAME]` and `[back.NAME]` are pieces that entries
+//! name. An entry or a piece takes from the one that it is `like` what it does not say itself; users' files take from
+//! the built-in ones too.
 
 mod error;
 mod file;
@@ -17,6 +18,7 @@ use trove_model::AssetLibrary;
 pub use error::PlanError;
 
 use crate::measure::Wrong;
+use crate::plants::{self, PlantPlans, RowPlan, ShrubPlan, TreePlan};
 use crate::street::{self, ConePlan, FurniturePlan, SignalPlan, StreetPlans, WallPlan};
 use crate::surfaces::{self, FacadePlan};
 use crate::vehicles::{self, CarPlan};
@@ -30,7 +32,9 @@ const BUILT_IN: &str = concat!(
     "\n",
     include_str!("../../plans/facades.toml"),
     "\n",
-    include_str!("../../plans/furniture.toml")
+    include_str!("../../plans/furniture.toml"),
+    "\n",
+    include_str!("../../plans/plants.toml"),
 );
 
 static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
@@ -41,6 +45,7 @@ static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
 pub struct Plans {
     pub(crate) cars: Vec<CarPlan>,
     pub(crate) facades: Vec<FacadePlan>,
+    pub(crate) plants: PlantPlans,
     pub(crate) street: StreetPlans,
     licence: Option<String>,
 }
@@ -71,6 +76,12 @@ impl Plans {
                 signals: checked(file, "signal", SignalPlan::check)?,
                 walls: checked(file, "wall", WallPlan::check)?,
             },
+            plants: PlantPlans {
+                trees: checked(file, "tree", TreePlan::check)?,
+                shrubs: checked(file, "shrub", ShrubPlan::check)?,
+                hedges: checked(file, "hedge", RowPlan::check_hedge)?,
+                beds: checked(file, "bed", RowPlan::check_bed)?,
+            },
             licence: file.licence.clone(),
         })
     }
@@ -78,7 +89,7 @@ impl Plans {
     /// The library of a user's plans, with ids that begin with the library's name; sorted by id.
     pub fn library(&self, name: &str) -> AssetLibrary {
         let mut library = AssetLibrary {
-            assets: [vehicles::cars(&self.cars), street::planned(&self.street)].concat(),
+            assets: [vehicles::cars(&self.cars), street::planned(&self.street), plants::planned(&self.plants)].concat(),
             surfaces: surfaces::facades(&self.facades),
             ..AssetLibrary::default()
         };

@@ -1,12 +1,14 @@
 //! Bark: colour and relief; the uvs of branches are metres, half a metre of it goes around and a metre up.
 
 use glam::{Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::Material;
 
 use crate::surfaces::{Canvas, Noise, Texel, step};
 
 /// How bark breaks up as the trunk grows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Bark {
     /// Ridges with furrows between, so far apart in metres.
     Furrowed(f32),

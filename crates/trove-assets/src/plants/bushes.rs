@@ -3,240 +3,44 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
 use trove_model::{
-    Asset, Climate, Foliage as SeasonalFoliage, Kind, LeafType, Material, Plant, PlantForm, Random, Season, Seed,
+    Asset, Foliage as SeasonalFoliage, Kind, LeafType, Material, Plant, PlantForm, Random, Season, Seed,
 };
 
 use super::bark::{Bark, bark};
 use super::growth::limb;
 use super::individual::{Card, Foliage, Individual, Level, direction, varied};
-use super::leaves::{BARE, Outline, Sprig, material, paint};
-use super::species::{TWIGS, Tones, Year};
+use super::leaves::{BARE, Sprig, material, paint};
+use super::plan::{PlantPlans, RowPlan, ShrubPlan, climates, offered, species};
+use super::tones::TWIGS;
 use super::trees::plant;
 use crate::shape::Shape;
-use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
 
-/// A kind of shrub.
-struct Shrub {
-    name: &'static str,
-    habitat: &'static [(Climate, f32)],
-    /// Half axes; the foot is in the middle of the underside.
-    half_m: Vec3,
-    /// Round clumps that it consists of, and their radius as a share of the whole's.
-    clumps: usize,
-    clump: f32,
-    sprig: Sprig,
-    tones: Tones,
-    card_m: f32,
-    cards: usize,
-    /// Leaves come out of the ground on long stalks instead of sitting on a surface.
-    from_ground: bool,
-}
-
-const TENDER: &[(Climate, f32)] = &[(Temperate, 0.0), (Cold, 0.0), (Mediterranean, 0.4), (Arid, 0.5)];
-const HARDY: &[(Climate, f32)] = &[(Tropical, 0.1), (Subtropical, 0.6)];
-const OVAL: Outline = Outline::Oval(0.95);
-
-const fn evergreen(green: Vec3) -> Tones {
-    Tones { green, year: Year::Evergreen }
-}
-
-const SHRUBS: [Shrub; 9] = [
-    Shrub {
-        name: "box",
-        habitat: HARDY,
-        half_m: vec3(0.6, 0.6, 0.55),
-        clumps: 1,
-        clump: 1.0,
-        sprig: Sprig::Leaves { outline: OVAL, length: 0.12, width: 0.55, count: 10 },
-        tones: evergreen(vec3(0.064, 0.099, 0.037)),
-        card_m: 0.2,
-        cards: 1700,
-        from_ground: false,
-    },
-    Shrub {
-        name: "laurel",
-        habitat: &[(Tropical, 0.4)],
-        half_m: vec3(1.05, 0.95, 0.8),
-        clumps: 11,
-        clump: 0.5,
-        sprig: Sprig::Leaves { outline: Outline::Oval(1.0), length: 0.24, width: 0.4, count: 6 },
-        tones: evergreen(vec3(0.069, 0.101, 0.037)),
-        card_m: 0.42,
-        cards: 1700,
-        from_ground: false,
-    },
-    Shrub {
-        name: "lilac",
-        habitat: &[(Tropical, 0.0), (Subtropical, 0.4), (Arid, 0.3), (Mediterranean, 0.6)],
-        half_m: vec3(1.25, 1.15, 1.35),
-        clumps: 14,
-        clump: 0.42,
-        sprig: Sprig::Leaves { outline: Outline::Oval(0.65), length: 0.17, width: 0.7, count: 7 },
-        tones: Tones {
-            green: vec3(0.088, 0.125, 0.046),
-            year: Year::Blossoms(&[vec3(0.3, 0.2, 0.36), vec3(0.45, 0.4, 0.42)], &[vec3(0.25, 0.2, 0.05)]),
-        },
-        card_m: 0.5,
-        cards: 1800,
-        from_ground: false,
-    },
-    Shrub {
-        name: "forsythia",
-        habitat: &[(Tropical, 0.0), (Subtropical, 0.3), (Arid, 0.0), (Mediterranean, 0.4)],
-        half_m: vec3(1.0, 1.0, 0.95),
-        clumps: 16,
-        clump: 0.36,
-        sprig: Sprig::Leaves { outline: Outline::Oval(0.9), length: 0.16, width: 0.38, count: 8 },
-        tones: Tones {
-            green: vec3(0.104, 0.147, 0.050),
-            year: Year::Blossoms(&[vec3(0.5, 0.36, 0.02)], &[vec3(0.3, 0.2, 0.05), vec3(0.15, 0.14, 0.05)]),
-        },
-        card_m: 0.46,
-        cards: 1500,
-        from_ground: false,
-    },
-    Shrub {
-        name: "tropical",
-        habitat: TENDER,
-        half_m: vec3(1.15, 1.0, 0.75),
-        clumps: 15,
-        clump: 0.42,
-        sprig: Sprig::Leaves { outline: Outline::Oval(1.05), length: 0.3, width: 0.36, count: 5 },
-        tones: evergreen(vec3(0.060, 0.092, 0.034)),
-        card_m: 0.5,
-        cards: 1500,
-        from_ground: false,
-    },
-    Shrub {
-        name: "croton",
-        habitat: TENDER,
-        half_m: vec3(0.7, 0.65, 0.5),
-        clumps: 9,
-        clump: 0.5,
-        sprig: Sprig::Leaves { outline: Outline::Oval(1.1), length: 0.26, width: 0.42, count: 6 },
-        tones: evergreen(vec3(0.127, 0.121, 0.039)),
-        card_m: 0.36,
-        cards: 1100,
-        from_ground: false,
-    },
-    Shrub {
-        name: "heliconia",
-        habitat: TENDER,
-        half_m: vec3(0.85, 0.75, 0.85),
-        clumps: 9,
-        clump: 0.4,
-        sprig: Sprig::Paddle,
-        tones: evergreen(vec3(0.081, 0.124, 0.041)),
-        card_m: 0.85,
-        cards: 230,
-        from_ground: true,
-    },
-    Shrub {
-        name: "grass",
-        habitat: &[(Tropical, 0.6)],
-        half_m: vec3(0.5, 0.5, 0.5),
-        clumps: 6,
-        clump: 0.3,
-        sprig: Sprig::Blades,
-        tones: Tones { green: vec3(0.104, 0.136, 0.054), year: Year::Keeps(vec3(0.26, 0.19, 0.1)) },
-        card_m: 0.8,
-        cards: 110,
-        from_ground: true,
-    },
-    Shrub {
-        name: "ground-cover",
-        habitat: &[],
-        half_m: vec3(0.95, 0.9, 0.16),
-        clumps: 14,
-        clump: 0.3,
-        sprig: Sprig::Leaves { outline: Outline::Palmate(0.45), length: 0.24, width: 0.95, count: 5 },
-        tones: evergreen(vec3(0.067, 0.103, 0.037)),
-        card_m: 0.22,
-        cards: 1500,
-        from_ground: false,
-    },
-];
-
-/// What grows in rows: clipped hedges, and strips of flowers.
-struct Row {
-    name: &'static str,
-    habitat: &'static [(Climate, f32)],
-    sprig: Sprig,
-    tones: Tones,
-    /// Heads above the leaves, one colour a paint.
-    flowers: &'static [Vec3],
-}
-
-const HEDGES: [Row; 3] = [
-    Row {
-        name: "yew",
-        habitat: HARDY,
-        sprig: Sprig::Leaves { outline: OVAL, length: 0.12, width: 0.42, count: 11 },
-        tones: evergreen(vec3(0.057, 0.090, 0.034)),
-        flowers: &[],
-    },
-    Row {
-        name: "hornbeam",
-        habitat: &[(Tropical, 0.0), (Subtropical, 0.2), (Arid, 0.0), (Mediterranean, 0.3)],
-        sprig: Sprig::Leaves { outline: Outline::Oval(0.8), length: 0.16, width: 0.58, count: 8 },
-        tones: Tones { green: vec3(0.088, 0.130, 0.046), year: Year::Keeps(vec3(0.2, 0.115, 0.05)) },
-        flowers: &[],
-    },
-    Row {
-        name: "ixora",
-        habitat: TENDER,
-        sprig: Sprig::Leaves { outline: Outline::Oval(1.0), length: 0.18, width: 0.45, count: 8 },
-        tones: evergreen(vec3(0.067, 0.103, 0.037)),
-        flowers: &[],
-    },
-];
-
-const BEDS: [Row; 3] = [
-    Row {
-        name: "perennials",
-        habitat: &[(Tropical, 0.5)],
-        sprig: Sprig::Leaves { outline: Outline::Oval(0.8), length: 0.2, width: 0.5, count: 6 },
-        tones: Tones { green: vec3(0.083, 0.124, 0.046), year: Year::Turns(&[vec3(0.2, 0.15, 0.06)]) },
-        flowers: &[vec3(0.5, 0.42, 0.44), vec3(0.4, 0.12, 0.26), vec3(0.5, 0.34, 0.03), vec3(0.25, 0.14, 0.4)],
-    },
-    Row {
-        name: "annuals",
-        habitat: &[],
-        sprig: Sprig::Leaves { outline: Outline::Oval(0.7), length: 0.17, width: 0.75, count: 7 },
-        tones: Tones { green: vec3(0.073, 0.118, 0.041), year: Year::Turns(&[vec3(0.16, 0.14, 0.06)]) },
-        flowers: &[vec3(0.42, 0.03, 0.03), vec3(0.5, 0.28, 0.02), vec3(0.5, 0.46, 0.44)],
-    },
-    Row {
-        name: "liriope",
-        habitat: &[(Tropical, 1.5), (Subtropical, 1.5), (Cold, 0.2)],
-        sprig: Sprig::Blades,
-        tones: evergreen(vec3(0.076, 0.115, 0.041)),
-        flowers: &[],
-    },
-];
-
-pub(super) fn assets() -> Vec<Asset> {
-    let shrubs = SHRUBS.par_iter().flat_map_iter(|shrub| {
-        let leaves = material(&format!("bush/{}-leaves", shrub.name), shrub.sprig, 256, 14);
-        ["1", "2"].map(|name| bush(shrub, &format!("bush/{}-{name}", shrub.name), leaves.clone()))
+/// The shrubs, hedges and beds of these plans.
+pub(super) fn assets(plans: &PlantPlans) -> Vec<Asset> {
+    let shrubs = plans.shrubs.par_iter().flat_map_iter(|plan| {
+        let leaves = material(&format!("{}-leaves", plan.id), plan.sprig, 256, 14);
+        ["1", "2"].map(|name| bush(plan, &format!("{}-{name}", plan.id), leaves.clone()))
     });
-    let hedges = HEDGES.par_iter().flat_map_iter(|row| pieces(row, "hedge", PlantForm::Hedge, hedge));
-    let beds = BEDS.par_iter().flat_map_iter(|row| pieces(row, "bed", PlantForm::Bed, bed));
+    let hedges = plans.hedges.par_iter().flat_map_iter(|plan| pieces(plan, "hedge-", PlantForm::Hedge, hedge));
+    let beds = plans.beds.par_iter().flat_map_iter(|plan| pieces(plan, "bed-", PlantForm::Bed, bed));
     shrubs.chain(hedges).chain(beds).collect()
 }
+
+/// Maps name no species of bushes.
+const NO_GENERA: &[&str] = &[];
 
 /// What is seen between leaves: twigs in the dark.
 fn inside() -> Material {
     Material::plain("bush/inside", vec3(0.026, 0.028, 0.015), 0.95)
 }
 
-fn bush(shrub: &Shrub, id: &str, leaves: Material) -> Asset {
+fn bush(plan: &ShrubPlan, id: &str, leaves: Material) -> Asset {
     let mut random = Seed(14).child(id).random();
-    let half = shrub.half_m * vec3(1.0, 1.0, random.range(0.9, 1.1) as f32);
-    let clumps = clumps(shrub, half, &mut random);
+    let half = Vec3::from_array(plan.half_m) * vec3(1.0, 1.0, random.range(0.9, 1.1) as f32);
+    let clumps = clumps(plan, half, &mut random);
     let mut model = Individual::default();
-    let foliage = if shrub.from_ground {
-        stalks(shrub, &clumps, half, &mut random)
+    let foliage = if plan.from_ground {
+        stalks(plan, &clumps, half, &mut random)
     } else {
         let dark = model.slot(inside(), &[]);
         model.add_shape(dark, |level| core(&clumps, level));
@@ -246,22 +50,24 @@ fn bush(shrub: &Shrub, id: &str, leaves: Material) -> Asset {
             Level::Near => Shape::join(stems.iter().map(|path| limb(path, [5, 5, 4]))),
             _ => Shape::default(),
         });
-        skin(shrub, &clumps, half, &mut random)
+        skin(plan, &clumps, half, &mut random)
     };
-    let leaf = model.slot(leaves, &shrub.tones.summer());
+    let leaf = model.slot(leaves, &plan.tones().summer());
     model.add(leaf, |level| foliage.mesh(level));
-    model.asset(id, Kind::Bush, plant(shrub.name, LeafType::Broad, &[], shrub.habitat, &shrub.tones, leaf))
+    let habitat = climates(&plan.habitat);
+    let known = plant(species(&plan.id), LeafType::Broad, NO_GENERA, &habitat, &plan.tones(), leaf);
+    offered(model.asset(id, Kind::Bush, known), &plan.tags, plan.commonness)
 }
 
 /// Middles and half axes of the clumps, which fill the lower and outer parts of the whole.
-fn clumps(shrub: &Shrub, half: Vec3, random: &mut Random) -> Vec<(Vec3, Vec3)> {
-    if shrub.clumps == 1 {
+fn clumps(plan: &ShrubPlan, half: Vec3, random: &mut Random) -> Vec<(Vec3, Vec3)> {
+    if plan.clumps == 1 {
         return vec![(Vec3::Z * half.z, half)];
     }
-    (0..shrub.clumps)
+    (0..plan.clumps)
         .map(|i| {
-            let t = (i as f32 + 0.5) / shrub.clumps as f32;
-            let size = shrub.clump * random.range(0.8, 1.2) as f32;
+            let t = (i as f32 + 0.5) / plan.clumps as f32;
+            let size = plan.clump * random.range(0.8, 1.2) as f32;
             let axes = half * vec3(size, size, (size * 1.25).min(1.0));
             let turn = Vec2::from_angle(i as f32 * 2.399_963 + random.range(-0.4, 0.4) as f32);
             // Higher towards the middle.
@@ -293,24 +99,24 @@ fn core(clumps: &[(Vec3, Vec3)], level: Level) -> Shape {
 }
 
 /// Sprigs over the clumps' common surface.
-fn skin(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
+fn skin(plan: &ShrubPlan, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
     let mut cards = Vec::new();
     let weight: f32 = clumps.iter().map(|(_, a)| a.x * a.y + a.x * a.z + a.y * a.z).sum();
     for &(middle, axes) in clumps {
         let share = (axes.x * axes.y + axes.x * axes.z + axes.y * axes.z) / weight;
-        for _ in 0..(shrub.cards as f32 * 1.5 * share) as usize {
+        for _ in 0..(plan.cards as f32 * 1.5 * share) as usize {
             let out = direction(random);
             let deep = 1.0 - 0.3 * (random.unit() as f32).powi(2);
             let at = middle + out * axes * deep;
             let inner = clumps.iter().any(|(m, a)| (*m, *a) != (middle, axes) && ((at - *m) / *a).length() < 0.8);
-            if inner || at.z < 0.02 || cards.len() >= shrub.cards {
+            if inner || at.z < 0.02 || cards.len() >= plan.cards {
                 continue;
             }
             let own = (out / axes).normalize_or(Vec3::Z);
             let whole = ((at - Vec3::Z * 0.5 * half.z) / half).normalize_or(Vec3::Z);
             let outward = (own * 0.6 + whole * 0.6 + Vec3::Z * 0.25).normalize_or(Vec3::Z);
             let along = own * 0.75 + direction(random) * 0.9 + Vec3::Z * 0.35;
-            let size_m = shrub.card_m * random.range(0.7, 1.2) as f32;
+            let size_m = plan.card_m * random.range(0.7, 1.2) as f32;
             let foot = (at - along.normalize_or(Vec3::Z) * size_m * 0.55).max(vec3(f32::MIN, f32::MIN, 0.0));
             let face = own + direction(random) * 0.75;
             // Low and inner leaves are older and dustier.
@@ -322,8 +128,8 @@ fn skin(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random)
 }
 
 /// Leaves on stalks out of the ground, arching apart.
-fn stalks(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
-    let cards = (0..shrub.cards).map(|i| {
+fn stalks(plan: &ShrubPlan, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Random) -> Foliage {
+    let cards = (0..plan.cards).map(|i| {
         let (middle, axes) = clumps[i % clumps.len()];
         let out = Vec2::from_angle(random.range(0.0, std::f64::consts::TAU) as f32);
         let reach = random.unit().sqrt() as f32;
@@ -332,7 +138,7 @@ fn stalks(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Rando
         let outer = (foot.truncate() / half.truncate() + out * 0.45).extend(0.0);
         let along =
             outer * random.range(0.3, 1.2) as f32 + Vec3::Z * random.range(0.3, 1.3) as f32 + direction(random) * 0.35;
-        let size_m = shrub.card_m * random.range(0.65, 1.1) as f32;
+        let size_m = plan.card_m * random.range(0.65, 1.1) as f32;
         let face = Vec3::Z + out.extend(0.0) * 0.4 + direction(random) * 0.4;
         let outward = (outer + Vec3::Z * 0.8).normalize_or(Vec3::Z);
         let tint = varied(random, 0.15) * (0.8 + 0.3 * rise / half.z);
@@ -341,32 +147,34 @@ fn stalks(shrub: &Shrub, clumps: &[(Vec3, Vec3)], half: Vec3, random: &mut Rando
     Foliage { cards: cards.collect(), bent: true, floor_m: 0.0, most: 4.0 }
 }
 
-/// Two pieces of a row.
+/// Two pieces of a row; `kind` is what its id has before its species.
 fn pieces(
-    row: &Row,
+    plan: &RowPlan,
     kind: &str,
     form: PlantForm,
-    grow: fn(&Row, &str, Material, &mut Random) -> (Individual, u16),
+    grow: fn(&RowPlan, &str, Material, &mut Random) -> (Individual, u16),
 ) -> [Asset; 2] {
-    let id = format!("bush/{kind}-{}", row.name);
-    let leaves = material(&format!("{id}-leaves"), row.sprig, 256, 15);
-    ["1", "2"].map(|name| {
-        let id = format!("{id}-{name}");
-        let (model, leaf) = grow(row, &id, leaves.clone(), &mut Seed(15).child(&id).random());
-        let mut known = plant(row.name, LeafType::Broad, &[], row.habitat, &row.tones, leaf);
+    let leaves = material(&format!("{}-leaves", plan.id), plan.sprig, 256, 15);
+    let name = species(&plan.id);
+    let name = name.strip_prefix(kind).unwrap_or(name);
+    let habitat = climates(&plan.habitat);
+    ["1", "2"].map(|piece| {
+        let id = format!("{}-{piece}", plan.id);
+        let (model, leaf) = grow(plan, &id, leaves.clone(), &mut Seed(15).child(&id).random());
+        let mut known = plant(name, LeafType::Broad, NO_GENERA, &habitat, &plan.tones(), leaf);
         // In winter heads are gone and their stalks stand.
-        known.seasons.extend((1..=row.flowers.len() as u16).map(|k| SeasonalFoliage {
+        known.seasons.extend((1..=plan.flowers.len() as u16).map(|k| SeasonalFoliage {
             season: Season::Winter,
             slot: leaf + k,
             paints: vec![paint(TWIGS)],
             alpha_cutoff: BARE,
         }));
-        model.asset(&id, Kind::Bush, Plant { form, ..known })
+        offered(model.asset(&id, Kind::Bush, Plant { form, ..known }), &plan.tags, plan.commonness)
     })
 }
 
 /// A clipped piece, two metres long, whose ends are flush.
-fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
+fn hedge(plan: &RowPlan, _: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
     let half = vec3(1.0, 0.36, 0.5);
     let mut model = Individual::default();
     let dark = model.slot(inside(), &[]);
@@ -375,7 +183,7 @@ fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individu
     model.add_shape(dark, |_| core.clone());
     let faces = [(Vec3::Z, 1.5), (Vec3::Y, 2.0), (-Vec3::Y, 2.0), (Vec3::X, 1.0), (-Vec3::X, 1.0)];
     let mut cards = Vec::new();
-    for _ in 0..1700 {
+    for _ in 0..plan.cards {
         let outward = random.weighted(faces.map(|f| f.1)).map_or(Vec3::Z, |i| faces[i].0);
         let spread = Vec3::from_array(std::array::from_fn(|_| random.range(-1.0, 1.0) as f32));
         // Shears leave waves.
@@ -386,7 +194,7 @@ fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individu
         let edge = ((p.z - 0.86).max(0.0) * 2.0).min(0.25);
         let p = vec3(p.x, p.y * (1.0 - edge * 0.6), p.z);
         let along = outward * 0.6 + direction(random) + Vec3::Z * 0.3;
-        let size_m = 0.19 * random.range(0.7, 1.2) as f32;
+        let size_m = plan.card_m * random.range(0.7, 1.2) as f32;
         let foot = (p - along.normalize_or(Vec3::Z) * size_m * 0.6).max(vec3(-1.06, -0.42, 0.0));
         let tint = varied(random, 0.15) * (0.78 + 0.25 * p.z);
         let face = outward + direction(random) * 0.7;
@@ -394,33 +202,32 @@ fn hedge(row: &Row, _: &str, leaves: Material, random: &mut Random) -> (Individu
         cards.push(Card { foot, along, face, size_m, outward: shade, tint });
     }
     let foliage = Foliage { cards, bent: false, floor_m: 0.0, most: 4.0 };
-    let leaf = model.slot(leaves, &row.tones.summer());
+    let leaf = model.slot(leaves, &plan.tones().summer());
     model.add(leaf, |level| foliage.mesh(level));
     (model, leaf)
 }
 
 /// A strip of two metres by one: leaves, and heads above them.
-fn bed(row: &Row, id: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
+fn bed(plan: &RowPlan, id: &str, leaves: Material, random: &mut Random) -> (Individual, u16) {
     let mut model = Individual::default();
     let place = |random: &mut Random| vec2(random.range(-0.96, 0.96) as f32, random.range(-0.42, 0.42) as f32);
     let mut cards = Vec::new();
-    let tufts = if matches!(row.sprig, Sprig::Blades) { 260 } else { 560 };
-    for _ in 0..tufts {
+    for _ in 0..plan.cards {
         let at = place(random).extend(0.1 * random.unit() as f32);
         let out = direction(random) * vec3(1.0, 1.0, 0.0);
         let along = out * 0.7 + Vec3::Z * random.range(0.4, 1.2) as f32;
-        let size_m = 0.26 * random.range(0.7, 1.25) as f32;
+        let size_m = plan.card_m * random.range(0.7, 1.25) as f32;
         let (face, outward) = (Vec3::Z + direction(random) * 0.5, (Vec3::Z + out * 0.4).normalize());
         cards.push(Card { foot: at, along, face, size_m, outward, tint: varied(random, 0.16) });
     }
     let foliage = Foliage { cards, bent: false, floor_m: 0.0, most: 4.0 };
-    let leaf = model.slot(leaves, &row.tones.summer());
+    let leaf = model.slot(leaves, &plan.tones().summer());
     model.add(leaf, |level| foliage.mesh(level));
-    for (k, color) in row.flowers.iter().enumerate() {
+    for (k, color) in plan.flowers.iter().enumerate() {
         // Each sort has its own part of the strip.
         let heads = material(&format!("{id}-heads"), Sprig::Flowers, 256, 16 + k as u64);
-        let slot = model.slot(heads, &[*color * 1.8]);
-        let part = 2.0 / row.flowers.len() as f32;
+        let slot = model.slot(heads, &[Vec3::from_array(*color) * 1.8]);
+        let part = 2.0 / plan.flowers.len() as f32;
         let cards = (0..70).map(|_| {
             let at = place(random);
             let x = -1.0 + part * (k as f32 + 0.5 + (at.x * 0.62));

@@ -4,12 +4,14 @@
 //! higher cut-off makes them fall one by one, until twigs are left.
 
 use glam::{Vec2, Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::{Material, Random, Seed};
 
 use crate::surfaces::{Canvas, Texel, step};
 
 /// The form of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Outline {
     /// Widest at the height that makes `sin(π·t^e)` largest; e = 1 is the middle, less is nearer to the foot.
     Oval(f32),
@@ -22,7 +24,8 @@ pub(super) enum Outline {
 }
 
 /// How leaves sit on a sprig.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum Sprig {
     /// Single leaves along forking twigs.
     Leaves {

@@ -2,23 +2,33 @@
 
 mod bark;
 mod bushes;
+mod check;
 mod cover;
 mod growth;
 mod individual;
 mod leaves;
-mod species;
+mod plan;
 mod stems;
+mod tones;
 mod trees;
 
-use rayon::prelude::*;
 use trove_model::Asset;
 
 pub(crate) use cover::covers;
+pub(crate) use plan::{PlantPlans, RowPlan, ShrubPlan, TreePlan};
 
-/// Every model of this family.
-pub(crate) fn assets() -> Vec<Asset> {
-    let groups: [fn() -> Vec<Asset>; 3] = [trees::assets, stems::assets, bushes::assets];
-    groups.par_iter().flat_map_iter(|group| group()).collect()
+/// Every model of this family; all but spruces and palms as these plans tell.
+pub(crate) fn assets(plans: &PlantPlans) -> Vec<Asset> {
+    let (mut assets, stems) = rayon::join(|| planned(plans), stems::assets);
+    assets.extend(stems);
+    assets
+}
+
+/// The plants of these plans.
+pub(crate) fn planned(plans: &PlantPlans) -> Vec<Asset> {
+    let (mut assets, bushes) = rayon::join(|| trees::assets(&plans.trees), || bushes::assets(plans));
+    assets.extend(bushes);
+    assets
 }
 
 #[cfg(test)]
@@ -29,8 +39,9 @@ mod tests {
     use trove_model::{Asset, Climate, Kind, Material, PlantForm, Season};
 
     use super::assets;
+    use crate::Plans;
 
-    static PLANTS: LazyLock<Vec<Asset>> = LazyLock::new(assets);
+    static PLANTS: LazyLock<Vec<Asset>> = LazyLock::new(|| assets(&Plans::built_in().plants));
 
     fn leaves(asset: &Asset) -> impl Iterator<Item = &Material> {
         asset.slots.iter().map(|s| &s.material).filter(|m| m.translucency > 0.0)

@@ -9,13 +9,13 @@ use super::bark::{Bark, bark};
 use super::growth::limb;
 use super::individual::{Card, Foliage, Individual, Level, direction, varied};
 use super::leaves::{Sprig, material};
-use super::species::{Tones, Year};
+use super::tones::{Tones, Year};
 use super::trees::plant;
 use crate::shape::Shape;
 use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
 
-const EVERGREEN: Tones = Tones { green: vec3(0.046, 0.072, 0.036), year: Year::Evergreen };
-const PALM: Tones = Tones { green: vec3(0.082, 0.115, 0.042), year: Year::Evergreen };
+const EVERGREEN: Tones<'_> = Tones { green: vec3(0.046, 0.072, 0.036), year: &Year::Evergreen };
+const PALM: Tones<'_> = Tones { green: vec3(0.082, 0.115, 0.042), year: &Year::Evergreen };
 
 pub(super) fn assets() -> Vec<Asset> {
     let mut assets = Vec::new();

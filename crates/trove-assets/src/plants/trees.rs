@@ -8,7 +8,8 @@ use super::bark::bark;
 use super::growth::{Growth, Node, PIPE_EXPONENT, branches};
 use super::individual::{Card, Foliage, Individual, direction, varied};
 use super::leaves::material;
-use super::species::{SPECIES, Species, Tones};
+use super::plan::{TreePlan, climates, offered, species};
+use super::tones::Tones;
 use crate::shape::Curve;
 
 /// How one individual differs from its species.
@@ -30,50 +31,48 @@ const INDIVIDUALS: [Individuality; 3] = [
     Individuality { name: "young", size: 0.46, slim: 0.8, clear: 1.15, dense: 0.4 },
 ];
 
-pub(super) fn assets() -> Vec<Asset> {
-    SPECIES.par_iter().flat_map_iter(individuals).collect()
+pub(super) fn assets(plans: &[TreePlan]) -> Vec<Asset> {
+    plans.par_iter().flat_map_iter(individuals).collect()
 }
 
-fn individuals(species: &Species) -> Vec<Asset> {
-    let id = format!("tree/{}", species.name);
-    let seed = Seed(11).child(&id);
-    let wood = bark(&format!("{id}-bark"), species.bark, species.bark_color, seed.0 as u32 & 0xffff);
-    let leaves = material(&format!("{id}-leaves"), species.sprig, 512, seed.0);
-    let grow = |i: &Individuality| tree(species, i, &format!("{id}-{}", i.name), wood.clone(), leaves.clone());
+fn individuals(plan: &TreePlan) -> Vec<Asset> {
+    let id = &plan.id;
+    let seed = Seed(11).child(id);
+    let wood = bark(&format!("{id}-bark"), plan.bark, Vec3::from_array(plan.bark_color), seed.0 as u32 & 0xffff);
+    let leaves = material(&format!("{id}-leaves"), plan.sprig, 512, seed.0);
+    let grow = |i: &Individuality| tree(plan, i, &format!("{id}-{}", i.name), wood.clone(), leaves.clone());
     INDIVIDUALS.iter().map(grow).collect()
 }
 
-fn tree(species: &Species, individual: &Individuality, id: &str, wood: Material, leaves: Material) -> Asset {
+fn tree(plan: &TreePlan, individual: &Individuality, id: &str, wood: Material, leaves: Material) -> Asset {
     let seed = Seed(11).child(id);
-    let crown = Crown::new(species, individual);
-    let nodes = crown.skeleton(species, individual, seed);
+    let crown = Crown::new(plan, individual);
+    let nodes = crown.skeleton(plan, individual, seed);
     let mut model = Individual::default();
     let wood = model.slot(wood, &[]);
-    let leaf = model.slot(leaves, &species.tones.summer());
-    model.add_shape(wood, |level| branches(&nodes, 0.008, species.roots, level));
-    let foliage = crown.foliage(species, individual, &nodes, seed);
+    let leaf = model.slot(leaves, &plan.tones().summer());
+    model.add_shape(wood, |level| branches(&nodes, 0.008, plan.roots, level));
+    let foliage = crown.foliage(plan, individual, &nodes, seed);
     model.add(leaf, |level| foliage.mesh(level));
-    model.asset(
-        id,
-        Kind::Tree,
-        plant(species.name, species.leaves, species.genera, species.habitat, &species.tones, leaf),
-    )
+    let habitat = climates(&plan.habitat);
+    let known = plant(species(&plan.id), plan.leaves.into(), &plan.genera, &habitat, &plan.tones(), leaf);
+    offered(model.asset(id, Kind::Tree, known), &plan.tags, plan.commonness)
 }
 
 /// What is known of a plant; `leaf` is the slot that the seasons change.
 pub(super) fn plant(
     name: &str,
     leaves: LeafType,
-    genera: &[&str],
+    genera: &[impl AsRef<str>],
     habitat: &[(Climate, f32)],
-    tones: &Tones,
+    tones: &Tones<'_>,
     leaf: u16,
 ) -> Plant {
     let seasons: Vec<SeasonalFoliage> = tones.seasons(leaf);
     Plant {
         species: Some(name.into()),
         leaves,
-        genera: genera.iter().map(|g| (*g).into()).collect(),
+        genera: genera.iter().map(|g| g.as_ref().into()).collect(),
         habitat: habitat.to_vec(),
         seasons,
         ..Plant::default()
@@ -90,13 +89,13 @@ struct Crown {
 }
 
 impl Crown {
-    fn new(species: &Species, individual: &Individuality) -> Self {
-        let height_m = species.height_m * individual.size;
+    fn new(plan: &TreePlan, individual: &Individuality) -> Self {
+        let height_m = plan.height_m * individual.size;
         Self {
-            clear_m: height_m * (species.clear * individual.clear).min(0.6),
+            clear_m: height_m * (plan.clear * individual.clear).min(0.6),
             height_m,
-            radius_m: species.radius_m * individual.size * individual.slim,
-            profile: Curve::new(species.profile),
+            radius_m: plan.radius_m * individual.size * individual.slim,
+            profile: Curve::new(&plan.crown),
         }
     }
 
@@ -111,15 +110,15 @@ impl Crown {
     }
 
     /// Trunk and branches.
-    fn skeleton(&self, species: &Species, individual: &Individuality, seed: Seed) -> Vec<Node> {
+    fn skeleton(&self, plan: &TreePlan, individual: &Individuality, seed: Seed) -> Vec<Node> {
         let mut random = seed.child("crown").random();
-        let count = ((species.lobes as f32) * (0.5 + 0.5 * individual.dense)) as usize;
+        let count = ((plan.lobes as f32) * (0.5 + 0.5 * individual.dense)) as usize;
         // Lobes stand on a spiral, near the crown's surface.
         let lobes: Vec<(Vec3, f32)> = (0..count)
             .map(|i| {
                 let up = (i as f32 + 0.5 + random.range(-0.3, 0.3) as f32) / count as f32;
                 let radius = self.radius_m * self.profile.at(up);
-                let size = (species.lobe * self.radius_m).min(0.75 * radius + 0.15).max(0.2 * self.radius_m);
+                let size = (plan.lobe * self.radius_m).min(0.75 * radius + 0.15).max(0.2 * self.radius_m);
                 let turn = i as f32 * 2.399_963 + random.range(-0.5, 0.5) as f32;
                 let out = (radius - size).max(0.0) * random.range(0.45, 1.0).sqrt() as f32;
                 let z = self.clear_m + up * self.depth_m();
@@ -127,12 +126,11 @@ impl Crown {
                 (vec3(out * turn.cos(), out * turn.sin(), z.min(top)), size * random.range(0.8, 1.15) as f32)
             })
             .collect();
-        let points = (species.points as f32 * individual.dense) as usize;
+        let points = (plan.points as f32 * individual.dense) as usize;
         let points: Vec<Vec3> = (0..points)
             .map(|i| {
                 let (middle, size) = lobes[i % lobes.len()];
-                middle
-                    + direction(&mut random) * (random.unit() as f32).powf(0.42) * size * vec3(1.0, 1.0, species.flat)
+                middle + direction(&mut random) * (random.unit() as f32).powf(0.42) * size * vec3(1.0, 1.0, plan.flat)
             })
             .filter(|p| p.z > self.clear_m * 0.92)
             .collect();
@@ -141,10 +139,10 @@ impl Crown {
         let growth = Growth {
             step_m,
             kill_m: step_m * 1.65,
-            lift: species.lift,
-            trunk_radius_m: species.trunk_m * individual.size.powf(1.15),
+            lift: plan.lift,
+            trunk_radius_m: plan.trunk_m * individual.size.powf(1.15),
         };
-        let leader_m = self.clear_m + species.leader * self.depth_m();
+        let leader_m = self.clear_m + plan.leader * self.depth_m();
         let joints = (leader_m / step_m).ceil() as usize;
         let (lean, sway) = (direction(&mut random) * vec3(0.035, 0.035, 0.0), random.range(0.0, 6.0) as f32);
         let trunk: Vec<Vec3> = (0..=joints)
@@ -159,16 +157,16 @@ impl Crown {
     }
 
     /// Sprigs on thin wood, facing up and out.
-    fn foliage(&self, species: &Species, individual: &Individuality, nodes: &[Node], seed: Seed) -> Foliage {
+    fn foliage(&self, plan: &TreePlan, individual: &Individuality, nodes: &[Node], seed: Seed) -> Foliage {
         let mut random = seed.child("leaves").random();
         // Wood that carries up to six tips has leaves.
         let tip_m = nodes.iter().map(|n| n.radius_m).fold(f32::INFINITY, f32::min);
         let thin = tip_m * 6f32.powf(1.0 / PIPE_EXPONENT);
         let leafy: Vec<&Node> = nodes.iter().skip(1).filter(|n| n.radius_m < thin && n.at.z > self.clear_m).collect();
         // The share of the crown's cards that a joint bears, whole ones by chance.
-        let wanted = species.cards as f32 * (0.25 + 0.75 * individual.dense);
+        let wanted = plan.cards as f32 * (0.25 + 0.75 * individual.dense);
         let each = wanted / leafy.iter().map(|n| if n.tip { 1.6 } else { 1.0 }).sum::<f32>().max(1.0);
-        let card_m = species.card_m * individual.size.powf(0.4);
+        let card_m = plan.card_m * individual.size.powf(0.4);
         let mut cards = Vec::new();
         for node in leafy {
             let outward = self.outward(node.at);
@@ -177,7 +175,7 @@ impl Crown {
             let flat = node.at.truncate().length() / self.radius_m;
             let deep = flat.max((node.at.z - self.clear_m) / self.depth_m()).clamp(0.0, 1.0);
             for _ in 0..count as usize {
-                let along = node.along * 0.5 + direction(&mut random) * 0.9 + outward * 0.5 + Vec3::Z * species.hang;
+                let along = node.along * 0.5 + direction(&mut random) * 0.9 + outward * 0.5 + Vec3::Z * plan.hang;
                 let face = Vec3::Z * 0.8 + outward * 0.4 + direction(&mut random) * 0.75;
                 let size_m = card_m * random.range(0.75, 1.2) as f32;
                 let foot = node.at - along.normalize_or(Vec3::Z) * size_m * 0.12;
