@@ -1,16 +1,25 @@
 //! What is read from files of plans, and what is refused.
 
+use trove_model::{Asset, Kind, PlantForm};
+
 use super::Plans;
 
 const CAR: &str = "[[car]]\nid = \"kombi\"\nlike = \"car/estate\"\n";
 const CONE: &str = "[[cone]]\nid = \"red\"\nlike = \"cone/standard\"\n";
 const FURNITURE: &str = "[[furniture]]\nid = \"post\"\nkind = \"bollard\"\n";
 const FACADE: &str = "[[facade]]\nid = \"clinker\"\nlike = \"facade/brick-row\"\n";
+const TREE: &str = "[[tree]]\nid = \"hazel\"\nlike = \"tree/lime\"\n";
+const SHRUB: &str = "[[shrub]]\nid = \"dogwood\"\nlike = \"bush/lilac\"\n";
+const HEDGE: &str = "[[hedge]]\nid = \"beech\"\nlike = \"bush/hedge-hornbeam\"\n";
+const BED: &str = "[[bed]]\nid = \"tulips\"\nlike = \"bush/bed-annuals\"\n";
 
 #[test]
 fn the_built_in_plans_are_sound() {
     let plans = Plans::built_in();
     assert!(plans.cars.len() >= 45 && plans.facades.len() >= 27, "{} {}", plans.cars.len(), plans.facades.len());
+    let plants = &plans.plants;
+    let counts = [plants.trees.len(), plants.shrubs.len(), plants.hedges.len(), plants.beds.len()];
+    assert!(counts.iter().zip([12, 9, 3, 3]).all(|(count, least)| *count >= least), "{counts:?}");
 }
 
 #[test]
@@ -47,6 +56,41 @@ fn what_stands_along_streets_is_built_with_the_measures_of_its_plan() {
     let [.., post, cone] = assets.as_slice() else { unreachable!() };
     assert!((cone.size_m.z - 0.9).abs() < 0.02 && (post.size_m - glam::dvec3(0.2, 0.2, 1.2)).length() < 0.01);
     assert!(assets[0].tags.iter().any(|tag| tag == "own") && assets[0].tags.iter().any(|tag| tag == "green"));
+}
+
+#[test]
+fn plants_of_a_plan_are_grown_with_their_own_names_and_what_they_are_like() {
+    let text = format!("{TREE}height_m = 9.0\ntags = [\"nuts\"]\ncommonness = 0.5\n{SHRUB}{HEDGE}{BED}");
+    let library = Plans::parse(&text).unwrap().library("mine");
+    let ids: Vec<&str> = library.assets.iter().map(|asset| &*asset.id).collect();
+    let trees = ["mine/hazel-1", "mine/hazel-2", "mine/hazel-young"];
+    let beds = ["mine/tulips-1", "mine/tulips-2"];
+    assert_eq!(
+        ids,
+        [&["mine/beech-1", "mine/beech-2", "mine/dogwood-1", "mine/dogwood-2"], &trees[..], &beds].concat()
+    );
+    let (hedge, tree, bed) = (&library.assets[0], &library.assets[4], &library.assets[7]);
+    let known = |asset: &Asset| asset.plant.clone().unwrap();
+    assert_eq!((hedge.kind, known(hedge).form, known(bed).form), (Kind::Bush, PlantForm::Hedge, PlantForm::Bed));
+    assert_eq!((tree.kind, tree.commonness, known(tree).species.as_deref()), (Kind::Tree, 0.5, Some("hazel")));
+    assert!(tree.tags.has_all(&["hazel", "nuts"]) && known(tree).is_called("tilia") && tree.size_m.z < 10.0);
+}
+
+#[test]
+fn the_largest_and_the_smallest_plants_that_are_allowed_can_be_grown() {
+    let tree = |measures: &str| format!("{TREE}{}", measures.replace(", ", "\n"));
+    let shrub = |measures: &str| format!("{SHRUB}{}", measures.replace("; ", "\n"));
+    for text in [
+        tree("height_m = 60.0, radius_m = 20.0, lobes = 200, points = 8000, cards = 10000, flat = 5.0, leader = 1.0"),
+        tree("height_m = 1.0, radius_m = 0.2, lobes = 2, points = 10, cards = 1, clear = 0.02, leader = 0.0"),
+        tree("height_m = 60.0, radius_m = 0.2, points = 8000, cards = 10000, trunk_m = 0.03, lift = -1.0"),
+        shrub("half_m = [10, 10, 10]; clumps = 100; clump = 1.0; cards = 10000"),
+        shrub("half_m = [0.05, 0.05, 0.05]; clumps = 1; clump = 0.05; cards = 1"),
+    ] {
+        for asset in Plans::parse(&text).unwrap().library("mine").assets {
+            assert_eq!(asset.mesh.defect(), None, "{} of {text}", asset.id);
+        }
+    }
 }
 
 #[test]
@@ -91,6 +135,26 @@ fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
             "[[wall]]\nid = \"w\"\nfinish = \"brick\"\nheight_m = 1\nthick_m = -1\n".into(),
             &["wall \"w\": thick_m", "-1.0"],
         ),
+        (format!("{TREE}hight_m = 9.0\n"), &["tree \"hazel\": hight_m", "did you mean `height_m`?"]),
+        (format!("{TREE}height_m = 900.0\n"), &["tree \"hazel\": height_m", "metres from 1 to 60", "900.0"]),
+        (format!("{TREE}hang = nan\n"), &["tree \"hazel\": hang", "from -5 to 5", "NaN"]),
+        (format!("{TREE}lobes = 1\n"), &["lobes", "from 2 to 200"]),
+        (format!("{TREE}points = 1000000\n"), &["points", "from 10 to 8000"]),
+        (format!("{TREE}cards = 0\n"), &["cards", "from 1 to 10000"]),
+        (format!("{TREE}clear = 0.2\nleader = -0.9\n"), &["leader", "above the ground"]),
+        (format!("{TREE}crown = [[0.5, 1], [0.2, 1]]\n"), &["crown", "from below upwards"]),
+        (format!("{TREE}genera = [\"Corylus avellana\"]\n"), &["genera", "lower case", "Corylus"]),
+        (format!("{TREE}habitat = [[\"polar\", 1.0]]\n"), &["habitat", "one of tropical", "`polar`"]),
+        (format!("{TREE}habitat = [[\"cold\", 1], [\"cold\", 0]]\n"), &["habitat", "each climate once"]),
+        (format!("{TREE}bark = {{ furrowed = 0.0 }}\n"), &["bark", "furrows 0.005 to 0.5"]),
+        (format!("{TREE}year = {{ turns = [] }}\n"), &["year", "1 to 20 colours"]),
+        (format!("{TREE}year = {{ keeps = [0, 2, 0] }}\n"), &["year", "colours from 0 to 1"]),
+        (format!("{TREE}sprig = \"neddles\"\n"), &["sprig", "did you mean `needles`?"]),
+        (TREE.replace("tree/lime", "tree/line"), &["tree \"hazel\": like", "did you mean `tree/lime`?"]),
+        (format!("{SHRUB}clumps = 0\n"), &["shrub \"dogwood\": clumps", "from 1 to 100"]),
+        (format!("{SHRUB}half_m = [1, 1, inf]\n"), &["half_m", "0.05 to 10 metres", "inf"]),
+        (format!("{HEDGE}flowers = [[1, 0, 0]]\n"), &["hedge \"beech\": flowers", "only a bed"]),
+        (format!("{BED}commonness = 0\n"), &["bed \"tulips\": commonness", "above 0"]),
         ("[[cra]]\nid = 3\n".into(), &["`cra`", "did you mean `car`?"]),
         ("[[car]\n".into(), &["line 1", "TOML"]),
     ] {
