@@ -9,7 +9,7 @@
 //! use trove_assets::Plans;
 //!
 //! let text = "[[car]]\nid = \"long\"\nlike = \"car/estate\"\n[car.profile]\nlength_m = 4.9\n";
-//! let library = Plans::parse(text)?.library("mine");
+//! let library = Plans::parse(text)?.library("mine", None);
 //! assert_eq!(library.assets[0].id, "mine/long");
 //! assert!((library.assets[0].size_m.x - 4.9).abs() < 0.1);
 //!
@@ -74,7 +74,7 @@ fn assets(ingredients: &Ingredients<'_>, surfaces: &[Surface]) -> Vec<Asset> {
     let families: [fn() -> Vec<Asset>; 4] = [cars, cycles::assets, plants, street];
     let (mut assets, people): (Vec<Asset>, Vec<Asset>) = rayon::join(
         || families.par_iter().flat_map_iter(|family| family()).collect(),
-        || people::assets(ingredients.human_body),
+        || people::assets(&Plans::built_in().persons, ingredients.human_body),
     );
     assets.extend(people);
     assets.extend(buildings::assets(surfaces));

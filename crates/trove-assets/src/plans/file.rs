@@ -7,13 +7,13 @@ use toml::{Table, Value};
 
 use super::error::PlanError;
 
-/// Keys whose value may be the name of a table of the same key: `paint = "fleet"` is `[paint.fleet]`.
-const PIECES: [&str; 4] = ["paint", "plate", "face", "back"];
+/// Keys whose value may be the name of a table of the same key (`paint = "fleet"` is `[paint.fleet]`), or a list of such.
+const PIECES: [&str; 10] = ["paint", "plate", "face", "back", "skin", "hair", "dye", "top", "bottom", "shoes"];
 /// Lists of entries.
-const ENTRIES: [&str; 10] =
-    ["car", "facade", "cone", "furniture", "signal", "wall", "tree", "shrub", "hedge", "bed"];
+const ENTRIES: [&str; 11] =
+    ["car", "facade", "person", "cone", "furniture", "signal", "wall", "tree", "shrub", "hedge", "bed"];
 /// Tables of which an entry may change single keys, taking the others from the entry that it is like.
-const MERGED: [&str; 1] = ["profile"];
+const MERGED: [&str; 2] = ["profile", "build"];
 
 /// A file of plans; what it does not hold is looked for in another.
 #[derive(Clone, Debug, Default)]
@@ -76,14 +76,9 @@ impl<'a> PlanFile<'a> {
         };
         let is_own = |name: &str| name != "like" && !(name == "id" && ENTRIES.contains(&key));
         for (name, value) in table.iter().filter(|(name, _)| is_own(name)) {
-            let piece = PIECES.into_iter().find(|piece| piece == name);
-            let place = format!("{place}: {name}");
-            let value = match (piece, value) {
-                (Some(piece), Value::String(name)) => Value::Table(self.named(piece, name, &place, &mut Vec::new())?),
-                (Some(piece), Value::Table(table)) => {
-                    Value::Table(self.completed(piece, table, &place, &mut Vec::new())?)
-                }
-                _ => value.clone(),
+            let value = match PIECES.into_iter().find(|piece| piece == name) {
+                Some(piece) => self.piece(piece, value, &format!("{place}: {name}"))?,
+                None => value.clone(),
             };
             match (whole.get_mut(name), value) {
                 (Some(Value::Table(old)), Value::Table(new)) if MERGED.contains(&name.as_str()) => old.extend(new),
@@ -91,6 +86,18 @@ impl<'a> PlanFile<'a> {
             }
         }
         Ok(whole)
+    }
+
+    /// What is named or written out under the key of a piece, completed.
+    fn piece(&self, key: &'static str, value: &Value, place: &str) -> Result<Value, PlanError> {
+        Ok(match value {
+            Value::String(name) => Value::Table(self.named(key, name, place, &mut Vec::new())?),
+            Value::Table(table) => Value::Table(self.completed(key, table, place, &mut Vec::new())?),
+            Value::Array(list) => {
+                Value::Array(list.iter().map(|value| self.piece(key, value, place)).collect::<Result<_, _>>()?)
+            }
+            other => other.clone(),
+        })
     }
 
     /// An entry or a piece of this file or else of the one behind it, completed.

@@ -1,9 +1,9 @@
 //! Plans of what is generated, as data: the built-in ones, and those of users' libraries in the same form.
 //!
-//! A file of plans is TOML. `[[car]]`, `[[facade]]`, `[[tree]]`, `[[shrub]]`, `[[hedge]]` and `[[bed]]` are entries, which
-//! become assets or surfaces; `[paint.NAME]`, `[plate.NAME]`, `[face.NAME]` and `[back.NAME]` are pieces that entries
-//! name. An entry or a piece takes from the one that it is `like` what it does not say itself; users' files take from
-//! the built-in ones too.
+//! A file of plans is TOML. `[[car]]`, `[[facade]]`, `[[person]]`, `[[tree]]` and the like are entries, which become assets
+//! or surfaces; `[paint.NAME]`, `[face.NAME]`, `[top.NAME]` and other such tables are pieces that entries name. An entry
+//! or a piece takes from the one that it is `like` what it does not say itself; users' files take from the built-in
+//! ones too.
 
 mod error;
 mod file;
@@ -13,11 +13,12 @@ mod tests;
 use std::sync::LazyLock;
 
 use serde::de::DeserializeOwned;
-use trove_model::AssetLibrary;
+use trove_model::{Asset, AssetLibrary, HumanBody};
 
 pub use error::PlanError;
 
 use crate::measure::Wrong;
+use crate::people::{self, PersonPlan};
 use crate::plants::{self, PlantPlans, RowPlan, ShrubPlan, TreePlan};
 use crate::street::{self, ConePlan, FurniturePlan, SignalPlan, StreetPlans, WallPlan};
 use crate::surfaces::{self, FacadePlan};
@@ -35,6 +36,8 @@ const BUILT_IN: &str = concat!(
     include_str!("../../plans/furniture.toml"),
     "\n",
     include_str!("../../plans/plants.toml"),
+    "\n",
+    include_str!("../../plans/people.toml"),
 );
 
 static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
@@ -45,6 +48,7 @@ static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
 pub struct Plans {
     pub(crate) cars: Vec<CarPlan>,
     pub(crate) facades: Vec<FacadePlan>,
+    pub(crate) persons: Vec<PersonPlan>,
     pub(crate) plants: PlantPlans,
     pub(crate) street: StreetPlans,
     licence: Option<String>,
@@ -70,6 +74,7 @@ impl Plans {
         Ok(Self {
             cars: checked(file, "car", CarPlan::check)?,
             facades: checked(file, "facade", FacadePlan::check)?,
+            persons: checked(file, "person", PersonPlan::check)?,
             street: StreetPlans {
                 cones: checked(file, "cone", ConePlan::check)?,
                 furniture: checked(file, "furniture", FurniturePlan::check)?,
@@ -86,8 +91,14 @@ impl Plans {
         })
     }
 
-    /// The library of a user's plans, with ids that begin with the library's name; sorted by id.
-    pub fn library(&self, name: &str) -> AssetLibrary {
+    /// The ids of those whom only [`HumanBody`] makes, in the order of the file.
+    pub fn persons(&self) -> impl Iterator<Item = &str> {
+        self.persons.iter().map(|person| person.id.as_str())
+    }
+
+    /// The library of a user's plans, with ids that begin with the library's name; sorted by id. Without a body it has
+    /// no persons.
+    pub fn library(&self, name: &str, body: Option<&HumanBody>) -> AssetLibrary {
         let mut library = AssetLibrary {
             assets: [vehicles::cars(&self.cars), street::planned(&self.street), plants::planned(&self.plants)].concat(),
             surfaces: surfaces::facades(&self.facades),
@@ -100,9 +111,18 @@ impl Plans {
         for surface in &mut library.surfaces {
             surface.id = format!("{name}/{}", surface.id);
         }
+        library.assets.extend(body.map(|body| self.people(name, body)).unwrap_or_default());
         library.assets.sort_by(|a, b| a.id.cmp(&b.id));
         library.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
         library
+    }
+
+    /// The persons, whose ids begin with the library's name from the start: textures are named after them.
+    fn people(&self, name: &str, body: &HumanBody) -> Vec<Asset> {
+        let mut plans = self.persons.clone();
+        plans.iter_mut().for_each(|plan| plan.id = format!("{name}/{}", plan.id));
+        let assets = people::persons(&plans, body).into_iter();
+        assets.map(|a| Asset { licence: self.licence.clone().unwrap_or(a.licence), ..a }).collect()
     }
 }
 

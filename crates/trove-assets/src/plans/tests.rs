@@ -7,6 +7,7 @@ use super::Plans;
 const CAR: &str = "[[car]]\nid = \"kombi\"\nlike = \"car/estate\"\n";
 const CONE: &str = "[[cone]]\nid = \"red\"\nlike = \"cone/standard\"\n";
 const FURNITURE: &str = "[[furniture]]\nid = \"post\"\nkind = \"bollard\"\n";
+const PERSON: &str = "[[person]]\nid = \"nurse\"\nlike = \"adult/woman-tee\"\n";
 const FACADE: &str = "[[facade]]\nid = \"clinker\"\nlike = \"facade/brick-row\"\n";
 const TREE: &str = "[[tree]]\nid = \"hazel\"\nlike = \"tree/lime\"\n";
 const SHRUB: &str = "[[shrub]]\nid = \"dogwood\"\nlike = \"bush/lilac\"\n";
@@ -20,6 +21,7 @@ fn the_built_in_plans_are_sound() {
     let plants = &plans.plants;
     let counts = [plants.trees.len(), plants.shrubs.len(), plants.hedges.len(), plants.beds.len()];
     assert!(counts.iter().zip([12, 9, 3, 3]).all(|(count, least)| *count >= least), "{counts:?}");
+    assert!(plans.persons().count() >= 29, "{}", plans.persons().count());
 }
 
 #[test]
@@ -49,7 +51,7 @@ fn what_stands_along_streets_is_built_with_the_measures_of_its_plan() {
         "{CONE}height_m = 0.9\n[[signal]]\nid = \"own\"\ntags = [\"own\"]\n{FURNITURE}parts = [{{ finish = \"stainless\", \
          shapes = [{{ post = {{ foot = [0, 0, 0], radius = 0.1, height = 1.2, around = 12 }} }}] }}]\n"
     );
-    let assets = Plans::parse(&text).unwrap().library("mine").assets;
+    let assets = Plans::parse(&text).unwrap().library("mine", None).assets;
     let ids: Vec<&str> = assets.iter().map(|a| a.id.as_str()).collect();
     let signals = ["mine/own/left/green", "mine/own/left/red", "mine/own/right/green", "mine/own/right/red"];
     assert_eq!(ids, [signals.as_slice(), &["mine/post", "mine/red"]].concat());
@@ -61,7 +63,7 @@ fn what_stands_along_streets_is_built_with_the_measures_of_its_plan() {
 #[test]
 fn plants_of_a_plan_are_grown_with_their_own_names_and_what_they_are_like() {
     let text = format!("{TREE}height_m = 9.0\ntags = [\"nuts\"]\ncommonness = 0.5\n{SHRUB}{HEDGE}{BED}");
-    let library = Plans::parse(&text).unwrap().library("mine");
+    let library = Plans::parse(&text).unwrap().library("mine", None);
     let ids: Vec<&str> = library.assets.iter().map(|asset| &*asset.id).collect();
     let trees = ["mine/hazel-1", "mine/hazel-2", "mine/hazel-young"];
     let beds = ["mine/tulips-1", "mine/tulips-2"];
@@ -87,9 +89,28 @@ fn the_largest_and_the_smallest_plants_that_are_allowed_can_be_grown() {
         shrub("half_m = [10, 10, 10]; clumps = 100; clump = 1.0; cards = 10000"),
         shrub("half_m = [0.05, 0.05, 0.05]; clumps = 1; clump = 0.05; cards = 1"),
     ] {
-        for asset in Plans::parse(&text).unwrap().library("mine").assets {
+        for asset in Plans::parse(&text).unwrap().library("mine", None).assets {
             assert_eq!(asset.mesh.defect(), None, "{} of {text}", asset.id);
         }
+}
+
+#[test]
+fn a_person_differs_from_a_built_in_one_in_single_measures_and_wears_a_list_of_garments() {
+    let text = format!(
+        "{PERSON}build = {{ years = 50 }}\ntop = [\"shirt\", {{ like = \"suit\", dye = \"mine\" }}]\n\
+         [dye.mine]\ncolors = [[0.1, 0.2, 0.3]]\n"
+    );
+    let plans = Plans::parse(&text).unwrap();
+    assert_eq!(plans.persons().collect::<Vec<_>>(), ["nurse"]);
+    // Their parts are private to the builder of people.
+    let found = format!("{:?}", plans.persons[0]);
+    for part in [
+        "years: 50.0, muscle: 0.5, weight: 0.45",
+        "hair_cut: Long",
+        "has_collar: true",
+        "colors: [[0.1, 0.2, 0.3]] }, has_lapels: true",
+    ] {
+        assert!(found.contains(part), "{part}: {found}");
     }
 }
 
@@ -155,6 +176,24 @@ fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
         (format!("{SHRUB}half_m = [1, 1, inf]\n"), &["half_m", "0.05 to 10 metres", "inf"]),
         (format!("{HEDGE}flowers = [[1, 0, 0]]\n"), &["hedge \"beech\": flowers", "only a bed"]),
         (format!("{BED}commonness = 0\n"), &["bed \"tulips\": commonness", "above 0"]),
+        (format!("{PERSON}hat = \"cap\"\n"), &["person \"nurse\": hat", "did you mean"]),
+        (format!("{PERSON}bag = \"bagpack\"\n"), &["person \"nurse\": bag", "did you mean `backpack`?"]),
+        (format!("{PERSON}acts = [\"walk\"]\n"), &["acts", "one of easy, leaning"]),
+        (format!("{PERSON}acts = [\"easy\", \"easy\"]\n"), &["acts", "none of them twice"]),
+        (format!("{PERSON}top = [\"te\"]\n"), &["person \"nurse\": top", "did you mean `tee`?"]),
+        (format!("{PERSON}top = []\n"), &["person \"nurse\": top", "one to three garments"]),
+        (format!("{PERSON}top = [{{ like = \"tee\", sleeve = 9 }}]\n"), &["top.sleeve", "from 0 to 2.1", "9.0"]),
+        (
+            format!("{PERSON}top = [{{ like = \"tee\", dye = {{ colors = [] }} }}]\n"),
+            &["top.dye.colors", "at least one"],
+        ),
+        (format!("{PERSON}build = {{ years = nan }}\n"), &["build.years", "years from 3 to 90", "NaN"]),
+        (format!("{PERSON}build = {{ year = 9 }}\n"), &["person \"nurse\": build", "did you mean `years`?"]),
+        (format!("{PERSON}build = {{ origins = [1, 1, 0] }}\n"), &["build.origins", "come to 1"]),
+        (format!("{PERSON}bottom = {{ like = \"skirt\", cut = {{ skirt = {{ hem_m = -2 }} }} }}\n"), &["skirt.hem_m"]),
+        (format!("{PERSON}tail_m = -inf\n"), &["tail_m", "from -0.68 to -0.05"]),
+        (format!("{PERSON}headgear = \"scarf\"\n"), &["hair_cut", "covered, where headgear is scarf"]),
+        (PERSON.replace("woman-tee", "woman-te"), &["person \"nurse\": like", "did you mean `adult/woman-tee`?"]),
         ("[[cra]]\nid = 3\n".into(), &["`cra`", "did you mean `car`?"]),
         ("[[car]\n".into(), &["line 1", "TOML"]),
     ] {

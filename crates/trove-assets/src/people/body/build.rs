@@ -1,10 +1,12 @@
 //! People's shapes, mixed from MakeHuman's macro targets: every target's weight is the product of what its name says.
 
 use glam::Vec3;
+use serde::Deserialize;
 use trove_model::{HumanBody, Seed};
 
 /// What someone is built like; sliders run from 0 to 1 with the average at a half.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Build {
     /// 0 woman, 1 man.
     pub(super) male: f32,

@@ -3,6 +3,7 @@
 use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3, vec2, vec3};
+use serde::Deserialize;
 use trove_model::Material;
 
 use super::pattern::Pattern;
@@ -17,7 +18,8 @@ const MAP_FROM_M: f32 = 0.6;
 const SKULL_M: f32 = 0.74;
 
 /// How hair is worn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum HairCut {
     /// Cropped, with the crown bare.
     Receding,
@@ -81,8 +83,8 @@ pub(super) fn uv(p: Vec3) -> Vec2 {
 
 /// How a face is painted.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
-    pub(super) name: &'static str,
+pub(super) struct Face<'a> {
+    pub(super) name: &'a str,
     pub(super) brows: f32,
     pub(super) lips: Vec3,
     /// 0 shaven, 1 a full beard.
@@ -92,7 +94,7 @@ pub(super) struct Face {
     pub(super) hair: HairCut,
 }
 
-impl Face {
+impl Face<'_> {
     /// Skin that knows the face; its base colour is the skin's lightest.
     pub(super) fn material(&self) -> Material {
         let spots = Noise::new(Vec2::from_array(MAP_M), 0.012, 71);

@@ -2,12 +2,13 @@
 
 mod build;
 mod carried;
+mod check;
 mod fabric;
 mod gait;
 mod head;
 mod outfit;
 mod pattern;
-mod persons;
+mod plan;
 mod posture;
 mod skeleton;
 mod stance;
@@ -22,14 +23,17 @@ use glam::Vec3;
 use rayon::prelude::*;
 use trove_model::{Asset, HumanBody};
 
+pub(crate) use plan::PersonPlan;
+
 use fabric::Fabrics;
 use outfit::Cutter;
 use pattern::Pattern;
 use stock::Stock;
 
-/// Everyone in every posture; nobody where the body lacks its clothing helpers.
-pub(super) fn assets(body: &HumanBody) -> Vec<Asset> {
-    if ["body", "helper-tights", "helper-skirt"].iter().any(|g| !body.groups.contains_key(*g)) {
+/// These people in every posture of theirs; nobody where the body lacks its clothing helpers.
+pub(crate) fn persons(plans: &[PersonPlan], body: &HumanBody) -> Vec<Asset> {
+    let lacks = |group: &&str| !body.groups.contains_key(*group);
+    if plans.is_empty() || ["body", "helper-tights", "helper-skirt"].iter().any(lacks) {
         return Vec::new();
     }
     let ((skin, tights), (skirt, fabrics)) = rayon::join(
@@ -37,7 +41,7 @@ pub(super) fn assets(body: &HumanBody) -> Vec<Asset> {
         || rayon::join(|| thinned(body, "helper-skirt", 700), Fabrics::new),
     );
     let stock = Stock { body, cutter: Cutter::new(body), skin, tights, skirt, fabrics };
-    persons::persons().par_iter().flat_map(|person| tailor::assets(&stock, person)).collect()
+    plans.par_iter().flat_map(|plan| tailor::assets(&stock, plan)).collect()
 }
 
 /// A group of the body with about so many triangles.

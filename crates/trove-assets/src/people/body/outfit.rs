@@ -1,6 +1,7 @@
 //! Garments, cut from the body's clothing helpers, and who wears which.
 
 use glam::{Vec3, vec3};
+use serde::Deserialize;
 use trove_model::HumanBody;
 
 use super::pattern::Pattern;
@@ -21,7 +22,8 @@ pub(super) struct Top {
 }
 
 /// What covers the legs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum Bottom {
     /// Down to a place along the legs: 1 the knee, 2 the ankle; width of the leg at its hem.
     Trousers { to: f32, hem_m: f32 },

@@ -1,6 +1,7 @@
 //! The postures that everyone takes, and some take besides.
 
 use glam::{Vec3, vec3};
+use serde::Deserialize;
 use trove_model::Posture;
 
 use super::gait::Gait;
@@ -11,11 +12,14 @@ use super::stance::{Arm, Foot, Stance};
 const WALKING: u8 = 8;
 const RUNNING: u8 = 4;
 
-/// What someone does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What someone does; everyone walks and runs, which no plan says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Act {
     /// Phase of so many.
+    #[serde(skip)]
     Walk(u8),
+    #[serde(skip)]
     Run(u8),
     Easy,
     /// On one leg more than the other.

@@ -6,9 +6,9 @@ use trove_model::{Asset, Figure, Kind, Material, Mesh, Posture, Seed, Slot};
 
 use super::carried::Held;
 use super::fabric::Fabrics;
-use super::head::{Face, HairCut};
+use super::head::Face;
 use super::outfit::{Bottom, Cutter, Top, WAIST_M, bare};
-use super::persons::{Bag, Fabric, Headgear, Layer, Person, SCARVES};
+use super::plan::{Bag, Dye, Fabric, Headgear, Layer, PersonKind, PersonPlan};
 use super::posture::Act;
 use super::stance::Arm;
 use super::stock::Stock;
@@ -26,7 +26,7 @@ struct Dressed<'a> {
 }
 
 /// A person's assets, one a posture.
-pub(super) fn assets(stock: &Stock<'_>, person: &Person) -> Vec<Asset> {
+pub(super) fn assets(stock: &Stock<'_>, person: &PersonPlan) -> Vec<Asset> {
     let dressed = Dressed::new(stock, person);
     let acts: Vec<Act> = person.acts.iter().copied().chain(Act::cycles()).collect();
     let licence = format!("{}; shaped, dressed and posed by TRoVE", stock.body.licence);
@@ -37,25 +37,20 @@ pub(super) fn assets(stock: &Stock<'_>, person: &Person) -> Vec<Asset> {
         let number = |s: u16| used[..usize::from(s)].iter().filter(|u| **u).count() as u16;
         let slots = dressed.slots.iter().zip(&used).filter(|(_, used)| **used).map(|(slot, _)| slot.clone()).collect();
         let mesh = Mesh { slots: mesh.slots.iter().map(|&s| number(s)).collect(), ..mesh };
-        Asset {
+        let kind: Kind = person.kind.into();
+        let asset = Asset {
             commonness: person.commonness,
-            figure: Some(Figure { person: person.id.into(), posture }),
-            ..Asset::new(
-                &format!("{}-{}", person.id, act.name()),
-                person.kind,
-                person.kind.class(),
-                mesh,
-                slots,
-                &licence,
-            )
-        }
+            figure: Some(Figure { person: person.id.clone(), posture }),
+            ..Asset::new(&format!("{}-{}", person.id, act.name()), kind, kind.class(), mesh, slots, &licence)
+        };
+        asset.tagged(&person.tags)
     });
     assets.collect()
 }
 
 impl<'a> Dressed<'a> {
-    fn new(stock: &Stock<'a>, person: &Person) -> Self {
-        let seed = Seed(5).child(person.id);
+    fn new(stock: &Stock<'a>, person: &PersonPlan) -> Self {
+        let seed = Seed(5).child(&person.id);
         let body = stock.body;
         let wearer = Wearer::new(body, person.build.shape(body, seed.child("face")), seed.child("cloth"));
         let mut slots: Vec<Slot> = Vec::new();
@@ -68,16 +63,15 @@ impl<'a> Dressed<'a> {
         let cutter = &stock.cutter;
 
         // Skin where nothing covers it.
-        let skin = slot(face_of(person).material(), person.skins);
-        let feet = |p: Vec3| if cutter.along_arm(p) > 0.0 { -1.0 } else { Cutter::in_shoes(person.shoes_to_m, p) };
+        let skin = slot(face_of(person).material(), &paints(&person.skin));
+        let feet = |p: Vec3| if cutter.along_arm(p) > 0.0 { -1.0 } else { Cutter::in_shoes(person.shoes.to_m, p) };
         let covered = |p: Vec3| {
-            let tops = person.layers.iter().map(|l| {
-                let under = cutter.under_top(&l.top, p);
+            let tops = person.top.iter().map(|l| {
+                let under = cutter.under_top(&l.cut(), p);
                 if l.has_lapels { under.min(-Cutter::lapels(p)) } else { under }
             });
-            tops.fold(cutter.under_bottom(&person.bottom, p).max(feet(p)), f32::max)
+            tops.fold(cutter.under_bottom(&person.bottom.cut, p).max(feet(p)), f32::max)
         };
-        let scarf = matches!(person.headgear, Headgear::Scarf | Headgear::Hood);
         pieces.push(wearer.skin(&bare(body, &stock.skin, covered), skin));
         let iris = if person.build.origins[2] > 0.8 && seed.0.is_multiple_of(2) {
             vec3(0.12, 0.16, 0.2)
@@ -86,31 +80,33 @@ impl<'a> Dressed<'a> {
         };
         let eye = slot(Material { coat: 0.8, ..Material::plain("eye", Vec3::ONE, 0.25) }, &[]);
         pieces.extend(wearer.eyes(iris, eye));
-        let hair = slot(stock.fabrics.hair.clone(), person.hairs);
-        pieces.extend(wearer.hair(person.hair, &stock.skin, hair));
+        let hair = slot(stock.fabrics.hair.clone(), &paints(&person.hair));
+        pieces.extend(wearer.hair(person.hair_cut, &stock.skin, hair));
 
         // Clothes, from the innermost.
-        let bottom = slot(cloth(&stock.fabrics, person.bottom_fabric), person.bottoms);
+        let bottom = slot(cloth(&stock.fabrics, person.bottom.fabric), &paints(&person.bottom.dye));
         let trousers = pieces.len();
         pieces.push(bottom_piece(stock, &wearer, person, bottom));
-        let shoes = slot(Material { coat: 0.2, ..Material::plain("shoes", Vec3::splat(0.1), 0.5) }, person.shoes);
-        pieces.push(shoes_piece(stock, &wearer, person.shoes_to_m, shoes));
+        let shoes = slot(
+            Material { coat: 0.2, ..Material::plain("shoes", Vec3::splat(0.1), 0.5) },
+            &vectors(&person.shoes.colors),
+        );
+        pieces.push(shoes_piece(stock, &wearer, person.shoes.to_m, shoes));
         let leather = slot(
             Material::plain("leather", Vec3::splat(0.02), 0.5),
             &[vec3(0.014, 0.013, 0.013), vec3(0.05, 0.025, 0.014), vec3(0.16, 0.075, 0.03)],
         );
-        let is_dress = matches!(person.bottom, Bottom::Skirt { .. })
-            && person.bottoms == person.layers[0].colours
-            && person.layers.len() == 1;
+        let is_dress = matches!(person.bottom.cut, Bottom::Skirt { .. })
+            && person.bottom.dye.colors == person.top[0].dye.colors
+            && person.top.len() == 1;
         let mut outermost = bottom;
         let mut tops = Vec::new();
-        let count = person.layers.len();
-        for (i, layer) in person.layers.iter().enumerate() {
+        let count = person.top.len();
+        for (i, layer) in person.top.iter().enumerate() {
             let is_outer = i + 1 == count;
-            outermost = if is_dress { bottom } else { slot(cloth(&stock.fabrics, layer.fabric), layer.colours) };
-            let hidden_by = person.layers.get(i + 1).map(|outer| &outer.top);
+            outermost = if is_dress { bottom } else { slot(cloth(&stock.fabrics, layer.fabric), &paints(&layer.dye)) };
             tops.push(pieces.len());
-            pieces.extend(layer_pieces(stock, &wearer, layer, hidden_by, is_outer, outermost));
+            pieces.extend(layer_pieces(stock, &wearer, layer, is_outer, outermost));
         }
         let (innermost, outer) = (tops[0], tops[count - 1]);
         if let Some(to_m) = person.tail_m {
@@ -118,8 +114,8 @@ impl<'a> Dressed<'a> {
             let pattern = stock.skirt.cut(body, |p| (WAIST_M - 0.004 - p.z).min(p.z - to_m));
             pieces.push(flared(wearer.cloth(&pattern, &cut, outermost), 0.018));
         }
-        let is_tucked = person.layers.iter().all(|l| l.top.hem_m > 0.05);
-        let has_belt = is_tucked && matches!(person.bottom, Bottom::Trousers { .. });
+        let is_tucked = person.top.iter().all(|l| l.hem_m > 0.05);
+        let has_belt = is_tucked && matches!(person.bottom.cut, Bottom::Trousers { .. });
         if has_belt || person.tail_m.is_some() {
             let (ease_m, slot) = if person.tail_m.is_some() { (0.04, outermost) } else { (0.021, leather) };
             pieces.push(band(stock, &wearer, [WAIST_M - 0.025, WAIST_M + 0.012], ease_m, slot));
@@ -160,7 +156,7 @@ impl<'a> Dressed<'a> {
                 pieces.extend(wearer.police_cap(outermost, badge));
             }
             Headgear::Scarf => {
-                let scarf = slot(stock.fabrics.woven.clone(), SCARVES);
+                let scarf = slot(stock.fabrics.woven.clone(), &SCARVES);
                 pieces.push(wearer.headscarf(&stock.skin, 0.016, scarf));
                 let cape = Top { sleeve: 0.03, neck_m: -0.04, hem_m: 0.45, wide: 1.0 };
                 let cut = Cut { ease_m: 0.03, sleeve_m: [0.0; 3], leg_m: [0.0; 3], drape: 0.4, folds_m: 0.009 };
@@ -205,7 +201,6 @@ impl<'a> Dressed<'a> {
                 held = Some((Held::Umbrella, [slot(silk, &bag_colours), steel, dark]));
             }
         }
-        debug_assert!(!scarf || person.hair == HairCut::Covered, "hair would show through");
         Self { wearer, pieces, slots, held, phone: dark, parcel }
     }
 
@@ -265,16 +260,26 @@ fn stand(mesh: &mut Mesh, is_going: bool) {
 }
 
 const NAVY: Vec3 = vec3(0.015, 0.02, 0.06);
+const SCARVES: [Vec3; 4] =
+    [vec3(0.025, 0.025, 0.03), vec3(0.5, 0.42, 0.36), vec3(0.2, 0.1, 0.13), vec3(0.1, 0.17, 0.22)];
 
-fn face_of(person: &Person) -> Face {
+fn vectors(colors: &[[f32; 3]]) -> Vec<Vec3> {
+    colors.iter().copied().map(Vec3::from_array).collect()
+}
+
+fn paints(dye: &Dye) -> Vec<Vec3> {
+    vectors(&dye.colors)
+}
+
+fn face_of(person: &PersonPlan) -> Face<'_> {
     let is_woman = person.build.male < 0.5;
     Face {
-        name: person.id,
+        name: &person.id,
         brows: if is_woman { 0.75 } else { 1.15 },
         lips: if is_woman { vec3(0.82, 0.42, 0.42) } else { vec3(0.86, 0.6, 0.58) },
-        beard: if person.kind == Kind::Child { 0.0 } else { person.beard },
+        beard: if person.kind == PersonKind::Child { 0.0 } else { person.beard },
         wrinkles: ((person.build.years - 25.0) / 50.0).clamp(0.0, 1.0),
-        hair: person.hair,
+        hair: person.hair_cut,
     }
 }
 
@@ -292,16 +297,16 @@ fn cloth(fabrics: &Fabrics, fabric: Fabric) -> Material {
     }
 }
 
-fn bottom_piece(stock: &Stock<'_>, wearer: &Wearer<'_>, person: &Person, slot: u16) -> Piece {
-    let under = |p: Vec3| stock.cutter.under_bottom(&person.bottom, p);
-    match person.bottom {
+fn bottom_piece(stock: &Stock<'_>, wearer: &Wearer<'_>, person: &PersonPlan, slot: u16) -> Piece {
+    let under = |p: Vec3| stock.cutter.under_bottom(&person.bottom.cut, p);
+    match person.bottom.cut {
         Bottom::Trousers { hem_m, .. } => {
             let thigh = 0.085 + 0.3 * (hem_m - 0.06);
             let knee = hem_m.max(0.064) * 0.9 + 0.008;
             let cut =
                 Cut { ease_m: 0.008, sleeve_m: [0.0; 3], leg_m: [thigh, knee, hem_m], drape: 0.25, folds_m: 0.006 };
             let piece = wearer.cloth(&stock.tights.cut(stock.body, under), &cut, slot);
-            if person.bottom_fabric == Fabric::Denim {
+            if person.bottom.fabric == Fabric::Denim {
                 // Worn pale over the thighs and knees.
                 piece.tinted(|p| {
                     Vec3::splat(
@@ -355,18 +360,10 @@ fn band(stock: &Stock<'_>, wearer: &Wearer<'_>, [low, high]: [f32; 2], ease_m: f
     wearer.cloth(&pattern, &cut, slot)
 }
 
-fn layer_pieces(
-    stock: &Stock<'_>,
-    wearer: &Wearer<'_>,
-    layer: &Layer,
-    hidden_by: Option<&Top>,
-    is_outer: bool,
-    slot: u16,
-) -> Vec<Piece> {
-    let (body, cutter, top) = (stock.body, &stock.cutter, &layer.top);
+fn layer_pieces(stock: &Stock<'_>, wearer: &Wearer<'_>, layer: &Layer, is_outer: bool, slot: u16) -> Vec<Piece> {
+    let (body, cutter, top) = (stock.body, &stock.cutter, &layer.cut());
     let loose = top.wide;
-    let ease_m =
-        if hidden_by.is_some() { 0.005 } else { 0.009 + 0.008 * loose + if layer.has_lapels { 0.006 } else { 0.0 } };
+    let ease_m = if is_outer { 0.009 + 0.008 * loose + if layer.has_lapels { 0.006 } else { 0.0 } } else { 0.005 };
     let sleeve = if top.sleeve < 1.0 {
         [0.058 + 0.03 * loose, 0.07 + 0.022 * loose, 0.06]
     } else {
@@ -381,11 +378,10 @@ fn layer_pieces(
     };
     let pattern = stock.tights.cut(body, |p| cutter.under_top(top, p));
     // The opening's point lies in the middle of the chest.
-    let pattern = if layer.has_lapels || hidden_by.is_some() { pattern.scored(body, |p| p.y) } else { pattern };
+    let pattern = if layer.has_lapels || !is_outer { pattern.scored(body, |p| p.y) } else { pattern };
     let pattern = if layer.has_lapels { pattern.cut(body, |p| -Cutter::lapels(p)) } else { pattern };
     // Of what is worn below only the chest is seen.
-    let pattern =
-        if hidden_by.is_some() { pattern.cut(body, |p| (Cutter::lapels(p) + 0.04).max(p.z - 0.53)) } else { pattern };
+    let pattern = if is_outer { pattern } else { pattern.cut(body, |p| (Cutter::lapels(p) + 0.04).max(p.z - 0.53)) };
     let mut pieces = vec![wearer.cloth(&pattern, &cut, slot)];
     if layer.has_collar {
         let from = |p: Vec3| p.z - (0.567 - 0.28 * p.x);
