@@ -11,7 +11,7 @@ use crate::library;
 /// Prints what is there, what is missing and how to get it.
 pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     let options = RendererOptions { kernel: KernelChoice::Auto, denoise: Denoising::Best, threads: 0, search };
-    let body = library::body_folder(&options.search);
+    let body = library::body::folder(&options.search);
     let found = Renderer::new(&options)?.capabilities();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let memory_gib = memory_gib();

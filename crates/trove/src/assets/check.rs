@@ -1,15 +1,15 @@
 //! `trove assets check`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use serde_json::{Value, json};
 
 use crate::library::user;
 
-/// Prints what is wrong with a library and returns the exit status.
-pub(crate) fn run(dir: &Path, as_json: bool) -> Result<i32> {
-    let findings = user::check(dir);
+/// Prints what is wrong with a library and returns the exit status; people's bodies are looked for in `search`.
+pub(crate) fn run(dir: &Path, as_json: bool, search: &[PathBuf]) -> Result<i32> {
+    let findings = user::check(dir, search);
     let severe = findings.iter().filter(|finding| finding.severe).count();
     if as_json {
         let rows: Vec<Value> = findings

