@@ -8,8 +8,8 @@ use super::head::HairCut;
 use super::outfit::{Bottom, Top};
 use super::posture::Act;
 
-/// Someone on foot: a `[[person]]` of a file of plans. Heights of clothes are those of the body's own shape, in metres
-/// from about the hip joints; colours linear RGB.
+/// Someone on foot: a `[[person]]` of a file of plans. Heights of clothes are those of the body's own shape, in
+/// metres from its hips; colours linear RGB.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PersonPlan {
