@@ -14,13 +14,13 @@ pub(crate) fn within<'a>(
     numbers: impl IntoIterator<Item = &'a f32>,
 ) -> Result<(), Wrong> {
     match numbers.into_iter().find(|n| !range.contains(n)) {
-        Some(wrong) => refuse(key, expected, wrong),
+        Some(found) => wrong(key, expected, found),
         None => Ok(()),
     }
 }
 
 /// Says what was found in place of what was expected.
-pub(crate) fn refuse(key: &'static str, expected: &'static str, found: &dyn Debug) -> Result<(), Wrong> {
+pub(crate) fn wrong(key: &'static str, expected: &'static str, found: &dyn Debug) -> Result<(), Wrong> {
     Err((key, expected, format!("{found:?}")))
 }
 

@@ -92,6 +92,7 @@ fn the_largest_and_the_smallest_plants_that_are_allowed_can_be_grown() {
         for asset in Plans::parse(&text).unwrap().library("mine", None).assets {
             assert_eq!(asset.mesh.defect(), None, "{} of {text}", asset.id);
         }
+    }
 }
 
 #[test]

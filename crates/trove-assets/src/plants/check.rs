@@ -1,19 +1,12 @@
 //! Measures that no plant can have, refused before it grows: they would fail, or take all memory.
 
-use std::fmt::Debug;
 use std::ops::RangeInclusive;
 
 use super::bark::Bark;
 use super::leaves::{Outline, Sprig};
 use super::plan::{ClimatePlan, RowPlan, ShrubPlan, TreePlan};
 use super::tones::Year;
-
-/// A key, what was expected there, what was found.
-type Wrong = (&'static str, &'static str, String);
-
-fn wrong(key: &'static str, expected: &'static str, found: &dyn Debug) -> Result<(), Wrong> {
-    Err((key, expected, format!("{found:?}")))
-}
+use crate::measure::{Wrong, wrong};
 
 /// Numbers by their keys, with their ranges and these in words.
 fn within<const N: usize>(numbers: [(&'static str, f32, RangeInclusive<f32>, &'static str); N]) -> Result<(), Wrong> {

@@ -7,6 +7,7 @@ use trove_model::{Asset, Climate, LeafType};
 use super::bark::Bark;
 use super::leaves::Sprig;
 use super::tones::{Tones, Year};
+use crate::measure::ordinary;
 
 /// The plants to grow.
 #[derive(Clone, Debug, Default)]
@@ -19,10 +20,6 @@ pub(crate) struct PlantPlans {
 
 /// Climates and how common a plant is there.
 type Habitat = Vec<(ClimatePlan, f32)>;
-
-fn ordinary() -> f32 {
-    1.0
-}
 
 /// A kind of tree: a `[[tree]]` of a file of plans; measures are those of a grown one in a street.
 #[derive(Clone, Debug, Deserialize)]

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use trove_model::{Asset, Class, Kind};
 
 use super::finish::{plastic, reflective, rubber, upright};
-use crate::measure::{Wrong, ordinary, refuse, within};
+use crate::measure::{Wrong, ordinary, within, wrong};
 use crate::shape::{Model, Shape};
 
 const ORANGE: Vec3 = vec3(0.82, 0.15, 0.025);
@@ -49,7 +49,7 @@ impl ConePlan {
     pub(crate) fn check(&self) -> Result<(), Wrong> {
         within("commonness", "a number from 0 to 1000", 0.0..=1000.0, [&self.commonness])?;
         if self.colors.is_empty() {
-            return refuse("colors", "at least one colour", &self.colors);
+            return wrong("colors", "at least one colour", &self.colors);
         }
         within("colors", "linear RGB from 0 to 1", 0.0..=1.0, self.colors.iter().flatten())?;
         within("foot_m", "metres from 0.1 to 1", 0.1..=1.0, [&self.foot_m])?;
@@ -57,7 +57,7 @@ impl ConePlan {
         within("radii_m", "metres from 0.02 to half the foot", 0.02..=self.foot_m / 2.0, &self.radii_m)?;
         within("bands", "shares from 0 to 1", 0.0..=1.0, self.bands.iter().flatten())?;
         if self.bands.len() > 10 || self.bands.iter().any(|[from, to]| from >= to) {
-            return refuse("bands", "at most 10, each from a lower to a higher share", &self.bands);
+            return wrong("bands", "at most 10, each from a lower to a higher share", &self.bands);
         }
         within("bent_m", "metres from 0 to 0.5", 0.0..=0.5, [&self.bent_m])
     }

@@ -8,7 +8,7 @@ use super::finish::{
     bar, board, cloth, concrete, dark, galvanised, glass, grey_timber, painted, plastic, post, reflective, rubber,
     rusty, stainless, tarpaulin, timber,
 };
-use crate::measure::{Wrong, ordinary, refuse, within};
+use crate::measure::{Wrong, ordinary, within, wrong};
 use crate::shape::{Model, Shape};
 use crate::surfaces;
 
@@ -172,11 +172,11 @@ impl ShapePlan {
         let thick = |sizes: &[f32]| within("parts.shapes", "sizes from 0.001 to 20 metres", 0.001..=20.0, sizes);
         let around = |n: usize| match n {
             3..=64 => Ok(()),
-            _ => refuse("parts.shapes", "from 3 to 64 sides around", &n),
+            _ => wrong("parts.shapes", "from 3 to 64 sides around", &n),
         };
         let line = |n: usize| match n {
             2..=200 => Ok(()),
-            _ => refuse("parts.shapes", "lines of 2 to 200 points", &n),
+            _ => wrong("parts.shapes", "lines of 2 to 200 points", &n),
         };
         match self {
             Self::Turned { profile, around: sides } => {
@@ -207,11 +207,11 @@ impl FurniturePlan {
         let shapes = || self.parts.iter().flat_map(|part| &part.shapes);
         if !(1..=400).contains(&shapes().count()) || self.parts.len() > 40 {
             let found = format!("{} parts with {} shapes", self.parts.len(), shapes().count());
-            return refuse("parts", "at most 40 parts with 1 to 400 shapes", &found);
+            return wrong("parts", "at most 40 parts with 1 to 400 shapes", &found);
         }
         for part in &self.parts {
             if part.colors.is_empty() && !part.finish.is_coloured() {
-                return refuse("parts.colors", "a colour for this finish", &part.finish);
+                return wrong("parts.colors", "a colour for this finish", &part.finish);
             }
             within("parts.colors", "linear RGB from 0 to 1", 0.0..=1.0, part.colors.iter().flatten())?;
         }

@@ -1,20 +1,12 @@
 //! Measures that nobody can have, refused before they are built from.
 
-use std::fmt::Debug;
-
 use super::head::HairCut;
 use super::outfit::Bottom;
 use super::plan::{Layer, PersonPlan};
-
-/// A key, what was expected there, what was found.
-type Wrong = (&'static str, &'static str, String);
+use crate::measure::{Wrong, wrong};
 
 /// A share has to be from 0 to 1.
 const SHARE: &str = "a number from 0 to 1";
-
-fn wrong(key: &'static str, expected: &'static str, found: &dyn Debug) -> Result<(), Wrong> {
-    Err((key, expected, format!("{found:?}")))
-}
 
 impl PersonPlan {
     /// The key of a value that nobody can have, with what was expected and what it is.

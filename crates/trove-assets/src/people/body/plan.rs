@@ -7,6 +7,7 @@ use super::build::Build;
 use super::head::HairCut;
 use super::outfit::{Bottom, Top};
 use super::posture::Act;
+use crate::measure::ordinary;
 
 /// Someone on foot: a `[[person]]` of a file of plans. Heights of clothes are those of the body's own shape, in
 /// metres from its hips; colours linear RGB.
@@ -165,8 +166,4 @@ pub(super) enum Bag {
     Shopping,
     Briefcase,
     Umbrella,
-}
-
-fn ordinary() -> f32 {
-    1.0
 }

@@ -1,16 +1,8 @@
 //! Measures that no car can have, refused before they are built from.
 
-use std::fmt::Debug;
-
 use super::plan::{Bars, CarExtra, CarPlan};
+use crate::measure::{Wrong, wrong};
 use crate::vehicles::wheel::Rim;
-
-/// A key, what was expected there, what was found.
-type Wrong = (&'static str, &'static str, String);
-
-fn wrong(key: &'static str, expected: &'static str, found: &dyn Debug) -> Result<(), Wrong> {
-    Err((key, expected, format!("{found:?}")))
-}
 
 /// Whether a point of an outline is on a car.
 fn is_near(&(share, height_m): &(f32, f32)) -> bool {

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use trove_model::{Class, Kind};
 
+use crate::measure::ordinary;
 use crate::vehicles::plate::PlateDesign;
 use crate::vehicles::slots::Paint;
 use crate::vehicles::wheel::Rim;
@@ -50,10 +51,6 @@ impl From<CarClass> for Class {
             CarClass::Truck => Self::Truck,
         }
     }
-}
-
-fn ordinary() -> f32 {
-    1.0
 }
 
 fn nowhere() -> f32 {
