@@ -20,7 +20,7 @@ use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::Recipe;
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
-use crate::{build, demo, doctor, inspect, interrupt, libraries, message};
+use crate::{build, demo, doctor, inspect, interrupt, libraries, message, verify};
 
 /// Turn recordings of real roads into photorealistic virtual scenes with perfect labels.
 #[derive(Parser)]
@@ -96,6 +96,15 @@ enum Command {
     #[command(
         after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
     )]
+    /// Check that an output folder still holds what was written to it.
+    #[command(after_help = "Example:\n  trove verify out/boston")]
+    Verify {
+        /// The output folder of trove generate.
+        folder: PathBuf,
+        /// Print JSON.
+        #[arg(long)]
+        json: bool,
+    },
     Curate(Curate),
     /// Match the colours of images to real footage.
     #[command(after_help = "Example:\n  trove recolor out/boston --to camvid/images/train --out out/boston-recolored")]
@@ -198,6 +207,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             }
             produce(recipe, &out, &machine, options, json)
         }
+        Command::Verify { folder, json } => verify::run(&folder, json),
         Command::Curate(curate) => curate.run().map(|()| 0),
         Command::Recolor(recolor) => recolor.run().map(|()| 0),
         Command::Evaluate(evaluate) => evaluate.run().map(|()| 0),

@@ -35,6 +35,7 @@ pub mod run;
 mod sources;
 mod street_map;
 mod variation;
+mod verify;
 mod virtual_scene;
 
 pub use cli::main;

@@ -27,7 +27,7 @@ use crate::{interrupt, library, message};
 pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, SiteSummary, variation_folder};
 use output::OutputFolder;
-pub(crate) use output::{PRIVATE, refuse_foreign};
+pub(crate) use output::{PRIVATE, is_whole, refuse_foreign};
 use worker::Worker;
 
 /// Cameras of a rig before the first drive has been read.

@@ -1,5 +1,6 @@
 //! The folder that a run writes to: one recipe, one run at a time, and which frames are finished.
 
+use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,8 @@ pub(super) struct OutputFolder {
     root: PathBuf,
     journal: File,
     finished: Journal,
+    /// Finished frames whose files this run has read or written.
+    verified: BTreeSet<String>,
     _lock: File,
 }
 
@@ -37,7 +40,7 @@ impl OutputFolder {
             .open(&path)
             .with_context(|| format!("{}: expected a file that can be written", path.display()))?;
         journal.write_all(b"\n")?; // ends a line that an interrupted run may have left torn
-        Ok(Self { root: root.to_owned(), journal, finished, _lock: lock })
+        Ok(Self { root: root.to_owned(), journal, finished, verified: BTreeSet::new(), _lock: lock })
     }
 
     /// What was built for a variation of a scene by an earlier run; `None` where nothing was.
@@ -60,10 +63,25 @@ impl OutputFolder {
             return Ok(None);
         }
         if let Some(files) = self.finished.get(frame) {
-            let whole = |file: &WrittenFile| {
-                std::fs::metadata(folder.join(&file.name)).is_ok_and(|found| found.len() == file.bytes)
-            };
-            return Ok(files.iter().all(whole).then(|| files.clone()));
+            let files = files.clone();
+            if self.verified.contains(frame) {
+                return Ok(Some(files));
+            }
+            let damaged: Vec<&WrittenFile> = files.iter().filter(|file| !is_whole(&folder, file)).collect();
+            if damaged.is_empty() {
+                self.verified.insert(frame.to_owned());
+                return Ok(Some(files));
+            }
+            for WrittenFile { name, .. } in damaged {
+                tracing::warn!("{frame}/{name}: not as it was written; the frame is rendered again");
+                // Without it the frame is one that is not finished, which is replaced once it is.
+                if let Err(error) = std::fs::remove_file(folder.join(name))
+                    && error.kind() != std::io::ErrorKind::NotFound
+                {
+                    bail!("{}: expected a file that can be replaced: {error}", folder.join(name).display());
+                }
+            }
+            return Ok(None);
         }
         // The folder was put in place, but the run ended before it was written down.
         let mut files = Vec::new();
@@ -83,9 +101,17 @@ impl OutputFolder {
         self.journal
             .write_all(&line.to_json())
             .with_context(|| format!("{}: the journal of finished frames cannot be written", self.root.display()))?;
+        self.verified.insert(line.frame.clone());
         self.finished.insert(line.frame, line.files);
         Ok(())
     }
+}
+
+/// Whether a file of a frame holds the bytes that were written.
+pub(crate) fn is_whole(folder: &Path, file: &WrittenFile) -> bool {
+    let path = folder.join(&file.name);
+    let has_length = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() == file.bytes);
+    has_length && sha256_file(&path).is_ok_and(|found| found == file.sha256)
 }
 
 /// An error where the folder holds something that is not of an earlier run.
@@ -166,6 +192,26 @@ mod tests {
         assert!(files[0].sha256.starts_with("ba7816bf"), "SHA-256 of abc, FIPS 180-2");
         std::fs::write(folder.join("a"), "ab").unwrap();
         assert!(out.finished("s/v00/k000/ego.A", &["a"]).unwrap().is_none(), "a shortened file is not finished");
+    }
+
+    #[test]
+    fn a_finished_frame_whose_bytes_have_changed_is_to_be_rendered_again() {
+        let dir = tempfile::tempdir().unwrap();
+        let root = dir.path().join("out");
+        let folder = root.join("s/v00/k000/ego.A");
+        for damage in ["ab", "abd"] {
+            let mut out = OutputFolder::open(&root, &identity(1)).unwrap();
+            std::fs::create_dir_all(&folder).unwrap();
+            std::fs::write(folder.join("a"), "abc").unwrap();
+            std::fs::write(folder.join("b"), "b").unwrap();
+            assert!(out.finished("s/v00/k000/ego.A", &["a", "b"]).unwrap().is_some());
+            drop(out);
+            std::fs::write(folder.join("a"), damage).unwrap();
+            let mut out = OutputFolder::open(&root, &identity(1)).unwrap();
+            assert!(out.finished("s/v00/k000/ego.A", &["a", "b"]).unwrap().is_none(), "{damage}");
+            // What is left is in nobody's way.
+            assert!(!folder.join("a").exists() && folder.join("b").exists());
+        }
     }
 
     #[test]

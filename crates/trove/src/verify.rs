@@ -1,0 +1,104 @@
+//! `trove verify`: whether an output folder still is as it was written.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use rayon::prelude::*;
+use serde::Serialize;
+use trove_format::{FrameLine, Manifest, WrittenFile};
+
+use crate::run::{PRIVATE, is_whole};
+
+/// What was found.
+#[derive(Debug, Default, PartialEq, Serialize)]
+struct Findings {
+    /// Finished frames.
+    frames: usize,
+    /// Their files.
+    files: usize,
+    /// Files that are missing or hold other bytes than were written, below the folder.
+    damaged: Vec<String>,
+    /// Frames that the manifest and the journal do not tell alike.
+    unlisted: Vec<String>,
+}
+
+/// Reads every file of every finished frame; the status is 1 where one is not as it was written. Changes nothing.
+///
+/// # Errors
+/// A folder that no run has written, or whose manifest or journal cannot be read.
+pub(crate) fn run(folder: &Path, as_json: bool) -> Result<i32> {
+    let findings = look(folder)?;
+    let is_sound = findings.damaged.is_empty() && findings.unlisted.is_empty();
+    if as_json {
+        println!("{}", serde_json::to_string_pretty(&findings)?);
+        return Ok(i32::from(!is_sound));
+    }
+    findings.damaged.iter().for_each(|file| println!("damaged: {file}"));
+    findings.unlisted.iter().for_each(|frame| println!("not told alike by the manifest and the journal: {frame}"));
+    if is_sound {
+        println!("{} frames, {} files, all as they were written", findings.frames, findings.files);
+    } else {
+        println!("run trove generate on this folder again: it renders what is damaged");
+    }
+    Ok(i32::from(!is_sound))
+}
+
+fn look(folder: &Path) -> Result<Findings> {
+    let private = folder.join(PRIVATE);
+    if !private.is_dir() {
+        bail!("{}: expected an output folder of trove generate, found no {PRIVATE} in it", folder.display());
+    }
+    let journal = FrameLine::journal(&private)?;
+    let damaged = |(frame, files): (&String, &Vec<WrittenFile>)| -> Vec<String> {
+        let wrong = files.iter().filter(|file| !is_whole(&folder.join(frame), file));
+        wrong.map(|file| format!("{frame}/{}", file.name)).collect()
+    };
+    let damaged = journal.par_iter().flat_map_iter(damaged).collect();
+    // An unfinished run has no manifest yet.
+    let rows = Manifest::read(folder)?.map(|manifest| manifest.frames).unwrap_or_default();
+    let told_alike = |row: &trove_format::FrameRow| {
+        let files = journal.get(&row.path).map_or(&[][..], Vec::as_slice);
+        files.len() == row.files.len() && files.iter().all(|file| row.files.get(&file.name) == Some(&file.sha256))
+    };
+    let unlisted: BTreeSet<String> = rows.iter().filter(|row| !told_alike(row)).map(|row| row.path.clone()).collect();
+    Ok(Findings {
+        frames: journal.len(),
+        files: journal.values().map(Vec::len).sum(),
+        damaged,
+        unlisted: unlisted.into_iter().collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_missing_shorter_or_other_is_found() {
+        let dir = tempfile::tempdir().unwrap();
+        let root = dir.path();
+        assert!(look(root).unwrap_err().to_string().contains("expected an output folder"));
+        fs::create_dir_all(root.join(PRIVATE)).unwrap();
+        let frame = root.join("s/v00/k000/ego.A");
+        fs::create_dir_all(&frame).unwrap();
+        let files: Vec<WrittenFile> = ["a", "b", "c", "d"]
+            .map(|name| {
+                fs::write(frame.join(name), "abc").unwrap();
+                let sha256 = trove_write::sha256_file(&frame.join(name)).unwrap();
+                WrittenFile { name: name.into(), sha256, bytes: 3 }
+            })
+            .to_vec();
+        let line = FrameLine { frame: "s/v00/k000/ego.A".into(), files };
+        fs::write(root.join(PRIVATE).join(FrameLine::JOURNAL), line.to_json()).unwrap();
+        let sound = Findings { frames: 1, files: 4, ..Findings::default() };
+        assert_eq!(look(root).unwrap(), sound);
+        fs::write(frame.join("a"), "ab").unwrap();
+        fs::write(frame.join("b"), "abd").unwrap();
+        fs::remove_file(frame.join("c")).unwrap();
+        let damaged = ["a", "b", "c"].map(|name| format!("s/v00/k000/ego.A/{name}")).to_vec();
+        assert_eq!(look(root).unwrap(), Findings { damaged, ..sound });
+    }
+}
