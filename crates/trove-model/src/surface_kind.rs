@@ -21,7 +21,7 @@ pub enum SurfaceKind {
     Water,
     FlatRoof,
     RoofTiles,
-    /// A facade: its texture holds whole bays and whole storeys (see [`Surface::size_m`] and [`Surface::cells`]).
+    /// A facade: its texture holds whole bays and whole storeys (see [`Surface::size_m`](crate::Surface::size_m) and [`Surface::cells`](crate::Surface::cells)).
     Facade,
     /// A facade's ground floor: shops, entrances, loading bays.
     FacadeGroundFloor,
