@@ -92,10 +92,6 @@ enum Command {
         #[command(subcommand)]
         command: AssetsCommand,
     },
-    /// Select the frames most worth training on, from labels alone.
-    #[command(
-        after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
-    )]
     /// Check that an output folder still holds what was written to it.
     #[command(after_help = "Example:\n  trove verify out/boston")]
     Verify {
@@ -105,6 +101,10 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Select the frames most worth training on, from labels alone.
+    #[command(
+        after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
+    )]
     Curate(Curate),
     /// Match the colours of images to real footage.
     #[command(after_help = "Example:\n  trove recolor out/boston --to camvid/images/train --out out/boston-recolored")]
