@@ -1,6 +1,7 @@
-//! Files that are whole or not there.
+//! Files that are whole or not there, below the folder that they belong to, and regular.
 //!
-//! What goes in: a path and bytes. What comes out: a file. This crate must not know what the bytes mean.
+//! What goes in: a path and bytes. What comes out: a file. This crate must not know what the bytes mean. Every file that
+//! another crate opens is opened here.
 //!
 //! ```
 //! use trove_files::write_atomically;
@@ -13,6 +14,12 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+mod component;
+mod read;
+
+pub use component::{OutputRoot, PathComponent, UnsafeName};
+pub use read::{Folder, LARGEST_FILE, LARGEST_TEXT, open_regular, read_regular, read_text};
+
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -22,8 +29,10 @@ use std::path::{Path, PathBuf};
 /// ones, never some, also after a power cut and where several processes write the same file.
 ///
 /// # Errors
-/// What the system says; nothing is left of the hidden file then.
+/// What the system says, or something at `path` that is neither a file nor missing; nothing is left of the hidden file
+/// then.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    read::replaceable(path)?;
     // Two processes that fill the same cache must not write into each other's file.
     let partial = hidden_beside(path, &format!("{}.partial", std::process::id()));
     let written = write_synced(&partial, bytes).and_then(|()| fs::rename(&partial, path));
@@ -39,8 +48,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Writes a file that a power cut leaves whole once this has returned.
 ///
 /// # Errors
-/// What the system says.
+/// What the system says, or something at `path` that is neither a file nor missing.
 pub fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    read::replaceable(path)?;
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
     file.sync_all()

@@ -1,8 +1,8 @@
 //! Folders of pictures that belong together.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::BufReader;
+use std::fs;
+use std::io::{BufReader, Cursor};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,9 +10,13 @@ use image::imageops::{FilterType, resize};
 use image::{DynamicImage, ImageReader};
 use png::{BitDepth, ColorType};
 use rayon::prelude::*;
+use trove_files::{LARGEST_FILE, open_regular, read_regular};
 use trove_model::Raster;
 
 use crate::{JudgeError, LabelSet};
+
+/// 8192 × 8192: larger than any road camera's.
+const MOST_PIXELS: u64 = 1 << 26;
 
 /// Told how many pictures are done, and of how many.
 pub type OnProgress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -114,10 +118,23 @@ fn cityscapes_key(name: &str) -> Option<String> {
 
 /// A picture's pixels as its file has them.
 pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
-    let reader = ImageReader::open(path).map_err(JudgeError::io(path))?;
-    reader
-        .decode()
-        .map_err(|e| JudgeError::unexpected(path, "a PNG or JPEG image", e.to_string(), "write the file again"))
+    let bytes = read_regular(path, LARGEST_FILE).map_err(JudgeError::io(path))?;
+    let open = || ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(JudgeError::io(path));
+    let broken = |e: image::ImageError| {
+        JudgeError::unexpected(path, "a PNG or JPEG image", e.to_string(), "write the file again")
+    };
+    let (width, height) = open()?.into_dimensions().map_err(broken)?;
+    check_size(path, width, height)?;
+    open()?.decode().map_err(broken)
+}
+
+/// Before anything is unpacked: a header of a few bytes may ask for any amount of memory.
+fn check_size(path: &Path, width: u32, height: u32) -> Result<(), JudgeError> {
+    if u64::from(width) * u64::from(height) <= MOST_PIXELS {
+        return Ok(());
+    }
+    let expected = format!("an image of at most {MOST_PIXELS} pixels");
+    Err(JudgeError::unexpected(path, &expected, format!("{width} × {height}"), "scale it down, or leave it out"))
 }
 
 /// A small picture of a picture, `width` pixels wide.
@@ -143,10 +160,11 @@ pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
     let bad =
         |found: String, remedy| JudgeError::unexpected(path, "8-bit labels, one class id per pixel", found, remedy);
     let broken = |e: png::DecodingError| bad(e.to_string(), "write the file again, as PNG");
-    let mut decoder = png::Decoder::new(BufReader::new(File::open(path).map_err(JudgeError::io(path))?));
+    let mut decoder = png::Decoder::new(BufReader::new(open_regular(path).map_err(JudgeError::io(path))?));
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(broken)?;
     let (width, height) = reader.info().size();
+    check_size(path, width, height)?;
     let (color, depth) = reader.output_color_type();
     let bits = match (color, depth) {
         (ColorType::Grayscale | ColorType::Indexed, BitDepth::One) => 1,
@@ -192,7 +210,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labels.png");
         let write = |color: ColorType, depth: BitDepth, width: u32, bytes: &[u8]| {
-            let mut encoder = png::Encoder::new(File::create(&path).unwrap(), width, 2);
+            let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), width, 2);
             encoder.set_color(color);
             encoder.set_depth(depth);
             if color == ColorType::Indexed {
@@ -208,5 +226,27 @@ mod tests {
         assert_eq!(write(ColorType::Grayscale, BitDepth::One, 2, &[0b0100_0000, 0]).unwrap(), [0, 255, 0, 0]);
         let deep = write(ColorType::Grayscale, BitDepth::Sixteen, 1, &[0, 7, 0, 8]).unwrap_err().to_string();
         assert!(deep.contains("Grayscale of 16 bits"), "{deep}");
+    }
+
+    #[test]
+    fn a_header_does_not_choose_how_much_memory_is_taken() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.png");
+        for (width, height) in [(200_000, 100_000), (16_384, 30_000)] {
+            let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), width, height);
+            encoder.set_color(ColorType::Grayscale);
+            drop(encoder.write_header());
+            // Signature and header, after which pixels seem to follow.
+            let empty = b"\0\0\0\0IDAT\x35\xaf\x06\x1e";
+            fs::write(&path, [&fs::read(&path).unwrap()[..33], empty].concat()).unwrap();
+            let labels = read_labels(&path).err().map(|e| e.to_string()).unwrap_or_default();
+            let picture = read(&path).err().map(|e| e.to_string()).unwrap_or_default();
+            for message in [labels, picture] {
+                assert!(
+                    message.contains("at most 67108864 pixels") && message.contains(&format!("{width}")),
+                    "{message}"
+                );
+            }
+        }
     }
 }

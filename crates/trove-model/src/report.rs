@@ -7,6 +7,9 @@ use std::sync::Mutex;
 /// How many examples of a kind are kept.
 const EXAMPLES: usize = 5;
 
+/// Longer examples are cut, characters.
+const LONGEST_EXAMPLE: usize = 1000;
+
 /// What happened to something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Outcome {
@@ -77,12 +80,13 @@ struct Inner {
 }
 
 impl Report {
-    /// Notes that `what` happened to `example` (which names the thing and its place).
+    /// Notes that `what` happened to `example` (which names the thing and its place). Examples quote files, so control
+    /// characters in them are escaped and long ones are cut.
     pub fn note(&self, outcome: Outcome, what: &str, example: impl Display) {
         let mut inner = self.lock();
         let (count, examples) = inner.entries.entry((outcome, what.to_owned())).or_default();
         *count += 1;
-        examples.insert(example.to_string());
+        examples.insert(quoted(&example.to_string()));
         if examples.len() > EXAMPLES {
             examples.pop_last();
         }
@@ -115,9 +119,36 @@ impl Report {
     }
 }
 
+fn quoted(text: &str) -> String {
+    let mut quoted = String::new();
+    for (i, c) in text.chars().enumerate() {
+        match c {
+            _ if i == LONGEST_EXAMPLE => {
+                quoted.push('…');
+                break;
+            }
+            '\n' | '\t' => quoted.push(' '),
+            c if c.is_control() => quoted.extend(c.escape_unicode()),
+            c => quoted.push(c),
+        }
+    }
+    quoted
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn examples_are_short_and_do_not_reach_the_terminal_as_commands() {
+        let report = Report::default();
+        report.note(Outcome::Dropped, "name", format!("\u{1b}]0;x\u{7}{}", "é".repeat(2000)));
+        let example = &report.entries()[0].examples[0];
+        assert!(
+            example.starts_with("\\u{1b}]0;x\\u{7}é") && example.ends_with('…') && !example.contains(char::is_control)
+        );
+        assert!(example.chars().count() < 1050);
+    }
 
     #[test]
     fn the_order_of_happenings_does_not_matter() {

@@ -1,7 +1,7 @@
 //! Datasets of recorded drives behind one seam: which there are, and what a program asks of each.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 use serde::Serialize;
@@ -36,6 +36,16 @@ pub trait DriveSource: Send + Sync {
     /// # Errors
     /// No drive of that name, or a file that is missing or damaged.
     fn read(&self, name: &str, report: &Report) -> Result<Drive, ReadError>;
+
+    /// The files that all drives are read from, such as the dataset's tables.
+    fn tables(&self) -> Vec<PathBuf>;
+
+    /// The files that a drive is read from besides [`DriveSource::tables`], such as its LiDAR sweeps and map, in an order
+    /// that does not change.
+    ///
+    /// # Errors
+    /// As [`DriveSource::read`].
+    fn recording(&self, name: &str) -> Result<Vec<PathBuf>, ReadError>;
 
     /// What a drive holds.
     ///

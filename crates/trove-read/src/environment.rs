@@ -5,14 +5,15 @@
 //! too, so rows and columns are taken as they stand and writing in the picture stays readable. Nothing in a file says
 //! where north is; the picture's middle looks east.
 
-use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
 use image::{ImageFormat, ImageReader};
+use trove_files::open_regular;
 use trove_model::EnvironmentMap;
 
 use crate::ReadError;
+use crate::budget::Budget;
 
 /// Wider pictures are of no use for light and take over 1.6 GB, pixels.
 const MAX_WIDTH: usize = 16_384;
@@ -24,7 +25,7 @@ const MAX_WIDTH: usize = 16_384;
 pub fn read(path: &Path) -> Result<EnvironmentMap, ReadError> {
     let mut magic = [0; 4];
     let io = |source| ReadError::io(path, source);
-    let mut file = File::open(path).map_err(io)?;
+    let mut file = open_regular(path).map_err(io)?;
     let length = file.read(&mut magic).map_err(io)?;
     let (width, height, mut rgb) = match &magic[..length] {
         [0x76, 0x2f, 0x31, 0x01] => read_exr(path)?,
@@ -40,7 +41,7 @@ type Picture = (usize, usize, Vec<[f32; 3]>);
 
 fn read_hdr(path: &Path) -> Result<Picture, ReadError> {
     let open = || {
-        let file = File::open(path).map_err(|source| ReadError::io(path, source))?;
+        let file = open_regular(path).map_err(|source| ReadError::io(path, source))?;
         Ok::<_, ReadError>(ImageReader::with_format(BufReader::new(file), ImageFormat::Hdr))
     };
     let damaged = |e: image::ImageError| damaged(path, e.to_string());
@@ -87,7 +88,10 @@ fn check_size(path: &Path, width: usize, height: usize) -> Result<(), ReadError>
         let expected = format!("an image at most {MAX_WIDTH} pixels wide");
         return Err(format(path, &expected, &format!("{width} pixels"), "scale it down"));
     }
-    Ok(())
+    let bytes = std::fs::metadata(path).map_err(|source| ReadError::io(path, source))?.len();
+    Budget::of_file(bytes)
+        .take(width * height, size_of::<[f32; 3]>())
+        .map_err(|exceeded| format(path, &exceeded.expected(), &format!("{width} × {height} pixels"), "scale it down"))
 }
 
 /// A value that is no number becomes its left neighbour's, an infinite one the picture's brightest, a negative one 0.

@@ -31,6 +31,7 @@
 //! ```
 
 pub mod asset_files;
+mod budget;
 mod datasets;
 pub mod drive_source;
 pub mod environment;

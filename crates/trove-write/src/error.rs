@@ -41,6 +41,9 @@ pub enum WriteError {
     /// The arguments contradict each other: the caller's mistake.
     #[error("expected a capture, a shot and a scene that belong together, found {0}")]
     Mismatch(String),
+    /// A name cannot be a folder's: the reader of the dataset should have refused it.
+    #[error(transparent)]
+    Name(#[from] trove_files::UnsafeName),
     /// A picture cannot be encoded.
     #[error("{name}: expected an image that can be encoded, found {found}")]
     Encoding {

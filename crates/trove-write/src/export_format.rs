@@ -6,7 +6,7 @@ use std::path::Path;
 use trove_format::FrameFile;
 
 use crate::Exporter;
-use crate::frame_folders::{FrameFolders, frame_files};
+use crate::frame_folders::{FrameFolders, SUMMARIES, frame_files};
 
 /// A form in which frames are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +21,13 @@ impl ExportFormat {
     pub fn exporter(self, root: &Path) -> Box<dyn Exporter> {
         match self {
             Self::Trove => Box::new(FrameFolders::new(root)),
+        }
+    }
+
+    /// Names below the output folder that no scene can have, because files with them sum the run up.
+    pub fn reserved_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Trove => &SUMMARIES,
         }
     }
 

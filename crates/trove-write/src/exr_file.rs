@@ -1,6 +1,5 @@
 //! OpenEXR, as bytes: 32-bit float, scan lines, without loss.
 
-use std::fs::File;
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
     ReadChannels, ReadLayers, SmallVec, WritableImage, read,
 };
+use trove_files::open_regular;
 use trove_model::Raster;
 
 use crate::WriteError;
@@ -65,7 +65,7 @@ pub(crate) fn read_rgb(path: &Path) -> Result<Raster<[f32; 3]>, WriteError> {
 
 fn read_planes<const N: usize>(path: &Path, names: [&str; N]) -> Result<(u32, u32, [Vec<f32>; N]), WriteError> {
     let damaged = |found: String| WriteError::Damaged { path: path.to_owned(), found };
-    let file = File::open(path).map_err(WriteError::storage(path, "read the file"))?;
+    let file = open_regular(path).map_err(WriteError::storage(path, "read the file"))?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()

@@ -1,11 +1,11 @@
 //! Files and folders that are whole or not there.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use trove_files::{hidden_beside, sync_folder, write_synced};
+use trove_files::{hidden_beside, open_regular, sync_folder, write_synced};
 use trove_format::WrittenFile;
 
 use crate::WriteError;
@@ -16,7 +16,7 @@ use crate::WriteError;
 /// A file that cannot be read.
 pub fn sha256_file(path: &Path) -> Result<String, WriteError> {
     let unreadable = || WriteError::storage(path, "read the file");
-    let mut file = File::open(path).map_err(unreadable())?;
+    let mut file = open_regular(path).map_err(unreadable())?;
     let (mut hasher, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
     loop {
         match file.read(&mut buffer).map_err(unreadable())? {
@@ -24,6 +24,11 @@ pub fn sha256_file(path: &Path) -> Result<String, WriteError> {
             n => hasher.update(&buffer[..n]),
         }
     }
+}
+
+/// SHA-256 of bytes, lower-case hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
 }
 
 /// Writes a file so that `path` holds the old bytes or the new ones, never some.
@@ -60,7 +65,7 @@ impl FolderInTheMaking {
     pub(crate) fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
         let path = self.partial.join(name);
         write_synced(&path, bytes).map_err(WriteError::storage(&path, "write the file"))?;
-        let sha256 = hexadecimal(&Sha256::digest(bytes));
+        let sha256 = sha256(bytes);
         self.files.push(WrittenFile { name: name.to_owned(), sha256, bytes: bytes.len() as u64 });
         Ok(())
     }

@@ -1,26 +1,32 @@
 //! A folder a frame, with a manifest, a report and a contact sheet above them.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::{fs, io};
 
+use trove_files::OutputRoot;
 use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
 use trove_model::{InstanceId, Labels};
 
 use crate::files::FolderInTheMaking;
 use crate::{Exporter, Frame, WriteError, contact_sheet, exr_file, png_file, write_atomically};
 
+const CONTACT_SHEET: &str = "contact_sheet.png";
+
 /// Writes frames as docs/output.md tells.
 pub(crate) struct FrameFolders {
-    root: PathBuf,
+    root: OutputRoot,
 }
 
 impl FrameFolders {
     /// Writes below `root`.
     pub(crate) fn new(root: &Path) -> Self {
-        Self { root: root.to_owned() }
+        Self { root: OutputRoot::new(root) }
     }
 }
+
+/// Names of the files that lie beside the folders of scenes.
+pub(crate) const SUMMARIES: [&str; 3] = [CONTACT_SHEET, RunReport::NAME, Manifest::NAME];
 
 /// Names of the files in a finished frame's folder that holds these pictures.
 pub(crate) fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
@@ -32,32 +38,35 @@ impl Exporter for FrameFolders {
     /// interrupted run left under the hidden name, and a folder without all its files, is replaced; a finished frame is
     /// not.
     fn frame(&mut self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
-        let dir = self.root.join(&frame.path);
+        let dir = self.root.at(&frame.path)?;
         narrowed(&frame.labels)?;
         let there = |file: &FrameFile| match file {
             FrameFile::Change => frame.change.is_some(),
             _ => frame.color.is_some() || !file.shows_light(),
         };
         let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
-        clear_unfinished(&dir, &frame_files(&pictures))?;
+        let replaces = lies_unfinished(&dir, &frame_files(&pictures))?;
 
         let mut folder = FolderInTheMaking::start(&dir)?;
         for file in pictures {
             folder.add(file.name(), &encode(file, frame)?)?;
         }
         folder.add(FrameTable::NAME, &frame.table.to_json())?;
+        if replaces {
+            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished frame"))?;
+        }
         folder.finish()
     }
 
     fn finish(&mut self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
-        let frame = |row: &trove_format::FrameRow| contact_sheet::Frame {
-            name: row.path.clone(),
-            dir: self.root.join(&row.path),
+        let frame = |row: &trove_format::FrameRow| -> Result<_, WriteError> {
+            Ok(contact_sheet::Frame { name: row.path.clone(), dir: self.root.at(&row.path)? })
         };
-        let sheet: Vec<contact_sheet::Frame> = manifest.frames.iter().map(frame).collect();
-        contact_sheet::write(&self.root.join("contact_sheet.png"), &sheet)?;
-        write_atomically(&self.root.join(RunReport::NAME), &report.to_json())?;
-        write_atomically(&self.root.join(Manifest::NAME), &manifest.to_json())
+        let sheet: Vec<contact_sheet::Frame> = manifest.frames.iter().map(frame).collect::<Result<_, _>>()?;
+        let root = self.root.path();
+        contact_sheet::write(&root.join(CONTACT_SHEET), &sheet)?;
+        write_atomically(&root.join(RunReport::NAME), &report.to_json())?;
+        write_atomically(&root.join(Manifest::NAME), &manifest.to_json())
     }
 }
 
@@ -89,11 +98,11 @@ fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
     labels.instance.data.iter().map(narrow).collect()
 }
 
-/// Removes what lies at `dir` where that is a frame without all its files, and refuses where it is anything else.
-fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
+/// Whether a frame without all its files lies at `dir`; an error where anything else does.
+fn lies_unfinished(dir: &Path, expected: &[&str]) -> Result<bool, WriteError> {
     let entries = match fs::read_dir(dir) {
         Ok(entries) => entries,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(false),
         Err(e) => return Err(WriteError::storage(dir, "read the folder")(e)),
     };
     let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
@@ -108,5 +117,5 @@ fn clear_unfinished(dir: &Path, expected: &[&str]) -> Result<(), WriteError> {
     if expected.iter().all(|file| present.contains(file)) {
         return occupied("one".into());
     }
-    fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished frame"))
+    Ok(true)
 }

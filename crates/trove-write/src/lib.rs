@@ -36,7 +36,7 @@ mod sheet;
 pub use error::WriteError;
 pub use export_format::ExportFormat;
 pub use exporter::Exporter;
-pub use files::{sha256_file, write_atomically};
+pub use files::{sha256, sha256_file, write_atomically};
 pub use frame::Frame;
 pub use frame_table::FrameMeta;
 pub use picture::write_picture;

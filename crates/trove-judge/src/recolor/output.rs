@@ -5,6 +5,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use trove_files::{LARGEST_TEXT, read_text};
 
 use crate::JudgeError;
 
@@ -56,7 +57,7 @@ impl OutputFolder {
             return refuse("a folder that no other run is writing to", "one that is".into());
         }
         let path = private.join("recolor.json");
-        match fs::read_to_string(&path) {
+        match read_text(&path, LARGEST_TEXT) {
             Ok(found) if found == identity => {}
             Ok(found) => {
                 let differs = found.lines().zip(identity.lines()).find(|(was, is)| was != is);

@@ -9,7 +9,7 @@ use trove_model::{Kind, Mesh, Outcome};
 
 use super::asset::asset;
 use super::library_file::{AssetEntry, FILE_NAME, LibraryFile, SurfaceEntry};
-use super::load::load_raw;
+use super::load::{guarded, load_raw};
 use super::names::kind_named;
 use super::picture::{Pictures, decode};
 use super::repair::{self, BUDGET};
@@ -40,12 +40,18 @@ pub fn check(folder: &Path) -> Vec<Finding> {
         }
     };
     let pictures = Pictures::new("check", folder, GLANCE_LIMIT);
-    let of_asset = |entry: &AssetEntry| of_asset(folder, &file, entry, &pictures);
+    let of_asset = |entry: &AssetEntry| {
+        let found = guarded(&folder.join(&entry.file), || Ok(of_asset(folder, &file, entry, &pictures)));
+        found.unwrap_or_else(|e| vec![finding(&entry.file, true, e.to_string(), "leave it out of library.toml")])
+    };
     let mut findings: Vec<Finding> = file.assets.par_iter().flat_map_iter(of_asset).collect();
-    findings
-        .extend(file.surfaces.par_iter().flat_map_iter(|entry| of_surface(folder, &file, entry)).collect::<Vec<_>>());
-    for sky in file.environments.iter().filter(|e| !folder.join(&e.file).is_file()) {
-        findings.push(finding(&sky.file, true, "no such file", "put it there, or remove it from library.toml"));
+    findings.extend(
+        file.surfaces.par_iter().flat_map_iter(|entry| of_surface(&file, entry, &pictures)).collect::<Vec<_>>(),
+    );
+    for sky in &file.environments {
+        if let Err(e) = pictures.folder.file(folder, Path::new(&sky.file)) {
+            findings.push(finding(&sky.file, true, e.to_string(), "put it there, or remove it from library.toml"));
+        }
     }
     findings.sort();
     findings.dedup();
@@ -152,7 +158,7 @@ fn misfit(size: DVec3, kind: Option<Kind>, file: &str) -> Option<String> {
     })
 }
 
-fn of_surface(folder: &Path, file: &LibraryFile, entry: &SurfaceEntry) -> Vec<Finding> {
+fn of_surface(file: &LibraryFile, entry: &SurfaceEntry, pictures: &Pictures) -> Vec<Finding> {
     let mut findings = Vec::new();
     if entry.kind.as_deref() == Some("none") {
         return findings;
@@ -171,7 +177,7 @@ fn of_surface(folder: &Path, file: &LibraryFile, entry: &SurfaceEntry) -> Vec<Fi
         &entry.emission,
     ];
     for map in maps.into_iter().flatten().chain([&entry.color]) {
-        let bytes = std::fs::read(folder.join(map)).map_err(|e| e.to_string());
+        let bytes = pictures.folder.read(pictures.folder.path(), map).map_err(|e| e.to_string());
         if let Err(found) = bytes.and_then(|bytes| decode(&bytes, map, GLANCE_LIMIT)) {
             findings.push(finding(map, *map == entry.color, found, "replace it, or remove it from library.toml"));
         }

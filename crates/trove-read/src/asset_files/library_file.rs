@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use serde::Deserialize;
+use trove_files::{LARGEST_TEXT, read_text};
 
 use super::axes::Axis;
 use super::fault::Fault;
@@ -135,6 +136,9 @@ pub struct SurfaceEntry {
     pub guesses: Vec<Guess>,
 }
 
+/// No road scene has a larger model.
+const LARGEST_M: f64 = 10_000.0;
+
 /// A photographed sky, to be named in a recipe's `light.environment`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -160,7 +164,7 @@ impl LibraryFile {
     /// A file that is missing, is not TOML, or has a key or a value that libraries do not have.
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let path = folder.join(FILE_NAME);
-        let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {
+        let text = read_text(&path, LARGEST_TEXT).map_err(|source| match source.kind() {
             std::io::ErrorKind::NotFound => ReadError::Missing {
                 path: folder.to_owned(),
                 expected: FILE_NAME.into(),
@@ -189,8 +193,8 @@ impl LibraryFile {
                 let expected = "one of unit_m, height_m and length_m";
                 return Err(Fault::new(place, expected, "several", "leave one of them"));
             }
-            if let Some(wrong) = sizes.into_iter().flatten().find(|s| !(s.is_finite() && *s > 0.0)) {
-                return Err(Fault::new(place, "a size above 0", wrong.to_string(), "correct it"));
+            if let Some(wrong) = sizes.into_iter().flatten().find(|s| !(*s > 0.0 && *s <= LARGEST_M)) {
+                return Err(Fault::new(place, "a size above 0, at most 10 km", wrong.to_string(), "correct it"));
             }
             if let (Some(up), Some(front)) = (entry.up, entry.front)
                 && up.is_along(front)
@@ -203,9 +207,26 @@ impl LibraryFile {
             let place = format!("surface {:?}", entry.name);
             surface_kind_named(entry.kind.as_deref(), &place)?;
             tags_are_words(entry.tags.as_deref(), &place)?;
+            numbers_make_sense(entry, &place)?;
         }
         Ok(file)
     }
+}
+
+fn numbers_make_sense(entry: &SurfaceEntry, place: &str) -> Result<(), Fault> {
+    let check = |key: &str, numbers: &[f32], range: std::ops::RangeInclusive<f32>| match numbers
+        .iter()
+        .find(|number| !range.contains(number))
+    {
+        None => Ok(()),
+        Some(wrong) => {
+            let expected = format!("{} to {}", range.start(), range.end());
+            Err(Fault::new(format!("{place}: {key}"), expected, wrong.to_string(), "correct it"))
+        }
+    };
+    check("size_m", entry.size_m.as_ref().map_or(&[], |size| size), 0.001..=1000.0)?;
+    check("height_m", entry.height_m.as_slice(), 0.0..=10.0)?;
+    check("cells", &entry.cells.unwrap_or([1; 2]).map(|n| n as f32), 1.0..=1000.0)
 }
 
 /// A tag with a space or a capital in it would never be found.
@@ -235,6 +256,11 @@ mod tests {
             ("[[asset]]\nfile = \"a.glb\"\nunit_m = 1.0\nheight_m = 2.0", "a.glb", "several"),
             ("[[asset]]\nfile = \"a.glb\"\ntags = [\"chain link\"]", "a.glb", "chain-link"),
             ("[[surface]]\nname = \"a\"\ncolor = \"a.png\"\ntags = [\"Red\"]", "\"a\", tags", "lower-case"),
+            ("[[asset]]\nfile = \"a.glb\"\nheight_m = 1e9", "a.glb", "10 km"),
+            ("[[asset]]\nfile = \"a.glb\"\nlength_m = nan", "a.glb", "above 0"),
+            ("[[surface]]\nname = \"a\"\ncolor = \"a.png\"\nsize_m = [nan, 1.0]", "\"a\": size_m", "0.001 to 1000"),
+            ("[[surface]]\nname = \"a\"\ncolor = \"a.png\"\nheight_m = -1.0", "\"a\": height_m", "0 to 10"),
+            ("[[surface]]\nname = \"a\"\ncolor = \"a.png\"\ncells = [4000000000, 1]", "\"a\": cells", "1 to 1000"),
             ("[[asset]\n", "line 1", "a library"),
         ] {
             let message = LibraryFile::parse(text).unwrap_err().at(Path::new("library.toml")).to_string();

@@ -1,6 +1,6 @@
 //! Licences by the texts that lie beside models.
 
-use std::path::Path;
+use trove_files::Folder;
 
 use super::scan::folder_of;
 
@@ -46,9 +46,9 @@ pub(super) fn spdx(text: &str) -> Option<&'static str> {
 }
 
 /// The terms of each licence file, with its folder. A README counts where its text names a known licence.
-pub(super) fn terms(folder: &Path, files: &[String]) -> Vec<(String, Terms)> {
+pub(super) fn terms(folder: &Folder, files: &[String]) -> Vec<(String, Terms)> {
     let read = |file: &String| {
-        let bytes = std::fs::read(folder.join(file)).ok()?;
+        let bytes = folder.read(folder.path(), file).ok()?;
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(20_000)]).into_owned();
         let known = spdx(&text).map(str::to_owned);
         let readme = file.to_lowercase().contains("readme");

@@ -1,5 +1,6 @@
 //! A model's file → `Model`, by its ending.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::fault::Fault;
@@ -8,9 +9,6 @@ use super::model::Model;
 use super::picture::Pictures;
 use super::{fbx, gltf, material_names, repair};
 use crate::ReadError;
-
-/// Files above this are refused, bytes.
-const MOST_BYTES: u64 = 2 << 30;
 
 /// Reads and repairs an entry's model.
 pub(super) fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
@@ -24,12 +22,7 @@ pub(super) fn load(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Re
 pub(super) fn load_raw(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -> Result<Model, ReadError> {
     let path = folder.join(&entry.file);
     let io = |source| ReadError::io(&path, source);
-    let length = std::fs::metadata(&path).map_err(io)?.len();
-    if length > MOST_BYTES {
-        let found = format!("{length} bytes");
-        return Err(Fault::new("file", "a file of at most 2 GiB", found, "simplify or split the model").at(&path));
-    }
-    let bytes = std::fs::read(&path).map_err(io)?;
+    let bytes = pictures.folder.read(folder, &entry.file).map_err(io)?;
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match ending.as_str() {
         "glb" | "gltf" => gltf::read(&path, &bytes, entry.part.as_deref(), pictures),
@@ -39,4 +32,14 @@ pub(super) fn load_raw(folder: &Path, entry: &AssetEntry, pictures: &Pictures) -
             Err(Fault::new("name", "a .glb, .gltf, .fbx or .obj file", ending, remedy).at(&path))
         }
     }
+}
+
+/// What `read` makes of the model at a path; should it panic, that is an error of this file alone, and the others live.
+pub(super) fn guarded<T>(path: &Path, read: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadError> {
+    catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|panic| {
+        let why = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        let remedy = "leave it out, and report the file as a fault of TRoVE";
+        let found = why.unwrap_or("a panic").to_owned();
+        Err(Fault::new("content", "a model that can be read", found, remedy).at(path))
+    })
 }

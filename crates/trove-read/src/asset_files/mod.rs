@@ -40,13 +40,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
+use trove_files::{Folder, LARGEST_TEXT, read_text};
 use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 
 pub use self::axes::Axis;
 pub use self::check::{Finding, check};
 pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
 
-use self::load::load;
+use self::load::{guarded, load};
 use self::picture::Pictures;
 use crate::ReadError;
 
@@ -65,7 +66,7 @@ const GLANCE_LIMIT: u32 = 256;
 pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> {
     let found = scan::scan(folder, report)?;
     let path = folder.join(FILE_NAME);
-    let text = match std::fs::read_to_string(&path) {
+    let text = match read_text(&path, LARGEST_TEXT) {
         Ok(text) => text,
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => String::new(),
         Err(source) => return Err(ReadError::io(&path, source)),
@@ -77,7 +78,7 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
             file.assets.push(AssetEntry { file: model.clone(), ..AssetEntry::default() });
         }
     }
-    let terms = licence::terms(folder, &found.licences);
+    let terms = licence::terms(&Folder::new(folder), &found.licences);
     let sets = texture_set::sets(&found.pictures, &found.models, &terms);
     file.surfaces.extend(sets.into_iter().filter(|found| !texture_set::is_known(&old.surfaces, found)));
     let skies = found.pictures.iter().filter(|p| sky::is_sky(&folder.join(p)));
@@ -88,7 +89,8 @@ pub fn import(folder: &Path, report: &Report) -> Result<LibraryFile, ReadError> 
     let pictures = Pictures::new("glance", folder, GLANCE_LIMIT);
     let kept = old.assets.len();
     let complete = |(i, mut entry): (usize, AssetEntry)| {
-        let result = load(folder, &entry, &pictures).and_then(|model| {
+        let result = guarded(&folder.join(&entry.file), || {
+            let model = load(folder, &entry, &pictures)?;
             let terms = licence::nearest(&terms, &entry.file).filter(|_| file.licence.is_none());
             guess::complete(&mut entry, &model, terms).map_err(|fault| fault.at(&path))
         });
@@ -126,19 +128,16 @@ pub fn read_library(folder: &Path, report: &Report) -> Result<AssetLibrary, Read
     let name = library_name(folder);
     let ids = ids(&name, &file.assets);
     let pictures = Pictures::new(&name, folder, TEXTURE_LIMIT);
-    let read = |(entry, id): (&AssetEntry, &String)| match read_asset(folder, &file, entry, id, &pictures, report) {
-        Ok(asset) => asset,
-        Err(e) => {
-            report.note(Outcome::Dropped, "a model that cannot be read", e);
-            None
-        }
+    let read = |(entry, id): (&AssetEntry, &String)| {
+        let asset = guarded(&folder.join(&entry.file), || read_asset(folder, &file, entry, id, &pictures, report));
+        asset.map_err(|e| report.note(Outcome::Dropped, "a model that cannot be read", e)).ok().flatten()
     };
     let mut assets: Vec<Asset> = file.assets.par_iter().zip(&ids).filter_map(read).collect();
     assets.sort_by(|a, b| a.id.cmp(&b.id));
     let pictures = Pictures::new(&name, folder, SURFACE_LIMIT);
     let read = |entry: &SurfaceEntry| {
         let id = format!("{name}/{}", entry.name);
-        let surface = surface::surface(folder, entry, &id, &pictures, report);
+        let surface = surface::surface(entry, &id, &pictures, report);
         surface.map_err(|e| report.note(Outcome::Dropped, "a texture set that cannot be read", e)).ok().flatten()
     };
     let mut surfaces: Vec<Surface> = file.surfaces.par_iter().filter_map(read).collect();

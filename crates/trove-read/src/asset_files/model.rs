@@ -6,10 +6,13 @@ use glam::{Mat3, Mat4, Vec2, Vec3};
 use trove_model::{Material, Mesh, Outcome};
 
 use super::fault::Fault;
+use crate::budget::{Budget, Exceeded};
 
-/// More triangles than this are refused before they fill the memory; fewer than this and more than
+/// More triangles than this are refused, whatever the file's size; fewer than this and more than
 /// [`super::repair::BUDGET`] are thinned out.
 const MOST_TRIANGLES: usize = 30_000_000;
+/// Position, normal, texture coordinates and tint.
+const VERTEX_BYTES: usize = 44;
 
 /// A model in the axes and units of its file.
 #[derive(Debug, Default)]
@@ -52,6 +55,13 @@ pub(super) struct Piece {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
+const SIMPLIFY: &str = "simplify it: `gltfpack -i model.glb -o smaller.glb -si 0.01 -noq`";
+
+/// More content than a file of its size has.
+pub(super) fn too_large(place: &str, exceeded: Exceeded) -> Fault {
+    Fault::new(place, exceeded.expected(), "more", SIMPLIFY)
+}
+
 impl Model {
     /// Notes something that was repaired, left out or replaced.
     pub(super) fn notice(&mut self, outcome: Outcome, what: &'static str, example: impl Into<String>) {
@@ -66,7 +76,15 @@ impl Model {
         file_from_piece: Mat4,
         slot: usize,
         two_sided_light: bool,
+        budget: &Budget,
     ) -> Result<(), Fault> {
+        // Before pieces are joined, or what is broken in one would lead into the next.
+        let (corners, all) = (piece.positions.len() as u32, piece.triangles.len());
+        piece.triangles.retain(|t| t.iter().all(|&i| i < corners));
+        if piece.triangles.len() < all {
+            let dropped = all - piece.triangles.len();
+            self.notice(Outcome::Dropped, "triangles with invalid vertices were dropped", format!("{name}: {dropped}"));
+        }
         let slot = u16::try_from(slot).map_err(|_| {
             Fault::new(name, "at most 65,535 materials", "more", "merge the model's materials in a 3D program")
         })?;
@@ -99,10 +117,11 @@ impl Model {
             piece.triangles.extend(back);
         }
         let all = self.mesh.triangles.len() + piece.triangles.len();
-        if all > MOST_TRIANGLES || self.mesh.positions.len() + piece.positions.len() > 3 * MOST_TRIANGLES {
-            let remedy = "simplify it: `gltfpack -i model.glb -o smaller.glb -si 0.01 -noq`";
-            return Err(Fault::new(name, format!("at most {MOST_TRIANGLES} triangles"), format!("{all}"), remedy));
+        if all > MOST_TRIANGLES {
+            return Err(Fault::new(name, format!("at most {MOST_TRIANGLES} triangles"), format!("{all}"), SIMPLIFY));
         }
+        budget.take(piece.positions.len(), VERTEX_BYTES).map_err(|e| too_large(name, e))?;
+        budget.take(piece.triangles.len(), size_of::<[u32; 3]>()).map_err(|e| too_large(name, e))?;
         if !piece.positions.is_empty() {
             let centre = piece.positions.iter().fold(Vec3::ZERO, |sum, p| sum + *p) / piece.positions.len() as f32;
             self.marks.push(Mark { name: name.to_owned(), centre });

@@ -2,16 +2,19 @@
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use image::{ImageFormat, ImageReader, Limits};
+use trove_files::Folder;
 use trove_model::{ColorSpace, Texture};
+
+use crate::budget::Budget;
 
 /// Wider or higher pictures are refused: decoding one takes over 2 GB.
 const LARGEST: u32 = 16_384;
-/// What a decoder may take: 16K × 16K with four bytes a pixel, and half as much again to work with.
-const MOST_BYTES: u64 = 1_610_612_736;
+/// Bytes a pixel that decoding takes.
+const PIXEL_BYTES: usize = 4;
 /// Pictures of more pixels are decoded one at a time.
 const LARGE: u64 = 4096 * 4096;
 
@@ -32,7 +35,7 @@ pub(super) struct Pictures {
     /// Starts every texture's name.
     prefix: String,
     /// The library's folder.
-    folder: PathBuf,
+    pub(super) folder: Folder,
     /// The largest side that a texture may have, pixels.
     pub(super) limit: u32,
     made: Mutex<BTreeMap<String, Arc<Texture>>>,
@@ -43,12 +46,12 @@ static LARGE_ONES: Mutex<()> = Mutex::new(());
 
 impl Pictures {
     pub(super) fn new(prefix: &str, folder: &Path, limit: u32) -> Self {
-        Self { prefix: prefix.to_owned(), folder: folder.to_owned(), limit, made: Mutex::default() }
+        Self { prefix: prefix.to_owned(), folder: Folder::new(folder), limit, made: Mutex::default() }
     }
 
     /// What a file is called in the names of textures: its path from the library's folder.
     pub(super) fn name_of(&self, path: &Path) -> String {
-        path.strip_prefix(&self.folder).unwrap_or(path).to_string_lossy().replace('\\', "/")
+        path.strip_prefix(self.folder.path()).unwrap_or(path).to_string_lossy().replace('\\', "/")
     }
 
     /// The texture of a name, made now if it is not there.
@@ -82,12 +85,12 @@ pub(super) fn decode(bytes: &[u8], name: &str, limit: u32) -> Result<Pixels, Str
         };
         let open = || ImageReader::with_format(Cursor::new(bytes), format);
         let (width, height) = open().into_dimensions().map_err(|e| e.to_string())?;
-        check(width, height)?;
+        check(width, height, bytes.len())?;
         let alone = u64::from(width) * u64::from(height) > LARGE;
         let _alone = alone.then(|| LARGE_ONES.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
         let mut reader = open();
         let mut limits = Limits::default();
-        limits.max_alloc = Some(MOST_BYTES);
+        limits.max_alloc = Some(Budget::of_file(bytes.len() as u64).left());
         reader.limits(limits);
         let rgba = reader.decode().map_err(|e| format!("{e}; save it again as PNG or JPEG"))?.into_rgba8();
         // Shrunk while no other large one is decoded.
@@ -109,14 +112,18 @@ fn unknown(bytes: &[u8]) -> String {
     what.to_owned()
 }
 
-fn check(width: u32, height: u32) -> Result<(), String> {
+fn check(width: u32, height: u32, bytes: usize) -> Result<(), String> {
     if width == 0 || height == 0 {
         return Err("an image without pixels".into());
     }
     if width > LARGEST || height > LARGEST {
         return Err(format!("{width} × {height} pixels; scale it to at most {LARGEST}"));
     }
-    Ok(())
+    // A plain picture may well be small as a file, but not one that is larger than any texture.
+    let pixels = width as usize * height as usize;
+    Budget::of_file(bytes as u64).take(pixels, PIXEL_BYTES).map_err(|_| {
+        format!("{width} × {height} pixels in {bytes} bytes, as in a file made to fill the memory; scale it to at most 8192 × 8192")
+    })
 }
 
 /// Mean of whole squares of pixels, so that neither side is longer than `limit`.
@@ -156,7 +163,7 @@ fn decode_exr(bytes: &[u8]) -> Result<Pixels, String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(text)?;
     for header in &meta.headers {
         let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        check(side(header.layer_size.x()), side(header.layer_size.y()))?;
+        check(side(header.layer_size.x()), side(header.layer_size.y()), bytes.len())?;
         if header.layer_size.area() as u64 > LARGE * 4 {
             return Err("an OpenEXR file above 8K; save it as PNG".into());
         }

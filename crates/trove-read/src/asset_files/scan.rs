@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use trove_files::Folder;
 use trove_model::{Outcome, Report};
 
 use crate::ReadError;
@@ -19,6 +20,7 @@ pub(super) struct Found {
 
 /// Looks through a folder and those in it; hidden ones are passed over.
 pub(super) fn scan(folder: &Path, report: &Report) -> Result<Found, ReadError> {
+    let library = Folder::new(folder);
     let mut found = Found::default();
     let mut folders = vec![(folder.to_owned(), String::new(), 0)];
     while let Some((path, relative, depth)) = folders.pop() {
@@ -36,10 +38,13 @@ pub(super) fn scan(folder: &Path, report: &Report) -> Result<Found, ReadError> {
                 continue;
             }
             let child = if relative.is_empty() { name.clone() } else { format!("{relative}/{name}") };
-            let Ok(kind) = std::fs::metadata(entry.path()) else { continue };
-            if kind.is_dir() && depth < DEEPEST {
+            // Of links only those to files of this folder are followed: any other leads who knows where.
+            let Ok(kind) = entry.file_type() else { continue };
+            if kind.is_symlink() && library.check(&entry.path()).is_err() {
+                report.note(Outcome::Dropped, "a link out of the folder, or to a folder", child);
+            } else if kind.is_dir() && depth < DEEPEST {
                 folders.push((entry.path(), child, depth + 1));
-            } else if kind.is_file() {
+            } else if kind.is_file() || kind.is_symlink() {
                 found.add(child, &name.to_lowercase());
             }
         }

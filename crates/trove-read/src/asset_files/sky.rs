@@ -1,16 +1,25 @@
 //! Which pictures are skies.
 
+use std::io::BufReader;
 use std::path::Path;
+
+use image::{ImageFormat, ImageReader};
+use trove_files::open_regular;
 
 /// Whether a `.hdr` or `.exr` file is twice as wide as it is high, by its header alone.
 pub(super) fn is_sky(path: &Path) -> bool {
-    let size = match path.extension().and_then(|e| e.to_str()).map(str::to_lowercase).as_deref() {
-        Some("hdr") => image::ImageReader::open(path).ok().and_then(|r| r.into_dimensions().ok()),
-        Some("exr") => exr::meta::MetaData::read_from_file(path, false).ok().and_then(|meta| {
-            let size = meta.headers.first()?.layer_size;
-            Some((size.x() as u32, size.y() as u32))
-        }),
-        _ => None,
-    };
-    size.is_some_and(|(width, height)| width >= 64 && width == 2 * height)
+    size(path).is_some_and(|(width, height)| width >= 64 && width == 2 * height)
+}
+
+fn size(path: &Path) -> Option<(u32, u32)> {
+    let ending = path.extension()?.to_str()?.to_lowercase();
+    if !["hdr", "exr"].contains(&ending.as_str()) {
+        return None;
+    }
+    let file = BufReader::new(open_regular(path).ok()?);
+    if ending == "hdr" {
+        return ImageReader::with_format(file, ImageFormat::Hdr).into_dimensions().ok();
+    }
+    let size = exr::meta::MetaData::read_from_buffered(file, false).ok()?.headers.first()?.layer_size;
+    Some((u32::try_from(size.x()).ok()?, u32::try_from(size.y()).ok()?))
 }

@@ -1,7 +1,5 @@
 //! A library's texture set → `Surface`.
 
-use std::path::Path;
-
 use glam::{Vec3, vec2};
 use trove_model::{ColorSpace, Material, Outcome, Report, Surface, SurfaceKind, Tags, Tiling};
 
@@ -15,20 +13,20 @@ use crate::ReadError;
 /// Reads a set's pictures; `None` for one that is not to be used. Errors: the colour cannot be read, or a key is wrong;
 /// other maps that cannot be read are reported and left out.
 pub(super) fn surface(
-    folder: &Path,
     entry: &SurfaceEntry,
     id: &str,
     pictures: &Pictures,
     report: &Report,
 ) -> Result<Option<Surface>, ReadError> {
     let place = format!("surface {:?}", entry.name);
+    let folder = pictures.folder.path();
     let library = folder.join(super::FILE_NAME);
     let kind = surface_kind_named(entry.kind.as_deref(), &place).map_err(|f| f.at(&library))?;
     let Some(Some(kind)) = kind else { return Ok(None) };
     let cells = cells(kind, entry, &place).map_err(|f| f.at(&library))?;
     let load = |file: &str| -> Result<Pixels, ReadError> {
         let path = folder.join(file);
-        let bytes = std::fs::read(&path).map_err(|source| ReadError::io(&path, source))?;
+        let bytes = pictures.folder.read(folder, file).map_err(|source| ReadError::io(&path, source))?;
         let mut pixels = decode(&bytes, file, pictures.limit).map_err(|found| {
             Fault::new("picture", "a picture", found, "replace it, or remove it from library.toml").at(&path)
         })?;
@@ -79,7 +77,7 @@ pub(super) fn surface(
     }
     material.orm_map = looks::packed(sources, [255; 3]).and_then(|p| texture(p, "orm", ColorSpace::Linear));
     if let Some(height) = height {
-        material.height_m = entry.height_m.filter(|h| h.is_finite()).unwrap_or(relief(kind));
+        material.height_m = entry.height_m.unwrap_or(relief(kind));
         material.height_map = texture(height, "height", ColorSpace::Linear);
     }
     if let Some(emission) = optional(&entry.emission).and_then(|p| texture(p, "emission", ColorSpace::Srgb)) {
@@ -88,7 +86,7 @@ pub(super) fn surface(
     if matches!(kind, SurfaceKind::Asphalt | SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel) {
         material.tiling = Tiling::Stochastic;
     }
-    let size_m = entry.size_m.unwrap_or([2.0; 2]).map(|s| if s.is_finite() && s > 0.0 { s } else { 2.0 });
+    let size_m = entry.size_m.unwrap_or([2.0; 2]);
     material.uv_scale = vec2(1.0 / size_m[0], 1.0 / size_m[1]);
     Ok(Some(Surface {
         id: id.to_owned(),

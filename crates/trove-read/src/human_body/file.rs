@@ -1,10 +1,10 @@
 //! A file of the package, and what is wrong with it.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use glam::Vec3;
+use trove_files::open_regular;
 
 use crate::ReadError;
 
@@ -18,7 +18,7 @@ pub(super) fn from_makehuman(p: [f32; 3]) -> Vec3 {
 
 /// A whole file's text, unpacked where its name ends in `gz`.
 pub(super) fn text(path: &Path) -> Result<String, ReadError> {
-    let file = File::open(path).map_err(|e| ReadError::io(path, e))?;
+    let file = open_regular(path).map_err(|e| ReadError::io(path, e))?;
     let mut bytes = Vec::new();
     let is_packed = path.extension().is_some_and(|e| e == "gz");
     let read = if is_packed {

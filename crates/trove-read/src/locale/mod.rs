@@ -9,6 +9,7 @@ mod table;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use trove_files::{LARGEST_TEXT, read_text};
 use trove_model::{Locale, Outcome, Provenance, Report};
 
 use crate::ReadError;
@@ -36,7 +37,7 @@ impl Locales {
     /// A file that cannot be read, is no TOML, or has rows, keys or values that mean nothing; each names the nearest
     /// one that does.
     pub fn with_file(path: &Path) -> Result<Self, ReadError> {
-        let text = std::fs::read_to_string(path).map_err(|source| ReadError::io(path, source))?;
+        let text = read_text(path, LARGEST_TEXT).map_err(|source| ReadError::io(path, source))?;
         let read = || Self::of(&Table::built_in().extended_by(&text)?);
         read().map_err(|fault| fault.at(path))
     }

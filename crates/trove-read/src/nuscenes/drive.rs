@@ -1,5 +1,7 @@
 //! One scene, joined from its tables.
 
+use std::path::PathBuf;
+
 use glam::{DVec2, DVec3};
 use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, Outcome, Report};
 
@@ -33,6 +35,22 @@ impl NuScenes {
             Some(i) => load(self, i, report),
             None => Err(self.no_such_scene(scene)),
         }
+    }
+
+    /// LiDAR sweeps, their labels and the map of a scene, as far as they are there.
+    pub(super) fn recorded_files(&self, scene: &str) -> Result<Vec<PathBuf>, ReadError> {
+        let index = self.tables.scenes.iter().position(|s| s.name == scene);
+        let index = index.ok_or_else(|| self.no_such_scene(scene))?;
+        let report = Report::default(); // said when the scene is read
+        let mut files = Vec::new();
+        for moment in moments(self, index, &report)? {
+            let Some(revolution) = moment.taken.revolution else { continue };
+            let labels = self.tables.lidarseg_files.get(&revolution.token);
+            files.extend(labels.and_then(|file| exposures::existing(&self.root, file, &report)));
+            files.extend(revolution.file);
+        }
+        files.extend(self.log(&self.tables.scenes[index]).and_then(|log| lane_map::file(&log.location)));
+        Ok(files.into_iter().map(|file| self.root.join(file)).filter(|path| path.is_file()).collect())
     }
 }
 

@@ -4,11 +4,11 @@
 //! which scene. What the pass had to report is kept with it, so that a run that finds the index says the same.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use serde::Deserialize;
+use trove_files::open_regular;
 use trove_model::{Entry, Outcome, Report};
 
 use super::records::{AnnotationRecord, EgoPoseRecord, Record, SampleDataRecord};
@@ -188,7 +188,7 @@ fn push(spans: &mut Vec<Span>, raw: &RawRecord) {
 /// The records in some spans of a table, in the order of the file; the first of several with the same token stands.
 pub(super) fn read_spans<T: Record>(folder: &Path, spans: &[Span], report: &Report) -> Result<Vec<T>, ReadError> {
     let path = table_path::<T>(folder);
-    let mut file = File::open(&path).map_err(|e| ReadError::io(&path, e))?;
+    let mut file = open_regular(&path).map_err(|e| ReadError::io(&path, e))?;
     let (mut found, mut tokens) = (Vec::<T>::new(), std::collections::HashSet::new());
     for span in spans {
         let mut bytes = Vec::new();

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
+use trove_files::{LARGEST_FILE, read_regular};
 use trove_model::{Entry, Outcome};
 
 use super::index::{Index, SceneSpans, Span};
@@ -36,7 +37,7 @@ impl IndexFile {
 
     /// The index, where there is one that was made from these tables as they are.
     pub(super) fn read(&self) -> Option<Index> {
-        let bytes = std::fs::read(&self.path).ok()?;
+        let bytes = read_regular(&self.path, LARGEST_FILE).ok()?;
         let (body, checksum) = bytes.split_last_chunk::<8>()?;
         if fnv1a(body) != u64::from_le_bytes(*checksum) {
             return None;

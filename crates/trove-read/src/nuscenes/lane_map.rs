@@ -6,6 +6,7 @@ use std::path::Path;
 
 use glam::DVec2;
 use serde::Deserialize;
+use trove_files::{LARGEST_FILE, PathComponent, read_regular};
 use trove_model::{Lane, LaneMap, Outcome, Polygon, Report};
 
 use super::arcline::{self, Arcline};
@@ -76,14 +77,18 @@ struct Connection {
     outgoing: Vec<String>,
 }
 
+/// The map's file below the root; `None` for a place that has no name.
+pub(super) fn file(place: &str) -> Option<String> {
+    PathComponent::new(place).ok().map(|place| format!("maps/expansion/{}.json", place.as_str()))
+}
+
 /// The map around a driven path; `None`, reported, where there is none that can be read.
 pub(super) fn read(root: &Path, place: &str, anchor_m: DVec2, path: &[DVec2], report: &Report) -> Option<LaneMap> {
-    let file = format!("maps/expansion/{place}.json");
-    if place.is_empty() || place.contains(['/', '\\']) {
+    let Some(file) = file(place) else {
         report.note(Outcome::Warned, "no nuScenes map expansion for the drive's place", place);
         return None;
-    }
-    let text = match std::fs::read(root.join(&file)) {
+    };
+    let text = match read_regular(&root.join(&file), LARGEST_FILE) {
         Ok(text) => text,
         Err(e) if e.kind() == ErrorKind::NotFound => {
             report.note(Outcome::Warned, "no nuScenes map expansion for the drive's place", &file);

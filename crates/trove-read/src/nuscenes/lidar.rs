@@ -2,10 +2,14 @@
 
 use std::path::Path;
 
+use trove_files::read_regular;
 use trove_model::{LidarClass, LidarSweep, Outcome, Pose, Report, SensorFrame, World};
 
 /// x, y, z, intensity, ring: each a little-endian float32.
 const POINT_BYTES: usize = 20;
+
+/// Several times a sweep of 128 beams.
+const LARGEST_SWEEP: u64 = 128 << 20;
 
 /// Where a sweep and its labels lie; `labels` is empty where there are none.
 pub(super) struct SweepFiles<'a> {
@@ -56,7 +60,7 @@ fn labels(root: &Path, file: &str, points: usize, report: &Report) -> Option<Vec
 }
 
 fn read(root: &Path, file: &str, report: &Report) -> Option<Vec<u8>> {
-    std::fs::read(root.join(file))
+    read_regular(&root.join(file), LARGEST_SWEEP)
         .inspect_err(|e| report.note(Outcome::Dropped, "LiDAR file that cannot be read", format!("{file}: {e}")))
         .ok()
 }

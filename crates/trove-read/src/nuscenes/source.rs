@@ -1,11 +1,11 @@
 //! nuScenes as a source of drives, with the options that are its own.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use trove_model::{Drive, Report};
 
-use super::NuScenes;
+use super::{NuScenes, tables};
 use crate::ReadError;
 use crate::drive_source::{Dataset, DriveListing, DriveSource, Opener};
 
@@ -54,6 +54,14 @@ impl DriveSource for NuScenes {
 
     fn read(&self, name: &str, report: &Report) -> Result<Drive, ReadError> {
         self.drive(name, report)
+    }
+
+    fn tables(&self) -> Vec<PathBuf> {
+        tables::all(&self.folder)
+    }
+
+    fn recording(&self, name: &str) -> Result<Vec<PathBuf>, ReadError> {
+        self.recorded_files(name)
     }
 }
 

@@ -8,6 +8,8 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use trove_files::open_regular;
+
 use crate::ReadError;
 
 const CHUNK_BYTES: usize = 1 << 20;
@@ -58,7 +60,7 @@ pub(super) struct Table<R> {
 impl Table<File> {
     /// Opens a table of the dataset.
     pub(super) fn open(path: &Path) -> Result<Self, ReadError> {
-        match File::open(path) {
+        match open_regular(path) {
             Ok(file) => Ok(Self::new(path, file)),
             Err(e) if e.kind() == ErrorKind::NotFound => Err(ReadError::Missing {
                 path: path.to_owned(),
@@ -224,7 +226,7 @@ fn string_end(bytes: &[u8], mut i: usize) -> Option<usize> {
 
 /// The line, counted from 1, of a byte in a file.
 fn line_of(path: &Path, byte: u64) -> Option<u64> {
-    let mut source = File::open(path).ok()?.take(byte);
+    let mut source = open_regular(path).ok()?.take(byte);
     let (mut buffer, mut lines) = (vec![0; CHUNK_BYTES], 1);
     loop {
         match source.read(&mut buffer).ok()? {

@@ -1,13 +1,14 @@
 //! The small tables, whole and by token; at full size they hold 40 MB.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use trove_files::PathComponent;
 use trove_model::{Outcome, Report};
 
 use super::records::{
-    AttributeRecord, CalibratedSensorRecord, CategoryRecord, InstanceRecord, LidarsegRecord, LogRecord, Record,
-    SampleRecord, SceneRecord, SensorRecord, VisibilityRecord,
+    AnnotationRecord, AttributeRecord, CalibratedSensorRecord, CategoryRecord, EgoPoseRecord, InstanceRecord,
+    LidarsegRecord, LogRecord, Record, SampleDataRecord, SampleRecord, SceneRecord, SensorRecord, VisibilityRecord,
 };
 use super::table::{RawRecord, Table};
 use crate::ReadError;
@@ -36,7 +37,7 @@ pub(super) struct Tables {
 impl Tables {
     /// Reads them from a version's folder.
     pub(super) fn read(folder: &Path, report: &Report) -> Result<Self, ReadError> {
-        let scenes: Vec<SceneRecord> = read_table(folder, report)?;
+        let scenes = scenes_with_own_names(read_table(folder, report)?, report);
         let mut scene_of_token = HashMap::new();
         for (i, scene) in scenes.iter().enumerate() {
             scene_of_token.insert(scene.token.as_str(), i);
@@ -56,7 +57,7 @@ impl Tables {
             samples: by_token(samples),
             scenes,
             logs: by_token(read_table(folder, report)?),
-            sensors: by_token(read_table(folder, report)?),
+            sensors: by_token(sensors_with_names(read_table(folder, report)?, report)),
             calibrated_sensors: by_token(read_table(folder, report)?),
             instances: by_token(read_table(folder, report)?),
             categories: by_token(read_table(folder, report)?),
@@ -70,6 +71,64 @@ impl Tables {
     pub(super) fn sensor(&self, calibrated_sensor_token: &str) -> Option<&SensorRecord> {
         self.sensors.get(&self.calibrated_sensors.get(calibrated_sensor_token)?.sensor_token)
     }
+}
+
+/// Scenes become folders under their names: those whose name cannot be one are left out, and so is whatever has the
+/// name of one before it.
+fn scenes_with_own_names(mut scenes: Vec<SceneRecord>, report: &Report) -> Vec<SceneRecord> {
+    let mut names = HashSet::new();
+    scenes.retain(|scene| match PathComponent::new(&scene.name) {
+        Err(why) => {
+            report.note(
+                Outcome::Dropped,
+                "nuScenes scene whose name is no folder's",
+                format!("{}: {why}", scene.token),
+            );
+            false
+        }
+        // Some file systems tell no capitals.
+        Ok(name) => {
+            names.insert(name.as_str().to_lowercase()) || {
+                let example = format!("{}: {}", scene.token, scene.name);
+                report.note(Outcome::Dropped, "nuScenes scene with the name of another", example);
+                false
+            }
+        }
+    });
+    scenes
+}
+
+/// Channels become parts of folders' names.
+fn sensors_with_names(mut sensors: Vec<SensorRecord>, report: &Report) -> Vec<SensorRecord> {
+    sensors.retain(|sensor| {
+        PathComponent::new(&sensor.channel)
+            .inspect_err(|why| {
+                let example = format!("{}: {why}", sensor.token);
+                report.note(Outcome::Dropped, "nuScenes sensor whose channel is no folder's name", example);
+            })
+            .is_ok()
+    });
+    sensors
+}
+
+/// The files of all tables that are there.
+pub(super) fn all(folder: &Path) -> Vec<PathBuf> {
+    let paths = [
+        table_path::<SceneRecord>(folder),
+        table_path::<LogRecord>(folder),
+        table_path::<SampleRecord>(folder),
+        table_path::<SampleDataRecord>(folder),
+        table_path::<EgoPoseRecord>(folder),
+        table_path::<CalibratedSensorRecord>(folder),
+        table_path::<SensorRecord>(folder),
+        table_path::<AnnotationRecord>(folder),
+        table_path::<InstanceRecord>(folder),
+        table_path::<CategoryRecord>(folder),
+        table_path::<AttributeRecord>(folder),
+        table_path::<VisibilityRecord>(folder),
+        table_path::<LidarsegRecord>(folder),
+    ];
+    paths.into_iter().filter(|path| path.is_file()).collect()
 }
 
 /// Where a table lies.

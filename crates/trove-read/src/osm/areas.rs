@@ -13,6 +13,9 @@ pub(super) fn note_repairs(repaired: &Repaired, owner: &str, report: &Report) {
     if repaired.crossed {
         report.note(Outcome::Substituted, "osm: self-intersecting outline, split where it crosses", owner);
     }
+    if repaired.tangled {
+        report.note(Outcome::Dropped, "osm: outline too tangled to be repaired", owner);
+    }
     if repaired.vanished {
         report.note(Outcome::Dropped, "osm: outline or hole without an area", owner);
     }

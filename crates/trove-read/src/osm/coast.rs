@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Bounds, Land, LandKind, Outcome, Polygon, Report, StreetMap};
 
+use super::clip::inside_range;
 use super::places::Places;
 use super::raw::{Raw, RawWay};
 use super::rings::polygons;
@@ -51,7 +52,7 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
     // An island without water around it would become a lake.
     let seas: Vec<Polygon> = waters.iter().cloned().map(Polygon::simple).collect();
     islands.retain(|island| seas.iter().any(|sea| sea.contains(island[0])));
-    let sea = polygons(waters.into_iter().chain(islands)).polygons;
+    let sea = polygons(waters.into_iter().chain(islands), &places.effort).polygons;
     let id = ways.first().map_or(0, |way| way.id);
     if flooded_share(&sea, map) > MAX_FLOODED {
         report.note(
@@ -151,24 +152,6 @@ fn clip(line: &[DVec2], closed: bool, area: Bounds) -> Clipped {
     clipped
 }
 
-/// The part of a segment in a rectangle, as shares of its length (Liang and Barsky 1984).
-fn inside_range(a: DVec2, b: DVec2, area: Bounds) -> Option<(f64, f64)> {
-    let (mut enter, mut leave) = (0.0f64, 1.0f64);
-    for axis in 0..2 {
-        let (from, step) = (a[axis], b[axis] - a[axis]);
-        for (distance, towards) in [(area.min[axis] - from, step), (from - area.max[axis], -step)] {
-            if towards > 0.0 {
-                enter = enter.max(distance / towards);
-            } else if towards < 0.0 {
-                leave = leave.min(distance / towards);
-            } else if distance > 0.0 {
-                return None;
-            }
-        }
-    }
-    (enter < leave).then_some((enter, leave))
-}
-
 /// Clockwise from the north-west.
 fn corners(area: Bounds) -> [DVec2; 4] {
     let (min, max) = (area.min, area.max);
@@ -227,13 +210,14 @@ fn closed_along_the_edge(pieces: Vec<Vec<DVec2>>, area: Bounds) -> Vec<Vec<DVec2
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::osm::effort::Effort;
 
     const AREA: Bounds = Bounds { min: DVec2::ZERO, max: DVec2::new(10.0, 10.0) };
 
     fn sea_m2(lines: &[&[[f64; 2]]]) -> f64 {
         let points = |line: &[[f64; 2]]| line.iter().map(|&p| DVec2::from_array(p)).collect::<Vec<_>>();
         let pieces = lines.iter().flat_map(|line| clip(&points(line), false, AREA).pieces).collect();
-        polygons(closed_along_the_edge(pieces, AREA)).polygons.iter().map(Polygon::area_m2).sum()
+        polygons(closed_along_the_edge(pieces, AREA), &Effort::default()).polygons.iter().map(Polygon::area_m2).sum()
     }
 
     #[test]

@@ -6,8 +6,10 @@
 mod account;
 mod areas;
 mod buildings;
+mod clip;
 mod coast;
 mod colors;
+mod effort;
 mod fault;
 mod meaning;
 mod pbf;
@@ -26,13 +28,14 @@ mod vocabulary;
 mod ways;
 mod xml;
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
+use trove_files::open_regular;
 use trove_model::{Bounds, DrivingSide, MapProjection, Report, StreetMap};
 
 use crate::ReadError;
+use crate::budget::Budget;
 use fault::Fault;
 use places::Places;
 use raw::{Raw, RawNode};
@@ -85,9 +88,10 @@ pub fn extent(path: &Path) -> Result<GeoExtent, ReadError> {
 
 /// Reads either format, told apart by the first bytes.
 fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
-    let open = || File::open(path).map(|file| BufReader::with_capacity(1 << 16, file));
     let io = |source| ReadError::io(path, source);
-    let mut input = open().map_err(io)?;
+    let file = open_regular(path).map_err(io)?;
+    let budget = Budget::of_file(file.metadata().map_err(io)?.len());
+    let mut input = BufReader::with_capacity(1 << 16, file);
     let head = input.fill_buf().map_err(io)?.to_vec();
     let packed =
         [(&[0x1f, 0x8b][..], "gzip"), (b"BZh", "bzip2"), (b"PK\x03\x04", "zip"), (b"\x28\xb5\x2f\xfd", "zstd")];
@@ -95,14 +99,14 @@ fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
         let remedy = format!("decompress it with {packer} first");
         (Err(Fault::new("OpenStreetMap XML or PBF", format!("a file compressed with {packer}"), &remedy)), true)
     } else if pbf::is_pbf(&head) {
-        (pbf::parse(input, report), true)
+        (pbf::parse(input, &budget, report), true)
     } else {
         (xml::parse(input, report), false)
     };
     parsed.map(Raw::sorted).map_err(|fault| match fault {
         Fault::Io(source) => ReadError::io(path, source),
         Fault::Content { byte, expected, found, remedy } => {
-            let line = || open().and_then(|file| line_of(file, byte));
+            let line = || open_regular(path).and_then(|file| line_of(file, byte));
             let place = if binary { format!("byte {byte}") } else { format!("line {}", line().unwrap_or(0)) };
             ReadError::Format { path: path.to_owned(), place, expected, found, remedy }
         }

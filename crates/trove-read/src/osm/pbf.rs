@@ -1,13 +1,15 @@
 //! `.osm.pbf`: OpenStreetMap in Protocol Buffers (<https://wiki.openstreetmap.org/wiki/PBF_Format>).
 
+use std::borrow::Cow;
 use std::io::{self, Read};
 
 use flate2::read::ZlibDecoder;
-use trove_model::Report;
+use trove_model::{Outcome, Report};
 
 use super::fault::Fault;
 use super::protobuf::{Fields, Malformed, running_sums, zigzag};
-use super::raw::{Raw, RawNode, RawRelation, RawWay, Tags};
+use super::raw::{LONGEST_WORDS, Raw, RawNode, RawRelation, RawWay, Tags};
+use crate::budget::{Budget, Exceeded};
 
 /// The format's own limits, bytes.
 const MAX_HEADER_BYTES: u32 = 64 << 10;
@@ -19,7 +21,7 @@ pub(super) fn is_pbf(head: &[u8]) -> bool {
 }
 
 /// Reads a whole file; a file that ends early is an error.
-pub(super) fn parse(mut input: impl Read, report: &Report) -> Result<Raw, Fault> {
+pub(super) fn parse(mut input: impl Read, budget: &Budget, report: &Report) -> Result<Raw, Fault> {
     let (mut raw, mut byte) = (Raw::default(), 0u64);
     loop {
         let mut length = [0; 4];
@@ -41,10 +43,7 @@ pub(super) fn parse(mut input: impl Read, report: &Report) -> Result<Raw, Fault>
         let blob = read_exactly(&mut input, size).map_err(|e| e.at(byte))?;
         let read = match kind {
             b"OSMHeader" => unpacked(&blob).and_then(|data| check_features(&data)),
-            b"OSMData" => unpacked(&blob).and_then(|data| {
-                let malformed = |_| damaged("a block of nodes, ways and relations", "bytes that are not a message");
-                add_block(&data, &mut raw, report).map_err(malformed)
-            }),
+            b"OSMData" => unpacked(&blob).and_then(|data| Ok(add_block(&data, &mut raw, budget, report)?)),
             // Other kinds are to be skipped.
             _ => Ok(()),
         };
@@ -135,24 +134,58 @@ fn check_features(header: &[u8]) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Why a block cannot be read.
+enum Unreadable {
+    Malformed,
+    TooLarge(Exceeded),
+}
+
+impl From<Malformed> for Unreadable {
+    fn from(_: Malformed) -> Self {
+        Self::Malformed
+    }
+}
+
+impl From<Exceeded> for Unreadable {
+    fn from(exceeded: Exceeded) -> Self {
+        Self::TooLarge(exceeded)
+    }
+}
+
+impl From<Unreadable> for Fault {
+    fn from(unreadable: Unreadable) -> Self {
+        match unreadable {
+            Unreadable::Malformed => damaged("a block of nodes, ways and relations", "bytes that are not a message"),
+            Unreadable::TooLarge(exceeded) => damaged(&exceeded.expected(), "more"),
+        }
+    }
+}
+
 /// What a block's elements refer to.
 struct Block<'a> {
-    strings: Vec<&'a [u8]>,
+    /// Decoded once, however many elements refer to them; `None` for those that are too long to be words.
+    strings: Vec<Option<Cow<'a, str>>>,
+    budget: &'a Budget,
     granularity_nanodeg: i64,
     offset_nanodeg: [i64; 2],
 }
 
 impl Block<'_> {
-    fn string(&self, index: u64) -> Result<std::borrow::Cow<'_, str>, Malformed> {
-        let bytes = usize::try_from(index).ok().and_then(|i| self.strings.get(i)).ok_or(Malformed)?;
-        Ok(String::from_utf8_lossy(bytes))
+    fn string(&self, index: u64) -> Result<Option<&str>, Malformed> {
+        let string = usize::try_from(index).ok().and_then(|i| self.strings.get(i)).ok_or(Malformed)?;
+        Ok(string.as_deref())
     }
 
-    fn tags(&self, keys: &[u64], values: &[u64]) -> Result<Tags, Malformed> {
-        let mut tags = Tags::default();
-        for (&key, &value) in keys.iter().zip(values) {
-            tags.push(&self.string(key)?, &self.string(value)?);
+    fn push(&self, tags: &mut Tags, key: u64, value: u64) -> Result<(), Unreadable> {
+        if let (Some(key), Some(value)) = (self.string(key)?, self.string(value)?) {
+            self.budget.take(1, tags.push(key, value))?;
         }
+        Ok(())
+    }
+
+    fn tags(&self, keys: &[u64], values: &[u64]) -> Result<Tags, Unreadable> {
+        let mut tags = Tags::default();
+        keys.iter().zip(values).try_for_each(|(&key, &value)| self.push(&mut tags, key, value))?;
         Ok(tags)
     }
 
@@ -165,15 +198,21 @@ impl Block<'_> {
     }
 }
 
-fn add_block(data: &[u8], raw: &mut Raw, report: &Report) -> Result<(), Malformed> {
-    let mut block = Block { strings: Vec::new(), granularity_nanodeg: 100, offset_nanodeg: [0; 2] };
+fn add_block(data: &[u8], raw: &mut Raw, budget: &Budget, report: &Report) -> Result<(), Unreadable> {
+    let mut block = Block { strings: Vec::new(), budget, granularity_nanodeg: 100, offset_nanodeg: [0; 2] };
     let mut groups = Vec::new();
     for field in Fields::new(data) {
         match field? {
             (1, value) => {
                 for string in Fields::new(value.bytes()?) {
                     if let (1, value) = string? {
-                        block.strings.push(value.bytes()?);
+                        let bytes = value.bytes()?;
+                        let word = (bytes.len() <= LONGEST_WORDS).then(|| String::from_utf8_lossy(bytes));
+                        if word.is_none() {
+                            let example = format!("{} bytes", bytes.len());
+                            report.note(Outcome::Dropped, "osm: text longer than a tag may be", example);
+                        }
+                        block.strings.push(word);
                     }
                 }
             }
@@ -189,7 +228,7 @@ fn add_block(data: &[u8], raw: &mut Raw, report: &Report) -> Result<(), Malforme
             match field? {
                 (1, value) => add_node(value.bytes()?, &block, raw, report)?,
                 (2, value) => add_dense_nodes(value.bytes()?, &block, raw, report)?,
-                (3, value) => raw.ways.push(way(value.bytes()?, &block)?),
+                (3, value) => raw.add_way(way(value.bytes()?, &block)?, report),
                 (4, value) => raw.relations.push(relation(value.bytes()?, &block)?),
                 _ => {}
             }
@@ -221,25 +260,28 @@ fn element(message: &[u8]) -> Result<Element, Malformed> {
     Ok(element)
 }
 
-fn add_node(message: &[u8], block: &Block, raw: &mut Raw, report: &Report) -> Result<(), Malformed> {
+fn add_node(message: &[u8], block: &Block, raw: &mut Raw, report: &Report) -> Result<(), Unreadable> {
     let element = element(message)?;
     let [lat, lon, _] = &element.lists;
-    let (&[lat], &[lon]) = (lat.as_slice(), lon.as_slice()) else { return Err(Malformed) };
+    let (&[lat], &[lon]) = (lat.as_slice(), lon.as_slice()) else { return Err(Unreadable::Malformed) };
+    block.budget.take(1, size_of::<RawNode>())?;
     let tags = block.tags(&element.keys, &element.values)?;
     raw.add_node(block.node(zigzag(element.id), zigzag(lat), zigzag(lon)), tags, report);
     Ok(())
 }
 
-fn way(message: &[u8], block: &Block) -> Result<RawWay, Malformed> {
+fn way(message: &[u8], block: &Block) -> Result<RawWay, Unreadable> {
     let element = element(message)?;
+    block.budget.take(1, size_of::<RawWay>() + size_of_val(element.lists[0].as_slice()))?;
     let tags = block.tags(&element.keys, &element.values)?;
     Ok(RawWay { id: element.id as i64, nodes: running_sums(&element.lists[0]).collect(), tags })
 }
 
-fn relation(message: &[u8], block: &Block) -> Result<RawRelation, Malformed> {
+fn relation(message: &[u8], block: &Block) -> Result<RawRelation, Unreadable> {
     const NODE: u64 = 0;
     const WAY: u64 = 1;
     let element = element(message)?;
+    block.budget.take(1, size_of::<RawRelation>() + size_of_val(element.lists[1].as_slice()))?;
     let tags = block.tags(&element.keys, &element.values)?;
     let members = |wanted: u64| {
         let all = running_sums(&element.lists[1]).zip(&element.lists[2]);
@@ -248,7 +290,7 @@ fn relation(message: &[u8], block: &Block) -> Result<RawRelation, Malformed> {
     Ok(RawRelation { id: element.id as i64, ways: members(WAY), nodes: members(NODE), tags })
 }
 
-fn add_dense_nodes(message: &[u8], block: &Block, raw: &mut Raw, report: &Report) -> Result<(), Malformed> {
+fn add_dense_nodes(message: &[u8], block: &Block, raw: &mut Raw, report: &Report) -> Result<(), Unreadable> {
     let (mut ids, mut lats, mut lons, mut tags) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for field in Fields::new(message) {
         match field? {
@@ -260,14 +302,15 @@ fn add_dense_nodes(message: &[u8], block: &Block, raw: &mut Raw, report: &Report
         }
     }
     if ids.len() != lats.len() || ids.len() != lons.len() {
-        return Err(Malformed);
+        return Err(Unreadable::Malformed);
     }
+    block.budget.take(ids.len(), size_of::<RawNode>())?;
     // Keys and values of all nodes in one list, a 0 after each node's.
     let mut tags = tags.split(|&string| string == 0);
     for ((id, lat), lon) in running_sums(&ids).zip(running_sums(&lats)).zip(running_sums(&lons)) {
         let mut of_node = Tags::default();
         for pair in tags.next().unwrap_or_default().chunks_exact(2) {
-            of_node.push(&block.string(pair[0])?, &block.string(pair[1])?);
+            block.push(&mut of_node, pair[0], pair[1])?;
         }
         raw.add_node(block.node(id, lat, lon), of_node, report);
     }

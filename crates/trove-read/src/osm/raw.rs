@@ -2,6 +2,11 @@
 
 use trove_model::{Outcome, Report};
 
+/// A key or value has at most 255 characters, of at most four bytes each.
+pub(super) const LONGEST_WORDS: usize = 1020;
+/// A way has at most 2000 nodes in the database; in extracts of old states of it more.
+const LONGEST_WAY: usize = 50_000;
+
 /// The tags that say something about what a place looks like; all others are not kept.
 #[rustfmt::skip]
 const KEYS: [&str; 126] = [
@@ -31,11 +36,11 @@ const KEYS: [&str; 126] = [
 pub(super) struct Tags(Vec<(&'static str, String)>);
 
 impl Tags {
-    /// Adds a tag where its key is one that is looked at.
-    pub(super) fn push(&mut self, key: &str, value: &str) {
-        if let Ok(i) = KEYS.binary_search(&key) {
-            self.0.push((KEYS[i], value.trim().to_owned()));
-        }
+    /// Adds a tag where its key is one that is looked at; how many bytes it takes.
+    pub(super) fn push(&mut self, key: &str, value: &str) -> usize {
+        let Ok(i) = KEYS.binary_search(&key) else { return 0 };
+        self.0.push((KEYS[i], value.trim().to_owned()));
+        size_of_val(&self.0[0]) + value.len()
     }
 
     /// The value of a key; empty where it is not tagged.
@@ -137,8 +142,21 @@ impl Raw {
         }
     }
 
+    /// Adds a way, or notes why it is none.
+    pub(super) fn add_way(&mut self, way: RawWay, report: &Report) {
+        if way.nodes.len() > LONGEST_WAY {
+            let example = format!("way {} with {} nodes", way.id, way.nodes.len());
+            report.note(Outcome::Dropped, "osm: way with more nodes than ways may have", example);
+        } else {
+            self.ways.push(way);
+        }
+    }
+
     /// Everything in the order of ids; of those with the same id the first.
     pub(super) fn sorted(mut self) -> Self {
+        // The one number that has no negative, by which ways and relations are told apart.
+        let ids = self.ways.iter_mut().map(|w| &mut w.id).chain(self.relations.iter_mut().map(|r| &mut r.id));
+        ids.for_each(|id| *id = (*id).max(-i64::MAX));
         self.nodes.sort_by_key(|n| n.id);
         self.nodes.dedup_by_key(|n| n.id);
         self.things.sort_by_key(|t| t.node.id);

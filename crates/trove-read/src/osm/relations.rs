@@ -12,6 +12,9 @@ use super::places::Places;
 use super::raw::{Raw, RawRelation, RawWay, Tags};
 use super::rings::{polygons, trace};
 
+/// Steps that looking up a node and joining it to others takes.
+const NODE_STEPS: usize = 20;
+
 /// Ways that are an edge of an area that a relation shapes.
 #[derive(Debug, Default)]
 pub(super) struct Edges {
@@ -28,6 +31,16 @@ pub(super) fn add(raw: &Raw, places: &Places, map: &mut StreetMap, report: &Repo
     for relation in &raw.relations {
         let ids: BTreeSet<i64> = relation.ways.iter().copied().collect();
         let members: Vec<&RawWay> = ids.iter().filter_map(|id| ways.get(id).copied()).collect();
+        // Many relations may name the same long ways.
+        let nodes: usize = members.iter().map(|way| way.nodes.len()).sum();
+        if !places.effort.spend(nodes.saturating_mul(NODE_STEPS)) {
+            report.note(
+                Outcome::Dropped,
+                "osm: relation in a file that takes too long",
+                format!("relation {}", relation.id),
+            );
+            continue;
+        }
         let nodes = members.iter().flat_map(|way| &way.nodes).chain(&relation.nodes);
         let points: Vec<DVec2> = nodes.filter_map(|&id| places.of(id)).collect();
         if !places.touched_by(&points) {
@@ -78,11 +91,14 @@ fn add_area(
     if traced.open {
         report.note(Outcome::Warned, "osm: multipolygon whose rings do not all close", owner);
     }
-    let positions = |ring: &Vec<i64>| ring.iter().filter_map(|&id| places.of(id)).collect();
-    let outlines = polygons(traced.rings.iter().map(positions));
+    let positions = |ring: &Vec<i64>| {
+        let ring: Vec<DVec2> = ring.iter().filter_map(|&id| places.of(id)).collect();
+        places.near_ring(&ring)
+    };
+    let outlines = polygons(traced.rings.iter().map(positions), &places.effort);
     // A way is outer where its first place lies on the outer edge of a polygon, whatever its role says.
     let is_outer = |way: &RawWay| {
-        let place = way.nodes.iter().find_map(|&id| places.of(id));
+        let place = way.nodes.iter().filter_map(|&id| places.of(id)).find(|&p| places.keeps(p));
         place.is_some_and(|p| outlines.polygons.iter().any(|o| o.exterior.iter().any(|v| v.distance(p) < 0.01)))
     };
     let of_outer = || {

@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use glam::DVec2;
 use trove_model::{Bounds, Polygon};
 
+use super::effort::Effort;
+
 /// Two vertices nearer than this are one, metres: OpenStreetMap stores a centimetre.
 const SAME_PLACE_M: f64 = 1e-3;
 /// Rings below this area are slips of the pen, square metres.
@@ -102,20 +104,31 @@ pub(super) struct Repaired {
     pub(super) crossed: bool,
     /// A ring had no area to speak of.
     pub(super) vanished: bool,
+    /// Rings were left out because they would take too long.
+    pub(super) tangled: bool,
 }
 
 /// See [`Repaired`]; the rings are open (the last vertex is not the first again).
-pub(super) fn polygons(rings: impl IntoIterator<Item = Vec<DVec2>>) -> Repaired {
+pub(super) fn polygons(rings: impl IntoIterator<Item = Vec<DVec2>>, effort: &Effort) -> Repaired {
     let mut repaired = Repaired::default();
     let mut simple = Vec::new();
     for ring in rings {
-        let loops = untangled(cleaned(ring));
+        let Some(loops) = untangled(cleaned(ring), effort) else {
+            repaired.tangled = true;
+            continue;
+        };
         repaired.crossed |= loops.len() > 1;
         let before = simple.len();
         simple.extend(loops.into_iter().map(cleaned).filter(|l| l.len() > 2 && area_m2(l) >= MIN_AREA_M2));
         repaired.vanished |= simple.len() == before;
     }
-    repaired.polygons = nested(simple);
+    // Each ring is looked for in every other.
+    let corners: usize = simple.iter().map(Vec::len).sum();
+    if simple.len() > 1 && !effort.spend(corners.saturating_mul(corners)) {
+        repaired.tangled = true;
+    } else {
+        repaired.polygons = nested(simple);
+    }
     repaired
 }
 
@@ -151,12 +164,12 @@ fn cleaned(ring: Vec<DVec2>) -> Vec<DVec2> {
     clean
 }
 
-/// A ring cut in two wherever it crosses itself.
-fn untangled(ring: Vec<DVec2>) -> Vec<Vec<DVec2>> {
+/// A ring cut in two wherever it crosses itself; `None` where that takes too long.
+fn untangled(ring: Vec<DVec2>, effort: &Effort) -> Option<Vec<Vec<DVec2>>> {
     // Each cut takes a crossing away; more cuts than vertices mean that rounding makes new ones.
     let (mut waiting, mut simple, mut cuts) = (vec![ring], Vec::new(), 0);
     while let Some(mut ring) = waiting.pop() {
-        match first_crossing(&ring).filter(|_| cuts < 1000) {
+        match first_crossing(&ring, effort)?.filter(|_| cuts < 1000) {
             None => simple.push(ring),
             Some((i, j, at)) => {
                 cuts += 1;
@@ -169,11 +182,14 @@ fn untangled(ring: Vec<DVec2>) -> Vec<Vec<DVec2>> {
             }
         }
     }
-    simple
+    Some(simple)
 }
 
-/// Edges `i < j` of a ring that cross, and where; edge `i` starts at vertex `i`.
-fn first_crossing(ring: &[DVec2]) -> Option<(usize, usize, DVec2)> {
+/// Two edges of a ring by their first vertices, the lower one first, and where they cross.
+type Crossing = (usize, usize, DVec2);
+
+/// A crossing of a ring with itself, where there is one; `None` where finding out takes too long.
+fn first_crossing(ring: &[DVec2], effort: &Effort) -> Option<Option<Crossing>> {
     let n = ring.len();
     let edge = |i: usize| (ring[i], ring[(i + 1) % n]);
     // From west to east, so that each edge meets those only that overlap it in x.
@@ -183,13 +199,16 @@ fn first_crossing(ring: &[DVec2]) -> Option<(usize, usize, DVec2)> {
     for (k, &a) in order.iter().enumerate() {
         let east = edge(a).0.x.max(edge(a).1.x);
         for &b in order[k + 1..].iter().take_while(|&&b| west(b) <= east) {
+            if !effort.spend(1) {
+                return None;
+            }
             let (i, j) = (a.min(b), a.max(b));
             if let Some(at) = crossing(edge(i), edge(j)) {
-                return Some((i, j, at));
+                return Some(Some((i, j, at)));
             }
         }
     }
-    None
+    Some(None)
 }
 
 /// Where two segments cross between their ends.
@@ -251,6 +270,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn polygons(rings: impl IntoIterator<Item = Vec<DVec2>>) -> Repaired {
+        super::polygons(rings, &Effort::default())
+    }
+
     fn ring(points: &[[f64; 2]]) -> Vec<DVec2> {
         points.iter().map(|&p| DVec2::from_array(p)).collect()
     }
@@ -298,6 +321,16 @@ mod tests {
         assert_eq!(repaired.polygons.iter().map(shape).collect::<Vec<_>>(), [(4.0, 0), (64.0, 1)]);
     }
 
+    #[test]
+    fn an_outline_that_takes_too_long_is_left_out() {
+        // Every edge of the star crosses nearly every other.
+        let star =
+            |n: usize| (0..n).map(move |i| DVec2::from_angle((i * (n / 2)) as f64 / n as f64 * std::f64::consts::TAU));
+        let tangled = super::polygons([star(5001).map(|p| p * 100.0).collect()], &Effort::of(100_000));
+        assert!(tangled.tangled && tangled.polygons.is_empty());
+        assert!(!polygons([star(5).map(|p| p * 100.0).collect()]).tangled);
+    }
+
     proptest! {
         #[test]
         fn any_ring_becomes_polygons_whose_rings_do_not_cross(
@@ -305,7 +338,7 @@ mod tests {
         ) {
             let ring = points.iter().map(|&(x, y)| DVec2::new(f64::from(x), f64::from(y))).collect();
             for polygon in polygons([ring]).polygons {
-                prop_assert!(polygon.rings().all(|r| r.len() > 2 && first_crossing(r).is_none()));
+                prop_assert!(polygon.rings().all(|r| r.len() > 2 && first_crossing(r, &Effort::default()) == Some(None)));
             }
         }
     }

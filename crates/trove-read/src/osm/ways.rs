@@ -117,15 +117,15 @@ fn add_way(
             if ring.first() == ring.last() {
                 ring.pop();
             }
-            let outlines = polygons([ring]);
+            let outlines = polygons([places.near_ring(&ring)], &places.effort);
             note_repairs(&outlines, &owner, report);
             let added = add_areas((way.id, &way.tags), meaning, outlines.polygons, places, map, report);
             if added { Ok(()) } else { Err("outline without an area".into()) }
         }
         Meaning::Road(kind) => {
             let before = map.roads.len();
-            for run in line.runs.iter().filter(|run| run.len() > 1 && places.touched_by(run)) {
-                map.roads.push(road(way.id, kind, run.clone(), &way.tags, places.driving_side.is_left(), report));
+            for run in line.runs.iter().flat_map(|run| places.near(run)) {
+                map.roads.push(road(way.id, kind, run, &way.tags, places.driving_side.is_left(), report));
             }
             if map.roads.len() > before { Ok(()) } else { Err("road with a single point".into()) }
         }
@@ -138,8 +138,12 @@ fn add_way(
             note(Outcome::Guessed, "osm: positions of the things in a row");
             let template = furniture(way.id, kind, middle, &way.tags, &owner, report);
             let spacing_m = if kind == FurnitureKind::Tree { TREE_SPACING_M } else { BOLLARD_SPACING_M };
-            let positions =
-                line.runs.iter().flat_map(|run| spaced(run, spacing_m)).filter(|p| places.area.contains(*p));
+            let positions = line
+                .runs
+                .iter()
+                .flat_map(|run| places.near(run))
+                .flat_map(|run| spaced(&run, spacing_m))
+                .filter(|p| places.area.contains(*p));
             map.furniture.extend(positions.map(|position| Furniture { position, ..template.clone() }));
             Ok(())
         }
@@ -158,12 +162,12 @@ fn add_line(
 ) -> bool {
     let Some(kind) = line_kind(&way.tags) else { return false };
     let before = map.lines.len();
-    for run in line.runs.iter().filter(|run| run.len() > 1 && places.touched_by(run)) {
+    for run in line.runs.iter().flat_map(|run| places.near(run)) {
         let tagged = Tagged { tags: &way.tags, owner, report };
         map.lines.push(MapLine {
             id: way.id,
             kind,
-            line: run.clone(),
+            line: run,
             height_m: tagged.number(&["height"], length_m, 0.1..=150.0),
             style: barrier_style(kind, &tagged),
         });

@@ -7,7 +7,7 @@ use quick_xml::{Reader, XmlVersion};
 use trove_model::{Outcome, Report};
 
 use super::fault::Fault;
-use super::raw::{Raw, RawNode, RawRelation, RawWay, Tags};
+use super::raw::{LONGEST_WORDS, Raw, RawNode, RawRelation, RawWay, Tags};
 
 /// The element that is open below the root.
 enum Open {
@@ -85,7 +85,12 @@ fn begin(
                 "v" => value = text.to_owned(),
                 _ => {}
             })?;
-            tags.push(&key, &value);
+            if key.len().max(value.len()) > LONGEST_WORDS {
+                let example = format!("{} bytes", key.len().max(value.len()));
+                report.note(Outcome::Dropped, "osm: text longer than a tag may be", example);
+            } else {
+                tags.push(&key, &value);
+            }
         }
         (2, "nd") => {
             if let Open::Way(way) = open {
@@ -164,7 +169,7 @@ fn end(open: &mut Open, tags: &mut Tags, raw: &mut Raw, report: &Report) {
     let tags = std::mem::take(tags);
     match std::mem::replace(open, Open::Nothing) {
         Open::Node(Some(node)) => raw.add_node(node, tags, report),
-        Open::Way(way) => raw.ways.push(RawWay { tags, ..way }),
+        Open::Way(way) => raw.add_way(RawWay { tags, ..way }, report),
         Open::Relation(relation) => raw.relations.push(RawRelation { tags, ..relation }),
         Open::Node(None) | Open::Ignored | Open::Nothing => {}
     }

@@ -2,12 +2,14 @@
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
+use trove_model::Seed;
 
-use crate::files::{Folder, Glb, fbx, obj};
+use crate::files::{Folder, Glb, fbx, obj, png};
 
 /// What a library says of one file: its report, and whether there was an asset.
 fn verdict(name: &str, bytes: &[u8]) -> (bool, String) {
     let (library, report) = Folder::new(&[(name, bytes)]).read();
+    assert!(!report.contains("a fault of TRoVE"), "a panic was caught: {report}");
     (library.is_some_and(|l| !l.assets.is_empty()), report)
 }
 
@@ -122,6 +124,110 @@ fn models_of_millions_of_triangles_are_thinned_out() {
     assert!(report.contains("717602 triangles became"), "{report}");
     assert!((20_000..=110_000).contains(&asset.mesh.triangles.len()), "{}", asset.mesh.triangles.len());
     assert!(!asset.coarser.is_empty() && asset.coarser[0].mesh.triangles.len() < 30_000);
+}
+
+#[test]
+fn indices_beyond_their_own_vertices_do_not_lead_into_the_next_piece() {
+    let mut glb = car();
+    let none = glb.accessor(json!({"componentType": 5126, "count": 0, "type": "VEC3"}));
+    let indices = glb.indices(&[0, 1, 2, u32::MAX, 7, 6]);
+    let primitives = glb.json["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.insert(0, json!({"attributes": {"POSITION": none}, "indices": indices}));
+    let (whole, report) = verdict("car.glb", &glb.bytes());
+    assert!(whole && report.contains("triangles with invalid vertices were dropped"), "{report}");
+}
+
+#[test]
+fn small_models_that_unpack_to_gigabytes_are_refused() {
+    let refused = |change: &dyn Fn(&mut Glb)| {
+        let mut glb = car();
+        change(&mut glb);
+        let (whole, report) = verdict("car.glb", &glb.bytes());
+        assert!(!whole && report.contains("unpacks to at most"), "{report}");
+    };
+    // Zeros that are nowhere in the file.
+    refused(&|glb| {
+        let zeros = glb.accessor(json!({"componentType": 5126, "count": 100_000_000, "type": "VEC3"}));
+        glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(zeros);
+    });
+    // The same geometry again and again.
+    refused(&|glb| {
+        let positions = glb.floats(&[0.5; 3 * 20_000], "VEC3");
+        glb.json["meshes"][0]["primitives"] = json!(vec![json!({"attributes": {"POSITION": positions}}); 2000]);
+    });
+    let plain = |width: u32, height: u32| png(width, height, |_, _| [9, 9, 9, 255]);
+    let mut glb = Glb::cuboid([1.8, 1.5, 4.5]);
+    let view = glb.view(&plain(16_384, 8192));
+    let texture = glb.picture(json!({"bufferView": view}));
+    let glb = glb.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}}));
+    let (whole, report) = verdict("car.glb", &glb.bytes());
+    assert!(whole && report.contains("made to fill the memory"), "{report}");
+}
+
+/// A car whose buffer or texture is a file beside it.
+fn referring(uri: &str) -> Vec<u8> {
+    let mut glb = Glb::cuboid([1.8, 1.5, 4.5]);
+    let texture = glb.picture(json!({"uri": uri}));
+    glb.material(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}})).bytes()
+}
+
+#[cfg(unix)]
+#[test]
+fn only_regular_files_of_the_library_are_read() {
+    let folder = Folder::new(&[("in.png", &png(4, 4, |_, _| [9, 9, 9, 255])), ("maps/plain.txt", b"")]);
+    let outside = folder.path.parent().unwrap().join("secret.png");
+    std::fs::write(&outside, png(4, 4, |_, _| [1, 2, 3, 255])).unwrap();
+    std::os::unix::fs::symlink(&outside, folder.path.join("link.png")).unwrap();
+    std::os::unix::fs::symlink("/", folder.path.join("root")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(folder.path.join("pipe.png")).status().unwrap().success());
+    let absolute = outside.to_str().unwrap().to_owned();
+    for (uri, read) in [
+        ("in.png", true),
+        ("maps/../in.png", true),
+        ("pipe.png", false),
+        ("../secret.png", false),
+        ("link.png", false),
+        (&absolute, false),
+        ("/dev/zero", false),
+    ] {
+        folder.write("car.glb", &referring(uri));
+        let (library, report) = folder.read();
+        let textured = library.unwrap().assets[0].materials(Seed(0)).iter().any(|m| m.base_color_map.is_some());
+        assert_eq!(textured, read, "{uri}: {report}");
+        assert!(read || report.contains("a texture was left out"), "{uri}: {report}");
+        assert!(report.contains("a link out of the folder"), "{report}");
+        std::fs::remove_file(folder.path.join("library.toml")).unwrap();
+    }
+    folder.write(
+        "library.toml",
+        b"[[asset]]\nfile = \"../secret.glb\"\n[[asset]]\nfile = \"/dev/zero\"\n[[environment]]\nfile = \"pipe.png\"\n",
+    );
+    let findings = trove_read::asset_files::check(&folder.path);
+    assert_eq!(findings.iter().filter(|f| f.severe).count(), 3, "{findings:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn materials_and_maps_of_an_obj_are_regular_files_of_the_library() {
+    let (text, mtl) = obj();
+    let secret = png(4, 4, |_, _| [1, 2, 3, 255]);
+    let colored = |mtl: &str, library: &str| {
+        let folder = Folder::new(&[("car.obj", text.replace("car.mtl", library).as_bytes())]);
+        std::fs::write(folder.path.parent().unwrap().join("secret.png"), &secret).unwrap();
+        std::fs::write(folder.path.parent().unwrap().join("secret.mtl"), mtl).unwrap();
+        folder.write("car.mtl", mtl.as_bytes());
+        std::process::Command::new("mkfifo").arg(folder.path.join("pipe")).status().unwrap();
+        let library = folder.read().0.unwrap();
+        let materials: Vec<_> = library.assets[0].materials(Seed(0));
+        (materials.iter().any(|m| m.base_color_map.is_some()), materials.iter().any(|m| m.base_color.z > 0.5))
+    };
+    assert_eq!(colored(&mtl, "car.mtl"), (false, true), "its colour is that of the file beside it");
+    assert_eq!(colored(&mtl, "../secret.mtl"), (false, true), "found by the model's own name");
+    for map in ["pipe", "../secret.png", "/dev/zero"] {
+        let mapped = mtl.replace("Kd 0.1 0.2 0.8", &format!("Kd 0.1 0.2 0.8\nmap_Kd {map}"));
+        assert!(!colored(&mapped, "car.mtl").0, "{map}");
+    }
+    assert!(!colored(&mtl, "pipe").0);
 }
 
 proptest! {

@@ -72,6 +72,34 @@ fn a_broken_record_is_left_out_and_reported() {
 }
 
 #[test]
+fn names_that_choose_where_files_go_are_refused() {
+    for name in ["../../x", "/x", "", ".trove", "a/b", "x\u{1b}[2J"] {
+        let (root, report) =
+            (Dataset::small().with("scene", |t| t[0]["name"] = json!(name)).write(), Report::default());
+        let dataset = NuScenes::open(root.path(), VERSION, None, &report).unwrap();
+        assert_eq!(dataset.scenes(), [], "{name:?}");
+        assert!(notes(&report).iter().any(|(_, what, _)| what.contains("whose name is no folder's")), "{name:?}");
+    }
+    check(
+        "sensor",
+        |t| t.iter_mut().find(|s| s["channel"] == "CAM_BACK").unwrap()["channel"] = json!("../CAM_BACK"),
+        (3, 6),
+        "sensor whose channel is no folder's name",
+    );
+}
+
+#[test]
+fn of_two_scenes_with_one_name_the_second_is_left_out_and_reported() {
+    let twice = |t: &mut Vec<Value>| {
+        let mut second = t[0].clone();
+        second["token"] = json!("another");
+        second["name"] = json!(SCENE.to_uppercase());
+        t.push(second);
+    };
+    check("scene", twice, (3, 6), "scene with the name of another");
+}
+
+#[test]
 fn an_error_names_the_file_the_place_and_what_to_do() {
     let message = |dataset: &Dataset, damage: &dyn Fn(&std::path::Path)| {
         let root = dataset.write();

@@ -1,8 +1,10 @@
 //! One frame's small pictures, read from its folder.
 
+use std::io::BufReader;
 use std::path::Path;
 
-use image::{DynamicImage, ImageReader};
+use image::{DynamicImage, ImageFormat, ImageReader};
+use trove_files::open_regular;
 use trove_model::{CLASSES, Class};
 
 use crate::{WriteError, exr_file};
@@ -134,7 +136,8 @@ fn normal_color(normal: [f32; 3]) -> [u8; 3] {
 }
 
 fn read_png(path: &Path) -> Result<DynamicImage, WriteError> {
-    let reader = ImageReader::open(path).map_err(WriteError::storage(path, "read the file"))?;
+    let file = open_regular(path).map_err(WriteError::storage(path, "read the file"))?;
+    let reader = ImageReader::with_format(BufReader::new(file), ImageFormat::Png);
     reader.decode().map_err(|e| WriteError::Damaged { path: path.to_owned(), found: e.to_string() })
 }
 

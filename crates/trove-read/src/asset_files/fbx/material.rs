@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{Vec3, vec3};
+use trove_files::{LARGEST_FILE, read_regular};
 use trove_model::{ColorSpace, Material, Outcome, Texture};
 
 use crate::asset_files::looks::{self, Alpha};
@@ -62,7 +63,7 @@ fn picture(
     let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
     let texture = texture.file_textures.iter().next().unwrap_or(texture);
     let (bytes, name) = if texture.content.is_empty() {
-        let (bytes, file) = kept(beside(texture, path), &texture.relative_filename, model)?;
+        let (bytes, file) = kept(beside(texture, path, pictures), &texture.relative_filename, model)?;
         (bytes, pictures.name_of(&file))
     } else {
         (texture.content.to_vec(), format!("{}#{}", pictures.name_of(path), texture.element.typed_id))
@@ -80,7 +81,7 @@ fn picture(
 
 /// A texture's file where the model says, or by its name beside the model or in the folders where packs keep them:
 /// models name the paths of their makers' machines.
-fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, PathBuf), String> {
+fn beside(texture: &ufbx::Texture, path: &Path, pictures: &Pictures) -> Result<(Vec<u8>, PathBuf), String> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let relative = texture.relative_filename.replace('\\', "/");
     let named = [relative.as_str(), &texture.filename, &texture.absolute_filename].map(|n| n.replace('\\', "/"));
@@ -92,8 +93,9 @@ fn beside(texture: &ufbx::Texture, path: &Path) -> Result<(Vec<u8>, PathBuf), St
     for around in [Some(folder), folder.parent()].into_iter().flatten() {
         places.extend(["textures", "Textures", "texture", "maps", "images", "tex"].map(|f| around.join(f).join(&last)));
     }
-    let found = places.into_iter().filter(|p| p.is_file()).find_map(|p| Some((std::fs::read(&p).ok()?, p)));
-    found.ok_or_else(|| "no such file; put it beside the model".into())
+    let found = places.into_iter().find(|place| pictures.folder.check(place).is_ok());
+    let found = found.ok_or("no such file in the library; put it beside the model")?;
+    Ok((read_regular(&found, LARGEST_FILE).map_err(|e| e.to_string())?, found))
 }
 
 fn pixels(texture: &Texture) -> Pixels {

@@ -6,26 +6,34 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{Mat4, Vec3, vec2, vec3};
+use trove_files::{Folder, open_regular};
 use trove_model::{Material, Outcome};
 
 use super::fault::Fault;
 use super::model::{Model, Piece};
 use super::picture::Pictures;
 use crate::ReadError;
-
-/// What a file may make the reader allocate, bytes.
-const MOST_MEMORY: usize = 6 << 30;
+use crate::budget::Budget;
 
 /// Reads a file's bytes; with `part` only the node of that name and what hangs on it. FBX files come in metres with y
 /// up, by what they say of their units and axes; OBJ files say nothing and come as they are.
 pub(super) fn read(path: &Path, bytes: &[u8], part: Option<&str>, pictures: &Pictures) -> Result<Model, ReadError> {
     let is_fbx = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("fbx"));
-    load(path, bytes, is_fbx).and_then(|scene| assemble(&scene, path, part, pictures, is_fbx)).map_err(|f| f.at(path))
+    let budget = Budget::of_file(bytes.len() as u64);
+    let memory = budget.left() as usize;
+    load(path, bytes, is_fbx, memory, &pictures.folder)
+        .and_then(|scene| assemble(&scene, path, part, pictures, is_fbx, &budget))
+        .map_err(|f| f.at(path))
 }
 
-fn load(path: &Path, bytes: &[u8], is_fbx: bool) -> Result<ufbx::SceneRoot, Fault> {
+fn load(path: &Path, bytes: &[u8], is_fbx: bool, memory: usize, library: &Folder) -> Result<ufbx::SceneRoot, Fault> {
     let name = path.to_string_lossy();
-    let allocator = || ufbx::AllocatorOpts { memory_limit: MOST_MEMORY, ..Default::default() };
+    let allocator = || ufbx::AllocatorOpts { memory_limit: memory, ..Default::default() };
+    let mut materials = |name: &str, info: &ufbx::OpenFileInfo| {
+        let file = Path::new(name);
+        let wanted = info.type_ == ufbx::OpenFileType::ObjMtl && library.check(file).is_ok();
+        wanted.then(|| open_regular(file).ok()).flatten().map(ufbx::Stream::File)
+    };
     let mut options = ufbx::LoadOpts {
         temp_allocator: allocator(),
         result_allocator: allocator(),
@@ -34,6 +42,7 @@ fn load(path: &Path, bytes: &[u8], is_fbx: bool) -> Result<ufbx::SceneRoot, Faul
         // An OBJ's materials are a file of their own.
         load_external_files: !is_fbx,
         ignore_missing_external_files: true,
+        open_file_cb: ufbx::OpenFileCb::Mut(&mut materials),
         obj_search_mtl_by_filename: true,
         evaluate_skinning: true,
         node_depth_limit: 512,
@@ -66,6 +75,7 @@ fn assemble(
     part: Option<&str>,
     pictures: &Pictures,
     is_fbx: bool,
+    budget: &Budget,
 ) -> Result<Model, Fault> {
     let mut model = Model { declared: is_fbx, ..Model::default() };
     let mut slots = BTreeMap::new();
@@ -86,7 +96,7 @@ fn assemble(
                 model.materials.push(made);
                 model.materials.len() - 1
             });
-            model.add(&node.element.name, piece, matrix, slot, false)?;
+            model.add(&node.element.name, piece, matrix, slot, false, budget)?;
         }
     }
     if let (Some(part), false) = (part, any) {

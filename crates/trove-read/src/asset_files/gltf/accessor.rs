@@ -3,9 +3,7 @@
 use super::container::{Container, none};
 use super::json::Accessor;
 use crate::asset_files::fault::Fault;
-
-/// More values than this are a damaged count.
-const MOST_VALUES: usize = 400_000_000;
+use crate::asset_files::model::too_large;
 
 impl Container {
     /// An accessor's numbers, `components` a value; integers that are normalized become −1 to 1 or 0 to 1.
@@ -13,8 +11,8 @@ impl Container {
         let (a, place) = self.accessor(accessor, components, place)?;
         let size = component_size(a.component_type, &place)?;
         let number = |bytes: &[u8]| decode(bytes, a.component_type, a.normalized);
-        let total = a.count.checked_mul(components).filter(|&n| n <= MOST_VALUES);
-        let total = total.ok_or_else(|| Fault::damaged(&place, "a possible count", a.count.to_string()))?;
+        let total = a.count.saturating_mul(components);
+        self.budget.take(total, size_of::<f32>()).map_err(|e| too_large(&place, e))?;
         let mut values = match a.buffer_view {
             Some(view) => {
                 let (bytes, stride) = self.view(view, &place)?;
@@ -44,6 +42,7 @@ impl Container {
         let (a, place) = self.accessor(accessor, components, place)?;
         let size = component_size(a.component_type, &place)?;
         let view = a.buffer_view.ok_or_else(|| Fault::damaged(&place, "a bufferView", "none"))?;
+        self.budget.take(a.count.saturating_mul(components), size_of::<u32>()).map_err(|e| too_large(&place, e))?;
         let (bytes, stride) = self.view(view, &place)?;
         let elements = elements(bytes, a.byte_offset, stride, size * components, a.count, &place)?;
         Ok(elements.flat_map(|e| e.chunks_exact(size).map(|b| integer(b, a.component_type))).collect())

@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use trove_files::Folder;
+
 use super::json::Root;
 use crate::ReadError;
 use crate::asset_files::fault::Fault;
+use crate::budget::Budget;
 
 /// A file with everything that it refers to but pictures.
 #[derive(Debug)]
@@ -12,7 +15,11 @@ pub(super) struct Container {
     pub(super) root: Root,
     path: PathBuf,
     folder: PathBuf,
+    /// Holds every file that the file may name.
+    library: Folder,
     buffers: Vec<Vec<u8>>,
+    /// For everything that is made of the file and of the buffers beside it.
+    pub(super) budget: Budget,
     /// Views that were packed with meshopt, unpacked.
     pub(super) unpacked: Vec<Option<Vec<u8>>>,
 }
@@ -44,7 +51,7 @@ const UNDERSTOOD: [&str; 21] = [
 
 impl Container {
     /// Reads a file's bytes, and leaves views that are packed as they are; buffers beside it are read from `path`'s folder.
-    pub(super) fn open(path: &Path, bytes: &[u8]) -> Result<Self, ReadError> {
+    pub(super) fn open(path: &Path, bytes: &[u8], library: &Folder) -> Result<Self, ReadError> {
         let (json, binary) = chunks(bytes).map_err(|fault| fault.at(path))?;
         let root: Root = serde_json::from_slice(json)
             .map_err(|e| Fault::damaged("JSON", "a glTF 2.0 document", e.to_string()).at(path))?;
@@ -61,7 +68,9 @@ impl Container {
         let mut buffers = Vec::new();
         for (i, buffer) in root.buffers.iter().enumerate() {
             let bytes = match &buffer.uri {
-                Some(uri) => resource(&folder, uri).map_err(|e| e.into_error(path, &format!("buffers[{i}]")))?,
+                Some(uri) => {
+                    resource(library, &folder, uri).map_err(|e| e.into_error(path, &format!("buffers[{i}]")))?
+                }
                 None => binary.take().unwrap_or_default(),
             };
             if bytes.len() < buffer.byte_length {
@@ -71,7 +80,17 @@ impl Container {
             }
             buffers.push(bytes);
         }
-        Ok(Self { root, path: path.to_owned(), folder, buffers, unpacked: Vec::new() })
+        let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
+        let budget = Budget::of_file(size as u64);
+        Ok(Self {
+            budget,
+            root,
+            path: path.to_owned(),
+            folder,
+            library: library.clone(),
+            buffers,
+            unpacked: Vec::new(),
+        })
     }
 
     /// A slice of a buffer.
@@ -103,7 +122,7 @@ impl Container {
             return Ok((bytes.to_vec(), embedded()));
         }
         let uri = i.uri.as_deref().ok_or_else(|| format!("images[{image}] has neither bytes nor a file"))?;
-        let bytes = resource(&self.folder, uri).map_err(|e| e.found)?;
+        let bytes = resource(&self.library, &self.folder, uri).map_err(|e| e.found)?;
         Ok((bytes, if uri.starts_with("data:") { embedded() } else { self.folder.join(percent_decoded(uri)) }))
     }
 }
@@ -165,7 +184,7 @@ impl Unavailable {
 }
 
 /// The bytes of a `data:` URI or of a file beside the model.
-fn resource(folder: &Path, uri: &str) -> Result<Vec<u8>, Unavailable> {
+fn resource(library: &Folder, folder: &Path, uri: &str) -> Result<Vec<u8>, Unavailable> {
     let fail = |found: String| Unavailable { uri: uri.chars().take(80).collect(), found };
     if let Some(data) = uri.strip_prefix("data:") {
         let base64 = data.split_once(";base64,").ok_or_else(|| fail("a data URI without base64".into()))?.1;
@@ -174,8 +193,7 @@ fn resource(folder: &Path, uri: &str) -> Result<Vec<u8>, Unavailable> {
     if uri.contains("://") {
         return Err(fail("a network address".into()));
     }
-    let file = folder.join(percent_decoded(uri));
-    std::fs::read(&file).map_err(|e| fail(e.to_string()))
+    library.read(folder, &percent_decoded(uri)).map_err(|e| fail(e.to_string()))
 }
 
 fn percent_decoded(uri: &str) -> String {

@@ -27,7 +27,7 @@ use crate::ReadError;
 
 /// Reads a file's bytes; with `part` only the node of that name and what hangs on it.
 pub(super) fn read(path: &Path, bytes: &[u8], part: Option<&str>, pictures: &Pictures) -> Result<Model, ReadError> {
-    let container = packed::open(path, bytes)?;
+    let container = packed::open(path, bytes, &pictures.folder)?;
     assemble(&container, part, pictures).map_err(|fault| fault.at(path))
 }
 
@@ -66,7 +66,7 @@ fn assemble(container: &Container, part: Option<&str>, pictures: &Pictures) -> R
             let Geometry { positions, normals, tints, triangles, .. } = geometry;
             let piece = Piece { positions, normals, uvs, tints, triangles };
             for (piece, slot) in looks.split(&look, piece, &mut model) {
-                model.add(name, piece, matrix, slot, look.two_sided_light)?;
+                model.add(name, piece, matrix, slot, look.two_sided_light, &container.budget)?;
             }
         }
     }

@@ -6,18 +6,20 @@ use std::path::Path;
 use draco_core::{DecoderBuffer, Mesh as DracoMesh, MeshDecoder};
 use meshopt::ffi;
 use serde_json::Value;
+use trove_files::Folder;
 
 use super::container::Container;
 use crate::ReadError;
 use crate::asset_files::fault::Fault;
+use crate::asset_files::model::too_large;
 
-/// Unpacked data above this is a damaged count, bytes.
-const MOST_BYTES: usize = 1 << 30;
+/// Bytes that a byte of Draco may become.
+const DRACO_RATIO: usize = 16;
 const REMEDY: &str = "export the model without compression, or unpack it with `npx gltf-pipeline -i in.glb -o out.glb`";
 
 /// Opens a file and unpacks its views.
-pub(super) fn open(path: &Path, bytes: &[u8]) -> Result<Container, ReadError> {
-    let mut container = Container::open(path, bytes)?;
+pub(super) fn open(path: &Path, bytes: &[u8], library: &Folder) -> Result<Container, ReadError> {
+    let mut container = Container::open(path, bytes, library)?;
     container.unpacked = views(&container).map_err(|fault| fault.at(path))?;
     Ok(container)
 }
@@ -35,9 +37,9 @@ fn meshopt_view(container: &Container, ext: &Value, place: &str) -> Result<Vec<u
     let number = |key: &str| ext.get(key).and_then(Value::as_u64).map_or(0, |n| n as usize);
     let (stride, count) = (number("byteStride"), number("count"));
     let packed = container.bytes(number("buffer"), number("byteOffset"), number("byteLength"), place)?;
-    let length = stride.checked_mul(count).filter(|&n| n <= MOST_BYTES);
-    let length =
-        length.ok_or_else(|| Fault::damaged(place, "a possible count", format!("{count} × {stride} bytes")))?;
+    // As words, and as the bytes that are made of them.
+    container.budget.take(count, stride.saturating_mul(2)).map_err(|e| too_large(place, e))?;
+    let length = stride * count;
     let mode = ext.get("mode").and_then(Value::as_str).unwrap_or_default();
     // What the library asserts rather than reports.
     let fits = match mode {
@@ -103,6 +105,7 @@ impl Draco {
         let view = ext.get("bufferView").and_then(Value::as_u64);
         let view = view.ok_or_else(|| Fault::damaged(&place, "a bufferView", "none"))? as usize;
         let (bytes, _) = container.view(view, &place)?;
+        container.budget.take(bytes.len(), DRACO_RATIO).map_err(|e| too_large(&place, e))?;
         // The decoder is young: should it panic on damaged data, that is an error of the file.
         let decoded = catch_unwind(AssertUnwindSafe(|| {
             let mut mesh = DracoMesh::new();

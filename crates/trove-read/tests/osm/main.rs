@@ -1,6 +1,9 @@
 //! OpenStreetMap extracts, made up, damaged and real.
 #![allow(clippy::unwrap_used)]
 
+mod hostile;
+mod wire;
+
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -11,6 +14,8 @@ use trove_model::{
     ParkingOrientation, Report, RoadKind, RoadSurface, RoofMaterial, RoofShape, StreetMap, Turns, WallMaterial,
 };
 use trove_read::{ReadError, osm};
+
+use wire::{blob, bytes, deltas, header, packed, varint};
 
 const ORIGIN: MapProjection = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
 
@@ -427,34 +432,6 @@ fn files_that_are_no_extract_are_named_with_their_place() {
 
 /// A block with four nodes in dense form and a building of them, unpacked, as the format's specification lays it out.
 fn pbf() -> Vec<u8> {
-    fn varint(mut value: u64) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        while value >= 0x80 {
-            bytes.push(value as u8 | 0x80);
-            value >>= 7;
-        }
-        bytes.push(value as u8);
-        bytes
-    }
-    fn bytes(number: u64, content: &[u8]) -> Vec<u8> {
-        [varint(number << 3 | 2), varint(content.len() as u64), content.to_vec()].concat()
-    }
-    fn packed(number: u64, values: &[u64]) -> Vec<u8> {
-        bytes(number, &values.iter().flat_map(|&v| varint(v)).collect::<Vec<_>>())
-    }
-    fn deltas(number: u64, values: &[i64]) -> Vec<u8> {
-        let mut last = 0;
-        let zigzag = |&v: &i64| {
-            let delta = v - std::mem::replace(&mut last, v);
-            (delta << 1 ^ delta >> 63) as u64
-        };
-        packed(number, &values.iter().map(zigzag).collect::<Vec<_>>())
-    }
-    fn blob(kind: &str, content: &[u8]) -> Vec<u8> {
-        let blob = bytes(1, content);
-        let header = [bytes(1, kind.as_bytes()), varint(3 << 3), varint(blob.len() as u64)].concat();
-        [(header.len() as u32).to_be_bytes().to_vec(), header, blob].concat()
-    }
     let strings = ["", "building", "yes", "natural", "tree"].map(|s| bytes(1, s.as_bytes())).concat();
     let ten_m = (10.0 * METRE_DEG * 1e7).round() as i64;
     let dense = [
@@ -466,8 +443,7 @@ fn pbf() -> Vec<u8> {
     let way = [varint(1 << 3), varint(9), packed(2, &[1]), packed(3, &[2]), deltas(8, &[1, 2, 3, 4, 1])];
     let group = [bytes(2, &dense.concat()), bytes(3, &way.concat())].concat();
     let block = [bytes(1, &strings), bytes(2, &group)].concat();
-    let header = [bytes(4, b"OsmSchema-V0.6"), bytes(4, b"DenseNodes")].concat();
-    [blob("OSMHeader", &header), blob("OSMData", &block)].concat()
+    [header(), blob("OSMData", &block)].concat()
 }
 
 #[test]
