@@ -1,8 +1,9 @@
 //! Gives the crate a fingerprint of all that decides what it generates: a cached library is as old as its sources.
 
 use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
 
 fn main() {
     let mut files = Vec::new();
@@ -11,12 +12,15 @@ fn main() {
         collect(Path::new(folder), &mut files);
     }
     files.sort();
-    let mut hasher = DefaultHasher::new();
-    std::env::var("CARGO_PKG_VERSION").unwrap_or_default().hash(&mut hasher);
+    let mut hasher = Sha256::new();
+    hasher.update(std::env::var("CARGO_PKG_VERSION").unwrap_or_default());
     for file in files {
-        fs::read(file).unwrap_or_default().hash(&mut hasher);
+        let bytes = fs::read(file).unwrap_or_default();
+        hasher.update((bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
     }
-    println!("cargo:rustc-env=TROVE_ASSETS_SOURCES={:016x}", hasher.finish());
+    let digest: String = hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
+    println!("cargo:rustc-env=TROVE_ASSETS_SOURCES={digest}");
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use trove_files::UnsafeName;
+
 /// Why a file of an output folder cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -30,6 +32,14 @@ pub enum FormatError {
         expected: &'static str,
         /// What is wrong, in serde_json's words.
         found: String,
+    },
+    /// The file names a folder that lies elsewhere.
+    #[error("{}: {source}; delete it and rerun the command that wrote it", path.display())]
+    Outside {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        source: UnsafeName,
     },
     /// The file is of another version of the format.
     #[error(

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use trove_files::{LARGEST_FILE, read_regular};
 
 use crate::FormatError;
 
@@ -12,12 +13,12 @@ pub const FORMAT: u32 = 2;
 
 /// A file's bytes.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, FormatError> {
-    std::fs::read(path).map_err(|source| FormatError::Unreadable { path: path.to_owned(), source })
+    read_regular(path, LARGEST_FILE).map_err(|source| FormatError::Unreadable { path: path.to_owned(), source })
 }
 
 /// A file's bytes; `None` where it is not there.
 pub(crate) fn bytes_if_there(path: &Path) -> Result<Option<Vec<u8>>, FormatError> {
-    match std::fs::read(path) {
+    match read_regular(path, LARGEST_FILE) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(source) => Err(FormatError::Unreadable { path: path.to_owned(), source }),

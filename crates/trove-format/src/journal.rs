@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use trove_files::{OutputRoot, PathComponent};
 
 use crate::file::FORMAT;
 use crate::{FormatError, file};
@@ -17,9 +18,16 @@ pub struct RunIdentity {
     pub format: u32,
     /// The recipe, with its defaults filled in.
     pub recipe: serde_json::Value,
-    /// Everything besides the recipe that decides the bytes.
+    /// Everything besides the recipe and the inputs that decides the bytes.
     pub versions: Versions,
+    /// SHA-256 of each file that all scenes are made from, lower-case hexadecimal, by the recipe's key and the file's path
+    /// there (`map.osm: boston.osm`).
+    #[serde(default)]
+    pub inputs: Inputs,
 }
+
+/// SHA-256 of files by what they are.
+pub type Inputs = BTreeMap<String, String>;
 
 /// What a run was made with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,6 +35,10 @@ pub struct RunIdentity {
 pub struct Versions {
     /// The program's version.
     pub trove: String,
+    /// SHA-256 of the sources that the program was built from, its first 16 digits; empty in folders written by earlier
+    /// versions.
+    #[serde(default)]
+    pub build: String,
     /// A fingerprint of each asset library, in the recipe's order.
     pub assets: Vec<String>,
     /// Name and version of the ray-tracing kernel.
@@ -65,8 +77,8 @@ impl RunIdentity {
     pub const NAME: &str = "run.json";
 
     /// The identity of a run by this version of the format.
-    pub fn new(recipe: serde_json::Value, versions: Versions) -> Self {
-        Self { format: FORMAT, recipe, versions }
+    pub fn new(recipe: serde_json::Value, versions: Versions, inputs: Inputs) -> Self {
+        Self { format: FORMAT, recipe, versions, inputs }
     }
 
     /// Reads it from a `.trove` folder; `None` where it is not there.
@@ -105,6 +117,10 @@ impl FrameLine {
     pub fn journal(folder: &Path) -> Result<Journal, FormatError> {
         let bytes = file::bytes_if_there(&folder.join(Self::JOURNAL))?.unwrap_or_default();
         let lines = bytes.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Self>(line).ok());
+        // Whoever sends a folder does not choose which files are read elsewhere.
+        let root = OutputRoot::new(folder);
+        let lines = lines.filter(|line| root.at(&line.frame).is_ok());
+        let lines = lines.filter(|line| line.files.iter().all(|file| PathComponent::new(&file.name).is_ok()));
         Ok(lines.map(|line| (line.frame, line.files)).collect())
     }
 }

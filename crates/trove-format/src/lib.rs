@@ -52,7 +52,7 @@ pub use error::FormatError;
 pub use file::FORMAT;
 pub use frame::{FrameTable, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
 pub use frame_file::FrameFile;
-pub use journal::{FrameLine, Journal, RunIdentity, Versions, WrittenFile};
+pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use trove_files::OutputRoot;
 use trove_model::{CLASSES, ClassRow};
 
 use crate::{DriveRow, Factors, FormatError, Source, Versions, file};
@@ -132,7 +133,14 @@ impl Manifest {
     pub fn read(folder: &Path) -> Result<Option<Self>, FormatError> {
         let path = folder.join(Self::NAME);
         let bytes = file::bytes_if_there(&path)?;
-        bytes.map(|bytes| file::of_this_format(&path, &bytes, "a manifest of trove generate")).transpose()
+        let Some(bytes) = bytes else { return Ok(None) };
+        let manifest: Self = file::of_this_format(&path, &bytes, "a manifest of trove generate")?;
+        // Whoever sends a folder does not choose which files are read elsewhere.
+        let root = OutputRoot::new(folder);
+        match manifest.frames.iter().find_map(|frame| root.at(&frame.path).err()) {
+            Some(source) => Err(FormatError::Outside { path, source }),
+            None => Ok(Some(manifest)),
+        }
     }
 
     /// The file's bytes.

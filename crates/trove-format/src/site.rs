@@ -26,6 +26,12 @@ pub struct SiteFile {
     /// Whose customs it follows; null in folders written by earlier versions.
     #[serde(default)]
     pub locale: Option<LocaleRow>,
+    /// SHA-256 of the recorded files that this scene alone is made from, LiDAR sweeps for one; null where there are none.
+    #[serde(default)]
+    pub recording: Option<String>,
+    /// Of which keyframes and cameras the frames are, as the recipe had them when they were planned.
+    #[serde(default)]
+    pub planned: serde_json::Value,
     /// The frames that were planned: index of the keyframe in the drive, from 0, and the view (`ego.CAM_FRONT`).
     pub frames: Vec<(u32, String)>,
 }

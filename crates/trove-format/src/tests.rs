@@ -22,6 +22,8 @@ fn site() -> SiteFile {
                 projection: Projection { origin_lat_deg: 42.3, origin_lon_deg: -71.1, anchor_m: [1.5, 2.5] },
             },
         },
+        recording: None,
+        planned: json!({ "drive.keyframes": [0] }),
         sources: vec![Source { source: "a.osm".into(), licence: "ODbL 1.0".into() }],
         report: (&report).into(),
         fits: vec![FitRow {
@@ -125,7 +127,13 @@ fn a_manifest_of_another_version_is_refused() {
         format: FORMAT,
         seed: 7,
         recipe: json!({ "seed": 7 }),
-        versions: Versions { trove: "0".into(), assets: vec![], kernel: "obvhs".into(), denoiser: None },
+        versions: Versions {
+            trove: "0".into(),
+            build: "0".into(),
+            assets: vec![],
+            kernel: "obvhs".into(),
+            denoiser: None,
+        },
         classes: ClassEntry::all(),
         drives: vec![ManifestDrive { drive: site.drive, sources: site.sources.clone() }],
         licences: site.sources,
@@ -144,6 +152,10 @@ fn a_manifest_of_another_version_is_refused() {
     let path = dir.path().join(Manifest::NAME);
     std::fs::write(&path, manifest.to_json()).unwrap();
     assert_eq!(Manifest::read(dir.path()).unwrap(), Some(manifest.clone()));
+    let mut outside = manifest.clone();
+    outside.frames[0].path = "../../secret".into();
+    std::fs::write(&path, outside.to_json()).unwrap();
+    assert!(Manifest::read(dir.path()).unwrap_err().to_string().contains("the name \"..\""));
     // What follows the number is not even looked at.
     std::fs::write(&path, r#"{"format": 3, "frames": "elsewhere"}"#).unwrap();
     let message = Manifest::read(dir.path()).unwrap_err().to_string();

@@ -1,5 +1,6 @@
 //! The Python module `trove._trove`: conversions only.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
@@ -12,8 +13,8 @@ mod _trove {
     /// Runs the command line `args` (the program's name first) and returns its exit status; `site_packages` are the
     /// folders to look for Embree and Open Image Denoise in.
     #[pyfunction]
-    fn main(py: Python<'_>, args: Vec<String>, site_packages: Vec<PathBuf>) -> i32 {
-        py.detach(|| trove::main(args.into_iter().map(Into::into), &site_packages))
+    fn main(py: Python<'_>, args: Vec<OsString>, site_packages: Vec<PathBuf>) -> i32 {
+        py.detach(|| trove::main(args, &site_packages))
     }
 
     /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `camvid`): a line a class, fields apart by tabs, the

@@ -10,6 +10,7 @@ use trove_model::{Environment, Report};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
 use trove_write::gltf::{SunLight, write_environment, write_glb};
 
+use crate::contents::Contents;
 use crate::library;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
@@ -44,7 +45,7 @@ pub(crate) fn run(
     let count = drive.keyframes.len();
     ensure!(keyframe < count, "--keyframe: {name} has keyframes 0 to {}, found {keyframe}", count.saturating_sub(1));
     let started = Instant::now();
-    let library = library::gather(recipe, &search, &report)?;
+    let library = library::gather(recipe, &search, &mut Contents::open(), &report)?;
     report.measure("library.seconds", started.elapsed().as_secs_f64());
     let started = Instant::now();
     let built = VirtualScene::build(&sources, (&drive, map.as_ref()), &library, 0, &report)?;

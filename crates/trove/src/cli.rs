@@ -18,7 +18,7 @@ use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
 use crate::overview::Overview;
 use crate::progress::duration;
-use crate::recipe::Recipe;
+use crate::recipe::{MOST_THREADS, Recipe};
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message, verify};
 
@@ -138,8 +138,8 @@ enum Command {
 #[derive(Args)]
 struct Machine {
     /// Number of threads, overriding the recipe; 0 uses all.
-    #[arg(long)]
-    threads: Option<usize>,
+    #[arg(long, value_parser = clap::value_parser!(u16).range(0..=MOST_THREADS))]
+    threads: Option<u16>,
     /// Ray-tracing kernel; obvhs is built in and gives the same bytes on every machine.
     #[arg(long, value_enum, default_value = "auto")]
     kernel: Kernel,
@@ -164,7 +164,7 @@ impl Machine {
 }
 
 /// Runs a command line, `args[0]` being the program's name, and returns the exit status: 0 done, 1 failed, 2 wrong
-/// usage. `site_packages` are the folders in which the calling Python keeps its packages.
+/// usage, 130 and 143 ended by Ctrl-C and SIGTERM. `site_packages` are the folders in which the calling Python keeps its packages.
 pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf]) -> i32 {
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
@@ -173,6 +173,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
             return error.exit_code();
         }
     };
+    interrupt::install();
     // A second call in one process (from Python) keeps the first one's subscriber.
     let _ = tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).without_time().try_init();
     match run(cli.command, site_packages) {
@@ -217,13 +218,13 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
 fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<i32> {
     interrupt::listen();
     if let Some(threads) = machine.threads {
-        recipe.render.threads = threads;
+        recipe.render.threads = threads.into();
     }
     let started = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(recipe.render.threads).build()?;
     let summary = pool.install(|| generate(&recipe, out, &options))?;
     print(&summary, out, started.elapsed().as_secs_f64(), json)?;
-    Ok(i32::from(summary.interrupted))
+    Ok(if summary.interrupted { interrupt::status() } else { 0 })
 }
 
 fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<()> {

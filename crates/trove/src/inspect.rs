@@ -11,6 +11,7 @@ use trove_read::drive_source::DriveDescription;
 
 use crate::build::print_entries;
 use crate::cache;
+use crate::message::shown;
 use crate::recipe::{DriveSection, Keyframes};
 
 /// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map. Without a name the dataset is
@@ -33,7 +34,7 @@ pub(crate) fn run(root: &Path, dataset: Option<String>, options: &[String], as_j
         match opened.describe(&listing.name, &report) {
             Ok(drive) if as_json => drives.push(drive),
             Ok(drive) => print(&drive),
-            Err(error) => eprintln!("{}: {error}", listing.name),
+            Err(error) => eprintln!("{}: {}", listing.name, shown(&error.to_string())),
         }
     }
     let report = ReportTable::from(&report);
@@ -73,7 +74,7 @@ fn toml_value(text: &str) -> toml::Value {
 }
 
 fn print(drive: &DriveDescription) {
-    println!("{} ({}, {:.5}, {:.5})", drive.scene, drive.place, drive.lat_deg, drive.lon_deg);
+    println!("{} ({}, {:.5}, {:.5})", drive.scene, shown(&drive.place), drive.lat_deg, drive.lon_deg);
     println!("  {} keyframes over {:.1} s and {:.0} m", drive.keyframes, drive.duration_s, drive.path_m);
     println!("  cameras: {}", drive.cameras.join(", "));
     let boxes: Vec<String> = drive.boxes.iter().map(|(class, n)| format!("{class} {n}")).collect();

@@ -19,8 +19,11 @@ mod assets;
 mod build;
 mod cache;
 mod cli;
+mod contents;
 mod demo;
 mod doctor;
+#[doc(hidden)]
+pub mod fuzzing;
 mod inspect;
 mod interrupt;
 mod judge;

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
+use trove_files::{LARGEST_TEXT, read_text};
 use trove_format::FrameFile;
 use trove_read::DATASETS;
 use trove_read::drive_source::Opener;
@@ -65,6 +66,9 @@ pub struct Recipe {
     #[serde(skip)]
     pub folder: PathBuf,
 }
+
+/// More threads than any machine has use for.
+pub const MOST_THREADS: i64 = 1024;
 
 /// `[drive]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -391,7 +395,7 @@ impl Recipe {
     /// # Errors
     /// A file that cannot be read, or a recipe that [`Recipe::parse`] refuses.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path)
+        let text = read_text(path, LARGEST_TEXT)
             .with_context(|| format!("{}: expected a recipe (TOML) that can be read", path.display()))?;
         let mut recipe = Self::parse(&text).with_context(|| path.display().to_string())?;
         recipe.folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -450,6 +454,7 @@ impl Recipe {
             }
             (None, None) => {}
         }
+        check("render.threads", render.threads, render.threads <= MOST_THREADS as usize, "0 to 1024")?;
         check("render.spp", render.spp, (1..=65_536).contains(&render.spp), "1 to 65536")?;
         check("render.noise", render.noise, (0.0..1.0).contains(&render.noise), "0 to less than 1")?;
         ensure!(

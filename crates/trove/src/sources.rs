@@ -1,6 +1,6 @@
 //! What a recipe builds on: its drives, and the street map around each.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -9,6 +9,7 @@ use trove_read::drive_source::DriveSource;
 use trove_read::environment;
 use trove_read::locale::{self, Locales};
 
+use crate::contents::Contents;
 use crate::recipe::Recipe;
 use crate::street_map::street_map;
 use crate::{cache, place};
@@ -107,6 +108,18 @@ impl<'a> Sources<'a> {
         chosen.sort();
         chosen.dedup();
         Ok(chosen)
+    }
+
+    /// The files that every drive is read from.
+    pub(crate) fn tables(&self) -> Vec<PathBuf> {
+        self.dataset.as_ref().map(|dataset| dataset.tables()).unwrap_or_default()
+    }
+
+    /// SHA-256 of the files that one scene's drive alone is read from; `None` where there are none.
+    pub(crate) fn recording(&self, scene: &str, contents: &mut Contents) -> Result<Option<String>> {
+        let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else { return Ok(None) };
+        let files = dataset.recording(scene)?;
+        if files.is_empty() { Ok(None) } else { contents.of_all(&self.recipe.at(&section.root), &files).map(Some) }
     }
 
     /// One scene's drive and the map around it.

@@ -6,6 +6,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 
 use crate::library::user;
+use crate::message::shown;
 
 /// Prints what is wrong with a library and returns the exit status; people's bodies are looked for in `search`.
 pub(crate) fn run(dir: &Path, as_json: bool, search: &[PathBuf]) -> Result<i32> {
@@ -20,7 +21,7 @@ pub(crate) fn run(dir: &Path, as_json: bool, search: &[PathBuf]) -> Result<i32> 
     } else {
         for finding in &findings {
             let mark = if finding.severe { "error" } else { "warning" };
-            println!("{mark}: {}: {}; {}", finding.file, finding.what, finding.remedy);
+            println!("{}", shown(&format!("{mark}: {}: {}; {}", finding.file, finding.what, finding.remedy)));
         }
         println!("{} findings, {severe} of them about things that cannot be used", findings.len());
     }

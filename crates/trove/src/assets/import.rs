@@ -7,6 +7,8 @@ use serde_json::{Value, json};
 use trove_model::{Outcome, Report};
 use trove_read::asset_files::{self, AssetEntry, FILE_NAME};
 
+use crate::message::shown;
+
 /// Below it a guess is worth a look.
 const UNSURE: f32 = 0.7;
 
@@ -34,9 +36,11 @@ pub(crate) fn run(dir: &Path, as_json: bool) -> Result<()> {
         let size = entry.size_m.map_or(String::new(), |s| format!("{:.2} × {:.2} × {:.2} m", s.x, s.y, s.z));
         let kind = entry.kind.as_deref().unwrap_or("?");
         let least = entry.guesses.iter().map(|g| g.confidence).fold(1.0, f32::min);
-        println!("{:44} {kind:22} {size:26} {:3.0} % sure", entry.file, least * 100.0);
+        println!("{:44} {kind:22} {size:26} {:3.0} % sure", shown(&entry.file), least * 100.0);
         for guess in entry.guesses.iter().filter(|g| g.confidence < UNSURE) {
-            println!("    {} = {} ({:.0} %: {})", guess.key, guess.value, guess.confidence * 100.0, guess.reason);
+            let guessed =
+                format!("    {} = {} ({:.0} %: {})", guess.key, guess.value, guess.confidence * 100.0, guess.reason);
+            println!("{}", shown(&guessed));
         }
     }
     for entry in dropped {

@@ -4,6 +4,8 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use trove_model::{Asset, AssetLibrary, Surface};
 
+use crate::message::shown;
+
 /// Prints what the libraries hold.
 pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
     if as_json {
@@ -16,13 +18,13 @@ pub(crate) fn run(library: &AssetLibrary, as_json: bool) -> Result<()> {
         let [l, w, h] = a.size_m.to_array();
         println!(
             "{:36} {:22} {l:6.2} × {w:5.2} × {h:5.2} m  {:6} triangles",
-            a.id,
+            shown(&a.id),
             a.kind.name(),
             a.mesh.triangles.len()
         );
     }
     for s in &library.surfaces {
-        println!("{:36} {:22} {:6.2} × {:5.2} m", s.id, s.kind.name(), s.size_m[0], s.size_m[1]);
+        println!("{:36} {:22} {:6.2} × {:5.2} m", shown(&s.id), s.kind.name(), s.size_m[0], s.size_m[1]);
     }
     println!("{} models, {} materials", library.assets.len(), library.surfaces.len());
     Ok(())

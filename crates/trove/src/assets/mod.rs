@@ -12,6 +12,7 @@ use anyhow::Result;
 use clap::Subcommand;
 use trove_model::{AssetLibrary, Outcome, Report};
 
+use crate::contents::Contents;
 use crate::library::{self, Makings, user};
 
 /// What to do with asset libraries.
@@ -67,7 +68,7 @@ fn open(folder: Option<&Path>, search: &[PathBuf]) -> Result<AssetLibrary> {
     let report = Report::default();
     let library = match folder {
         Some(folder) => user::read(folder, search, &report)?,
-        None => library::procedural(&Makings { texture_scale: 1, search }, &report),
+        None => library::procedural(&Makings { texture_scale: 1, search }, &mut Contents::open(), &report)?,
     };
     for entry in report.entries().iter().filter(|entry| entry.outcome != Outcome::Guessed) {
         eprintln!("{} × {}, such as {}", entry.count, entry.what, entry.examples.join("; "));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
+use trove_files::OutputRoot;
 use trove_model::{Asset, AssetLibrary, Environment, Raster};
 use trove_read::environment;
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
@@ -65,10 +66,7 @@ impl Sheet {
             threads: 0,
             search,
         })?;
-        if let Some(folder) = &self.each {
-            std::fs::create_dir_all(folder)
-                .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
-        }
+        let each = self.each.as_deref().map(OutputRoot::new);
         let subjects = self.chosen(library);
         ensure!(
             !subjects.is_empty(),
@@ -88,8 +86,12 @@ impl Sheet {
                 .and_then(|capture| capture.color)
                 .with_context(|| id.clone())?
                 .srgb;
-            if let Some(folder) = &self.each {
-                write_picture(&folder.join(format!("{}.png", id.replace('/', "-"))), &picture)?;
+            if let Some(folder) = &each {
+                let path = folder.at(&format!("{id}.png"))?;
+                let parent = path.parent().context("below the folder")?;
+                std::fs::create_dir_all(parent)
+                    .with_context(|| format!("{}: expected a folder that can be created", parent.display()))?;
+                write_picture(&path, &picture)?;
             }
             pictures.push((id, picture));
             progress.frame_done();

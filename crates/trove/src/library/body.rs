@@ -1,10 +1,12 @@
 //! MakeHuman's body, which people are made from, where one of the installed packages carries it.
 
-use std::fs;
 use std::path::PathBuf;
 
+use anyhow::Result;
 use trove_model::HumanBody;
 use trove_read::{ReadError, human_body};
+
+use crate::contents::{Contents, files_in};
 
 /// Why there is no body.
 #[derive(Clone, Debug)]
@@ -29,8 +31,11 @@ pub(super) fn read(search: &[PathBuf]) -> Result<HumanBody, NoBody> {
     human_body::read_human_body(&folder).map_err(damaged)
 }
 
-/// Tells versions of the body apart: their files are of other lengths.
-pub(super) fn fingerprint(search: &[PathBuf]) -> u64 {
-    let length = |file: &str| Some(fs::metadata(folder(search)?.join(file)).ok()?.len());
-    ["3dobjs/base.obj", "rigs/standard/weights.game_engine.json"].iter().fold(0, |all, f| all ^ length(f).unwrap_or(0))
+/// Tells bodies apart, by the contents of their files; empty without one.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn fingerprint(search: &[PathBuf], contents: &mut Contents) -> Result<String> {
+    let Some(folder) = folder(search) else { return Ok(String::new()) };
+    contents.of_all(&folder, &files_in(&folder)?)
 }

@@ -1,14 +1,16 @@
 //! A user's library: models and texture sets as its `library.toml` says, and what is generated from its `plans.toml`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use trove_assets::{PLANS_FILE, Plans};
+use trove_files::LARGEST_TEXT;
 use trove_model::{AssetLibrary, HumanBody, Outcome, Report};
 use trove_read::asset_files::{self, Finding};
+use trove_write::sha256;
 
 use super::body::{self, NoBody};
+use crate::contents::{Contents, files_in};
 
 /// Reads a folder with a `library.toml`, a `plans.toml` or both; sorted by id. People's bodies are looked for in `search`.
 ///
@@ -68,29 +70,22 @@ pub(crate) fn check(folder: &Path, search: &[PathBuf]) -> Vec<Finding> {
     findings
 }
 
-/// Tells folders apart that hold other things: by both tables and the sizes of the models' files.
-pub(crate) fn fingerprint(folder: &Path, search: &[PathBuf]) -> Result<String> {
-    let mut hasher = crc32fast::Hasher::new();
-    let plans = folder.join(PLANS_FILE);
+/// Tells folders apart that hold other things, by the contents of all their files: models name others by themselves.
+pub(crate) fn fingerprint(folder: &Path, search: &[PathBuf], contents: &mut Contents) -> Result<String> {
+    let (table, plans) = (folder.join(asset_files::FILE_NAME), folder.join(PLANS_FILE));
+    ensure!(
+        table.is_file() || plans.is_file(),
+        "{}: expected a library's table; trove assets import {} writes it",
+        table.display(),
+        folder.display()
+    );
+    let mut fingerprint = contents.of_all(folder, &files_in(folder)?)?;
     if plans.is_file() {
         // What is made from plans is as old as the generator, and as the body of its persons.
-        hasher.update(&read_text(&plans)?.into_bytes());
-        hasher.update(trove_assets::SOURCES.as_bytes());
-        hasher.update(&body::fingerprint(search).to_le_bytes());
+        fingerprint += trove_assets::SOURCES;
+        fingerprint += &body::fingerprint(search, contents)?;
     }
-    if has_table(folder) || !plans.is_file() {
-        let table = folder.join(asset_files::FILE_NAME);
-        let remedy = || {
-            let (table, folder) = (table.display(), folder.display());
-            format!("{table}: expected a library's table; trove assets import {folder} writes it")
-        };
-        hasher.update(&fs::read(&table).with_context(remedy)?);
-        for asset in asset_files::LibraryFile::read(folder)?.assets {
-            let length = fs::metadata(folder.join(asset.file)).map_or(0, |file| file.len());
-            hasher.update(&length.to_le_bytes());
-        }
-    }
-    Ok(format!("{:08x}", hasher.finalize()))
+    Ok(sha256(fingerprint.as_bytes()))
 }
 
 /// The body for these plans' persons, where there are any.
@@ -120,11 +115,14 @@ fn plans(folder: &Path) -> Result<Option<Plans>> {
 }
 
 fn read_text(path: &Path) -> Result<String> {
-    fs::read_to_string(path).with_context(|| format!("{}: expected a file that can be read", path.display()))
+    trove_files::read_text(path, LARGEST_TEXT)
+        .with_context(|| format!("{}: expected a file that can be read", path.display()))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     /// A new car and a new facade, told by how they differ from built-in ones.
@@ -180,9 +178,9 @@ color = [0.12, 0.05, 0.04]
     #[test]
     fn the_fingerprint_changes_with_the_plans() {
         let prints = [PLANS.to_owned(), PLANS.replace("4.9", "4.8")]
-            .map(|text| fingerprint(folder(&[(PLANS_FILE, &text)]).path(), &[]).unwrap());
+            .map(|text| fingerprint(folder(&[(PLANS_FILE, &text)]).path(), &[], &mut Contents::open()).unwrap());
         assert_ne!(prints[0], prints[1]);
-        assert!(fingerprint(folder(&[]).path(), &[]).is_err());
+        assert!(fingerprint(folder(&[]).path(), &[], &mut Contents::open()).is_err());
     }
 
     const NURSE: &str = "[[person]]\nid = \"nurse\"\nlike = \"adult/woman-tee\"\nacts = [\"easy\"]\n";

@@ -96,6 +96,8 @@ impl LightSection {
             toml::value::Offset::Custom { minutes } => i64::from(minutes),
         };
         let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
+        // Nanoseconds in 64 bits reach from 1678 to 2261.
+        anyhow::ensure!((1700..=2200).contains(&date.year), "{} (a year from 1700 to 2200)", wrong());
         let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
         Ok(Some((days * 86_400 + of_day_s - offset_min * 60) * 1_000_000_000))
     }

@@ -1,5 +1,7 @@
 //! `trove generate`: from a recipe to a folder of labelled pictures, and on from where an earlier run ended.
 
+mod identity;
+mod inputs;
 mod manifest;
 mod output;
 mod worker;
@@ -14,11 +16,12 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use trove_build::ALL_CAMERAS;
-use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, Versions, WrittenFile};
+use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
 
+use crate::contents::Contents;
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
@@ -79,14 +82,22 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         threads: recipe.render.threads,
         search: options.search.clone(),
     })?;
-    let identity = identity(recipe, options, &renderer)?;
     let report = Report::default();
     if let (true, Err(why)) = (recipe.denoising() != Denoising::None, renderer.capabilities().denoiser) {
         tracing::warn!("images stay noisy: no denoiser ({why}); pip install pyoidn, or set TROVE_OIDN");
         report.note(Outcome::Warned, "images stay noisy: no denoiser", why);
     }
     let sources = Sources::open(recipe, &report)?;
-    let scenes = sources.scenes()?;
+    let mut scenes = sources.scenes()?;
+    scenes.retain(|(scene, _)| {
+        let possible = !options.format.reserved_names().contains(&scene.as_str());
+        if !possible {
+            report.note(Outcome::Dropped, "scene with the name of a file of the output folder", scene);
+        }
+        possible
+    });
+    let mut contents = Contents::open();
+    let identity = identity::of_run(recipe, options, &renderer, &sources, &mut contents)?;
     let output = OutputFolder::open(out, &identity)?;
     let frames = options.frames.as_ref();
     let hints: Vec<Vec<usize>> =
@@ -96,7 +107,9 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         recipe,
         renderer: &renderer,
         sources,
-        library: library::gather(recipe, &options.search, &report)?,
+        library: library::gather(recipe, &options.search, &mut contents, &report)?,
+        contents,
+        planned: identity::planned(recipe)?,
         output,
         writer: Worker::new(options.format.exporter(out), write),
         format: options.format,
@@ -121,18 +134,6 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         }
     }
     run.finish(identity)
-}
-
-/// Everything that decides the output's bytes: a folder holds the frames of one identity.
-fn identity(recipe: &Recipe, options: &RunOptions, renderer: &Renderer) -> Result<RunIdentity> {
-    let found = renderer.capabilities();
-    let versions = Versions {
-        trove: env!("CARGO_PKG_VERSION").into(),
-        assets: library::fingerprints(recipe, &options.search)?,
-        kernel: found.kernel,
-        denoiser: found.denoiser.ok(),
-    };
-    Ok(RunIdentity::new(serde_json::to_value(recipe)?, versions))
 }
 
 /// Frames of each variation of a scene with so many keyframes, before its drive has been read.
@@ -168,6 +169,9 @@ struct Run<'a> {
     renderer: &'a Renderer,
     sources: Sources<'a>,
     library: AssetLibrary,
+    contents: Contents,
+    /// Which keyframes and cameras the recipe asks for.
+    planned: serde_json::Value,
     output: OutputFolder,
     /// Encodes and writes frames while the next ones are rendered.
     writer: Worker<Box<dyn Exporter>, Job, Written>,
@@ -224,7 +228,7 @@ impl Run<'_> {
     fn scene(&mut self, scene: &str, frames_hints: &[usize]) -> Result<(), Stop> {
         let read = OnceCell::new();
         // Read for the first variation of which something is missing.
-        let build = |run: &Self, variation: u32| {
+        let build = |run: &mut Self, variation: u32| {
             let read = match read.get() {
                 Some(read) => read,
                 None => {
@@ -243,12 +247,15 @@ impl Run<'_> {
             let folder = variation_folder(scene, variation);
             let known = self.output.site(&folder)?;
             let missing = match &known {
-                Some(site) => self.missing(scene, variation, site)?,
+                Some(site) => site.planned != self.planned || self.missing(scene, variation, site)?,
                 None => true,
             };
             let (file, built) = match (known, missing) {
                 (Some(file), false) => (file, None),
-                _ => {
+                (known, _) => {
+                    if let Some(known) = known {
+                        self.refuse_another_recording(scene, &known)?;
+                    }
                     self.progress.say(&format!("building {scene} v{variation:02}"));
                     match build(self, variation) {
                         Ok((file, built)) => {
@@ -282,6 +289,16 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// An error where a scene that frames have been made of was recorded otherwise then.
+    fn refuse_another_recording(&mut self, scene: &str, known: &SiteFile) -> Result<()> {
+        let found = self.sources.recording(scene, &mut self.contents)?;
+        ensure!(
+            known.recording == found,
+            "{scene}: its recorded files have changed since its first frames were made; choose another --out"
+        );
+        Ok(())
+    }
+
     /// Whether a frame of a built scene is not finished.
     fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile) -> Result<bool> {
         for (keyframe, view) in &site.frames {
@@ -309,7 +326,7 @@ impl Run<'_> {
         Ok(Read { drive, map, report })
     }
 
-    fn build<'r>(&self, Read { drive, map, report }: &'r Read, variation: u32) -> Result<(SiteFile, Built<'r>)> {
+    fn build<'r>(&mut self, Read { drive, map, report }: &'r Read, variation: u32) -> Result<(SiteFile, Built<'r>)> {
         let report = report.clone();
         let built = VirtualScene::build(&self.sources, (drive, map.as_ref()), &self.library, variation, &report)?;
         let keyframes = match &self.recipe.drive {
@@ -325,6 +342,8 @@ impl Run<'_> {
             fits: fit_rows(built.site.fits()),
             factors: built.factors.clone(),
             locale: Some((&built.locale).into()),
+            recording: self.sources.recording(&drive.id, &mut self.contents)?,
+            planned: self.planned.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { scene: built, shots }))

@@ -3,18 +3,21 @@
 use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
+use trove_files::OutputRoot;
 use trove_format::{FrameLine, Journal, RunIdentity, SiteFile, WrittenFile};
 use trove_write::{sha256_file, write_atomically};
+
+use super::identity::differences;
 
 /// Holds what only trove reads: the run's identity, its lock and the journal of finished frames.
 pub(crate) const PRIVATE: &str = ".trove";
 
 /// An output folder that this process alone writes to.
 pub(super) struct OutputFolder {
-    root: PathBuf,
+    root: OutputRoot,
     journal: File,
     finished: Journal,
     /// Finished frames whose files this run has read or written.
@@ -40,17 +43,17 @@ impl OutputFolder {
             .open(&path)
             .with_context(|| format!("{}: expected a file that can be written", path.display()))?;
         journal.write_all(b"\n")?; // ends a line that an interrupted run may have left torn
-        Ok(Self { root: root.to_owned(), journal, finished, verified: BTreeSet::new(), _lock: lock })
+        Ok(Self { root: OutputRoot::new(root), journal, finished, verified: BTreeSet::new(), _lock: lock })
     }
 
     /// What was built for a variation of a scene by an earlier run; `None` where nothing was.
     pub(super) fn site(&self, folder: &str) -> Result<Option<SiteFile>> {
-        Ok(SiteFile::read(&self.root.join(folder))?)
+        Ok(SiteFile::read(&self.root.at(folder)?)?)
     }
 
     /// Writes down what was built for a variation of a scene.
     pub(super) fn write_site(&self, folder: &str, site: &SiteFile) -> Result<()> {
-        let folder = self.root.join(folder);
+        let folder = self.root.at(folder)?;
         std::fs::create_dir_all(&folder)
             .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
         Ok(write_atomically(&folder.join(SiteFile::NAME), &site.to_json())?)
@@ -58,12 +61,17 @@ impl OutputFolder {
 
     /// The files of a frame that is finished, whole and on disk; `None` where it has to be rendered.
     pub(super) fn finished(&mut self, frame: &str, expected: &[&str]) -> Result<Option<Vec<WrittenFile>>> {
-        let folder = self.root.join(frame);
+        let folder = self.root.at(frame)?;
         if !folder.is_dir() {
             return Ok(None);
         }
         if let Some(files) = self.finished.get(frame) {
             let files = files.clone();
+            // The recipe asks for more files now; what is there is replaced once the frame is rendered again.
+            if !expected.iter().all(|name| files.iter().any(|file| file.name == *name)) {
+                self.finished.remove(frame);
+                return Ok(None);
+            }
             // Bytes are read once a run; that nothing is missing is cheap to see.
             let whole = if self.verified.contains(frame) { has_length } else { is_whole };
             let damaged: Vec<&WrittenFile> = files.iter().filter(|file| !whole(&folder, file)).collect();
@@ -80,6 +88,8 @@ impl OutputFolder {
                     bail!("{}: expected a file that can be replaced: {error}", folder.join(name).display());
                 }
             }
+            // Said once.
+            self.finished.remove(frame);
             return Ok(None);
         }
         // The folder was put in place, but the run ended before it was written down.
@@ -97,9 +107,9 @@ impl OutputFolder {
     /// Writes down that a frame is finished.
     pub(super) fn record(&mut self, frame: &str, files: Vec<WrittenFile>) -> Result<()> {
         let line = FrameLine { frame: frame.to_owned(), files };
-        self.journal
-            .write_all(&line.to_json())
-            .with_context(|| format!("{}: the journal of finished frames cannot be written", self.root.display()))?;
+        self.journal.write_all(&line.to_json()).with_context(|| {
+            format!("{}: the journal of finished frames cannot be written", self.root.path().display())
+        })?;
         self.verified.insert(line.frame.clone());
         self.finished.insert(line.frame, line.files);
         Ok(())
@@ -152,33 +162,48 @@ fn lock(path: &Path) -> Result<File> {
 
 fn check_identity(root: &Path, private: &Path, identity: &RunIdentity) -> Result<()> {
     let path = private.join(RunIdentity::NAME);
-    let Ok(found) = std::fs::read(&path) else { return Ok(write_atomically(&path, &identity.to_json())?) };
-    if found == identity.to_json() {
-        return Ok(());
+    let found = RunIdentity::read(private).context("the folder cannot be resumed; choose another --out")?;
+    match &found {
+        Some(found) => {
+            let differences = differences(found, identity);
+            ensure!(
+                differences.is_empty(),
+                "{}: expected the recipe, inputs and program that this folder was started with, found others: {}; \
+                 choose another --out",
+                root.display(),
+                differences.join("; ")
+            );
+        }
+        None => ensure!(
+            FrameLine::journal(private)?.is_empty(),
+            "{}: expected the file beside {}, which says what these frames were made from, found none; \
+             choose another --out",
+            path.display(),
+            FrameLine::JOURNAL
+        ),
     }
-    // Another version of the format is told as such, rather than by the first line that differs.
-    RunIdentity::read(private).context("the folder cannot be resumed; choose another --out")?;
-    let [found, expected] = [found, identity.to_json()].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    let differs = found.lines().zip(expected.lines()).find(|(a, b)| a != b);
-    let (was, is) = differs.unwrap_or(("", ""));
-    bail!(
-        "{}: expected the recipe and program that this folder was started with, found others (it was {}, it is {}); \
-         choose another --out",
-        root.display(),
-        was.trim().trim_end_matches(','),
-        is.trim().trim_end_matches(',')
-    )
+    if found.as_ref() != Some(identity) {
+        // It goes on with more frames.
+        write_atomically(&path, &identity.to_json())?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
-    use trove_format::Versions;
+    use trove_format::{Inputs, Versions};
 
     fn identity(seed: u64) -> RunIdentity {
-        let versions = Versions { trove: "0".into(), assets: vec!["a".into()], kernel: "obvhs".into(), denoiser: None };
-        RunIdentity::new(json!({ "seed": seed }), versions)
+        let versions = Versions {
+            trove: "0".into(),
+            build: "0".into(),
+            assets: vec!["a".into()],
+            kernel: "obvhs".into(),
+            denoiser: None,
+        };
+        RunIdentity::new(json!({ "seed": seed }), versions, Inputs::new())
     }
 
     #[test]
@@ -224,7 +249,7 @@ mod tests {
         assert!(message.contains("another run"), "{message}");
         drop(first);
         let message = OutputFolder::open(&root, &identity(2)).err().unwrap().to_string();
-        assert!(message.contains("\"seed\": 1") && message.contains("\"seed\": 2"), "{message}");
+        assert!(message.contains("seed was 1, is 2"), "{message}");
         assert!(OutputFolder::open(&root, &identity(1)).is_ok());
         std::fs::write(root.join(PRIVATE).join(RunIdentity::NAME), r#"{"recipe": {}, "versions": {}}"#).unwrap();
         let message = format!("{:#}", OutputFolder::open(&root, &identity(1)).err().unwrap());

@@ -1,0 +1,163 @@
+//! What a run is told apart by, and what makes it another one.
+
+use anyhow::Result;
+use serde_json::Value;
+use trove_format::{FrameFile, RunIdentity, Versions};
+use trove_render::Renderer;
+
+use super::{RunOptions, inputs};
+use crate::contents::Contents;
+use crate::library;
+use crate::recipe::Recipe;
+use crate::sources::Sources;
+
+/// Keys of the recipe that say how many frames and files there are, not what is in them: a run may go on with others.
+const EXTENT: [[&str; 2]; 5] =
+    [["drive", "scenes"], ["drive", "keyframes"], ["variations", "count"], ["views", "rig"], ["output", "files"]];
+/// Those among them that decide which frames a scene has.
+const PLANNED: [[&str; 2]; 2] = [["drive", "keyframes"], ["views", "rig"]];
+/// Differences that are told of.
+const TOLD: usize = 5;
+
+/// Everything that decides the output's bytes: a folder holds the frames of one identity.
+pub(super) fn of_run(
+    recipe: &Recipe,
+    options: &RunOptions,
+    renderer: &Renderer,
+    sources: &Sources,
+    contents: &mut Contents,
+) -> Result<RunIdentity> {
+    let found = renderer.capabilities();
+    let versions = Versions {
+        trove: env!("CARGO_PKG_VERSION").into(),
+        build: env!("TROVE_BUILD").into(),
+        assets: library::fingerprints(recipe, &options.search, contents)?,
+        kernel: found.kernel,
+        denoiser: found.denoiser.ok(),
+    };
+    Ok(RunIdentity::new(serde_json::to_value(recipe)?, versions, inputs::of_run(recipe, sources, contents)?))
+}
+
+/// What of a recipe decides which frames a scene has.
+pub(super) fn planned(recipe: &Recipe) -> Result<Value> {
+    let recipe = serde_json::to_value(recipe)?;
+    let values = PLANNED.iter().map(|key| (key.join("."), at(&recipe, key).cloned().unwrap_or_default()));
+    Ok(Value::Object(values.collect()))
+}
+
+/// What makes a run another one than that which a folder was begun with, a line each; empty where it may go on.
+pub(super) fn differences(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
+    let mut sides = [was, is].map(|identity| {
+        let mut value = serde_json::to_value(identity).unwrap_or_default();
+        for [section, key] in EXTENT {
+            let section = value.get_mut("recipe").and_then(|recipe| recipe.get_mut(section));
+            if let Some(keys) = section.and_then(Value::as_object_mut) {
+                keys.remove(key);
+            }
+        }
+        value
+    });
+    // Where no picture showed light, none has been denoised either.
+    if !shows_light(&was.recipe) || !shows_light(&is.recipe) {
+        sides.iter_mut().for_each(|side| side["versions"]["denoiser"] = Value::Null);
+    }
+    let mut found = Vec::new();
+    compare("", &sides[0], &sides[1], &mut found);
+    let more = found.len().saturating_sub(TOLD);
+    found.truncate(TOLD);
+    if more > 0 {
+        found.push(format!("{more} more"));
+    }
+    found
+}
+
+fn at<'a>(recipe: &'a Value, [section, key]: &[&str; 2]) -> Option<&'a Value> {
+    recipe.get(section)?.get(key)
+}
+
+fn shows_light(recipe: &Value) -> bool {
+    let is_light = |file: &Value| serde_json::from_value(file.clone()).is_ok_and(FrameFile::shows_light);
+    at(recipe, &["output", "files"]).and_then(Value::as_array).is_none_or(|files| files.iter().any(is_light))
+}
+
+fn compare(key: &str, was: &Value, is: &Value, found: &mut Vec<String>) {
+    let below = |name: &str| if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
+    match (was, is) {
+        _ if was == is => {}
+        (Value::Object(a), Value::Object(b)) => {
+            let names = a.keys().chain(b.keys().filter(|name| !a.contains_key(*name)));
+            for name in names {
+                let side = |values: &serde_json::Map<String, Value>| values.get(name).cloned().unwrap_or_default();
+                compare(&below(name), &side(a), &side(b), found);
+            }
+        }
+        _ => found.push(told(key, was, is)),
+    }
+}
+
+/// A difference in words.
+fn told(key: &str, was: &Value, is: &Value) -> String {
+    match (key.split_once('.'), was, is) {
+        (Some(("inputs", file)), Value::Null, _) => format!("{file} is new"),
+        (Some(("inputs", file)), _, Value::Null) => format!("{file} is no longer read"),
+        (Some(("inputs", file)), ..) => format!("the contents of {file} have changed"),
+        (Some(("versions", "build")), ..) => "trove was built from other sources".into(),
+        (Some(("versions", "assets")), ..) => "models, materials or plans of an asset library have changed".into(),
+        (Some((_, key)), ..) => format!("{key} was {was}, is {is}"),
+        (None, ..) => format!("{key} was {was}, is {is}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn identity(change: impl Fn(&mut Value)) -> RunIdentity {
+        let mut value = json!({
+            "format": 2,
+            "recipe": {
+                "seed": 1, "drive": {"scenes": ["a"], "keyframes": [0]}, "variations": {"count": 1}, "views": {"rig": "all"},
+                "render": {"spp": 4}, "output": {"files": null},
+            },
+            "versions": {"trove": "0.1.0", "build": "ab", "assets": ["x"], "kernel": "k", "denoiser": "d"},
+            "inputs": {"map.osm: a.osm": "01"},
+        });
+        change(&mut value);
+        serde_json::from_value(value).unwrap()
+    }
+
+    #[test]
+    fn what_changes_bytes_is_told_and_what_adds_frames_is_not() {
+        let told = |change: &dyn Fn(&mut Value)| differences(&identity(|_| ()), &identity(change)).join("; ");
+        assert_eq!(told(&|_| ()), "");
+        assert_eq!(told(&|v| v["recipe"]["render"]["spp"] = json!(16)), "render.spp was 4, is 16");
+        assert_eq!(told(&|v| v["recipe"]["seed"] = json!(2)), "seed was 1, is 2");
+        assert_eq!(
+            told(&|v| v["inputs"]["map.osm: a.osm"] = json!("02")),
+            "the contents of map.osm: a.osm have changed"
+        );
+        assert_eq!(told(&|v| v["inputs"] = json!({})), "map.osm: a.osm is no longer read");
+        assert_eq!(told(&|v| v["versions"]["build"] = json!("cd")), "trove was built from other sources");
+        assert!(told(&|v| v["versions"]["assets"] = json!(["y"])).contains("asset library"));
+        assert_eq!(told(&|v| v["versions"]["denoiser"] = json!("e")), r#"denoiser was "d", is "e""#);
+        for (section, key, more) in [
+            ("drive", "scenes", json!(["a", "b"])),
+            ("drive", "keyframes", json!("all")),
+            ("variations", "count", json!(3)),
+            ("views", "rig", json!(["A", "B"])),
+            ("output", "files", json!(["class"])),
+        ] {
+            assert_eq!(told(&|v| v["recipe"][section][key] = more.clone()), "", "{key}");
+        }
+    }
+
+    #[test]
+    fn light_may_be_added_to_labels() {
+        let labels = identity(|v| {
+            v["recipe"]["output"]["files"] = json!(["class"]);
+            v["versions"]["denoiser"] = Value::Null;
+        });
+        assert_eq!(differences(&labels, &identity(|_| ())), [""; 0]);
+    }
+}
