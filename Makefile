@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -37,6 +37,12 @@ test-rust: install
 
 test-python: install
 	$(BIN)/python -m pytest -q
+
+# Feeds every reader with damage; the build is that of the tests, with its checks of overflow.
+SECONDS ?= 10
+SEED ?= 1
+fuzz:
+	cargo run --locked -p trove-fuzz --bin fuzz -- --seconds $(SECONDS) --seed $(SEED)
 
 # Holds a run's output OUT to the recording in NUSCENES with the official devkit, which has an environment of its own.
 test-devkit: .venv-devkit/.installed
