@@ -53,7 +53,7 @@ fn stages_know_the_model_and_not_each_other() {
         assert_eq!(ours, ["trove-model"], "{stage}");
     }
     assert_eq!(dependencies("trove-files"), [""; 0]);
-    assert_eq!(ours("trove-format"), ["trove-model"]);
+    assert_eq!(ours("trove-format"), ["trove-files", "trove-model"]);
     assert_eq!(ours("trove-py"), ["trove"]);
 }
 
@@ -85,6 +85,41 @@ fn the_builder_knows_no_id() {
         let built = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
         for (i, line) in built.lines().enumerate() {
             assert_eq!(id_in(line), None, "{}:{}: ask for tags instead", file.display(), i + 1);
+        }
+    }
+}
+
+/// Where a line opens or reads a file by itself.
+fn opens(line: &str) -> bool {
+    ["fs::read(", "fs::read_to_string(", "File::open(", "ImageReader::open(", "image::open("]
+        .iter()
+        .any(|o| line.contains(o))
+}
+
+#[test]
+fn files_are_opened_in_one_place() {
+    assert!(opens("let text = std::fs::read_to_string(path)?;") && !opens("read_text(path, LARGEST_TEXT)"));
+    let mut files = Vec::new();
+    sources(&root().join("crates"), "rs", &mut files);
+    // What this program, the compiler and the kernel wrote.
+    let own = [
+        "trove-files/src",
+        "build.rs",
+        "tests.rs",
+        "tests/",
+        "testing.rs",
+        "schemas.rs",
+        "doctor.rs",
+        "benches/",
+        "examples/",
+    ];
+    files.retain(|file| !own.iter().any(|own| file.to_string_lossy().contains(own)));
+    assert!(files.len() > 200);
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let built = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+        for (i, line) in built.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//")) {
+            assert!(!opens(line), "{}:{}: open it by trove_files", file.display(), i + 1);
         }
     }
 }
