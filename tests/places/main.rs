@@ -107,65 +107,65 @@ fn a_town_in_north_america_is_sound() {
     assert_sound(&made_up_place("america", 42.35, -71.05, -0.03), Vec::new());
 }
 
-/// The folder of real data; `None`, with a word about it, where there is none.
-fn data() -> Option<PathBuf> {
-    let data = std::env::var_os("TROVE_TEST_DATA").map(PathBuf::from);
-    if data.is_none() {
-        eprintln!("skipped: TROVE_TEST_DATA is not set");
-    }
-    data
+/// The folder of real data.
+fn data() -> PathBuf {
+    PathBuf::from(std::env::var_os("TROVE_TEST_DATA").expect("TROVE_TEST_DATA"))
 }
 
-fn recorded_place(scene: &str, file: &str) -> Option<Place> {
-    let data = data()?;
+fn recorded_place(scene: &str, file: &str) -> Place {
+    let data = data();
     let report = Report::default();
     let dataset = NuScenes::open(&data.join("nuscenes"), "v1.0-mini", None, &report).unwrap();
     let drive = dataset.drive(scene, &report).unwrap();
     let area = trove_build::area(&drive).unwrap();
     let driving_side = locale(drive.projection).driving_side;
     let map = osm::read(&data.join("osm").join(file), &drive.projection, area, driving_side, &report).unwrap();
-    Some(build(scene, drive, map, report))
+    build(scene, drive, map, report)
 }
 
-fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Option<Place> {
-    let data = data()?;
+fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Place {
+    let data = data();
     let report = Report::default();
     let plan = plan(name, lat_deg, lon_deg, 300.0);
     let area = Bounds::square(DVec2::ZERO, 300.0);
     let map = osm::read(&data.join("osm").join(file), &plan.projection, area, plan.driving_side, &report).unwrap();
     let drive = trove_build::place_drive(&map, &plan, Seed(7), &report).unwrap();
-    Some(build(name, drive, map, report))
+    build(name, drive, map, report)
 }
 
-fn assert_real(place: Option<Place>) {
-    let Some(place) = place else { return };
+fn assert_real(place: &Place) {
     let mut wrong = checks::accounted(&place.report);
     wrong.extend(cover::road(&place.scene, &place.drive));
     wrong.extend(cover::buildings(&place.site, &place.drive, &place.map));
-    assert_sound(&place, wrong);
+    assert_sound(place, wrong);
 }
 
 #[test]
-fn boston_as_recorded_is_sound() {
-    assert_real(recorded_place("scene-0103", "boston-seaport.osm"));
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_boston_as_recorded_is_sound() {
+    assert_real(&recorded_place("scene-0103", "boston-seaport.osm"));
 }
 
 #[test]
-fn singapore_as_recorded_is_sound() {
-    assert_real(recorded_place("scene-0061", "singapore-onenorth.osm"));
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_singapore_as_recorded_is_sound() {
+    assert_real(&recorded_place("scene-0061", "singapore-onenorth.osm"));
 }
 
 #[test]
-fn neukolln_is_sound() {
-    assert_real(mapped_place("neukolln", "neukolln.osm", 52.4735, 13.4394));
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_neukolln_is_sound() {
+    assert_real(&mapped_place("neukolln", "neukolln.osm", 52.4735, 13.4394));
 }
 
 #[test]
-fn taipei_is_sound() {
-    assert_real(mapped_place("taipei", "taipei.osm", 25.0522, 121.5227));
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_taipei_is_sound() {
+    assert_real(&mapped_place("taipei", "taipei.osm", 25.0522, 121.5227));
 }
 
 #[test]
-fn monaco_is_sound() {
-    assert_real(mapped_place("monaco", "monaco-latest.osm.pbf", 43.7396, 7.4275));
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_monaco_is_sound() {
+    assert_real(&mapped_place("monaco", "monaco-latest.osm.pbf", 43.7396, 7.4275));
 }

@@ -357,21 +357,20 @@ fn look(scene: &Scene, shot: &Shot) -> Labels {
 }
 
 fn labels(scene: &Scene, shot: &Shot, threads: usize) -> Labels {
-    by(KernelChoice::Obvhs, scene, shot, threads).unwrap()
+    by(KernelChoice::Obvhs, scene, shot, threads)
 }
 
-/// With the built-in kernel, and with Embree where this machine has it.
+/// With the built-in kernel, and with Embree where `TROVE_EMBREE` says that there is one.
 fn by_all_kernels(scene: &Scene, shot: &Shot) -> Vec<Labels> {
-    let kernels = [KernelChoice::Obvhs, KernelChoice::Embree];
-    kernels.into_iter().filter_map(|kernel| by(kernel, scene, shot, 2)).collect()
+    let embree = std::env::var_os("TROVE_EMBREE").map(|_| KernelChoice::Embree);
+    [KernelChoice::Obvhs].into_iter().chain(embree).map(|kernel| by(kernel, scene, shot, 2)).collect()
 }
 
-/// `None` where there is no such kernel.
-fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Option<Labels> {
+fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Labels {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).ok()?;
+    let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).unwrap();
     let prepared = renderer.prepare(scene).unwrap();
-    Some(renderer.render(&prepared, shot, false, &|_| false).unwrap().labels)
+    renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
 }
 
 fn colour(scene: &Scene, shot: &Shot) -> Raster<[f32; 3]> {

@@ -172,10 +172,10 @@ fn shot(shutter: Shutter) -> Shot {
     }
 }
 
-/// The built-in one, and Embree where it is installed.
+/// The built-in one, and Embree where `TROVE_EMBREE` says that there is one.
 fn kernels() -> Vec<KernelChoice> {
-    let has_embree = Renderer::new(&options(KernelChoice::Embree, 1)).is_ok();
-    [KernelChoice::Obvhs].into_iter().chain(has_embree.then_some(KernelChoice::Embree)).collect()
+    let embree = std::env::var_os("TROVE_EMBREE").map(|_| KernelChoice::Embree);
+    [KernelChoice::Obvhs].into_iter().chain(embree).collect()
 }
 
 fn options(kernel: KernelChoice, threads: usize) -> RendererOptions {

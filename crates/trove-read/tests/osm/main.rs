@@ -508,13 +508,10 @@ proptest! {
     }
 }
 
-/// The folder of real extracts; `None`, and a word about it, where it is not there.
-fn real(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("TROVE_TEST_DATA");
-    let path = root.map(|root| Path::new(&root).join("osm").join(name)).filter(|path| path.exists());
-    if path.is_none() {
-        eprintln!("skipped: TROVE_TEST_DATA has no osm/{name}");
-    }
+/// A real extract, or a folder of them.
+fn real(name: &str) -> PathBuf {
+    let path = PathBuf::from(std::env::var_os("TROVE_TEST_DATA").expect("TROVE_TEST_DATA")).join("osm").join(name);
+    assert!(path.exists(), "{}", path.display());
     path
 }
 
@@ -540,10 +537,11 @@ fn accounts(what: &str, report: &Report) -> [u64; 3] {
 }
 
 #[test]
+#[ignore = "needs TROVE_TEST_DATA"]
 fn real_places_are_read_with_every_way_and_relation_used_or_reported() {
     // Roads, buildings, land, furniture, lines; ways and relations: used, reported, in the area.
     let check = |name: &str, counts: [usize; 5], ways: [u64; 3], relations: [u64; 3]| {
-        let Some(path) = real(name) else { return };
+        let path = real(name);
         let (map, report) = read_real(&path);
         let found = [map.roads.len(), map.buildings.len(), map.land.len(), map.furniture.len(), map.lines.len()];
         let accounted = (accounts("way", &report), accounts("relation", &report));
@@ -558,8 +556,9 @@ fn real_places_are_read_with_every_way_and_relation_used_or_reported() {
 }
 
 #[test]
-fn every_odd_file_gives_a_sound_map_or_a_clear_error() {
-    let Some(folder) = real("edge-cases") else { return };
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_odd_files_give_a_sound_map_or_a_clear_error() {
+    let folder = real("edge-cases");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     for path in files {
@@ -594,9 +593,10 @@ fn assert_sound(map: &StreetMap, report: &Report, path: &Path) {
 }
 
 #[test]
-fn odd_multipolygons_and_outlines_are_read() {
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_odd_multipolygons_and_outlines_are_read() {
     let check = |name: &str, expect: &[(&str, i64)]| {
-        let Some(path) = real(&format!("edge-cases/{name}")) else { return };
+        let path = real(&format!("edge-cases/{name}"));
         let (map, _) = read_real(&path);
         let area = |kind: &str, polygon: &trove_model::Polygon| {
             (format!("{kind} with {} holes", polygon.holes.len()), polygon.area_m2().round() as i64)
