@@ -7,6 +7,7 @@ mod cover;
 mod drawing;
 mod footing;
 mod made_up;
+mod mapped;
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -21,6 +22,8 @@ struct Place {
     name: String,
     drive: Drive,
     map: StreetMap,
+    /// What the map was read for.
+    area: Bounds,
     report: Report,
     site: Site,
     scene: Scene,
@@ -36,7 +39,7 @@ fn plan(name: &str, lat_deg: f64, lon_deg: f64, size_m: f64) -> PlacePlan<'_> {
     PlacePlan { name, projection, size_m, driving_side: locale(projection).driving_side, time_ns: 0 }
 }
 
-fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
+fn build(name: &str, drive: Drive, map: StreetMap, area: Bounds, report: Report) -> Place {
     let settings = BuildSettings {
         seeds: Seed(7).into(),
         top_k: 3,
@@ -51,7 +54,7 @@ fn build(name: &str, drive: Drive, map: StreetMap, report: Report) -> Place {
         LazyLock::new(|| trove_assets::library(&trove_assets::Ingredients::default()));
     let site = trove_build::build(&drive, Some(&map), &LIBRARY, &settings, &report).unwrap();
     let scene = site.scene(&drive, drive.keyframes.len() / 4);
-    Place { name: name.into(), drive, map, report, site, scene }
+    Place { name: name.into(), drive, map, area, report, site, scene }
 }
 
 /// Everything that must hold; prints at most a few of each kind.
@@ -89,7 +92,7 @@ fn made_up_place(name: &str, lat_deg: f64, lon_deg: f64, slope: f64) -> Place {
             exposure.world_from_ego.translation.z += rise_m;
         }
     }
-    build(name, drive, map, report)
+    build(name, drive, map, Bounds::square(DVec2::ZERO, 240.0), report)
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn recorded_place(scene: &str, file: &str) -> Place {
     let area = trove_build::area(&drive).unwrap();
     let driving_side = locale(drive.projection).driving_side;
     let map = osm::read(&data.join("osm").join(file), &drive.projection, area, driving_side, &report).unwrap();
-    build(scene, drive, map, report)
+    build(scene, drive, map, area, report)
 }
 
 fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Place {
@@ -130,11 +133,16 @@ fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Place {
     let area = Bounds::square(DVec2::ZERO, 300.0);
     let map = osm::read(&data.join("osm").join(file), &plan.projection, area, plan.driving_side, &report).unwrap();
     let drive = trove_build::place_drive(&map, &plan, Seed(7), &report).unwrap();
-    build(name, drive, map, report)
+    build(name, drive, map, area, report)
 }
 
-fn assert_real(place: &Place) {
+/// `file` is the map's extract.
+fn assert_real(place: &Place, file: &str) {
     let mut wrong = checks::accounted(&place.report);
+    if file.ends_with(".osm") {
+        let path = data().join("osm").join(file);
+        wrong.extend(mapped::missing(&path, &place.drive.projection, place.area, &place.map));
+    }
     wrong.extend(cover::road(&place.scene, &place.drive));
     wrong.extend(cover::buildings(&place.site, &place.drive, &place.map));
     assert_sound(place, wrong);
@@ -143,29 +151,29 @@ fn assert_real(place: &Place) {
 #[test]
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_boston_as_recorded_is_sound() {
-    assert_real(&recorded_place("scene-0103", "boston-seaport.osm"));
+    assert_real(&recorded_place("scene-0103", "boston-seaport.osm"), "boston-seaport.osm");
 }
 
 #[test]
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_singapore_as_recorded_is_sound() {
-    assert_real(&recorded_place("scene-0061", "singapore-onenorth.osm"));
+    assert_real(&recorded_place("scene-0061", "singapore-onenorth.osm"), "singapore-onenorth.osm");
 }
 
 #[test]
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_neukolln_is_sound() {
-    assert_real(&mapped_place("neukolln", "neukolln.osm", 52.4735, 13.4394));
+    assert_real(&mapped_place("neukolln", "neukolln.osm", 52.4735, 13.4394), "neukolln.osm");
 }
 
 #[test]
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_taipei_is_sound() {
-    assert_real(&mapped_place("taipei", "taipei.osm", 25.0522, 121.5227));
+    assert_real(&mapped_place("taipei", "taipei.osm", 25.0522, 121.5227), "taipei.osm");
 }
 
 #[test]
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_monaco_is_sound() {
-    assert_real(&mapped_place("monaco", "monaco-latest.osm.pbf", 43.7396, 7.4275));
+    assert_real(&mapped_place("monaco", "monaco-latest.osm.pbf", 43.7396, 7.4275), "monaco-latest.osm.pbf");
 }

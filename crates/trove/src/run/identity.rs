@@ -1,11 +1,13 @@
 //! What a run is told apart by, and what makes it another one.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use serde_json::Value;
 use trove_format::{FrameFile, RunIdentity, Versions};
 use trove_render::Renderer;
 
-use super::{RunOptions, inputs};
+use super::inputs;
 use crate::contents::Contents;
 use crate::library;
 use crate::recipe::Recipe;
@@ -22,7 +24,7 @@ const TOLD: usize = 5;
 /// Everything that decides the output's bytes: a folder holds the frames of one identity.
 pub(super) fn of_run(
     recipe: &Recipe,
-    options: &RunOptions,
+    search: &[PathBuf],
     renderer: &Renderer,
     sources: &Sources,
     contents: &mut Contents,
@@ -31,7 +33,7 @@ pub(super) fn of_run(
     let versions = Versions {
         trove: env!("CARGO_PKG_VERSION").into(),
         build: env!("TROVE_BUILD").into(),
-        assets: library::fingerprints(recipe, &options.search, contents)?,
+        assets: library::fingerprints(recipe, search, contents)?,
         kernel: found.kernel,
         denoiser: found.denoiser.ok(),
     };

@@ -97,7 +97,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         possible
     });
     let mut contents = Contents::open();
-    let identity = identity::of_run(recipe, options, &renderer, &sources, &mut contents)?;
+    let identity = identity::of_run(recipe, &options.search, &renderer, &sources, &mut contents)?;
     let output = OutputFolder::open(out, &identity)?;
     let frames = options.frames.as_ref();
     let hints: Vec<Vec<usize>> =
