@@ -1,7 +1,7 @@
 //! Small sets against converged pictures of them.
 //!
 //! The references lie in `references` and are written anew, after a change that is meant to change pictures, by
-//! `cargo test --release -p trove-render --test pictures -- --ignored the_references`.
+//! `TROVE_WRITE_REFERENCES=1 cargo test --release -p trove-render --test pictures -- --ignored the_references`.
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -103,6 +103,8 @@ fn asking_for_less_noise_gives_what_was_asked_for_and_leaves_the_sky_alone() {
 #[test]
 #[ignore = "writes the references, which takes minutes"]
 fn the_references_are_written() {
+    // Whoever runs all ignored tests does not mean this one.
+    assert!(std::env::var_os("TROVE_WRITE_REFERENCES").is_some(), "set TROVE_WRITE_REFERENCES to write them anew");
     for Set { name, scene, shot } in sets::all() {
         let renderer = renderer(KernelChoice::Auto, 0);
         let (mean, noise) = statistics(&renderer, &scene, &Shot { spp: SPP, ..shot.clone() });
