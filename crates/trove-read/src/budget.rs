@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 /// What any file may ask for, bytes.
 const BASE: u64 = 256 << 20;
-/// What it may ask for on top for each byte that it has: packed maps, meshes and pictures unpack to less than that.
+/// What it may ask for on top for each byte that it has: room for packed maps, meshes and pictures.
 const PER_BYTE: u64 = 64;
 /// However large it is.
 const MOST: u64 = 6 << 30;

@@ -214,15 +214,10 @@ impl LibraryFile {
 }
 
 fn numbers_make_sense(entry: &SurfaceEntry, place: &str) -> Result<(), Fault> {
-    let check = |key: &str, numbers: &[f32], range: std::ops::RangeInclusive<f32>| match numbers
-        .iter()
-        .find(|number| !range.contains(number))
-    {
-        None => Ok(()),
-        Some(wrong) => {
-            let expected = format!("{} to {}", range.start(), range.end());
-            Err(Fault::new(format!("{place}: {key}"), expected, wrong.to_string(), "correct it"))
-        }
+    let check = |key: &str, numbers: &[f32], range: std::ops::RangeInclusive<f32>| {
+        let Some(wrong) = numbers.iter().find(|number| !range.contains(number)) else { return Ok(()) };
+        let expected = format!("{} to {}", range.start(), range.end());
+        Err(Fault::new(format!("{place}: {key}"), expected, wrong.to_string(), "correct it"))
     };
     check("size_m", entry.size_m.as_ref().map_or(&[], |size| size), 0.001..=1000.0)?;
     check("height_m", entry.height_m.as_slice(), 0.0..=10.0)?;

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-/// Steps of a few nanoseconds each: the outlines of a whole city take a hundredth of it.
+/// Steps of a few nanoseconds each: all of Monaco takes less than a thousandth of it.
 const STEPS: u64 = 1_000_000_000;
 
 /// What is left of the work that a file may make: outlines are compared edge by edge, so one that is tangled on purpose
