@@ -42,7 +42,12 @@ fn integrate(cos: f32, alpha: f32) -> Vec2 {
     sum / (GRID * GRID) as f32
 }
 
-/// Reflected share of light from a direction with cosine `cos`, as (x, y) of `f0 · x + y`.
+/// Reflected share of light for normal reflectance `f0` and a [`split`].
+pub(crate) fn reflected(f0: Vec3, split: Vec2) -> Vec3 {
+    f0 * split.x + ggx::grazing(f0) * split.y
+}
+
+/// Reflected share of light from a direction with cosine `cos`, as (x, y) of `f0 · x + y` where a surface reflects all along it.
 pub(crate) fn split(cos: f32, alpha: f32) -> Vec2 {
     let at = |x: f32| {
         let x = x.clamp(0.0, 1.0) * (SIDE - 1) as f32;

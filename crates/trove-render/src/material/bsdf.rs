@@ -111,7 +111,7 @@ impl Bsdf {
             coat.normal = upright(coat.normal, surface.geometric, wo);
             coat_cos_o = wo.dot(coat.normal).max(1e-4);
             let split = albedo::split(coat_cos_o, coat.alpha);
-            coated = coat.share * (coat.f0 * split.x + split.y);
+            coated = coat.share * albedo::reflected(Vec3::splat(coat.f0), split).x;
         }
         let mut left = 1.0 - coated;
 
@@ -126,10 +126,10 @@ impl Bsdf {
         let split = albedo::split(cos_o, *alpha);
         let single = split.x + split.y;
         let lost = (1.0 - single) / single.max(1e-3);
-        let whole = |f0: Vec3| (f0 * split.x + split.y) * (Vec3::ONE + f0 * lost);
+        let whole = |f0: Vec3| albedo::reflected(f0, split) * (Vec3::ONE + f0 * lost);
         let dielectric = whole(Vec3::splat(*dielectric_f0)).min(Vec3::ONE);
         let facets = dielectric.lerp(whole(*base_color).min(Vec3::ONE), *metalness);
-        let gain = facets / (f0 * split.x + split.y).max(Vec3::splat(1e-6));
+        let gain = facets / albedo::reflected(f0, split).max(Vec3::splat(1e-6));
 
         // Only the share that is no metal lets light in, and only past its own facets.
         let inside = (1.0 - dielectric.x) * (1.0 - metalness) * left;

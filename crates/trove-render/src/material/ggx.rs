@@ -60,5 +60,11 @@ pub(crate) fn sample(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
 pub(crate) fn schlick(f0: Vec3, cos: f32) -> Vec3 {
     let m = (1.0 - cos).clamp(0.0, 1.0);
     let m2 = m * m;
-    f0 + (Vec3::ONE - f0) * (m2 * m2 * m)
+    f0 + (Vec3::splat(grazing(f0)) - f0) * (m2 * m2 * m)
+}
+
+/// Reflectance along the surface: all of the light, but none where the body's index is that of the air around it, so that
+/// there is no surface. In between it falls below an index of 1.33, water's, which is the least that solids have.
+pub(crate) fn grazing(f0: Vec3) -> f32 {
+    (50.0 / 3.0 * f0.element_sum()).min(1.0)
 }

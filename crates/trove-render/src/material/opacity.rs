@@ -57,7 +57,7 @@ impl Opacity {
     pub(crate) fn straight_through(&self, cos: f32) -> Vec3 {
         let Some(pane) = &self.pane else { return Vec3::ZERO };
         let split = albedo::split(cos.abs(), pane.alpha);
-        let reflected = pane.f0 * split.x + split.y;
+        let reflected = albedo::reflected(Vec3::splat(pane.f0), split).x;
         pane.tint * ((1.0 - reflected) * pane.transmission * (1.0 - pane.metalness))
     }
 }

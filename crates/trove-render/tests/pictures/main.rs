@@ -1,9 +1,10 @@
 //! Pictures whose radiance is known in closed form, pictures that must be equal, and pictures of small sets that are held
-//! to converged ones.
+//! to converged ones and to those of a plain path tracer.
 
 #![allow(clippy::unwrap_used)] // its functions are tests too
 
 mod converged;
+mod plain;
 mod sets;
 mod studio;
 
@@ -49,7 +50,7 @@ fn a_grey_ball_in_a_white_world_is_as_bright_as_its_albedo() {
 fn a_glowing_room_is_as_bright_as_its_bounces_add_up() {
     for (albedo, emission) in [(0.2, 0.8), (0.5, 0.25), (0.8, 0.2)] {
         let glow =
-            Material { emission: Vec3::splat(emission), ior: 1.0, ..Material::plain("glow", Vec3::splat(albedo), 1.0) };
+            Material { emission: Vec3::splat(emission), ior: 1.0, ..Material::plain("glow", Vec3::splat(albedo), 0.0) };
         let around_camera = DAffine3::from_scale_rotation_translation(DVec3::splat(2.0), DQuat::IDENTITY, EYE);
         let mut scene = empty(uniform(1.0));
         put(&mut scene, inside_out(cube()), glow, around_camera);

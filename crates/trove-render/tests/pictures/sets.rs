@@ -141,7 +141,7 @@ fn plaster(color: Vec3) -> Material {
     Material::plain("plaster", color, 1.0)
 }
 
-fn block(middle: DVec3, half_m: DVec3) -> DAffine3 {
+pub(crate) fn block(middle: DVec3, half_m: DVec3) -> DAffine3 {
     DAffine3::from_scale_rotation_translation(half_m, DQuat::IDENTITY, middle)
 }
 
@@ -151,7 +151,7 @@ fn ground() -> Mesh {
 }
 
 /// A parallelogram that looks along u × v.
-fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Mesh {
+pub(crate) fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Mesh {
     Mesh {
         positions: vec![corner, corner + u, corner + u + v, corner + v],
         uvs: vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y],
