@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test test-planted chromium fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -40,11 +40,25 @@ test-rust: install
 test-python: install
 	$(BIN)/python -m pytest -q
 
+# The browser that pages are tested in, and what drives it; without them their tests are skipped, or fail in CI.
+CHROMIUM := 147.0.0
+chromium: install .tools/chromium/chromium
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check playwright==1.65.2
+
+.tools/chromium/chromium: tests/browser/unpack.mjs
+	npm install --silent --no-save --prefix .tools/chromium @sparticuz/chromium@$(CHROMIUM)
+	node tests/browser/unpack.mjs .tools/chromium
+	rm -rf .tools/chromium/node_modules
+
 # Feeds every reader with damage; the build is that of the tests, with its checks of overflow.
 SECONDS ?= 10
 SEED ?= 1
 fuzz:
 	cargo run --locked -p trove-fuzz --bin fuzz -- --seconds $(SECONDS) --seed $(SEED)
+
+# Plants faults in a copy of the sources, one after another, and shows that a test catches each.
+test-planted:
+	$(PYTHON) tests/planted/run.py $(PLANTED)
 
 # Holds a run's output OUT to the recording in NUSCENES with the official devkit, which has an environment of its own.
 test-devkit: .venv-devkit/.installed
@@ -115,13 +129,24 @@ experiment-camvid: install .venv-train/.installed
 	.venv-train/bin/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY)
 	touch $@
 
-# The tests of training, which make test skips where PyTorch is missing.
-test-train: .venv-train/.installed
-	.venv-train/bin/python -m pytest -q python/tests/test_training.py
+# The tests of training, which make test skips where PyTorch is missing. They run on the processor, in .venv with
+# PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
+test-train: install .torch/.installed
+	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
+	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py
+
+TORCH := torch==2.15.0 torchvision==0.29.2
+TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-toolkit[cudart]==13.2.2; platform_system == 'Linux'"
+.torch/.installed: python/tests/without_cuda.py | $(VENV)/.installed
+	rm -rf .torch
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch --no-deps $(TORCH)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch $(TORCH_NEEDS)
+	PYTHONPATH=.torch $(BIN)/python python/tests/without_cuda.py
+	touch $@
 
 # Evaluation and colour transfer on made-up pictures; needs no data.
 bench-judge: install
 	$(BIN)/python benches/judge.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target .tools $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target .tools .torch $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

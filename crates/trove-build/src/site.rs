@@ -390,6 +390,35 @@ mod tests {
     }
 
     #[test]
+    fn who_comes_and_goes_leaves_everyone_elses_number() {
+        // The parked car is seen in the middle of the recording alone.
+        let mut drive = testing::drive();
+        let is_seen = |keyframe: usize| (3..7).contains(&keyframe);
+        drive.tracks[0].boxes.retain(|(k, _)| is_seen(*k));
+        for (k, keyframe) in drive.keyframes.iter_mut().enumerate() {
+            keyframe.boxes.retain(|b| b.track != 0 || is_seen(k));
+        }
+        let site = build(&drive, None, &testing::library(), &settings(1), &Report::default()).unwrap();
+        let mut names = std::collections::BTreeMap::new();
+        for k in 0..10 {
+            let scene = site.scene(&drive, k);
+            let mut at_once = std::collections::BTreeSet::new();
+            for instance in &scene.instances {
+                let Some(object) = instance.object.as_deref() else { continue };
+                let name = match &object.origin {
+                    Origin::Recorded { track_token, .. } => track_token.clone(),
+                    origin => format!("{origin:?} {:?}", object.asset),
+                };
+                assert!(at_once.insert(instance.id), "{:?} is there twice at {k}", instance.id);
+                assert_eq!(names.entry(instance.id).or_insert_with(|| name.clone()), &name, "at {k}");
+            }
+            let recorded =
+                |i: &&Instance| i.object.as_deref().is_some_and(|o| matches!(o.origin, Origin::Recorded { .. }));
+            assert_eq!(scene.instances.iter().filter(recorded).count(), if is_seen(k) { 4 } else { 3 });
+        }
+    }
+
+    #[test]
     fn a_factor_s_seed_changes_what_it_decides_and_nothing_else() {
         let drive = testing::drive();
         let built = |seeds: Seeds| {

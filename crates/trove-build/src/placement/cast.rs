@@ -275,6 +275,10 @@ mod tests {
                     let turn = placement.cuboid.world_from_body.yaw_rad() - annotated.world_from_body.yaw_rad();
                     assert!(turn.sin().abs() < 1e-3);
                     assert_eq!(placement.cuboid.size_m, annotated.size_m);
+                    let bottom = DVec3::NEG_Z * annotated.size_m.z / 2.0;
+                    let bottom_world = placement.cuboid.world_from_body.point(bottom);
+                    let (at, below_m) = (bottom_world.truncate(), ground.height_m(bottom_world.truncate()) + kerb_m);
+                    assert!((bottom_world.z - below_m).abs() < 1e-3, "{} at {k}: {at}", role.asset.id);
                 }
             }
         }

@@ -23,12 +23,12 @@ const THUMBNAIL_PX: u32 = 200;
 const DISTANCES_M: [f64; 6] = [0.0, 10.0, 20.0, 40.0, 80.0, f64::INFINITY];
 const SIZES_PX: [f64; 6] = [0.0, 100.0, 400.0, 1600.0, 6400.0, f64::INFINITY];
 
-const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:72rem;padding:0 1rem;color:#1c1f24;background:#fff}\
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}table{border-collapse:collapse}td,th{padding:.15rem .6rem;text-align:right;border-bottom:1px solid #e3e5e9}\
-td:first-child,th:first-child{text-align:left}.frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(200px,1fr));gap:.7rem}\
-figure{margin:0}figure img{width:100%;display:block}figcaption{font-size:.75rem;color:#555;overflow-wrap:anywhere}svg{max-width:100%;height:auto}svg text{font:12px system-ui,sans-serif;fill:#1c1f24}\
+const STYLE: &str = ":root{color-scheme:light dark}body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:72rem;padding:0 1rem;color:#1c1f24;background:#fff}\
+h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}table{border-collapse:collapse}td,th{padding:.15rem .6rem;text-align:right;white-space:nowrap;border-bottom:1px solid #e3e5e9}\
+td:first-child,th:first-child{text-align:left}.frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:.7rem}\
+figure{margin:0}figure img{width:100%;display:block}figcaption{font-size:.75rem;color:#555;overflow-wrap:anywhere}.wide{overflow-x:auto}svg{display:block}svg text{font:12px system-ui,sans-serif;fill:#1c1f24}\
 .train{color:#2f6fb5;fill:#2f6fb5}.val{color:#d9822b;fill:#d9822b}.gap{color:#a05cb0;fill:#a05cb0}.rest{color:#b4bac2;fill:#b4bac2}\
-.maps{display:flex;flex-wrap:wrap;gap:1.5rem}.bar{fill:#2f6fb5}.pale{fill:#c3cfdd}.line{stroke:#d5d9df}.frame{fill:none;stroke:#d5d9df}\
+.maps{display:flex;flex-wrap:wrap;gap:1.5rem}.bar{fill:#2f6fb5}rect[fill]{stroke:currentColor;stroke-opacity:.4}.pale{fill:#c3cfdd}.line{stroke:#d5d9df}.frame{fill:none;stroke:#d5d9df}\
 @media(prefers-color-scheme:dark){body{background:#15171a;color:#e3e5e9}svg text{fill:#e3e5e9}td,th{border-color:#33373d}.pale{fill:#3d4c5f}.line,.frame{stroke:#3a3f46}figcaption{color:#a5abb3}}";
 
 /// The page, as HTML.
@@ -59,23 +59,23 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
         after = entropy(&curation.shares(true)),
     );
     page += "<h2>Pixels by class</h2><p>Upper bars: all frames; lower bars: those kept. Each line is ten times the previous one.</p>";
-    page += &class_bars(&curation.shares(false), &curation.shares(true));
+    page += &wide(&class_bars(&curation.shares(false), &curation.shares(true)));
     page += "<h2>Classes per frame</h2><p>Number of frames by number of classes; pale: dropped frames.</p>";
     let classes = |f: &CandidateFrame| f.classes() as f64;
     let [all, chosen] = [histogram(frames, 20, 20.0, classes), histogram(kept.iter().copied(), 20, 20.0, classes)];
-    page += &bars(&all, &chosen, |i| i.to_string());
+    page += &wide(&bars(&all, &chosen, |i| i.to_string()));
     page += "<h2>Entropy per frame</h2><p>Bits, from the number under each bar; pale: dropped frames.</p>";
     let bits = CandidateFrame::entropy;
     let [all, chosen] = [histogram(frames, 16, 4.0, bits), histogram(kept.iter().copied(), 16, 4.0, bits)];
-    page += &bars(&all, &chosen, |i| format!("{:.2}", i as f64 / 4.0));
+    page += &wide(&bars(&all, &chosen, |i| format!("{:.2}", i as f64 / 4.0)));
     page += "<h2>Where the cameras stand</h2><p>North is up. \
              <span class=\"train\">●</span> training <span class=\"val\">●</span> validation \
              <span class=\"gap\">●</span> between both <span class=\"rest\">●</span> dropped</p>";
     page += &places(curation);
     page += "<h2>Objects kept, by distance</h2>";
-    page += &objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into());
+    page += &wide(&objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into()));
     page += "<h2>Objects kept, by visible pixels</h2>";
-    page += &objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into());
+    page += &wide(&objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into()));
     page += "<h2>Most valuable frames</h2><div class=\"frames\">";
     let shown: Vec<String> = kept
         .par_iter()
@@ -95,6 +95,11 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
     page += &shown.concat();
     page += "</div></html>\n";
     Ok(page)
+}
+
+/// What may be wider than a phone, whose reader moves it sideways, with a finger or with the keys.
+fn wide(content: &str) -> String {
+    format!("<div class=\"wide\" tabindex=\"0\">{content}</div>")
 }
 
 /// A small picture as base64 of JPEG: of the picture, or of the classes where there is none.

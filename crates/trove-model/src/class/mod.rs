@@ -161,6 +161,32 @@ mod tests {
     }
 
     #[test]
+    fn the_thirteen_classes_are_those_of_the_contract() {
+        // Written down from the paper's list, not from the table.
+        let thirteen: [&[Class]; 13] = [
+            &[Class::Void, Class::Barrier],
+            &[Class::Car, Class::Jeep, Class::Van],
+            &[Class::Bus],
+            &[Class::Truck, Class::Construction],
+            &[Class::Human],
+            &[Class::CycleRider, Class::MotorcycleRider],
+            &[Class::Road],
+            &[Class::Sidewalk],
+            &[Class::Building],
+            &[Class::TrafficCone, Class::TrafficSign],
+            &[Class::Bush, Class::Tree],
+            &[Class::Ground],
+            &[Class::Sky],
+        ];
+        assert_eq!(thirteen.iter().map(|of| of.len()).sum::<usize>(), 20);
+        for (id, of) in thirteen.iter().enumerate() {
+            for class in *of {
+                assert_eq!(usize::from(class.row().class13), id, "{class:?}");
+            }
+        }
+    }
+
+    #[test]
     fn classes_have_their_numbers_in_other_sets() {
         let numbers = |class: Class| {
             let row = class.row();

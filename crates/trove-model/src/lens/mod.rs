@@ -138,6 +138,21 @@ mod tests {
     }
 
     #[test]
+    fn a_point_falls_where_opencv_has_it() {
+        // OpenCV's documented formulas, worked out by hand for x/z = 0.5, y/z = 0.25.
+        let point = DVec3::new(1.0, 0.5, 2.0);
+        let bent = Distortion::brown_conrady(&[-0.3, 0.1, 0.01, -0.02]).unwrap();
+        let seen = lens(1600, 900, [1000.0, 1000.0, 800.0, 450.0], bent).project(point).unwrap();
+        assert!(seen.distance(DVec2::new(800.0 + 444.257_812_5, 450.0 + 228.378_906_25)) < 1e-9, "{seen}");
+        // A fisheye's angle θ from the axis is at f·θ·(1 + k1·θ²): 45° to the right here.
+        let fisheye = Distortion::kannala_brandt(&[0.1]).unwrap();
+        let seen = lens(1600, 900, [500.0, 500.0, 800.0, 450.0], fisheye).project(DVec3::new(3.0, 0.0, 3.0)).unwrap();
+        let angle = std::f64::consts::FRAC_PI_4;
+        let expected = DVec2::new(800.0 + 500.0 * angle * (1.0 + 0.1 * angle * angle), 450.0);
+        assert!(seen.distance(expected) < 1e-9, "{seen}");
+    }
+
+    #[test]
     fn a_point_behind_a_pinhole_is_not_seen_and_one_beside_a_fisheye_is() {
         assert_eq!(PINHOLE.project(DVec3::new(0.0, 0.0, -1.0)), None);
         let fisheye = typical()[3];

@@ -203,6 +203,30 @@ fn facets_differ_there_and_back_by_what_single_reflection_loses() {
 }
 
 #[test]
+fn every_lobe_alone_takes_the_same_way_back() {
+    // Without what the layers above leave of the light, which is known for one direction alone, each lobe is reciprocal.
+    let metal = Parameters { base_color: Vec3::splat(0.4), metalness: 1.0, ..white(0.4) };
+    let cloth = Parameters { sheen: Vec3::ONE, ..white(0.4) };
+    let lacquer = Parameters { coat: coat(1.0, 0.2), ..white(0.4) };
+    let mut random = Seed(5).random();
+    for _ in 0..400 {
+        let (a, b) = (above(&mut random), above(&mut random));
+        for (name, p, kept) in [("facets", &metal, 0), ("fibres", &cloth, 1), ("coat", &lacquer, 2)] {
+            let seen = |wo: Vec3, wi: Vec3| {
+                let mut lobe = seen_from(wo, p);
+                lobe.diffuse = Diffuse::new(Vec3::ZERO, 0.0, 0.0, 0.0, lobe.cos_o);
+                let share = |which: i32| f32::from(u8::from(which == kept));
+                (lobe.gain, lobe.sheen) = (Vec3::splat(share(0)), Vec3::splat(share(1)));
+                lobe.coat.share = share(2);
+                lobe.eval(wi).0.x / wi.z
+            };
+            let (there, back) = (seen(a, b), seen(b, a));
+            assert!(there > 0.0 && (there / back - 1.0).abs() < 2e-3, "{name}: {there}, {back} for {a} and {b}");
+        }
+    }
+}
+
+#[test]
 fn directions_are_drawn_with_the_density_that_is_claimed() {
     let sorts = all_sorts().into_iter().filter(|(_, p)| p.alpha == 0.4 || (p.alpha == 0.1 && p.metalness == 1.0));
     // Narrow coats would need finer bins.
