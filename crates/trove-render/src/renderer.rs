@@ -42,8 +42,6 @@ pub struct Renderer {
     textures: Textures,
     surroundings: LastSurroundings,
     pool: rayon::ThreadPool,
-    /// For the next scene while a picture is taken: of a shared pool a thread that waits for tiles would start on it.
-    preparing: rayon::ThreadPool,
 }
 
 impl Renderer {
@@ -52,27 +50,17 @@ impl Renderer {
     /// # Errors
     /// A kernel that was asked for and is not installed, or threads that the system refuses to start.
     pub fn new(options: &RendererOptions) -> Result<Self, RenderError> {
-        let pool = |name: &'static str| {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(options.threads)
-                .thread_name(move |i| format!("{name}-{i}"))
-                .build()
-                .map_err(|source| RenderError::Threads { threads: options.threads, source })
-        };
-        let (pool, preparing) = (pool("render")?, pool("prepare")?);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(options.threads)
+            .thread_name(|i| format!("render-{i}"))
+            .build()
+            .map_err(|source| RenderError::Threads { threads: options.threads, source })?;
         let kernel = accel::kernel(options.kernel, &options.search)?;
         let denoiser = match options.denoise {
             Denoising::None => Err("not asked for".into()),
             how => Denoiser::load(&options.search, pool.current_num_threads(), how).map_err(|e| e.to_string()),
         };
-        Ok(Self {
-            kernel,
-            denoiser,
-            textures: Textures::default(),
-            surroundings: LastSurroundings::default(),
-            pool,
-            preparing,
-        })
+        Ok(Self { kernel, denoiser, textures: Textures::default(), surroundings: LastSurroundings::default(), pool })
     }
 
     /// What this renderer works with.
@@ -91,7 +79,13 @@ impl Renderer {
     /// A mesh, material or instance that breaks the rules of [`Scene`], which the error names, or a kernel that cannot build
     /// its tree, such as for want of memory.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
-        self.preparing.install(|| PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings))
+        self.pool.install(|| PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings))
+    }
+
+    /// Runs `work` on this thread; what it spawns takes one of the renderer's threads, besides the pictures that `work` takes.
+    /// Spawned before a picture, it starts at once.
+    pub fn beside<'scope, R>(&self, work: impl FnOnce(&rayon::Scope<'scope>) -> R) -> R {
+        self.pool.in_place_scope(work)
     }
 
     /// Measures how long the rays of one sample a pixel take one thread, and the bare kernel.

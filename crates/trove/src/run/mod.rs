@@ -8,10 +8,9 @@ mod worker;
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::thread;
+use std::sync::mpsc;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -394,12 +393,18 @@ impl Run<'_> {
             Ok((built.photographed(renderer, keyframe)?, before))
         };
         // A keyframe is made ready, mostly by one core, while the pictures of the one before it are taken.
-        thread::scope(|threads| {
-            let mut ahead = missing.iter().map(|(keyframe, keys)| (keys, threads.spawn(move || ready(*keyframe))));
+        renderer.beside(|threads| {
+            let mut ahead = missing.iter().map(|(keyframe, keys)| {
+                let (made, waiting) = mpsc::channel();
+                // Nobody waits any more once a frame has failed.
+                threads.spawn(move |_| drop(made.send(ready(*keyframe))));
+                (keys, waiting)
+            });
             let mut next = ahead.next();
-            while let Some((keys, thread)) = next {
+            while let Some((keys, waiting)) = next {
                 let started = Instant::now();
-                let (photographed, before) = thread.join().unwrap_or_else(|panic| resume_unwind(panic))?;
+                // Without an answer it has panicked, and the panic goes on when this returns.
+                let (photographed, before) = waiting.recv().context("a scene could not be made ready")??;
                 next = ahead.next();
                 let mut prepare_s = started.elapsed().as_secs_f64();
                 for key in keys {
