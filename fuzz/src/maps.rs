@@ -20,7 +20,7 @@ pub(crate) fn feed(folder: &Path, data: &[u8]) {
     if fs::write(&path, data).is_err() {
         return;
     }
-    let projection = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
+    let projection = MapProjection::spherical(0.0, 0.0, DVec2::ZERO);
     let area = Bounds::square(DVec2::ZERO, 2000.0);
     // Whatever is wrong is an error.
     let _ = osm::read(&path, &projection, area, DrivingSide::Right, &Report::default());

@@ -35,7 +35,7 @@ fn locale(projection: MapProjection) -> Locale {
 }
 
 fn plan(name: &str, lat_deg: f64, lon_deg: f64, size_m: f64) -> PlacePlan<'_> {
-    let projection = MapProjection { origin_lat_deg: lat_deg, origin_lon_deg: lon_deg, anchor_m: DVec2::ZERO };
+    let projection = MapProjection::spherical(lat_deg, lon_deg, DVec2::ZERO);
     PlacePlan { name, projection, size_m, driving_side: locale(projection).driving_side, time_ns: 0 }
 }
 

@@ -13,7 +13,7 @@
 //! let map = StreetMap { roads: vec![Road::new(1, RoadKind::Residential, ends)], ..StreetMap::default() };
 //! let plan = PlacePlan {
 //!     name: "a street",
-//!     projection: MapProjection { origin_lat_deg: 51.501, origin_lon_deg: -0.141, anchor_m: DVec2::ZERO },
+//!     projection: MapProjection::spherical(51.501, -0.141, DVec2::ZERO),
 //!     size_m: 120.0,
 //!     driving_side: DrivingSide::Left,
 //!     time_ns: 1_718_452_800_000_000_000, // noon in June

@@ -103,7 +103,7 @@ pub enum LensModel {
     KannalaBrandt,
 }
 
-/// World = (Δlon·R·cos lat₀, Δlat·R) − `anchor_m`, R = 6,378,137 m, angles in radians from the origin.
+/// World = (Δlon, Δlat) · `metres_per_rad` − `anchor_m`, angles in radians from the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Projection {
@@ -113,6 +113,9 @@ pub struct Projection {
     pub origin_lon_deg: f64,
     /// World's origin in the dataset's own plane, metres east and north.
     pub anchor_m: [f64; 2],
+    /// Metres in a radian of longitude and of latitude; null in folders of earlier versions: R·cos lat₀ and R, R = 6,378,137 m.
+    #[serde(default)]
+    pub metres_per_rad: Option<[f64; 2]>,
 }
 
 /// An object.
@@ -209,6 +212,7 @@ impl From<&MapProjection> for Projection {
             origin_lat_deg: projection.origin_lat_deg,
             origin_lon_deg: projection.origin_lon_deg,
             anchor_m: projection.anchor_m.to_array(),
+            metres_per_rad: Some(projection.metres_per_rad.to_array()),
         }
     }
 }

@@ -93,7 +93,7 @@ pub struct DriveProjection {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ProjectionKind {
-    /// World = (Δlon·R·cos lat₀, Δlat·R) − `anchor_m`, R = 6,378,137 m, angles in radians from the origin.
+    /// World = (Δlon, Δlat) · `metres_per_rad` − `anchor_m`, angles in radians from the origin.
     Equirectangular,
 }
 

@@ -19,7 +19,12 @@ fn site() -> SiteFile {
             licence: "CC BY-NC-SA 4.0".into(),
             projection: DriveProjection {
                 kind: ProjectionKind::Equirectangular,
-                projection: Projection { origin_lat_deg: 42.3, origin_lon_deg: -71.1, anchor_m: [1.5, 2.5] },
+                projection: Projection {
+                    origin_lat_deg: 42.3,
+                    origin_lon_deg: -71.1,
+                    anchor_m: [1.5, 2.5],
+                    metres_per_rad: None,
+                },
             },
         },
         recording: None,

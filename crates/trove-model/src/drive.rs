@@ -17,6 +17,9 @@ pub struct Drive {
     pub place: String,
     /// From latitude and longitude to World.
     pub projection: MapProjection,
+    /// Whether World lies on the earth as [`Drive::projection`] says; otherwise that is only whereabouts it was recorded,
+    /// enough for sun, season and customs, and no street map is laid on the drive.
+    pub is_georeferenced: bool,
     /// Cameras in the order of their names.
     pub rig: Vec<RigCamera>,
     /// The recording vehicle's own body.

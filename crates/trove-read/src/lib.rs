@@ -21,7 +21,7 @@
 //! let locale = Locales::built_in().at(51.501, -0.141, &report);
 //! assert!(locale.driving_side.is_left(), "London");
 //!
-//! let projection = MapProjection { origin_lat_deg: 51.501, origin_lon_deg: -0.141, anchor_m: DVec2::ZERO };
+//! let projection = MapProjection::spherical(51.501, -0.141, DVec2::ZERO);
 //! let area = Bounds::square(DVec2::ZERO, 400.0);
 //! let map = osm::read(&path, &projection, area, locale.driving_side, &report)?;
 //! assert_eq!(map.roads[0].kind, RoadKind::Residential);
@@ -37,6 +37,7 @@ pub mod drive_source;
 pub mod environment;
 mod error;
 mod geo_extent;
+mod geodesy;
 pub mod human_body;
 pub mod locale;
 pub mod nuscenes;

@@ -112,7 +112,7 @@ fn meta() -> FrameMeta {
         source_token: Some("picture".into()),
         source_image: Some("samples/CAM_FRONT/a.jpg".into()),
         world_from_ego: None,
-        projection: MapProjection { origin_lat_deg: 42.3, origin_lon_deg: -71.1, anchor_m: DVec2::new(1.0, 2.0) },
+        projection: MapProjection::spherical(42.3, -71.1, DVec2::new(1.0, 2.0)),
     }
 }
 

@@ -22,8 +22,7 @@ pub(crate) fn drive(
     driving_side: DrivingSide,
     report: &Report,
 ) -> Result<(Drive, Option<StreetMap>)> {
-    let projection =
-        MapProjection { origin_lat_deg: place.lat_deg, origin_lon_deg: place.lon_deg, anchor_m: DVec2::ZERO };
+    let projection = MapProjection::spherical(place.lat_deg, place.lon_deg, DVec2::ZERO);
     let area = Bounds::square(DVec2::ZERO, place.size_m);
     let map = street_map(recipe, &projection, area, driving_side, report)?;
     let (extract, map) = map.context("the recipe has no map.osm")?;

@@ -131,6 +131,10 @@ impl<'a> Sources<'a> {
             return place::drive(self.recipe, place, side(place.lat_deg, place.lon_deg), report);
         };
         let drive = dataset.read(scene, report)?;
+        if !drive.is_georeferenced {
+            report.note(Outcome::Warned, "unknown where on earth the drive lies: no street map is laid on it", scene);
+            return Ok((drive, None));
+        }
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
         let MapProjection { origin_lat_deg, origin_lon_deg, .. } = drive.projection;
         let map = street_map(self.recipe, &drive.projection, area, side(origin_lat_deg, origin_lon_deg), report)?;

@@ -26,7 +26,7 @@ fn drive(streets: &[[[f64; 2]; 2]]) -> Drive {
 /// A drive where traffic keeps right, as the made-up lanes do.
 fn on_the_right() -> Drive {
     let drive = testing::drive();
-    let projection = MapProjection { origin_lat_deg: 42.3, origin_lon_deg: -71.0, ..drive.projection };
+    let projection = MapProjection::spherical(42.3, -71.0, drive.projection.anchor_m);
     Drive { projection, ..drive }
 }
 

@@ -93,6 +93,7 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         origin: DriveOrigin::MadeUp,
         place: place.into(),
         projection,
+        is_georeferenced: true,
         keyframes: stands.iter().enumerate().map(keyframe).collect(),
         rig,
         ego_body: EgoBody { centre_ego: DVec3::new(1.2, 0.0, 0.78), size_m: DVec3::new(4.08, 1.73, 1.56) },
@@ -172,7 +173,7 @@ mod tests {
     }
 
     fn plan(driving_side: DrivingSide) -> PlacePlan<'static> {
-        let projection = MapProjection { origin_lat_deg: 60.17, origin_lon_deg: 24.94, anchor_m: DVec2::ZERO };
+        let projection = MapProjection::spherical(60.17, 24.94, DVec2::ZERO);
         PlacePlan { name: "p", projection, size_m: 400.0, driving_side, time_ns: 0 }
     }
 

@@ -57,7 +57,7 @@ fn frame(i: u32) -> FrameTable {
         world_from_camera_next: None,
         world_from_ego: None,
         carrier: None,
-        projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2] },
+        projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2], metres_per_rad: None },
         exposure_ev: None,
         spp: 1,
         denoised: false,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, Outcome, Report};
+use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, MapProjection, Outcome, Report};
 
 use super::dataset::{LICENCE, NuScenes};
 use super::exposures::{self, GlobalFromEgo, Taken};
@@ -89,12 +89,14 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
     }
     let place_name = log.map_or("", |l| l.location.as_str());
     let path: Vec<DVec2> = keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let projection = place::projection(log, anchor_m, report);
     let mut drive = Drive {
         id: record.name.clone(),
         dataset: "nuscenes".to_owned(),
         origin: DriveOrigin::Recorded,
         place: place_name.to_owned(),
-        projection: place::projection(log, anchor_m, report),
+        is_georeferenced: projection.is_some(),
+        projection: projection.unwrap_or_else(|| MapProjection::spherical(0.0, 0.0, anchor_m)),
         rig,
         ego_body: EGO_BODY,
         lane_map: lane_map::read(&dataset.root, place_name, anchor_m, &path, report),

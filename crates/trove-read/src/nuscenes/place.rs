@@ -13,16 +13,16 @@ const ORIGINS: [(&str, f64, f64); 4] = [
     ("singapore-queenstown", 1.2782562240223188, 103.76741409301758),
 ];
 
-/// The projection of a log: by its own `trove_origin` keys, else by the name of its map.
-pub(super) fn projection(log: Option<&LogRecord>, anchor_m: DVec2, report: &Report) -> MapProjection {
+/// The projection of a log, by its own `trove_origin` keys, else by the name of its map; `None` where neither is known.
+pub(super) fn projection(log: Option<&LogRecord>, anchor_m: DVec2, report: &Report) -> Option<MapProjection> {
     let place = log.map_or("", |l| l.location.as_str());
     let own = log.and_then(|l| l.trove_origin_lat_deg.zip(l.trove_origin_lon_deg));
     let own = own.filter(|(lat, lon)| lat.abs() < 89.0 && lon.abs() <= 180.0);
     let known = ORIGINS.iter().find(|(name, ..)| *name == place).map(|&(_, lat, lon)| (lat, lon));
-    let (origin_lat_deg, origin_lon_deg) = own.or(known).unwrap_or_else(|| {
+    let origin = own.or(known);
+    if origin.is_none() {
         let example = if place.is_empty() { "a log without location" } else { place };
         report.note(Outcome::Warned, "place of unknown origin: no street map can be aligned with the drive", example);
-        (0.0, 0.0)
-    });
-    MapProjection { origin_lat_deg, origin_lon_deg, anchor_m }
+    }
+    origin.map(|(lat_deg, lon_deg)| MapProjection::spherical(lat_deg, lon_deg, anchor_m))
 }

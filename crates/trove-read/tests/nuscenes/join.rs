@@ -127,6 +127,7 @@ fn a_made_up_place_says_where_it_lies() {
         let (report, dataset) = (Report::default(), Dataset::small().with("log", |rows| change(&mut rows[0])));
         let drive = load(dataset.write().path(), &report).unwrap();
         let is_warned = notes(&report).iter().any(|(_, what, _)| what.contains("unknown origin"));
+        assert_eq!(drive.is_georeferenced, !is_warned);
         (drive.projection.origin_lat_deg, is_warned, drive.licence)
     };
     assert_eq!(of(&|_| ()).0, 42.336849169438615);

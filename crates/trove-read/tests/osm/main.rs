@@ -17,7 +17,10 @@ use trove_read::{ReadError, osm};
 
 use wire::{blob, bytes, deltas, header, packed, varint};
 
-const ORIGIN: MapProjection = MapProjection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: DVec2::ZERO };
+/// Around latitude and longitude 0.
+fn origin() -> MapProjection {
+    MapProjection::spherical(0.0, 0.0, DVec2::ZERO)
+}
 
 /// Degrees of a metre at the origin.
 const METRE_DEG: f64 = 360.0 / (std::f64::consts::TAU * 6_378_137.0);
@@ -63,7 +66,7 @@ fn read_bytes(bytes: &[u8]) -> (Result<StreetMap, ReadError>, Report) {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let path = file(&dir, "map.osm", bytes);
     let area = Bounds::square(DVec2::ZERO, 2000.0);
-    (osm::read(&path, &ORIGIN, area, DrivingSide::Right, &report), report)
+    (osm::read(&path, &origin(), area, DrivingSide::Right, &report), report)
 }
 
 fn read(content: &str) -> (StreetMap, Report) {
@@ -373,13 +376,13 @@ fn furniture_stands_where_its_node_is_and_faces_the_traffic() {
 fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let path = file(&dir, "map.osm", format!("<osm>{}</osm>", squares()).as_bytes());
-    let boston = MapProjection { origin_lat_deg: 42.3368, origin_lon_deg: -71.0579, anchor_m: DVec2::ZERO };
+    let boston = MapProjection::spherical(42.3368, -71.0579, DVec2::ZERO);
     let error = osm::read(&path, &boston, Bounds::square(DVec2::ZERO, 500.0), DrivingSide::Right, &report).unwrap_err();
     assert!(matches!(error, ReadError::Elsewhere { .. }), "{error:?}");
     let error = error.to_string();
     assert!(error.contains("42.33") && error.contains("latitude 0.0000°") && error.contains("km away"), "{error}");
     let extent = osm::extent(&path).unwrap();
-    assert!((extent.bounds(&ORIGIN).size_m() - DVec2::splat(10.0)).length() < 1e-6);
+    assert!((extent.bounds(&origin()).size_m() - DVec2::splat(10.0)).length() < 1e-6);
 }
 
 #[test]
@@ -403,7 +406,7 @@ fn a_place_at_the_antimeridian_is_whole() {
     let dir = tempfile::tempdir().unwrap();
     let path = file(&dir, "map.osm", format!("<osm>{content}</osm>").as_bytes());
     for origin_lon_deg in [180.0, -180.0, 179.9999, -179.9999] {
-        let projection = MapProjection { origin_lon_deg, ..ORIGIN };
+        let projection = MapProjection { origin_lon_deg, ..origin() };
         let area = Bounds::square(DVec2::ZERO, 500.0);
         let map = osm::read(&path, &projection, area, DrivingSide::Right, &Report::default()).unwrap();
         assert!((map.buildings[0].footprint.area_m2() - 80.0 * 30.0).abs() < 1e-3, "{origin_lon_deg}");
@@ -518,11 +521,11 @@ fn real(name: &str) -> PathBuf {
 /// Everything of a real extract.
 fn read_real(path: &Path) -> (StreetMap, Report) {
     let extent = osm::extent(path).unwrap();
-    let projection = MapProjection {
-        origin_lat_deg: (extent.min_lat_deg + extent.max_lat_deg) / 2.0,
-        origin_lon_deg: (extent.min_lon_deg + extent.max_lon_deg) / 2.0,
-        anchor_m: DVec2::ZERO,
-    };
+    let projection = MapProjection::spherical(
+        (extent.min_lat_deg + extent.max_lat_deg) / 2.0,
+        (extent.min_lon_deg + extent.max_lon_deg) / 2.0,
+        DVec2::ZERO,
+    );
     let report = Report::default();
     let map = osm::read(path, &projection, extent.bounds(&projection).grown(1.0), DrivingSide::Right, &report).unwrap();
     (map, report)
@@ -564,11 +567,7 @@ fn real_odd_files_give_a_sound_map_or_a_clear_error() {
     for path in files {
         // Around the first of its places, as a drive there would ask for it.
         let Ok(extent) = osm::extent(&path) else { continue };
-        let projection = MapProjection {
-            origin_lat_deg: extent.min_lat_deg,
-            origin_lon_deg: extent.min_lon_deg,
-            anchor_m: DVec2::ZERO,
-        };
+        let projection = MapProjection::spherical(extent.min_lat_deg, extent.min_lon_deg, DVec2::ZERO);
         for side_m in [600.0, 3000.0] {
             let report = Report::default();
             match osm::read(&path, &projection, Bounds::square(DVec2::ZERO, side_m), DrivingSide::Right, &report) {

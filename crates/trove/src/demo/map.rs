@@ -220,7 +220,7 @@ struct OsmFile {
 impl OsmFile {
     fn new() -> Self {
         let anchor_m = DVec2::from_array(CROSSING_M);
-        let projection = MapProjection { origin_lat_deg: LAT_DEG, origin_lon_deg: LON_DEG, anchor_m };
+        let projection = MapProjection::spherical(LAT_DEG, LON_DEG, anchor_m);
         Self { projection, nodes: String::new(), ways: String::new(), next_id: 1 }
     }
 
