@@ -11,9 +11,9 @@ use super::facts::FACTS;
 use super::sweeps;
 use crate::levelling::{self, Trust};
 
-/// Attitudes are the IMU's, to about 0.03°, and heights drift by centimetres a second, against boxes that are placed to about
+/// Attitudes are the IMU's, to about 0.03°, and heights drift by up to 5 cm a second, against boxes that are placed to about
 /// 5 cm.
-const HEIGHTS: Trust = Trust { tilt: 10_000.0, change: 6.0, step_ns: 1_000_000_000 };
+const HEIGHTS: Trust = Trust { tilt: 10_000.0, change: 1.0, step_ns: 1_000_000_000 };
 
 /// What was recorded, before it is joined.
 pub(super) struct Recorded {

@@ -4,4 +4,5 @@
 
 mod canonical;
 mod comparison;
+mod kitti;
 mod nuscenes;
