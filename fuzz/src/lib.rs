@@ -8,6 +8,7 @@
 //! ```
 
 mod datasets;
+mod kitti;
 mod maps;
 mod models;
 pub mod mutator;
@@ -33,7 +34,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 22] = [
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
     Target {
@@ -59,6 +60,20 @@ pub const TARGETS: [Target; 18] = [
         seeds: datasets::index_seeds,
         prepare: datasets::prepare_index,
         feed: datasets::feed_index,
+    },
+    Target {
+        name: "kitti_calibration",
+        seeds: kitti::calibration_seeds,
+        prepare: kitti::prepare,
+        feed: kitti::feed_calibration,
+    },
+    Target { name: "kitti_labels", seeds: kitti::label_seeds, prepare: kitti::prepare, feed: kitti::feed_labels },
+    Target { name: "kitti_oxts", seeds: kitti::oxts_seeds, prepare: kitti::prepare, feed: kitti::feed_oxts },
+    Target {
+        name: "kitti_tracklets",
+        seeds: kitti::tracklet_seeds,
+        prepare: kitti::prepare,
+        feed: kitti::feed_tracklets,
     },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },

@@ -35,3 +35,16 @@ pub struct LaneMap {
     /// Lines between lanes of one direction.
     pub lane_dividers: Vec<Vec<DVec2>>,
 }
+
+impl LaneMap {
+    /// Every point of it.
+    pub(crate) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec2> {
+        let Self { drivable, lanes, walkways, crossings, stop_lines, carparks, road_dividers, lane_dividers } = self;
+        let (lane_polygons, centrelines): (Vec<_>, Vec<_>) =
+            lanes.iter_mut().map(|lane| (&mut lane.polygon, &mut lane.centreline)).unzip();
+        let areas = [drivable, walkways, crossings, stop_lines, carparks].into_iter().flatten().chain(lane_polygons);
+        let rings = areas.flat_map(|area| std::iter::once(&mut area.exterior).chain(&mut area.holes));
+        let lines = road_dividers.iter_mut().chain(lane_dividers).chain(centrelines);
+        rings.chain(lines).flatten()
+    }
+}

@@ -39,6 +39,8 @@ mod error;
 mod geo_extent;
 mod geodesy;
 pub mod human_body;
+pub mod kitti;
+mod levelling;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;

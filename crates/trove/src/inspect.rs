@@ -26,7 +26,8 @@ pub(crate) fn run(root: &Path, dataset: Option<String>, options: &[String], as_j
         Ok((key.trim().to_owned(), toml_value(value)))
     });
     let options = options.collect::<Result<_>>()?;
-    let section = DriveSection { dataset, root: root.to_owned(), scenes: None, keyframes: Keyframes::All, options };
+    let section =
+        DriveSection { dataset, root: root.to_owned(), scenes: None, keyframes: Keyframes::All, at: None, options };
     let report = Report::default();
     let opened = section.opener()?(root, cache::folder().as_deref(), &report)?;
     let mut drives = Vec::new();

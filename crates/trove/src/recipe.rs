@@ -4,6 +4,7 @@ mod camera;
 mod check;
 mod light;
 mod season;
+mod standpoint;
 mod variations;
 
 use std::collections::BTreeSet;
@@ -22,6 +23,7 @@ use self::check::check;
 pub use camera::CameraSection;
 pub use light::LightSection;
 pub use season::SeasonChoice;
+pub use standpoint::Standpoint;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
@@ -82,13 +84,16 @@ pub struct DriveSection {
     /// Which moments.
     #[serde(default)]
     pub keyframes: Keyframes,
+    /// Where a drive lies that does not know it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Standpoint>,
     /// All other keys: the dataset's own.
     #[serde(flatten)]
     pub options: toml::Table,
 }
 
 /// The keys of `[drive]` that every dataset has.
-const DRIVE_KEYS: [&str; 4] = ["dataset", "root", "scenes", "keyframes"];
+const DRIVE_KEYS: [&str; 5] = ["dataset", "root", "scenes", "keyframes", "at"];
 
 impl DriveSection {
     /// What opens the dataset, with its own keys read.
@@ -432,6 +437,9 @@ impl Recipe {
             }
             (Some(drive), None) => {
                 drive.opener().map(drop)?;
+                if let Some(at) = &drive.at {
+                    at.check()?;
+                }
                 if let Keyframes::Every(EveryNth { every }) = drive.keyframes {
                     check("drive.keyframes.every", every, every > 0, "1 or more")?;
                 }

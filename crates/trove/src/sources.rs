@@ -131,6 +131,10 @@ impl<'a> Sources<'a> {
             return place::drive(self.recipe, place, side(place.lat_deg, place.lon_deg), report);
         };
         let drive = dataset.read(scene, report)?;
+        let drive = match self.recipe.drive.as_ref().and_then(|section| section.at) {
+            Some(at) => at.lay(drive)?,
+            None => drive,
+        };
         if !drive.is_georeferenced {
             report.note(Outcome::Warned, "unknown where on earth the drive lies: no street map is laid on it", scene);
             return Ok((drive, None));
