@@ -5,3 +5,4 @@
 mod canonical;
 mod comparison;
 mod nuscenes;
+mod plain;
