@@ -1,10 +1,11 @@
 //! Traces as a source of drives.
 
 use std::fs;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use trove_files::{PathComponent, read_text};
+use trove_files::{LARGEST_TEXT, PathComponent, open_regular, read_text};
 use trove_model::{Drive, Outcome, Report, RigCamera};
 
 use super::drive::{self, Apart};
@@ -13,8 +14,8 @@ use super::{csv, gpx, rig};
 use crate::ReadError;
 use crate::drive_source::{Dataset, DriveListing, DriveSource, Opener};
 
-/// Larger files are refused: months at 10 Hz, bytes.
-const LARGEST: u64 = 1 << 30;
+/// A line of names is shorter, bytes.
+const LONGEST_NAMES: u64 = 1 << 14;
 /// From one keyframe to the next where nothing else is asked for, metres.
 const SPACING_M: f64 = 10.0;
 /// The rig where none is named.
@@ -121,7 +122,12 @@ fn is_gpx(path: &Path) -> bool {
 
 fn is_trace(path: &Path) -> bool {
     let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-    is_gpx(path) || (is_csv && read_text(path, LARGEST).is_ok_and(|text| csv::is_trace(&text)))
+    let begins_as_one = || -> io::Result<bool> {
+        let mut names = Vec::new();
+        open_regular(path)?.take(LONGEST_NAMES).read_to_end(&mut names)?;
+        Ok(csv::is_trace(&String::from_utf8_lossy(&names)))
+    };
+    is_gpx(path) || (is_csv && begins_as_one().unwrap_or(false))
 }
 
 impl DriveSource for Traces {
@@ -133,7 +139,7 @@ impl DriveSource for Traces {
 
     fn read(&self, name: &str, report: &Report) -> Result<Drive, ReadError> {
         let path = self.path(name)?;
-        let text = read_text(path, LARGEST).map_err(|source| ReadError::io(path, source))?;
+        let text = read_text(path, LARGEST_TEXT).map_err(|source| ReadError::io(path, source))?;
         let fixes = if is_gpx(path) { gpx::fixes(&text, report) } else { csv::fixes(&text, report) };
         let drive = fixes.and_then(|fixes| drive::drive(name, &fixes, self.apart, &self.rig, &self.licence, report));
         drive.map_err(|Fault { place, expected, found }| ReadError::Format {

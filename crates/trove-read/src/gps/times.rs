@@ -2,8 +2,15 @@
 
 use toml::value::{Datetime, Offset};
 
+/// No trace is of a time after 2096, or so long before 1970: differences of times fit into 64 bits.
+const LATEST_NS: u64 = 4_000_000_000_000_000_000;
+
 /// Nanoseconds of a time that is RFC 3339, or a number: seconds, or by its size milli-, micro- or nanoseconds.
 pub(super) fn time_ns(text: &str) -> Option<i64> {
+    of_any_unit(text).filter(|ns| ns.unsigned_abs() <= LATEST_NS)
+}
+
+fn of_any_unit(text: &str) -> Option<i64> {
     let text = text.trim();
     if let Ok(number) = text.parse::<i64>()
         && number.unsigned_abs() >= 100_000_000_000
@@ -17,7 +24,7 @@ pub(super) fn time_ns(text: &str) -> Option<i64> {
         return number.checked_mul(per_unit);
     }
     if let Ok(seconds) = text.parse::<f64>() {
-        return (seconds.abs() < 9e9).then(|| (seconds * 1e9).round() as i64);
+        return (seconds.abs() < 4e9).then(|| (seconds * 1e9).round() as i64);
     }
     let Datetime { date: Some(date), time: Some(time), offset } = text.parse().ok()? else { return None };
     let offset_min = match offset {
@@ -61,7 +68,19 @@ mod tests {
         }
         assert_eq!(time_ns("46408.547498"), Some(46_408_547_498_000), "since the device was switched on");
         assert_eq!(time_ns("2018-08-01T15:26:00.250Z"), Some(seconds * 1_000_000_000 + 250_000_000));
-        for text in ["", "noon", "NaN", "inf", "2018-08-01", "15:26:00", "9999-12-31T23:59:59Z", "1e300"] {
+        for text in [
+            "",
+            "noon",
+            "NaN",
+            "inf",
+            "2018-08-01",
+            "15:26:00",
+            "9999-12-31T23:59:59Z",
+            "1e300",
+            "2199-01-01T00:00:00Z",
+            "-9e9",
+            "9223372036854775807",
+        ] {
             assert_eq!(time_ns(text), None, "{text}");
         }
     }

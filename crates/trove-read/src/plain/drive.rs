@@ -42,6 +42,7 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
     for (name, located) in cameras {
         if let Err(unsafe_name) = PathComponent::new(name) {
             faults.say(&located.part, &unsafe_name.to_string());
+            continue;
         }
         if let Some((lens, ego_from_camera)) = faults.take(&located.part, camera(&located.value)) {
             rig.push(RigCamera { name: name.clone(), lens, ego_from_camera });

@@ -6,8 +6,11 @@ use trove_model::{Exposure, Outcome, Report, RigCamera};
 
 use super::camera::camera;
 use super::earth::Earth;
-use super::faults::Faults;
+use super::faults::{Faults, nearest};
 use super::keyframes::{self, Posed};
+
+/// Cameras fire within this of the keyframe: other times are in another unit.
+const LONGEST_NS: u64 = 60_000_000_000;
 
 /// Where a drive's files lie.
 pub(super) struct Place<'a> {
@@ -50,14 +53,23 @@ pub(super) fn exposures(
     for (name, located) in pictures {
         let (part, picture) = (&located.part, &located.value);
         let Some(index) = rig.iter().position(|c| c.name == *name) else {
-            let nearest = rig.iter().min_by_key(|c| strsim::damerau_levenshtein(&c.name, name));
-            let hint = nearest.map(|c| format!("; did you mean {:?}?", c.name)).unwrap_or_default();
-            faults.say(part, &format!("expected the name of one of the cameras, found {name:?}{hint}"));
+            faults.explain(part, || {
+                let nearest = nearest(name, rig.iter().map(|c| c.name.as_str()));
+                let hint = nearest.map(|camera| format!("did you mean {camera:?}? "));
+                format!("expected the name of one of the cameras; {}found {name:?}", hint.unwrap_or_default())
+            });
             continue;
         };
         let mut exposure = untaken((index, &rig[index]));
         exposure.token = picture.token.clone().or_else(|| picture.file.clone());
         exposure.time_ns = picture.time_ns.unwrap_or(moment.time_ns);
+        if exposure.time_ns.abs_diff(moment.time_ns) > LONGEST_NS {
+            faults.say(
+                part,
+                &format!("time_ns: expected it within a minute of the keyframe's, found {}", exposure.time_ns),
+            );
+            continue;
+        }
         let given = picture.world_from_ego.is_some() || picture.geo_from_ego.is_some();
         if given {
             let pose = earth.ego(picture.world_from_ego.as_ref(), picture.geo_from_ego.as_ref());

@@ -11,6 +11,8 @@ use crate::ReadError;
 const TOLD: usize = 20;
 /// Longer messages are cut, characters.
 const LONGEST: usize = 300;
+/// Longer words are compared by their beginnings, characters.
+const LONGEST_WORD: usize = 100;
 
 /// A part of a text.
 #[derive(Clone, Debug)]
@@ -41,6 +43,11 @@ impl<'a> Faults<'a> {
 
     /// Tells of a fault in a part.
     pub(super) fn say(&mut self, part: &Part, what: &str) {
+        self.say_at(part, 0, || what.to_owned());
+    }
+
+    /// Tells of a fault whose words take time to find, if there is room for it.
+    pub(super) fn explain(&mut self, part: &Part, what: impl FnOnce() -> String) {
         self.say_at(part, 0, what);
     }
 
@@ -49,11 +56,16 @@ impl<'a> Faults<'a> {
         match serde_json::from_str(part.text) {
             Ok(value) => Some(value),
             Err(error) => {
+                if self.told.len() >= TOLD {
+                    self.count += 1;
+                    return None;
+                }
                 let before = part.text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len);
                 let offset = before.sum::<usize>() + error.column().saturating_sub(1);
                 let message = error.to_string();
                 let place = format!(" at line {} column {}", error.line(), error.column());
-                self.say_at(part, offset, &explained(message.strip_suffix(&place).unwrap_or(&message)));
+                let message = message.strip_suffix(&place).unwrap_or(&message);
+                self.say_at(part, offset, || explained(message));
                 None
             }
         }
@@ -65,7 +77,7 @@ impl<'a> Faults<'a> {
     }
 
     /// So many bytes from the part's start.
-    fn say_at(&mut self, part: &Part, offset: usize, what: &str) {
+    fn say_at(&mut self, part: &Part, offset: usize, what: impl FnOnce() -> String) {
         self.count += 1;
         if self.told.len() >= TOLD {
             return;
@@ -75,9 +87,9 @@ impl<'a> Faults<'a> {
         let before = self.whole.as_bytes().get(..start + offset).unwrap_or(self.whole.as_bytes());
         let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
         let column = before.iter().rev().take_while(|&&b| b != b'\n').count() + 1;
-        let path = if part.path.is_empty() { String::new() } else { format!("{}: ", part.path) };
-        let cut: String = what.chars().take(LONGEST).collect();
-        self.told.push(format!("line {line}, column {column}: {path}{cut}"));
+        let cut = |text: &str| text.chars().take(LONGEST).collect::<String>();
+        let path = if part.path.is_empty() { String::new() } else { format!("{}: ", cut(&part.path)) };
+        self.told.push(format!("line {line}, column {column}: {path}{}", cut(&what())));
     }
 
     /// An error where anything was told.
@@ -92,19 +104,22 @@ impl<'a> Faults<'a> {
 
 /// A message of the parser with the known word that is nearest to an unknown one.
 fn explained(message: &str) -> String {
-    let nearest = |found: &str, known: &mut dyn Iterator<Item = &'static str>| {
-        known.min_by_key(|name| strsim::damerau_levenshtein(name, found)).unwrap_or_default()
-    };
     if message.starts_with("expected a kind out of")
         && let Some((_, found)) = message.rsplit_once("found ")
     {
-        let kind = nearest(found.trim_matches('"'), &mut Kind::ALL.into_iter().map(Kind::name));
+        let kind = nearest(found.trim_matches('"'), Kind::ALL.into_iter().map(Kind::name)).unwrap_or_default();
         return format!("expected a kind, found {found}; did you mean \"{kind}\"?");
     }
     let mut names = message.split('`').skip(1).step_by(2);
     let unknown = names.next().filter(|_| message.starts_with("unknown "));
-    let nearest = unknown.and_then(|u| names.min_by_key(|name| strsim::damerau_levenshtein(name, u)));
+    let nearest = unknown.and_then(|unknown| nearest(unknown, names));
     nearest.map_or_else(|| message.to_owned(), |name| format!("{message}; did you mean `{name}`?"))
+}
+
+/// The known word that is nearest to one from a file, of which only the beginning is looked at.
+pub(super) fn nearest<'n>(found: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let found: String = found.chars().take(LONGEST_WORD).collect();
+    known.min_by_key(|name| strsim::damerau_levenshtein(name, &found))
 }
 
 #[cfg(test)]

@@ -8,6 +8,9 @@ use super::earth::Earth;
 use super::faults::{Faults, Located};
 use super::parts::Moment;
 
+/// No recording is of a time after 2096, or so long before 1970: differences of times fit into 64 bits.
+const LATEST_NS: u64 = 4_000_000_000_000_000_000;
+
 /// A keyframe of which time and pose are known.
 pub(super) struct Posed<'a, 'm> {
     pub(super) moment: &'m Located<'a, Moment<'a>>,
@@ -32,6 +35,10 @@ pub(super) fn posed<'a, 'm>(
             );
         }
         before_ns = Some(value.time_ns);
+        if value.time_ns.unsigned_abs() > LATEST_NS {
+            faults.say(part, &format!("time_ns: expected nanoseconds since 1970, found {}", value.time_ns));
+            continue;
+        }
         if !value.token.is_empty() && !tokens.insert(value.token.as_str()) {
             faults.say(part, &format!("token: expected another than an earlier keyframe's, found {:?}", value.token));
         }

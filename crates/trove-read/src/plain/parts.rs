@@ -47,11 +47,11 @@ pub(super) fn read<'a>(text: &'a str, is_lines: bool, faults: &mut Faults<'a>) -
         }
     }
     let texts: Vec<&str> = if is_lines { lines.collect() } else { keyframes.iter().map(|text| text.get()).collect() };
-    let keyframes = texts.into_iter().enumerate();
-    let keyframes: Vec<_> = keyframes.filter_map(|(k, text)| moment(text, format!("keyframes[{k}]"), faults)).collect();
-    if keyframes.is_empty() {
-        faults.say(&part, "keyframes: expected at least one, found none that can be read");
+    if texts.is_empty() {
+        faults.say(&part, "keyframes: expected at least one, found none");
     }
+    let keyframes = texts.into_iter().enumerate();
+    let keyframes = keyframes.filter_map(|(k, text)| moment(text, format!("keyframes[{k}]"), faults)).collect();
     let header = PlainDrive {
         trove_drive,
         name,

@@ -51,7 +51,8 @@ impl PlainDrives {
             let text = read_text(&path, LARGEST).map_err(|source| ReadError::io(&path, source))?;
             let is_lines = path.extension().is_some_and(|e| e == "jsonl");
             let folder = path.parent().and_then(|folder| fs::canonicalize(folder).ok());
-            let folder = folder.as_deref().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or("drive");
+            let folder = folder.as_deref().and_then(Path::file_name).and_then(|name| name.to_str());
+            let folder = folder.filter(|name| PathComponent::new(name).is_ok()).unwrap_or("drive");
             let name = parts::name(&text, is_lines).unwrap_or_else(|| folder.to_owned());
             if let Err(unsafe_name) = PathComponent::new(&name) {
                 return Err(ReadError::Format {

@@ -68,6 +68,11 @@ fn what_cannot_be_is_told() {
         "keyframes[1]: time_ns: expected more than",
     );
     check(|d| d["keyframes"][1]["time_ns"] = json!(5), "keyframes[1]: time_ns: expected more than");
+    check(|d| d["keyframes"][2]["time_ns"] = json!(i64::MAX), "time_ns: expected nanoseconds since 1970");
+    check(
+        |d| d["keyframes"][0]["pictures"]["front"] = json!({"time_ns": 1.6e15 as i64}),
+        "within a minute of the keyframe's",
+    );
     check(|d| d["keyframes"][1]["time_ns"] = json!(1.5), "invalid type: floating point");
     check(|d| d["keyframes"][1]["world_from_ego"]["rotation_wxyz"] = json!([0, 0, 0, 0]), "found both");
     check(
