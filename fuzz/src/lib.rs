@@ -12,6 +12,7 @@ mod kitti;
 mod maps;
 mod models;
 pub mod mutator;
+mod recordings;
 mod texts;
 
 use std::cell::RefCell;
@@ -34,7 +35,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 22] = [
+pub const TARGETS: &[Target] = &[
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
     Target {
@@ -75,6 +76,12 @@ pub const TARGETS: [Target; 22] = [
         prepare: kitti::prepare,
         feed: kitti::feed_tracklets,
     },
+    Target { name: "drive_json", seeds: recordings::json_seeds, prepare: |_| (), feed: recordings::feed_json },
+    Target { name: "drive_lines", seeds: recordings::lines_seeds, prepare: |_| (), feed: recordings::feed_lines },
+    Target { name: "pcd", seeds: recordings::pcd_seeds, prepare: recordings::prepare_pcd, feed: recordings::feed_pcd },
+    Target { name: "las", seeds: recordings::las_seeds, prepare: recordings::prepare_las, feed: recordings::feed_las },
+    Target { name: "gpx", seeds: recordings::gpx_seeds, prepare: |_| (), feed: recordings::feed_gpx },
+    Target { name: "gps_csv", seeds: recordings::csv_seeds, prepare: |_| (), feed: recordings::feed_csv },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },
     Target { name: "obj", seeds: models::obj_seeds, prepare: models::prepare, feed: models::feed_obj },

@@ -38,12 +38,15 @@ pub mod environment;
 mod error;
 mod geo_extent;
 mod geodesy;
+mod gps;
 pub mod human_body;
 pub mod kitti;
 mod levelling;
+mod lidar_file;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;
+mod plain;
 
 pub use datasets::DATASETS;
 pub use error::ReadError;

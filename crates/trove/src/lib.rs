@@ -22,6 +22,8 @@ mod cli;
 mod contents;
 mod demo;
 mod doctor;
+mod drives;
+mod export;
 #[doc(hidden)]
 pub mod fuzzing;
 mod inspect;

@@ -189,3 +189,11 @@ pub(crate) fn with_cameras(mut drive: Drive, names: [&str; 2]) -> Drive {
     }
     drive
 }
+
+#[test]
+fn cameras_with_other_names_stand_in_the_order_of_these() {
+    let named = with_cameras(drive(), ["b", "a"]);
+    assert_eq!(named.rig.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["a", "b"]);
+    assert!(named.rig[0].lens == drive().rig[1].lens && named.keyframes[0].exposures[0].lens == named.rig[0].lens);
+    assert_eq!(with_cameras(drive(), ["CAM_FRONT", "CAM_LEFT"]), drive());
+}

@@ -253,7 +253,7 @@ fn the_canonical_drive_is_itself_and_no_other() {
     check(|d| d.keyframes[2].boxes[0].kind = trove_model::Kind::Truck, "car: expected Car, found Truck");
     check(|d| drop(d.keyframes[2].boxes.pop()), "expected 4 boxes, found 3");
     check(|d| d.keyframes[2].boxes[0].track = 1, "'car' changes from one track to another");
-    check(|d| drop(d.tracks[0].boxes.pop()), "track track-0");
+    check(|d| d.tracks[0].boxes.truncate(5), "track track-0");
     check(|d| d.keyframes[2].lidar.as_mut().unwrap().points_world[7].x += 0.01, "LiDAR: points up to 0.01");
     check(|d| d.keyframes[2].lidar = None, "LiDAR points: expected Some(360), found None");
 }

@@ -6,3 +6,4 @@ mod canonical;
 mod comparison;
 mod kitti;
 mod nuscenes;
+mod plain;
