@@ -33,9 +33,10 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 19] = [
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
+    Target { name: "geojson", seeds: maps::geojson_seeds, prepare: |_| (), feed: maps::feed_geojson },
     Target {
         name: "nuscenes_tables",
         seeds: datasets::table_seeds,

@@ -29,6 +29,7 @@ mod interrupt;
 mod judge;
 mod libraries;
 mod library;
+mod map;
 mod message;
 mod overview;
 mod place;
