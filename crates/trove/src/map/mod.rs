@@ -18,6 +18,7 @@ use self::boxes::{MapBox, merged, needed};
 use self::extract::{largest, settled};
 use self::overpass::{Patience, Server, query};
 use crate::cache;
+use crate::message::shown;
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
@@ -96,7 +97,7 @@ impl MapCommand {
         }
         for Fetched { map_box, file } in fetched {
             let file = file.as_ref().map(|file| format!(": {}", file.display())).unwrap_or_default();
-            println!("{}, {:.1} km² for {}{file}", map_box.extent, map_box.km2(), map_box.told_scenes());
+            println!("{}, {:.1} km² for {}{file}", map_box.extent, map_box.km2(), shown(&map_box.told_scenes()));
         }
         match &files[..] {
             [] => {}
@@ -116,11 +117,16 @@ impl MapCommand {
 fn boxes_of(recipe: &Recipe) -> Result<Vec<MapBox>> {
     let report = Report::default();
     let sources = Sources::open(recipe, &report)?;
+    let scenes = sources.scenes()?;
+    let progress = Progress::new(scenes.len());
+    progress.say("reading where the scenes are");
     let mut boxes = Vec::new();
-    for (scene, _) in sources.scenes()? {
-        let (projection, area) = sources.area(&scene, &report)?;
-        boxes.push(needed(&scene, &projection, area)?);
+    for (scene, _) in &scenes {
+        let (projection, area) = sources.area(scene, &report)?;
+        boxes.push(needed(scene, &projection, area)?);
+        progress.frame_done();
     }
+    progress.finish();
     merged(boxes)
 }
 
