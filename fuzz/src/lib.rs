@@ -38,6 +38,7 @@ pub struct Target {
 pub const TARGETS: &[Target] = &[
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
+    Target { name: "geojson", seeds: maps::geojson_seeds, prepare: |_| (), feed: maps::feed_geojson },
     Target {
         name: "nuscenes_tables",
         seeds: datasets::table_seeds,

@@ -16,6 +16,7 @@ use crate::export::Export;
 use crate::judge::curate::{Curate, frames_of};
 use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
+use crate::map::MapCommand;
 use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{MOST_THREADS, Recipe};
@@ -87,6 +88,11 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Fetch the street map that a recipe's drives or place need, by the Overpass API.
+    #[command(
+        after_help = "Example:\n  trove map recipe.toml --dry-run\n  trove map recipe.toml --out data/osm/boston.osm"
+    )]
+    Map(MapCommand),
     /// List, import, check or draw the models and materials to build with.
     #[command(after_help = "Example:\n  trove assets sheet --out sheet.png")]
     Assets {
@@ -196,6 +202,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
             let recipe = Recipe::read(&recipe)?;
             build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
         }
+        Command::Map(map) => map.run().map(|()| 0),
         Command::Assets { command } => assets::run(command, libraries::search(site_packages)),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;

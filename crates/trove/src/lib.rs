@@ -31,6 +31,7 @@ mod interrupt;
 mod judge;
 mod libraries;
 mod library;
+mod map;
 mod message;
 mod overview;
 mod place;

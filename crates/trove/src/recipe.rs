@@ -17,6 +17,7 @@ use trove_files::{LARGEST_TEXT, read_text};
 use trove_format::FrameFile;
 use trove_read::DATASETS;
 use trove_read::drive_source::Opener;
+use trove_read::osm::GeoJsonFrame;
 use trove_render::Denoising;
 
 use self::check::check;
@@ -155,9 +156,12 @@ pub struct PlaceSection {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapSection {
-    /// OpenStreetMap extracts, `.osm` or `.osm.pbf`; each scene takes the first that covers it.
+    /// OpenStreetMap extracts, `.osm` or `.osm.pbf`, or GeoJSON; each scene takes the first that covers it.
     #[serde(default)]
     pub osm: Extracts,
+    /// What the coordinates of GeoJSON files are that do not say so themselves.
+    #[serde(default)]
+    pub geojson_frame: GeoJsonFrame,
     /// What becomes of it where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
@@ -177,7 +181,13 @@ fn auto() -> String {
 
 impl Default for MapSection {
     fn default() -> Self {
-        Self { osm: Extracts::default(), on_disagreement: OnDisagreement::default(), country: auto(), locales: None }
+        Self {
+            osm: Extracts::default(),
+            geojson_frame: GeoJsonFrame::default(),
+            on_disagreement: OnDisagreement::default(),
+            country: auto(),
+            locales: None,
+        }
     }
 }
 
@@ -432,7 +442,7 @@ impl Recipe {
                 check("place.size_m", place.size_m, (50.0..=5000.0).contains(&place.size_m), "50 to 5000")?;
                 ensure!(
                     !self.map.osm.paths().is_empty(),
-                    "map.osm: a [place] has no map of its own; name an OpenStreetMap extract"
+                    "map.osm: a [place] has no map of its own; name an OpenStreetMap extract (trove map fetches it)"
                 );
             }
             (Some(drive), None) => {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_model::{Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
+use trove_model::{Bounds, Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
 use trove_read::drive_source::DriveSource;
 use trove_read::environment;
 use trove_read::locale::{self, Locales};
@@ -120,6 +120,16 @@ impl<'a> Sources<'a> {
         let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else { return Ok(None) };
         let files = dataset.recording(scene)?;
         if files.is_empty() { Ok(None) } else { contents.of_all(&self.recipe.at(&section.root), &files).map(Some) }
+    }
+
+    /// Where one scene lies on earth, and the area that is built of it.
+    pub(crate) fn area(&self, scene: &str, report: &Report) -> Result<(MapProjection, Bounds)> {
+        let Some(dataset) = &self.dataset else {
+            return Ok(place::area(self.recipe.place.as_ref().context("the recipe has no [place]")?));
+        };
+        let drive = dataset.read(scene, report)?;
+        let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
+        Ok((drive.projection, area))
     }
 
     /// One scene's drive and the map around it.
