@@ -232,7 +232,7 @@ fn files_that_are_no_geojson_say_where_and_what_to_do() {
         assert!(parts.iter().all(|part| error.contains(part)), "{error}: expected {parts:?}");
     };
     let good = feature("LineString", "[[0, 0], [1, 0]]", "{}");
-    let whole = collection(&[good.clone()]);
+    let whole = collection(std::slice::from_ref(&good));
     check(&whole[..whole.len() - 3], &["map.osm: line 1: ", "cut off", "download it again"]);
     check(&whole[..40], &["cut off"]);
     check("{\"type\": \"FeatureCollection\",\n \"features\": [}", &["line 2", "expected value at column"]);
@@ -314,7 +314,8 @@ fn nesting_a_million_deep_is_skipped_or_refused() {
         assert_eq!(map.unwrap().roads.len(), 1);
         assert!(noted(&report, Outcome::Dropped, "geojson: "), "{}", &bad[..60]);
     }
-    for bad in [collection(&[open.clone()]), "{\"features\":".repeat(200_000), "{\"a\":\n".repeat(200_000)] {
+    for bad in [collection(std::slice::from_ref(&open)), "{\"features\":".repeat(200_000), "{\"a\":\n".repeat(200_000)]
+    {
         assert!(in_time(bad).0.is_err());
     }
 }

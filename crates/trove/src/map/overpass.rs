@@ -208,13 +208,13 @@ fn whole(bytes: &[u8]) -> Result<(), Failure> {
             Failure::Busy(text, None)
         } else {
             Failure::Final(anyhow!(
-                "expected a whole map, found the remark {text:?}; name fewer scenes in drive.scenes, or try again later"
+                "expected a whole map, found the remark: {text}; name fewer scenes in drive.scenes, or try again later"
             ))
         });
     }
     if position(&bytes[..bytes.len().min(4096)], b"<osm").is_none() && !bytes.is_empty() {
         return Err(Failure::Final(anyhow!(
-            "expected OpenStreetMap XML, found {:?}; is it the address of an Overpass API?",
+            "expected OpenStreetMap XML, found: {}; is it the address of an Overpass API?",
             quoted(bytes)
         )));
     }
