@@ -1,7 +1,8 @@
 //! Which datasets there are.
 
 use crate::drive_source::Dataset;
-use crate::{gps, kitti, nuscenes, plain};
+use crate::{argoverse2, gps, kitti, nuscenes, plain};
 
 /// Every dataset that can be read, in the order in which a folder is compared with them.
-pub const DATASETS: &[Dataset] = &[nuscenes::DATASET, kitti::DATASET, plain::DATASET, gps::DATASET];
+pub const DATASETS: &[Dataset] =
+    &[nuscenes::DATASET, kitti::DATASET, argoverse2::DATASET, plain::DATASET, gps::DATASET];

@@ -30,6 +30,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod argoverse2;
 pub mod asset_files;
 mod budget;
 mod datasets;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // the lint knows test functions, not the functions that they share
 
+mod argoverse2;
 mod canonical;
 mod comparison;
 mod kitti;
