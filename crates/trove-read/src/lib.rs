@@ -42,6 +42,9 @@ pub mod human_body;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;
+mod parquet;
+mod protobuf;
+pub mod waymo;
 
 pub use datasets::DATASETS;
 pub use error::ReadError;

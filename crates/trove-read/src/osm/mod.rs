@@ -14,7 +14,6 @@ mod fault;
 mod meaning;
 mod pbf;
 mod places;
-mod protobuf;
 mod raw;
 mod relations;
 mod rings;
