@@ -12,6 +12,7 @@ mod maps;
 mod models;
 pub mod mutator;
 mod texts;
+mod waymo;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -33,7 +34,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 20] = [
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
     Target {
@@ -59,6 +60,13 @@ pub const TARGETS: [Target; 18] = [
         seeds: datasets::index_seeds,
         prepare: datasets::prepare_index,
         feed: datasets::feed_index,
+    },
+    Target { name: "waymo_tfrecord", seeds: waymo::tfrecord_seeds, prepare: |_| (), feed: waymo::feed_tfrecord },
+    Target {
+        name: "waymo_component",
+        seeds: waymo::component_seeds,
+        prepare: waymo::prepare_components,
+        feed: waymo::feed_component,
     },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },

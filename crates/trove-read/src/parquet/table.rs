@@ -213,3 +213,41 @@ fn footer(mut file: &File, length: u64) -> Result<Vec<u8>, Fault> {
     file.take(size).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[ignore = "needs TROVE_TEST_DATA"]
+    fn real_keypoints_of_waymo_are_what_pyarrow_reads() {
+        let data = PathBuf::from(std::env::var_os("TROVE_TEST_DATA").expect("TROVE_TEST_DATA"));
+        let file = "waymo/v2/camera_hkp/10023947602400723454_1120_000_1140_000.parquet";
+        let table = Table::open(&data.join(file)).unwrap();
+        assert_eq!(table.rows(), 15_844);
+        let names = table.texts("key.camera_name").unwrap();
+        let count = |name: &str| names.iter().flatten().filter(|n| *n == name).count();
+        assert_eq!((count("FRONT"), count("SIDE_RIGHT"), names.len()), (8364, 364, 15_844));
+        let times = table.integers("key.frame_timestamp_micros").unwrap();
+        assert_eq!(times.iter().flatten().sum::<i64>() % 1_000_000_000_000, 622_686_114_269);
+        let lists = |name: &str| {
+            let mut rows =
+                table.column(&format!("[CameraHumanKeypointsComponent].camera_keypoints[*].{name}")).unwrap();
+            let (mut integers, mut numbers, mut count) = (Vec::new(), Vec::new(), 0);
+            let is_integer = rows.info.kind != Physical::Float;
+            while rows
+                .read(&mut if is_integer { Sink::Integers(&mut integers) } else { Sink::Numbers(&mut numbers) })
+                .unwrap()
+            {
+                count += 1;
+            }
+            let sum = if is_integer { integers.iter().sum::<i64>() as f64 } else { numbers.iter().sum() };
+            (count, integers.len() + numbers.len(), sum)
+        };
+        assert_eq!(lists("type"), (15_844, 5291, 60_496.0));
+        assert_eq!(lists("keypoint_2d.visibility.is_occluded"), (15_844, 5291, 344.0));
+        let (rows, values, sum) = lists("keypoint_2d.location_px.x");
+        assert!((rows, values) == (15_844, 5291) && (sum - 4_474_688.515_414).abs() < 1e-3, "{sum}");
+        assert_eq!(lists("keypoint_3d.location_m.x"), (15_844, 0, 0.0));
+    }
+}

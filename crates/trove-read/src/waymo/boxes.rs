@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use trove_model::{Body, Cuboid, Ego, Keyframe, ObjectBox, Outcome, Pose, Report, Track};
+use trove_model::{Body, Cuboid, Ego, Keyframe, Kind, ObjectBox, Outcome, Pose, Report, Track};
 
 use super::records::LabelRecord;
 use super::vocabulary;
@@ -14,6 +14,10 @@ const LONGEST_BOX_M: f64 = 200.0;
 const FARTHEST_BOX_M: f64 = 1000.0;
 /// Nor faster, m/s.
 const FASTEST_MPS: f64 = 200.0;
+/// Signs that reach higher hang on gantries and wires, of which the dataset says nothing, metres.
+const TALLEST_SIGN_M: f64 = 4.5;
+/// Signs that begin lower stand on the ground, metres.
+const LOWEST_PANEL_M: f64 = 0.3;
 
 /// Puts each keyframe's labels into it and follows the objects, in the order in which they appear.
 pub(super) fn place(keyframes: &mut [Keyframe], labels: Vec<Vec<LabelRecord>>, report: &Report) -> Vec<Track> {
@@ -22,6 +26,7 @@ pub(super) fn place(keyframes: &mut [Keyframe], labels: Vec<Vec<LabelRecord>>, r
     for (k, (keyframe, labels)) in keyframes.iter_mut().zip(labels).enumerate() {
         for label in labels {
             let token = format!("{}-{}", keyframe.token, label.id);
+            let label = with_pole(label, report);
             let mut object = match object(keyframe, &label, token.clone()) {
                 Ok(object) => object,
                 Err(why) => {
@@ -54,6 +59,17 @@ pub(super) fn place(keyframes: &mut [Keyframe], labels: Vec<Vec<LabelRecord>>, r
     tracks
 }
 
+/// Waymo's boxes of signs are those of their panels; ours stand on poles. The ground is where the vehicle's wheels are.
+fn with_pole(mut label: LabelRecord, report: &Report) -> LabelRecord {
+    let is_sign = vocabulary::kind(label.kind, label.size_m).is_some_and(|row| row.kind == Kind::TrafficSign);
+    let (bottom_m, top_m) = (label.centre_ego.z - label.size_m.z / 2.0, label.centre_ego.z + label.size_m.z / 2.0);
+    if is_sign && bottom_m > LOWEST_PANEL_M && top_m <= TALLEST_SIGN_M {
+        report.note(Outcome::Guessed, "pole of a Waymo sign, whose box is its panel's", &label.id);
+        (label.centre_ego.z, label.size_m.z) = (top_m / 2.0, top_m);
+    }
+    label
+}
+
 fn object(keyframe: &Keyframe, label: &LabelRecord, token: String) -> Result<ObjectBox, &'static str> {
     if label.id.is_empty() {
         return Err("no id");
@@ -65,6 +81,9 @@ fn object(keyframe: &Keyframe, label: &LabelRecord, token: String) -> Result<Obj
         return Err("no usable size");
     }
     let row = vocabulary::kind(label.kind, label.size_m).ok_or("unknown type")?;
+    if row.kind == Kind::TrafficSign && label.centre_ego.z + label.size_m.z / 2.0 > TALLEST_SIGN_M {
+        return Err("sign high above the road, on what is not told");
+    }
     let ego_from_body = Pose::<Ego, Body>::from_yaw(label.heading_rad, label.centre_ego);
     Ok(ObjectBox {
         track: 0,

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
-use trove_model::{Ego, Pose, SensorFrame, World};
+use trove_model::{Ego, SensorFrame};
 
 use super::poses;
 use super::records::{GlobalFromEgo, LaserRecord};
@@ -126,6 +126,7 @@ pub(super) fn origin_ego(laser: &LaserRecord) -> Option<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trove_model::{Pose, World};
 
     fn laser(yaw_rad: f64) -> LaserRecord {
         let (sin, cos) = yaw_rad.sin_cos();

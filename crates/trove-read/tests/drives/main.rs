@@ -5,3 +5,10 @@
 mod canonical;
 mod comparison;
 mod nuscenes;
+#[allow(dead_code)] // the reader's other tests use the rest
+#[path = "../waymo/parquet_writer.rs"]
+mod parquet_writer;
+mod waymo;
+#[allow(dead_code)] // the reader's other tests use the rest
+#[path = "../waymo/writer.rs"]
+mod waymo_writer;
