@@ -119,6 +119,18 @@ impl<'a> Value<'a> {
     }
 }
 
+/// The numbers that stand in some fields of a message.
+pub(crate) fn doubles<const N: usize>(message: &[u8], fields: [u32; N]) -> Result<[Option<f64>; N], Malformed> {
+    let mut numbers = [None; N];
+    for field in Fields::new(message) {
+        let (number, value) = field?;
+        if let Some(i) = fields.iter().position(|field| *field == number) {
+            numbers[i] = Some(value.double()?);
+        }
+    }
+    Ok(numbers)
+}
+
 /// A number of type `sint64`.
 pub(crate) fn zigzag(value: u64) -> i64 {
     (value >> 1) as i64 ^ -((value & 1) as i64)

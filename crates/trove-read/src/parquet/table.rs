@@ -79,7 +79,9 @@ impl Table {
     /// No such column, one of another type, or damaged pages.
     pub(crate) fn integers(&self, name: &str) -> Result<Vec<Option<i64>>, ReadError> {
         let mut values = Vec::new();
-        self.scalars(name, |rows| Ok(rows.read(&mut Sink::Integers(&mut values))?.then(|| values.drain(..).last())))
+        self.scalars(name, |rows| {
+            Ok(rows.read(&mut Sink::Integers(&mut values))?.then(|| values.drain(..).next_back()))
+        })
     }
 
     /// A column of one number a row; `None` where there is none.
@@ -88,7 +90,7 @@ impl Table {
     /// As [`Table::integers`].
     pub(crate) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, ReadError> {
         let mut values = Vec::new();
-        self.scalars(name, |rows| Ok(rows.read(&mut Sink::Numbers(&mut values))?.then(|| values.drain(..).last())))
+        self.scalars(name, |rows| Ok(rows.read(&mut Sink::Numbers(&mut values))?.then(|| values.drain(..).next_back())))
     }
 
     /// A column of one text a row; `None` where there is none.
@@ -99,7 +101,7 @@ impl Table {
         let mut values: Vec<Vec<u8>> = Vec::new();
         self.scalars(name, |rows| {
             let is_row = rows.read(&mut Sink::Texts(&mut values))?;
-            Ok(is_row.then(|| values.drain(..).last().map(|text| String::from_utf8_lossy(&text).into_owned())))
+            Ok(is_row.then(|| values.drain(..).next_back().map(|text| String::from_utf8_lossy(&text).into_owned())))
         })
     }
 

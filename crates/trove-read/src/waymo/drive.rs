@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, LidarSweep, MapProjection, Outcome, Pose, Report, World};
+use trove_model::{
+    Drive, DriveOrigin, Ego, EgoBody, Keyframe, LidarSweep, MapProjection, Outcome, Pose, Report, World,
+};
 
 use super::records::{FrameRecord, Returns, Segment};
 use super::{boxes, cameras, fault, lane_map, vocabulary};
@@ -73,7 +75,7 @@ fn in_order(segment: &mut Segment, report: &Report) {
     });
 }
 
-fn sweep(returns: Returns, world_from_ego: &Pose<World, trove_model::Ego>) -> LidarSweep {
+fn sweep(returns: Returns, world_from_ego: &Pose<World, Ego>) -> LidarSweep {
     let mut points_world = returns.points_ego;
     for point in &mut points_world {
         *point = world_from_ego.point(point.as_dvec3()).as_vec3();

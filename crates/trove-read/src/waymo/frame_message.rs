@@ -10,7 +10,7 @@ use super::fault::Unusable;
 use super::map_message;
 use super::records::{CameraRecord, LabelRecord, LaserRecord, MapFeature, Matrix, PictureRecord};
 use crate::budget::Budget;
-use crate::protobuf::{Fields, Malformed, Value};
+use crate::protobuf::{Fields, Malformed, doubles};
 
 /// More beams has no LiDAR.
 const MOST_BEAMS: usize = 4096;
@@ -241,16 +241,4 @@ fn matrix(message: &[u8]) -> Result<Matrix, Malformed> {
         }
     }
     Ok(numbers.try_into().unwrap_or([f64::NAN; 16]))
-}
-
-/// The numbers that stand in some fields of a message.
-pub(super) fn doubles<const N: usize>(message: &[u8], fields: [u32; N]) -> Result<[Option<f64>; N], Malformed> {
-    let mut numbers = [None; N];
-    for field in Fields::new(message) {
-        let (number, value): (u32, Value) = field?;
-        if let Some(i) = fields.iter().position(|field| *field == number) {
-            numbers[i] = Some(value.double()?);
-        }
-    }
-    Ok(numbers)
 }

@@ -3,10 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::fault::Unusable;
-use super::frame_message::doubles;
 use super::records::{MapFeature, MapForm};
 use crate::budget::Budget;
-use crate::protobuf::{Fields, Malformed};
+use crate::protobuf::{Fields, Malformed, doubles};
 
 /// `LaneCenter.LaneType`.
 const BIKE_LANE: u64 = 3;

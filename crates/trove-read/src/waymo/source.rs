@@ -1,11 +1,12 @@
 //! Waymo as a source of drives, with the options that are its own.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use serde::Deserialize;
 use trove_model::{Drive, Report};
 
-use super::Waymo;
+use super::dataset::Waymo;
 use crate::ReadError;
 use crate::drive_source::{Dataset, DriveListing, DriveSource, Opener};
 
@@ -17,11 +18,11 @@ pub(crate) const DATASET: Dataset = Dataset { name: "waymo", is_at: Waymo::is_at
 struct Options {
     /// Of how many frames one has its LiDAR read: 5, twice a second, tells ground and walls as well as all of them.
     #[serde(default = "twice_a_second")]
-    lidar_every: std::num::NonZeroUsize,
+    lidar_every: NonZeroUsize,
 }
 
-fn twice_a_second() -> std::num::NonZeroUsize {
-    const { std::num::NonZeroUsize::new(5).unwrap() }
+fn twice_a_second() -> NonZeroUsize {
+    NonZeroUsize::MIN.saturating_add(4)
 }
 
 fn configure(options: toml::Table) -> Result<Opener, toml::de::Error> {

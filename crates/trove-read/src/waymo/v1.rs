@@ -1,13 +1,15 @@
 //! v1: a segment's TFRecord → records.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use glam::Vec3;
 use trove_model::{Outcome, Report};
 
 use super::fault::{self, Unusable};
 use super::frame_message::{self, Context, Frame};
 use super::range_image::{self, Scan};
-use super::records::{FrameRecord, GlobalFromEgo, Returns, Segment};
+use super::records::{FrameRecord, GlobalFromEgo, LaserRecord, Returns, Segment};
 use super::tfrecord::{Next, Records};
 use super::{matrix, poses};
 use crate::ReadError;
@@ -41,7 +43,7 @@ pub(super) fn read(path: &Path, lidar_every: usize, report: &Report) -> Result<S
     let io = |source| ReadError::io(path, source);
     let mut records = Records::open(path).map_err(io)?;
     let budget = Budget::of_file(records.length());
-    let (mut segment, mut lasers) = (None::<Segment>, Default::default());
+    let (mut segment, mut lasers) = (None::<Segment>, BTreeMap::new());
     loop {
         let place = records.place();
         let example = || format!("{}: {place}", path.display());
@@ -88,7 +90,7 @@ pub(super) fn read(path: &Path, lidar_every: usize, report: &Report) -> Result<S
             continue;
         };
         let returns = if segment.frames.len().is_multiple_of(lidar_every) && scans.iter().any(has_image) {
-            let mut sweep = Sweep { lasers: &lasers, global_from_ego: &global_from_ego, budget: &budget };
+            let sweep = Sweep { lasers: &lasers, global_from_ego: &global_from_ego, budget: &budget };
             let (returns, damage) = sweep.of(&scans).map_err(|why| unusable(path, place.clone(), Some(why)))?;
             damage
                 .iter()
@@ -107,14 +109,14 @@ fn has_image(laser: &frame_message::Laser) -> bool {
 }
 
 struct Sweep<'a> {
-    lasers: &'a std::collections::BTreeMap<i64, super::records::LaserRecord>,
+    lasers: &'a BTreeMap<i64, LaserRecord>,
     global_from_ego: &'a GlobalFromEgo,
     budget: &'a Budget,
 }
 
 impl Sweep<'_> {
     /// The points of all LiDARs and both returns, and what was wrong with those that could not be used.
-    fn of(&mut self, scans: &[frame_message::Laser]) -> Result<(Returns, Vec<&'static str>), Unusable> {
+    fn of(&self, scans: &[frame_message::Laser]) -> Result<(Returns, Vec<&'static str>), Unusable> {
         let (mut returns, mut damage) = (Returns::default(), Vec::new());
         returns.origin_ego = self.lasers.get(&TOP).and_then(range_image::origin_ego).unwrap_or_default();
         for scan in scans {
@@ -123,7 +125,7 @@ impl Sweep<'_> {
                 other => damage.extend(other?),
             }
         }
-        self.budget.take(returns.points_ego.len(), size_of::<glam::Vec3>())?;
+        self.budget.take(returns.points_ego.len(), size_of::<Vec3>())?;
         Ok((returns, damage))
     }
 
