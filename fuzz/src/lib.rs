@@ -14,6 +14,7 @@ mod models;
 pub mod mutator;
 mod recordings;
 mod texts;
+mod waymo;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -83,6 +84,13 @@ pub const TARGETS: &[Target] = &[
     Target { name: "las", seeds: recordings::las_seeds, prepare: recordings::prepare_las, feed: recordings::feed_las },
     Target { name: "gpx", seeds: recordings::gpx_seeds, prepare: |_| (), feed: recordings::feed_gpx },
     Target { name: "gps_csv", seeds: recordings::csv_seeds, prepare: |_| (), feed: recordings::feed_csv },
+    Target { name: "waymo_tfrecord", seeds: waymo::tfrecord_seeds, prepare: |_| (), feed: waymo::feed_tfrecord },
+    Target {
+        name: "waymo_component",
+        seeds: waymo::component_seeds,
+        prepare: waymo::prepare_components,
+        feed: waymo::feed_component,
+    },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },
     Target { name: "obj", seeds: models::obj_seeds, prepare: models::prepare, feed: models::feed_obj },

@@ -95,7 +95,7 @@ pub struct Exposure {
     pub ego_from_camera: Pose<Ego, Camera>,
     /// The dataset's name of the picture; `None` where none was taken.
     pub token: Option<String>,
-    /// The recorded picture's path below the dataset's root; `None` where it is not at hand.
+    /// The recorded picture's path below the dataset's root; `None` where it is not at hand or lies inside another file.
     pub file: Option<String>,
 }
 

@@ -48,6 +48,9 @@ pub mod locale;
 pub mod nuscenes;
 pub mod osm;
 mod plain;
+mod parquet;
+mod protobuf;
+pub mod waymo;
 
 pub use datasets::DATASETS;
 pub use error::ReadError;

@@ -15,7 +15,6 @@ mod geojson;
 mod meaning;
 mod pbf;
 mod places;
-mod protobuf;
 mod raw;
 mod relations;
 mod rings;

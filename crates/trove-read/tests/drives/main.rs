@@ -8,3 +8,10 @@ mod comparison;
 mod kitti;
 mod nuscenes;
 mod plain;
+#[allow(dead_code)] // the reader's other tests use the rest
+#[path = "../waymo/parquet_writer.rs"]
+mod parquet_writer;
+mod waymo;
+#[allow(dead_code)] // the reader's other tests use the rest
+#[path = "../waymo/writer.rs"]
+mod waymo_writer;
