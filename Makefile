@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-planted chromium fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test test-planted chromium fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -72,6 +72,10 @@ test-devkit: .venv-devkit/.installed
 # The full-size tables are 2.6 GB in the temporary folder.
 bench-nuscenes:
 	cargo run --locked --release -p trove-read --example nuscenes_size
+
+# 1.5 GB in the temporary folder.
+bench-waymo:
+	cargo run --locked --release -p trove-read --example waymo_size
 
 lint: .tools/bin/cargo-deny $(VENV)/.lint-installed
 	cargo fmt --all --check

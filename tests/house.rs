@@ -8,8 +8,8 @@ use trove_model::{CLASSES, label_rows};
 const STAGES: [&str; 6] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write", "trove-judge"];
 /// Those that write to the disk.
 const WRITING: [&str; 3] = ["trove-read", "trove-write", "trove-judge"];
-/// Those that write or read the JSON of an output folder.
-const TELLING: [&str; 2] = ["trove-write", "trove-judge"];
+/// Those that write or read JSON of our own: an output folder's, and the plain form's, which both readers and exporters know.
+const TELLING: [&str; 3] = ["trove-read", "trove-write", "trove-judge"];
 /// A file longer than this does more than one thing.
 const LONGEST_FILE: usize = 800;
 

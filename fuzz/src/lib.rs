@@ -8,10 +8,13 @@
 //! ```
 
 mod datasets;
+mod kitti;
 mod maps;
 mod models;
 pub mod mutator;
+mod recordings;
 mod texts;
+mod waymo;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -33,9 +36,10 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: &[Target] = &[
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
+    Target { name: "geojson", seeds: maps::geojson_seeds, prepare: |_| (), feed: maps::feed_geojson },
     Target {
         name: "nuscenes_tables",
         seeds: datasets::table_seeds,
@@ -59,6 +63,33 @@ pub const TARGETS: [Target; 18] = [
         seeds: datasets::index_seeds,
         prepare: datasets::prepare_index,
         feed: datasets::feed_index,
+    },
+    Target {
+        name: "kitti_calibration",
+        seeds: kitti::calibration_seeds,
+        prepare: kitti::prepare,
+        feed: kitti::feed_calibration,
+    },
+    Target { name: "kitti_labels", seeds: kitti::label_seeds, prepare: kitti::prepare, feed: kitti::feed_labels },
+    Target { name: "kitti_oxts", seeds: kitti::oxts_seeds, prepare: kitti::prepare, feed: kitti::feed_oxts },
+    Target {
+        name: "kitti_tracklets",
+        seeds: kitti::tracklet_seeds,
+        prepare: kitti::prepare,
+        feed: kitti::feed_tracklets,
+    },
+    Target { name: "drive_json", seeds: recordings::json_seeds, prepare: |_| (), feed: recordings::feed_json },
+    Target { name: "drive_lines", seeds: recordings::lines_seeds, prepare: |_| (), feed: recordings::feed_lines },
+    Target { name: "pcd", seeds: recordings::pcd_seeds, prepare: recordings::prepare_pcd, feed: recordings::feed_pcd },
+    Target { name: "las", seeds: recordings::las_seeds, prepare: recordings::prepare_las, feed: recordings::feed_las },
+    Target { name: "gpx", seeds: recordings::gpx_seeds, prepare: |_| (), feed: recordings::feed_gpx },
+    Target { name: "gps_csv", seeds: recordings::csv_seeds, prepare: |_| (), feed: recordings::feed_csv },
+    Target { name: "waymo_tfrecord", seeds: waymo::tfrecord_seeds, prepare: |_| (), feed: waymo::feed_tfrecord },
+    Target {
+        name: "waymo_component",
+        seeds: waymo::component_seeds,
+        prepare: waymo::prepare_components,
+        feed: waymo::feed_component,
     },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },

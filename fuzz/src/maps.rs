@@ -1,4 +1,4 @@
-//! OpenStreetMap extracts.
+//! OpenStreetMap extracts and GeoJSON.
 
 use std::fs;
 use std::io::Write;
@@ -8,7 +8,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use glam::DVec2;
 use trove_model::{Bounds, DrivingSide, MapProjection, Report};
-use trove_read::osm;
+use trove_read::osm::{self, GeoJsonFrame};
 
 #[path = "../../crates/trove-read/tests/osm/wire.rs"]
 mod wire;
@@ -16,6 +16,16 @@ mod wire;
 use wire::{bytes, deltas, header, packed, varint};
 
 pub(crate) fn feed(folder: &Path, data: &[u8]) {
+    feed_as(GeoJsonFrame::Wgs84, folder, data);
+}
+
+/// GeoJSON, its coordinates as degrees and as metres.
+pub(crate) fn feed_geojson(folder: &Path, data: &[u8]) {
+    feed_as(GeoJsonFrame::Wgs84, folder, data);
+    feed_as(GeoJsonFrame::Dataset, folder, data);
+}
+
+fn feed_as(frame: GeoJsonFrame, folder: &Path, data: &[u8]) {
     let path = folder.join("map.osm");
     if fs::write(&path, data).is_err() {
         return;
@@ -23,7 +33,7 @@ pub(crate) fn feed(folder: &Path, data: &[u8]) {
     let projection = MapProjection::spherical(0.0, 0.0, DVec2::ZERO);
     let area = Bounds::square(DVec2::ZERO, 2000.0);
     // Whatever is wrong is an error.
-    let _ = osm::read(&path, &projection, area, DrivingSide::Right, &Report::default());
+    let _ = osm::read_in(frame, &path, &projection, area, DrivingSide::Right, &Report::default());
 }
 
 /// Blocks as they are: what is compressed is packed anew after it was mutated, or mutations would only break zlib.
@@ -74,6 +84,36 @@ pub(crate) fn xml_seeds() -> Vec<Vec<u8>> {
     let things = "<node id='20' lat='0.0001' lon='0.0001'><tag k='highway' v='traffic_signals'/><tag k='direction' v='forward'/></node>\
         <node id='21' lat='0.0001' lon='0'><tag k='shop' v='bakery'/><tag k='traffic_sign' v='DE:274[50]'/></node>";
     vec![format!("<?xml version='1.0'?><osm version='0.6'>{nodes}{things}{ways}{relation}</osm>").into_bytes()]
+}
+
+pub(crate) fn geojson_seeds() -> Vec<Vec<u8>> {
+    let feature = |kind: &str, coordinates: &str, properties: &str| {
+        let geometry = format!(r#"{{"type":"{kind}","coordinates":{coordinates}}}"#);
+        format!(r#"{{"type":"Feature","id":"{kind}","properties":{properties},"geometry":{geometry}}}"#)
+    };
+    let square = "[[0,0],[0.0002,0],[0.0002,0.0002],[0,0.0002],[0,0]]";
+    let hole = "[[0.0001,0.0001],[0.00015,0.0001],[0.0001,0.00015],[0.0001,0.0001]]";
+    let road = r#"{"class":"primary","subclass":"link","road_flags":[{"values":["is_bridge"],"between":null}],
+        "road_surface":[{"value":"gravel"}],"speed_limits":[{"max_speed":{"value":35,"unit":"mph"}}],
+        "access_restrictions":[{"access_type":"denied","when":{"heading":"backward"}}],"names":{"primary":"A"}}"#;
+    let house = r##"{"class":"house","height":7.5,"num_floors":2,"roof_shape":"hipped","facade_color":"#a05030"}"##;
+    let overture = [
+        feature("LineString", "[[0,0],[0.0005,0.0001,3]]", road),
+        feature("MultiPolygon", &format!("[[{square},{hole}]]"), house),
+    ];
+    let own = [
+        feature("MultiLineString", "[[[0,0],[0.001,0]]]", r#"{"highway":"service","lanes":"2","oneway":true}"#),
+        feature("Polygon", &format!("[{square}]"), r#"{"building":"yes","height":-1}"#),
+        feature("Point", "[0.001,0]", r#"{"highway":"stop"}"#),
+    ];
+    let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}}"#;
+    let collection = |features: &[String]| {
+        let features = features.join(",");
+        format!(r#"{{"type":"FeatureCollection","license":"ODbL",{crs},"features":[{features}]}}"#).into_bytes()
+    };
+    let lines =
+        overture.iter().chain(&own).map(|feature| feature.replace('\n', " ") + "\n").collect::<String>().into_bytes();
+    vec![collection(&overture), collection(&own), lines]
 }
 
 pub(crate) fn pbf_seeds() -> Vec<Vec<u8>> {

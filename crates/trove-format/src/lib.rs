@@ -1,7 +1,7 @@
-//! The JSON files of an output folder, as types.
+//! The JSON files of an output folder, and of drives in the plain form, as types.
 //!
 //! Everything that writes or reads `manifest.json`, `report.json`, `site.json`, `frame.json`, `curated.json` or the files
-//! in `.trove/` does it through these types. The schemas in `docs/schema` are generated from them:
+//! in `.trove/`, and the `drive.json` of a recording in the plain form, does it through these types. The schemas in `docs/schema` are generated from them:
 //! `TROVE_WRITE_SCHEMAS=1 cargo test -p trove-format schemas` writes them anew.
 //!
 //! Readers ignore fields that they do not know, and take `null` or an empty value where an optional field is missing.
@@ -40,6 +40,7 @@ mod frame_file;
 mod journal;
 mod manifest;
 mod names;
+mod plain_drive;
 mod report;
 #[cfg(test)]
 mod schemas;
@@ -54,6 +55,10 @@ pub use frame::{FrameTable, LensModel, Matrix4, ObjectOrigin, ObjectRow, Project
 pub use frame_file::FrameFile;
 pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
+pub use plain_drive::{
+    PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoPose, PlainGeoreference, PlainKeyframe, PlainLane,
+    PlainLaneMap, PlainLidar, PlainPicture, PlainPolygon, PlainPose,
+};
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{
     AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, LocaleRow, ProjectionKind, SiteFile, Source,

@@ -6,11 +6,20 @@ use std::path::Path;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
-use crate::{Curated, FrameLine, FrameTable, Manifest, RunIdentity, RunReport, SiteFile};
+use crate::{Curated, FrameLine, FrameTable, Manifest, PlainDrive, RunIdentity, RunReport, SiteFile};
 
 /// The schema of a file as it is written: as a name and a text.
 fn schema<T: JsonSchema>(file: &str) -> (&str, String) {
-    let mut schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>();
+    of::<T>(file, SchemaSettings::draft2020_12().for_serialize())
+}
+
+/// The schema of a file as it may be written by others, with what has a default left out.
+fn schema_for_others<T: JsonSchema>(file: &str) -> (&str, String) {
+    of::<T>(file, SchemaSettings::draft2020_12().for_deserialize())
+}
+
+fn of<T: JsonSchema>(file: &str, settings: SchemaSettings) -> (&str, String) {
+    let mut schema = settings.into_generator().into_root_schema_for::<T>();
     schema.insert("title".into(), file.into());
     (file.split('.').next().unwrap(), serde_json::to_string_pretty(&schema).unwrap() + "\n")
 }
@@ -26,6 +35,7 @@ fn the_schemas_are_those_of_the_types() {
         schema::<Curated>(Curated::NAME),
         schema::<RunIdentity>(RunIdentity::NAME),
         schema::<FrameLine>(FrameLine::JOURNAL),
+        schema_for_others::<PlainDrive>(PlainDrive::NAME),
     ];
     for (name, expected) in &schemas {
         let path = folder.join(format!("{name}.schema.json"));

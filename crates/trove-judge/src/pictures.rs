@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use image::imageops::{FilterType, resize};
-use image::{DynamicImage, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageReader};
 use png::{BitDepth, ColorType};
 use rayon::prelude::*;
 use trove_files::{LARGEST_FILE, open_regular, read_regular};
@@ -191,6 +191,23 @@ pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
         ids = ids.chunks(line).flat_map(unpack).collect();
     }
     Ok(Labels { width, height, ids })
+}
+
+/// A panoptic map of KITTI-STEP: Cityscapes' train ids in red, and the number of each pixel's object in green (high byte)
+/// and blue; `None` for a picture that is not in colours.
+pub(crate) fn read_step(path: &Path) -> Result<Option<(Labels, Vec<u16>)>, JudgeError> {
+    let file = BufReader::new(open_regular(path).map_err(JudgeError::io(path))?);
+    let broken =
+        |e: image::ImageError| JudgeError::unexpected(path, "a PNG image", e.to_string(), "write the file again");
+    let reader = ImageReader::new(file).with_guessed_format().map_err(JudgeError::io(path))?;
+    if reader.into_decoder().map_err(broken)?.color_type() != image::ColorType::Rgb8 {
+        return Ok(None);
+    }
+    let map = read(path)?.into_rgb8();
+    let (width, height) = map.dimensions();
+    let ids = map.pixels().map(|pixel| pixel.0[0]).collect();
+    let objects = map.pixels().map(|pixel| u16::from_be_bytes([pixel.0[1], pixel.0[2]])).collect();
+    Ok(Some((Labels { width, height, ids }, objects)))
 }
 
 #[cfg(test)]

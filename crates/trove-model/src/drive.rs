@@ -1,6 +1,6 @@
 //! A recorded drive, whatever dataset it came from.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, World};
 
@@ -95,7 +95,7 @@ pub struct Exposure {
     pub ego_from_camera: Pose<Ego, Camera>,
     /// The dataset's name of the picture; `None` where none was taken.
     pub token: Option<String>,
-    /// The recorded picture's path below the dataset's root; `None` where it is not at hand.
+    /// The recorded picture's path below the dataset's root; `None` where it is not at hand or lies inside another file.
     pub file: Option<String>,
 }
 
@@ -185,5 +185,122 @@ impl Drive {
             sweep.points_world.iter().map(|p| p.as_dvec3().truncate()).filter(near)
         });
         Bounds::around(path.chain(boxes).chain(points))
+    }
+
+    /// Laid in another World, whose z axis is this one's: everything recorded, and the dataset's own map, turned by
+    /// `turn_rad` counter-clockwise about the origin and then shifted in plane.
+    pub fn moved(mut self, turn_rad: f64, shift_m: DVec2) -> Self {
+        let moved = Pose::<World, World>::from_yaw(turn_rad, shift_m.extend(0.0));
+        for keyframe in &mut self.keyframes {
+            keyframe.world_from_ego = moved * keyframe.world_from_ego;
+            for exposure in &mut keyframe.exposures {
+                exposure.world_from_ego = moved * exposure.world_from_ego;
+            }
+            for object in &mut keyframe.boxes {
+                object.cuboid.world_from_body = moved * object.cuboid.world_from_body;
+                object.velocity_mps = object.velocity_mps.map(|velocity| moved.vector(velocity));
+            }
+            if let Some(sweep) = &mut keyframe.lidar {
+                sweep.origin_world = moved.point(sweep.origin_world);
+                sweep.points_world.iter_mut().for_each(|p| *p = moved.point(p.as_dvec3()).as_vec3());
+            }
+        }
+        for (_, cuboid) in self.tracks.iter_mut().flat_map(|track| &mut track.boxes) {
+            cuboid.world_from_body = moved * cuboid.world_from_body;
+        }
+        if let Some(map) = &mut self.lane_map {
+            map.points_mut().for_each(|p| *p = moved.point(p.extend(0.0)).truncate());
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Polygon;
+
+    #[test]
+    fn everything_of_a_moved_drive_keeps_its_place_from_the_vehicle() {
+        let pose = Pose::from_yaw(0.3, DVec3::new(4.0, 5.0, 1.0));
+        let cuboid = Cuboid { world_from_body: Pose::from_yaw(1.0, DVec3::new(9.0, 2.0, 1.5)), size_m: DVec3::ONE };
+        let lens = Lens {
+            width_px: 10,
+            height_px: 10,
+            fx_px: 10.0,
+            fy_px: 10.0,
+            cx_px: 5.0,
+            cy_px: 5.0,
+            distortion: crate::Distortion::None,
+        };
+        let object = ObjectBox {
+            track: 0,
+            kind: Kind::Car,
+            category: String::new(),
+            token: String::new(),
+            cuboid,
+            velocity_mps: Some(DVec3::X),
+            attributes: Vec::new(),
+            lidar_points: None,
+            visibility: None,
+        };
+        let exposure = Exposure {
+            camera: 0,
+            time_ns: 0,
+            world_from_ego: pose,
+            lens,
+            ego_from_camera: Pose::IDENTITY,
+            token: None,
+            file: None,
+        };
+        let sweep = LidarSweep {
+            origin_world: DVec3::new(4.0, 5.0, 2.7),
+            points_world: vec![Vec3::new(7.0, 8.0, 0.0)],
+            classes: Vec::new(),
+        };
+        let keyframe = Keyframe {
+            time_ns: 0,
+            token: String::new(),
+            world_from_ego: pose,
+            exposures: vec![exposure],
+            boxes: vec![object],
+            lidar: Some(sweep),
+        };
+        let corners = [[6.0, 6.0], [9.0, 6.0], [9.0, 9.0]].map(DVec2::from_array).to_vec();
+        let drive = Drive {
+            id: String::new(),
+            dataset: String::new(),
+            origin: DriveOrigin::Recorded,
+            place: String::new(),
+            projection: MapProjection::spherical(0.0, 0.0, DVec2::ZERO),
+            is_georeferenced: false,
+            rig: Vec::new(),
+            ego_body: EgoBody { centre_ego: DVec3::ZERO, size_m: DVec3::ONE },
+            keyframes: vec![keyframe],
+            tracks: vec![Track { token: String::new(), kind: Kind::Car, boxes: vec![(0, cuboid)] }],
+            lane_map: Some(LaneMap { drivable: vec![Polygon::simple(corners)], ..LaneMap::default() }),
+            licence: String::new(),
+        };
+        let seen = |drive: &Drive| {
+            let keyframe = &drive.keyframes[0];
+            let ego = keyframe.world_from_ego.inverse();
+            let (object, sweep) = (&keyframe.boxes[0], keyframe.lidar.as_ref().unwrap());
+            let corner = drive.lane_map.as_ref().unwrap().drivable[0].exterior[0];
+            vec![
+                ego.point(object.cuboid.world_from_body.point(DVec3::X)),
+                ego.vector(object.velocity_mps.unwrap()),
+                ego.point(drive.tracks[0].boxes[0].1.world_from_body.translation),
+                ego.point(sweep.origin_world),
+                ego.point(sweep.points_world[0].as_dvec3()),
+                ego.point(keyframe.exposures[0].world_from_ego.point(DVec3::X)),
+                ego.point(corner.extend(0.0)),
+            ]
+        };
+        let before = seen(&drive);
+        let moved = drive.moved(1.2, DVec2::new(-30.0, 7.0));
+        for (a, b) in before.iter().zip(seen(&moved)) {
+            assert!(a.distance(b) < 1e-5, "{a} {b}");
+        }
+        assert!((moved.keyframes[0].world_from_ego.yaw_rad() - 1.5).abs() < 1e-12);
     }
 }

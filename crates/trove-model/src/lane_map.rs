@@ -1,8 +1,8 @@
 //! A dataset's own map of the road.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::Polygon;
+use crate::{Paint, Polygon};
 
 /// A lane of a dataset's map.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,29 @@ pub struct Lane {
     pub polygon: Polygon,
     /// Centre line in driving direction; empty where the map has none.
     pub centreline: Vec<DVec2>,
+}
+
+/// A painted line of a dataset's map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaneMark {
+    /// Along its middle.
+    pub line: Vec<DVec2>,
+    /// Its paint.
+    pub paint: Paint,
+    /// Its pattern, the left side first as seen along the line.
+    pub pattern: MarkPattern,
+}
+
+/// The pattern of a painted line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // the names are the definition
+pub enum MarkPattern {
+    Solid,
+    Dashed,
+    DoubleSolid,
+    DoubleDashed,
+    SolidDashed,
+    DashedSolid,
 }
 
 /// What a dataset's map says around a drive, in World's plane.
@@ -34,4 +57,22 @@ pub struct LaneMap {
     pub road_dividers: Vec<Vec<DVec2>>,
     /// Lines between lanes of one direction.
     pub lane_dividers: Vec<Vec<DVec2>>,
+    /// Painted lines, where the map knows their paint; those that are above have none here.
+    pub marks: Vec<LaneMark>,
+    /// Points of the ground, metres, where the map has its height: of the carriageway in drivable areas, of what lies behind
+    /// the kerb beside them.
+    pub ground: Vec<DVec3>,
+}
+
+impl LaneMap {
+    /// Every point of it.
+    pub(crate) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec2> {
+        let Self { drivable, lanes, walkways, crossings, stop_lines, carparks, road_dividers, lane_dividers } = self;
+        let (lane_polygons, centrelines): (Vec<_>, Vec<_>) =
+            lanes.iter_mut().map(|lane| (&mut lane.polygon, &mut lane.centreline)).unzip();
+        let areas = [drivable, walkways, crossings, stop_lines, carparks].into_iter().flatten().chain(lane_polygons);
+        let rings = areas.flat_map(|area| std::iter::once(&mut area.exterior).chain(&mut area.holes));
+        let lines = road_dividers.iter_mut().chain(lane_dividers).chain(centrelines);
+        rings.chain(lines).flatten()
+    }
 }

@@ -73,7 +73,7 @@ pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
 pub use human_body::{BodyJoint, HumanBody};
 pub use kind::Kind;
-pub use lane_map::{Lane, LaneMap};
+pub use lane_map::{Lane, LaneMap, LaneMark, MarkPattern};
 pub use lens::{Distortion, Lens};
 pub use lettering::Lettering;
 pub use light::{Environment, EnvironmentMap, Light, PhysicalSky};

@@ -57,6 +57,25 @@ pub enum ReadError {
         /// What to do.
         remedy: String,
     },
+    /// A file that people write has several faults; whoever wrote it must act.
+    #[error("{path}: {}", told(.faults, *.more), path = .path.display())]
+    Faults {
+        /// The file.
+        path: PathBuf,
+        /// Each with its place.
+        faults: Vec<String>,
+        /// How many there are besides.
+        more: usize,
+    },
+}
+
+fn told(faults: &[String], more: usize) -> String {
+    let count = faults.len() + more;
+    let rest = if more > 0 { format!("\n  and {more} more") } else { String::new() };
+    format!(
+        "expected a drive in the plain form (docs/plain-drive.md), found {count} faults:\n  {}{rest}",
+        faults.join("\n  ")
+    )
 }
 
 impl ReadError {

@@ -31,6 +31,30 @@ impl GeoExtent {
         })
     }
 
+    /// Around a rectangle in World.
+    pub fn of_bounds(projection: &MapProjection, bounds: Bounds) -> Self {
+        let Bounds { min, max } = bounds;
+        let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+        let [a, b, c, d] = corners.map(|corner| projection.geo_from_world(corner));
+        let east_of = |from: f64, lon: f64| (lon - from).rem_euclid(360.0);
+        let west = if east_of(d.1, a.1) < 180.0 { d.1 } else { a.1 };
+        Self {
+            min_lat_deg: a.0.min(b.0),
+            max_lat_deg: c.0.max(d.0),
+            min_lon_deg: west,
+            max_lon_deg: west + east_of(west, b.1).max(east_of(west, c.1)),
+        }
+    }
+
+    /// Between two latitudes and two longitudes, degrees; `None` where they are no rectangle on the earth.
+    pub(crate) fn between([south, north]: [f64; 2], [west, east]: [f64; 2]) -> Option<Self> {
+        let is_on_earth = (-90.0..=90.0).contains(&south) && (south..=90.0).contains(&north);
+        let is_around = |lon_deg: f64| (-180.0..=360.0).contains(&lon_deg);
+        let east = if east < west { east + 360.0 } else { east };
+        let extent = Self { min_lat_deg: south, max_lat_deg: north, min_lon_deg: west, max_lon_deg: east };
+        (is_on_earth && is_around(west) && is_around(east)).then_some(extent)
+    }
+
     /// The rectangle in World, metres.
     pub fn bounds(&self, projection: &MapProjection) -> Bounds {
         let width_deg = self.max_lon_deg - self.min_lon_deg;

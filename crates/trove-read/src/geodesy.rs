@@ -51,11 +51,24 @@ impl Utm {
     }
 }
 
-/// Latitude and longitude, degrees, and height above the ellipsoid, metres, of an ECEF position; `None` at the earth's centre.
-pub(crate) fn geo_from_ecef(ecef_m: DVec3) -> Option<(f64, f64, f64)> {
-    let geocentric = Proj::from_proj_string("+proj=geocent +datum=WGS84 +units=m").ok()?;
-    let geo = moved(&geocentric, &geographic()?, ecef_m)?;
-    Some((geo.y.to_degrees(), geo.x.to_degrees(), geo.z))
+/// Earth-centred, earth-fixed coordinates: x to latitude and longitude 0, z to the north pole, metres.
+pub(crate) struct Ecef {
+    geocentric: Proj,
+    geographic: Proj,
+}
+
+impl Ecef {
+    /// On WGS84; `None` where the projections cannot be had, which a test excludes.
+    pub(crate) fn new() -> Option<Self> {
+        let geocentric = Proj::from_proj_string("+proj=geocent +datum=WGS84 +units=m").ok()?;
+        Some(Self { geocentric, geographic: geographic()? })
+    }
+
+    /// Latitude and longitude, degrees, and height above the ellipsoid, metres; `None` at the earth's centre.
+    pub(crate) fn geo_from_ecef(&self, ecef_m: DVec3) -> Option<(f64, f64, f64)> {
+        let geo = moved(&self.geocentric, &self.geographic, ecef_m)?;
+        Some((geo.y.to_degrees(), geo.x.to_degrees(), geo.z))
+    }
 }
 
 /// Rotation from ECEF's axes to east, north, up at a place.
@@ -106,12 +119,13 @@ mod tests {
 
     #[test]
     fn ecef_s_axes_are_the_equator_and_the_pole() {
-        let (lat_deg, lon_deg, height_m) = geo_from_ecef(DVec3::new(0.0, EQUATORIAL_RADIUS_M + 5.0, 0.0)).unwrap();
+        let ecef = Ecef::new().unwrap();
+        let (lat_deg, lon_deg, height_m) = ecef.geo_from_ecef(DVec3::new(0.0, EQUATORIAL_RADIUS_M + 5.0, 0.0)).unwrap();
         assert!(lat_deg.abs() < 1e-9 && (lon_deg - 90.0).abs() < 1e-9 && (height_m - 5.0).abs() < 1e-4);
         // There the axis y looks up and x to the west.
         let rotation = east_north_up_from_ecef(lat_deg, lon_deg);
         assert!((rotation * DVec3::Y - DVec3::Z).length() < 1e-9 && (rotation * DVec3::X + DVec3::X).length() < 1e-9);
         assert!((rotation * DVec3::Z - DVec3::Y).length() < 1e-9);
-        assert_eq!(geo_from_ecef(DVec3::NAN), None);
+        assert_eq!(ecef.geo_from_ecef(DVec3::NAN), None);
     }
 }

@@ -30,6 +30,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod argoverse2;
 pub mod asset_files;
 mod budget;
 mod datasets;
@@ -38,10 +39,18 @@ pub mod environment;
 mod error;
 mod geo_extent;
 mod geodesy;
+mod gps;
 pub mod human_body;
+pub mod kitti;
+mod levelling;
+mod lidar_file;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;
+mod plain;
+mod parquet;
+mod protobuf;
+pub mod waymo;
 
 pub use datasets::DATASETS;
 pub use error::ReadError;

@@ -30,6 +30,7 @@ mod frame_table;
 pub mod gltf;
 mod jpeg;
 mod picture;
+mod plain_drive;
 mod png_file;
 mod sheet;
 
@@ -40,4 +41,5 @@ pub use files::{sha256, sha256_file, write_atomically};
 pub use frame::Frame;
 pub use frame_table::FrameMeta;
 pub use picture::write_picture;
+pub use plain_drive::{PlainFiles, write_plain_drive};
 pub use sheet::write_sheet;

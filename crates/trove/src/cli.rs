@@ -5,17 +5,18 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
-use trove_read::DATASETS;
 use trove_render::KernelChoice;
 use trove_write::ExportFormat;
 
 use crate::assets::{self, AssetsCommand};
+use crate::drives::DatasetChoice;
+use crate::export::Export;
 use crate::judge::curate::{Curate, frames_of};
 use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
+use crate::map::MapCommand;
 use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{MOST_THREADS, Recipe};
@@ -56,16 +57,17 @@ enum Command {
     Inspect {
         /// The dataset's root folder.
         root: PathBuf,
-        /// Which dataset it is; without it the one whose root the folder looks like.
-        #[arg(long, value_parser = PossibleValuesParser::new(DATASETS.iter().map(|dataset| dataset.name)))]
-        dataset: Option<String>,
-        /// A key of the dataset's own, as in a recipe's [drive], such as version=v1.0-mini.
-        #[arg(long = "option", value_name = "KEY=VALUE")]
-        options: Vec<String>,
+        #[command(flatten)]
+        dataset: DatasetChoice,
         /// Print JSON.
         #[arg(long)]
         json: bool,
     },
+    /// Write the drives of a dataset in TRoVE's own plain form.
+    #[command(
+        after_help = "Example:\n  trove export data/nuscenes --format trove --out out/plain --scene scene-0103 --lidar"
+    )]
+    Export(Export),
     /// Build the virtual scene only and write it as binary glTF 2.0, with a report.
     #[command(after_help = "Example:\n  trove build recipe.toml --out scene.glb --keyframe 10")]
     Build {
@@ -86,6 +88,11 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Fetch the street map that a recipe's drives or place need, by the Overpass API.
+    #[command(
+        after_help = "Example:\n  trove map recipe.toml --dry-run\n  trove map recipe.toml --out data/osm/boston.osm"
+    )]
+    Map(MapCommand),
     /// List, import, check or draw the models and materials to build with.
     #[command(after_help = "Example:\n  trove assets sheet --out sheet.png")]
     Assets {
@@ -188,12 +195,14 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
 fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
     match command {
         Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
-        Command::Inspect { root, dataset, options, json } => inspect::run(&root, dataset, &options, json).map(|()| 0),
+        Command::Inspect { root, dataset, json } => inspect::run(&root, &dataset, json),
+        Command::Export(export) => export.run().map(|()| 0),
         Command::Build { recipe, out, keyframe, environment, overview, json } => {
             let search = libraries::search(site_packages);
             let recipe = Recipe::read(&recipe)?;
             build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
         }
+        Command::Map(map) => map.run().map(|()| 0),
         Command::Assets { command } => assets::run(command, libraries::search(site_packages)),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;

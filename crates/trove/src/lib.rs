@@ -22,6 +22,8 @@ mod cli;
 mod contents;
 mod demo;
 mod doctor;
+mod drives;
+mod export;
 #[doc(hidden)]
 pub mod fuzzing;
 mod inspect;
@@ -29,6 +31,7 @@ mod interrupt;
 mod judge;
 mod libraries;
 mod library;
+mod map;
 mod message;
 mod overview;
 mod place;

@@ -15,6 +15,13 @@ pub(crate) const KEYFRAMES_HINT: usize = 20;
 /// A day without weather: 2024-06-21 is the longest, and 15:00 by the sun has shadows of some length.
 const SOLSTICE_NS: i64 = 1_718_928_000_000_000_000; // 2024-06-21 00:00 UTC
 
+/// Where a place lies on earth, and the square that is built of it.
+pub(crate) fn area(place: &PlaceSection) -> (MapProjection, Bounds) {
+    let projection =
+        MapProjection::spherical(place.lat_deg, place.lon_deg, DVec2::ZERO);
+    (projection, Bounds::square(DVec2::ZERO, place.size_m))
+}
+
 /// Keyframes on the roads around a position, and the map that they come from.
 pub(crate) fn drive(
     recipe: &Recipe,
@@ -22,8 +29,7 @@ pub(crate) fn drive(
     driving_side: DrivingSide,
     report: &Report,
 ) -> Result<(Drive, Option<StreetMap>)> {
-    let projection = MapProjection::spherical(place.lat_deg, place.lon_deg, DVec2::ZERO);
-    let area = Bounds::square(DVec2::ZERO, place.size_m);
+    let (projection, area) = area(place);
     let map = street_map(recipe, &projection, area, driving_side, report)?;
     let (extract, map) = map.context("the recipe has no map.osm")?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;

@@ -4,6 +4,7 @@ mod camera;
 mod check;
 mod light;
 mod season;
+mod standpoint;
 mod variations;
 
 use std::collections::BTreeSet;
@@ -16,12 +17,14 @@ use trove_files::{LARGEST_TEXT, read_text};
 use trove_format::FrameFile;
 use trove_read::DATASETS;
 use trove_read::drive_source::Opener;
+use trove_read::osm::GeoJsonFrame;
 use trove_render::Denoising;
 
 use self::check::check;
 pub use camera::CameraSection;
 pub use light::LightSection;
 pub use season::SeasonChoice;
+pub use standpoint::Standpoint;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
@@ -82,13 +85,16 @@ pub struct DriveSection {
     /// Which moments.
     #[serde(default)]
     pub keyframes: Keyframes,
+    /// Where a drive lies that does not know it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Standpoint>,
     /// All other keys: the dataset's own.
     #[serde(flatten)]
     pub options: toml::Table,
 }
 
 /// The keys of `[drive]` that every dataset has.
-const DRIVE_KEYS: [&str; 4] = ["dataset", "root", "scenes", "keyframes"];
+const DRIVE_KEYS: [&str; 5] = ["dataset", "root", "scenes", "keyframes", "at"];
 
 impl DriveSection {
     /// What opens the dataset, with its own keys read.
@@ -150,9 +156,12 @@ pub struct PlaceSection {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapSection {
-    /// OpenStreetMap extracts, `.osm` or `.osm.pbf`; each scene takes the first that covers it.
+    /// OpenStreetMap extracts, `.osm` or `.osm.pbf`, or GeoJSON; each scene takes the first that covers it.
     #[serde(default)]
     pub osm: Extracts,
+    /// What the coordinates of GeoJSON files are that do not say so themselves.
+    #[serde(default)]
+    pub geojson_frame: GeoJsonFrame,
     /// What becomes of it where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
@@ -172,7 +181,13 @@ fn auto() -> String {
 
 impl Default for MapSection {
     fn default() -> Self {
-        Self { osm: Extracts::default(), on_disagreement: OnDisagreement::default(), country: auto(), locales: None }
+        Self {
+            osm: Extracts::default(),
+            geojson_frame: GeoJsonFrame::default(),
+            on_disagreement: OnDisagreement::default(),
+            country: auto(),
+            locales: None,
+        }
     }
 }
 
@@ -427,11 +442,14 @@ impl Recipe {
                 check("place.size_m", place.size_m, (50.0..=5000.0).contains(&place.size_m), "50 to 5000")?;
                 ensure!(
                     !self.map.osm.paths().is_empty(),
-                    "map.osm: a [place] has no map of its own; name an OpenStreetMap extract"
+                    "map.osm: a [place] has no map of its own; name an OpenStreetMap extract (trove map fetches it)"
                 );
             }
             (Some(drive), None) => {
                 drive.opener().map(drop)?;
+                if let Some(at) = &drive.at {
+                    at.check()?;
+                }
                 if let Keyframes::Every(EveryNth { every }) = drive.keyframes {
                     check("drive.keyframes.every", every, every > 0, "1 or more")?;
                 }

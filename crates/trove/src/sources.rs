@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_model::{Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
+use trove_model::{Bounds, Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
 use trove_read::drive_source::DriveSource;
 use trove_read::environment;
 use trove_read::locale::{self, Locales};
@@ -122,6 +122,16 @@ impl<'a> Sources<'a> {
         if files.is_empty() { Ok(None) } else { contents.of_all(&self.recipe.at(&section.root), &files).map(Some) }
     }
 
+    /// Where one scene lies on earth, and the area that is built of it.
+    pub(crate) fn area(&self, scene: &str, report: &Report) -> Result<(MapProjection, Bounds)> {
+        let Some(dataset) = &self.dataset else {
+            return Ok(place::area(self.recipe.place.as_ref().context("the recipe has no [place]")?));
+        };
+        let drive = dataset.read(scene, report)?;
+        let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
+        Ok((drive.projection, area))
+    }
+
     /// One scene's drive and the map around it.
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
         // What is guessed is reported when the place is built.
@@ -131,6 +141,10 @@ impl<'a> Sources<'a> {
             return place::drive(self.recipe, place, side(place.lat_deg, place.lon_deg), report);
         };
         let drive = dataset.read(scene, report)?;
+        let drive = match self.recipe.drive.as_ref().and_then(|section| section.at) {
+            Some(at) => at.lay(drive)?,
+            None => drive,
+        };
         if !drive.is_georeferenced {
             report.note(Outcome::Warned, "unknown where on earth the drive lies: no street map is laid on it", scene);
             return Ok((drive, None));

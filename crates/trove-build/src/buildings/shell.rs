@@ -123,9 +123,9 @@ impl Shell {
     /// its ends have the first.
     pub(super) fn sweep<const N: usize>(&mut self, slots: [Slot; N], rings: &[[DVec3; N]]) {
         let (Some(first), Some(last)) = (rings.first(), rings.last()) else { return };
-        let ahead = rings[rings.len().min(2) - 1][0] - first[0];
         // Seen from ahead the rings have to run clockwise for their sides to look outwards.
-        let flip = normal(first).is_some_and(|n| n.dot(ahead) > 0.0);
+        let ahead_m = |n: DVec3| rings.iter().map(|r| n.dot(r[0] - first[0])).find(|ahead_m| ahead_m.abs() > 1e-6);
+        let flip = normal(first).and_then(ahead_m).is_some_and(|ahead_m| ahead_m > 0.0);
         let mut add = |slot: Slot, points: &mut [DVec3]| {
             if flip {
                 points.reverse();

@@ -48,7 +48,11 @@ pub(super) fn walls_of(volume: &Volume<'_>, top_m: f64, sight: &Sight<'_>) -> Ve
             walls.push(Wall {
                 is_front: detail != Detail::Flat && faces_a_street(a, b, sight),
                 thick_m: thickness_m(0.5),
-                thicknesses_m: std::array::from_fn(|i| thickness_m((i as f64 + 0.5) / STATIONS as f64)),
+                thicknesses_m: std::array::from_fn(|i| {
+                    let corner_m =
+                        if detail == Detail::Flat { 50.0 } else { corner_behind(&volume.footprint, [a, b], i) };
+                    thickness_m((i as f64 + 0.5) / STATIONS as f64).min(corner_m)
+                }),
                 line,
                 number: walls.len() as u64,
                 first_bay: (which * 5 + number * 3) % 8,
@@ -70,10 +74,12 @@ fn corners(walls: &mut [Wall]) {
     for i in 0..n {
         let k = (i + 1) % n;
         let (before, after) = (&walls[i].line, &walls[k].line);
-        let (into, out_of) = (before[before.len() - 1] - before[0], after[after.len() - 1] - after[0]);
+        let built = [i, k].map(|w| walls[w].detail != Detail::Flat);
+        // What is not built may be bent: its edge at the corner tells where it runs.
+        let into = before[before.len() - 1] - before[if built[0] { 0 } else { before.len() - 2 }];
+        let out_of = after[if built[1] { after.len() - 1 } else { 1 }] - after[0];
         let turn = into.angle_to(out_of).clamp(-0.9 * PI, 0.9 * PI);
         let slope = (turn / 2.0).tan();
-        let built = [i, k].map(|w| walls[w].detail != Detail::Flat);
         let full = [i, k].iter().all(|&w| walls[w].detail == Detail::Full);
         if n > 2 {
             // Half of a corner is either wall's; of one beside a wall without rooms only what is acute is lost.
@@ -104,6 +110,18 @@ fn thickness(footprint: &Polygon, from: DVec2, inward: DVec2) -> f64 {
         (across.abs() > 1e-9 && s > 0.05 && (0.0..=1.0).contains(&t)).then_some(s)
     };
     footprint.edges().filter_map(hit).fold(50.0, f64::min)
+}
+
+/// From a wall to the nearest of the outline's corners behind one of its stations: what juts in between two of them.
+fn corner_behind(footprint: &Polygon, [a, b]: [DVec2; 2], station: usize) -> f64 {
+    let along = (b - a).normalize_or_zero();
+    let wide_m = a.distance(b) / STATIONS as f64;
+    let behind = |p: &DVec2| {
+        let (x, depth_m) = ((*p - a).dot(along), (*p - a).dot(along.perp()));
+        let is_there = (x / wide_m - station as f64 - 0.5).abs() <= 0.5 && depth_m > 0.05;
+        is_there.then_some(depth_m)
+    };
+    footprint.rings().flatten().filter_map(behind).fold(50.0, f64::min)
 }
 
 /// Puts up a wall between a band's bottom and top.

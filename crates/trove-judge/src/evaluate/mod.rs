@@ -11,7 +11,7 @@ use image::DynamicImage;
 use rayon::prelude::*;
 use trove_model::Seed;
 
-use crate::pictures::{Labels, OnProgress, by_key, each, label_files, read, read_labels};
+use crate::pictures::{Labels, OnProgress, by_key, each, label_files, read, read_labels, read_step};
 use crate::{JudgeError, LabelSet};
 pub use boundary::Boundary;
 pub use confusion::Confusion;
@@ -22,6 +22,8 @@ pub use panoptic::{Panoptic, Quality};
 const DRAWS: u64 = 1000;
 /// In Cityscapes' `…_instanceIds.png` smaller numbers are classes, of a crowd where the class is countable.
 const CITYSCAPES_OBJECTS_FROM: u16 = 1000;
+/// The numbering of KITTI-STEP's panoptic maps.
+const STEP_SET: &str = "cityscapes-train";
 /// Share of the draws within the interval.
 const WITHIN: f64 = 0.95;
 
@@ -33,7 +35,7 @@ pub struct Settings {
     /// Boundary IoU too.
     pub boundary: bool,
     /// Panoptic quality too: beside each `class.png` lies an `instance.png` (16-bit, 0 none), and beside Cityscapes'
-    /// `…_labelIds.png` its `…_instanceIds.png`.
+    /// `…_labelIds.png` its `…_instanceIds.png`; a panoptic map of KITTI-STEP has both itself.
     pub panoptic: bool,
     /// Draws the bootstrap's pictures.
     pub seed: Seed,
@@ -169,7 +171,7 @@ fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf
 
 fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Counts, JudgeError> {
     let set = &settings.set;
-    let (p, t) = (read_known(predicted, set)?, read_known(truth, set)?);
+    let ((p, p_objects), (t, t_objects)) = (read_known(predicted, set)?, read_known(truth, set)?);
     if (p.width, p.height) != (t.width, t.height) {
         return Err(JudgeError::unexpected(
             predicted,
@@ -183,16 +185,24 @@ fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Counts, 
         counts.boundary = Boundary::of(set, &p.ids, &t.ids, t.width as usize);
     }
     if settings.panoptic {
-        counts.panoptic = Panoptic::of(set, &segments(predicted, &p.ids, set)?, &segments(truth, &t.ids, set)?);
+        let segments = |path: &Path, labels: &Labels, objects: Option<Vec<u16>>| match objects {
+            Some(objects) => Ok(step_segments(&labels.ids, &objects, set)),
+            None => segments(path, &labels.ids, set),
+        };
+        counts.panoptic = Panoptic::of(set, &segments(predicted, &p, p_objects)?, &segments(truth, &t, t_objects)?);
     }
     Ok(counts)
 }
 
-/// Labels whose numbers the set knows.
-fn read_known(path: &Path, set: &LabelSet) -> Result<Labels, JudgeError> {
-    let labels = read_labels(path)?;
+/// Labels whose numbers the set knows, with the objects' numbers where the picture has them itself.
+fn read_known(path: &Path, set: &LabelSet) -> Result<(Labels, Option<Vec<u16>>), JudgeError> {
+    let step = if set.name == STEP_SET { read_step(path)? } else { None };
+    let (labels, objects) = match step {
+        Some((labels, objects)) => (labels, Some(objects)),
+        None => (read_labels(path)?, None),
+    };
     match set.unknown(&labels.ids) {
-        None => Ok(labels),
+        None => Ok((labels, objects)),
         Some(i) => {
             let known: Vec<String> = set.classes.iter().map(|class| class.id.to_string()).collect();
             let ignored: Vec<String> = set.ignored.iter().map(u8::to_string).collect();
@@ -234,6 +244,17 @@ fn segments(classes: &Path, ids: &[u8], set: &LabelSet) -> Result<Vec<Segment>, 
         Some(u32::from(class) << 16 | if countable { u32::from(object) } else { 0 })
     };
     Ok(ids.iter().zip(objects).map(segment).collect())
+}
+
+/// The segments of a panoptic map of KITTI-STEP; countable things without a number are a crowd.
+fn step_segments(ids: &[u8], objects: &[u16], set: &LabelSet) -> Vec<Segment> {
+    let index = set.index();
+    let segment = |(id, object): (&u8, &u16)| {
+        let class = index[usize::from(*id)]?;
+        let countable = set.classes[usize::from(class)].thing;
+        Some(u32::from(class) << 16 | if countable { u32::from(*object) } else { 0 })
+    };
+    ids.iter().zip(objects).map(segment).collect()
 }
 
 /// Counts of sets of as many pictures, drawn with replacement.

@@ -103,3 +103,27 @@ fn objects_beside_the_classes_give_panoptic_quality() {
     let message = run(&p, &t, &panoptic).unwrap_err().to_string();
     assert!(message.contains("instance.png") && message.contains("omit --panoptic"), "{message}");
 }
+
+#[test]
+fn a_panoptic_map_of_kitti_step_has_classes_and_objects() {
+    let folder = tempfile::tempdir().unwrap();
+    let (p, t) = (folder.path().join("p"), folder.path().join("t"));
+    let map = |side: &Path, pixels: &[[u8; 3]]| {
+        let path = side.join("0002/000000.png");
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        image::RgbImage::from_raw(4, 2, pixels.concat()).unwrap().save(path).unwrap();
+    };
+    // Road, two cars whose numbers differ in the high byte only, a car of a crowd, void.
+    let (road, first, second, crowd, void) = ([0, 0, 0], [13, 0, 7], [13, 1, 7], [13, 0, 0], [255, 0, 0]);
+    map(&t, &[road, road, first, first, second, second, crowd, void]);
+    map(&p, &[road, road, second, second, first, first, first, road]);
+    let panoptic = Settings { panoptic: true, ..settings("cityscapes-train") };
+    let found = run(&p, &t, &panoptic).unwrap();
+    let car = found.set.classes.iter().position(|class| class.name == "car").unwrap();
+    let quality = found.counts.panoptic.quality(car).unwrap();
+    // The second true car and the one that covers the crowd too share two of three pixels.
+    assert_eq!((quality.rq, quality.sq), (1.0, (1.0 + 2.0 / 3.0) / 2.0));
+    assert_eq!((found.accuracy.unwrap().value, found.iou[car].unwrap().value), (1.0, 1.0));
+    // Colours of another numbering are still refused.
+    assert!(run(&p, &t, &settings("cityscapes")).unwrap_err().to_string().contains("Rgb"));
+}

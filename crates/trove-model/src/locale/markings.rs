@@ -19,6 +19,12 @@ pub enum LinePattern {
     Solid,
     /// Two solid lines side by side.
     Double,
+    /// Two broken lines side by side.
+    DoubleDashed(Dash),
+    /// Two lines side by side, of which the left one is solid.
+    SolidDashed(Dash),
+    /// Two lines side by side, of which the right one is solid.
+    DashedSolid(Dash),
 }
 
 /// A paint.

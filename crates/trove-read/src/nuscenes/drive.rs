@@ -11,12 +11,16 @@ use super::index::read_spans;
 use super::lidar::{self, SweepFiles};
 use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
 use super::tables::ByToken;
-use super::{boxes, keyframes, kinds, lane_map, levelling, place};
+use super::{boxes, keyframes, kinds, lane_map, place};
 use crate::ReadError;
+use crate::levelling::{self, Trust};
 
 /// nuScenes' recording cars are Renault Zoes: published length, width without mirrors, and height. The origin of Ego
 /// is the middle of the rear axle; wheelbase and rear overhang put the car's centre about 1.3 m before it.
 const EGO_BODY: EgoBody = EgoBody { centre_ego: DVec3::new(1.3, 0.0, 0.781), size_m: DVec3::new(4.084, 1.730, 1.562) };
+
+/// Heights are unknown: tilts are likely below 1/20 rad, and heights change by less than 3 m a keyframe.
+const HEIGHTS: Trust = Trust { tilt: 400.0, change: 0.1, step_ns: 0 };
 
 /// A sample that is used, with what was taken for it.
 struct Moment<'a> {
@@ -104,7 +108,7 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
         tracks,
         licence: log.and_then(|l| l.trove_licence.clone()).unwrap_or_else(|| LICENCE.to_owned()),
     };
-    levelling::level(&mut drive, report);
+    levelling::level(&mut drive, &HEIGHTS, report);
     Ok(drive)
 }
 

@@ -142,6 +142,7 @@ impl<'a> Around<'a> {
             carparks: self.surfaces("carpark_area", &map.carpark_area),
             road_dividers: self.dividers("road_divider", &map.road_divider),
             lane_dividers: self.dividers("lane_divider", &map.lane_divider),
+            ..LaneMap::default()
         }
     }
 

@@ -15,7 +15,6 @@ mod index_file;
 mod keyframes;
 mod kinds;
 mod lane_map;
-mod levelling;
 mod lidar;
 mod place;
 mod poses;

@@ -1,4 +1,4 @@
-//! OpenStreetMap extracts (`.osm`, `.osm.pbf`) → `StreetMap`.
+//! OpenStreetMap extracts (`.osm`, `.osm.pbf`) and GeoJSON → `StreetMap`.
 //!
 //! A file is read whole into nodes, ways and relations (`raw`), places become World's, and what lies in the wanted area
 //! or crosses it becomes roads, buildings, land, lines and furniture. Everything else in the area is reported.
@@ -11,10 +11,10 @@ mod coast;
 mod colors;
 mod effort;
 mod fault;
+mod geojson;
 mod meaning;
 mod pbf;
 mod places;
-mod protobuf;
 mod raw;
 mod relations;
 mod rings;
@@ -31,7 +31,7 @@ mod xml;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use trove_files::open_regular;
+use trove_files::{LARGEST_FILE, open_regular};
 use trove_model::{Bounds, DrivingSide, MapProjection, Report, StreetMap};
 
 use crate::ReadError;
@@ -40,6 +40,7 @@ use fault::Fault;
 use places::Places;
 use raw::{Raw, RawNode};
 
+pub use self::geojson::GeoJsonFrame;
 pub use crate::geo_extent::GeoExtent;
 
 const LICENCE: &str = "© OpenStreetMap contributors, ODbL 1.0";
@@ -56,12 +57,28 @@ pub fn read(
     driving_side: DrivingSide,
     report: &Report,
 ) -> Result<StreetMap, ReadError> {
-    let raw = parse_file(path, report)?;
-    let extent = extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))?;
+    read_in(GeoJsonFrame::Wgs84, path, projection, area, driving_side, report)
+}
+
+/// As [`read`], with what the coordinates of a GeoJSON file are that does not say so itself.
+///
+/// # Errors
+/// As [`read`], and coordinates that are none of that kind.
+pub fn read_in(
+    frame: GeoJsonFrame,
+    path: &Path,
+    projection: &MapProjection,
+    area: Bounds,
+    driving_side: DrivingSide,
+    report: &Report,
+) -> Result<StreetMap, ReadError> {
+    let raw = parse_file(path, frame, Some(projection), report)?;
+    let extent = raw.covers.or_else(|| extent_of(&raw.nodes)).filter(|_| !raw.nodes.is_empty());
+    let extent = extent.ok_or_else(|| without_nodes(path))?;
     if !extent.bounds(projection).overlaps(&area) {
         return Err(elsewhere(path, &extent, projection, area));
     }
-    let mut map = StreetMap { licence: LICENCE.into(), ..StreetMap::default() };
+    let mut map = StreetMap { licence: raw.licence.clone(), ..StreetMap::default() };
     let places = Places::new(&raw, projection, area, driving_side);
     let mut shops = Vec::new();
     let edges = relations::add(&raw, &places, &mut map, report);
@@ -82,15 +99,21 @@ pub fn read(
 /// # Errors
 /// A file that cannot be read, is packed or damaged, or has no nodes.
 pub fn extent(path: &Path) -> Result<GeoExtent, ReadError> {
-    let raw = parse_file(path, &Report::default())?;
+    let raw = parse_file(path, GeoJsonFrame::Wgs84, None, &Report::default())?;
     extent_of(&raw.nodes).ok_or_else(|| without_nodes(path))
 }
 
-/// Reads either format, told apart by the first bytes.
-fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
+/// Reads any of the formats, told apart by the first bytes.
+fn parse_file(
+    path: &Path,
+    frame: GeoJsonFrame,
+    projection: Option<&MapProjection>,
+    report: &Report,
+) -> Result<Raw, ReadError> {
     let io = |source| ReadError::io(path, source);
     let file = open_regular(path).map_err(io)?;
-    let budget = Budget::of_file(file.metadata().map_err(io)?.len());
+    let length = file.metadata().map_err(io)?.len();
+    let budget = Budget::of_file(length);
     let mut input = BufReader::with_capacity(1 << 16, file);
     let head = input.fill_buf().map_err(io)?.to_vec();
     let packed =
@@ -99,9 +122,17 @@ fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
         let remedy = format!("decompress it with {packer} first");
         (Err(Fault::new("OpenStreetMap XML or PBF", format!("a file compressed with {packer}"), &remedy)), true)
     } else if pbf::is_pbf(&head) {
-        (pbf::parse(input, &budget, report), true)
+        (pbf::parse(input, &budget, report).map(of_osm), true)
+    } else if geojson::is_geojson(&head) && length > LARGEST_FILE {
+        let remedy = "cut the area out of it that is needed";
+        (Err(Fault::new(format!("GeoJSON of at most {LARGEST_FILE} bytes"), format!("{length} bytes"), remedy)), false)
+    } else if geojson::is_geojson(&head) {
+        let mut bytes = Vec::new();
+        input.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(io)?;
+        let parsed = geojson::parse(&bytes, frame, projection, &budget, report);
+        (parsed.map(|raw| with_licence(raw, path)), false)
     } else {
-        (xml::parse(input, report), false)
+        (xml::parse(input, report).map(of_osm), false)
     };
     parsed.map(Raw::sorted).map_err(|fault| match fault {
         Fault::Io(source) => ReadError::io(path, source),
@@ -111,6 +142,20 @@ fn parse_file(path: &Path, report: &Report) -> Result<Raw, ReadError> {
             ReadError::Format { path: path.to_owned(), place, expected, found, remedy }
         }
     })
+}
+
+fn of_osm(raw: Raw) -> Raw {
+    Raw { licence: LICENCE.into(), ..raw }
+}
+
+/// With the licence that the file states, or that it states none.
+fn with_licence(raw: Raw, path: &Path) -> Raw {
+    let name = path.file_name().unwrap_or_default().display();
+    let licence = match raw.licence.trim() {
+        "" => format!("{name}: licence not stated; ask whoever published it"),
+        stated => format!("{name}: {stated}"),
+    };
+    Raw { licence, ..raw }
 }
 
 /// The line, from 1, in which a byte stands.
@@ -138,9 +183,7 @@ fn without_nodes(path: &Path) -> ReadError {
 }
 
 fn elsewhere(path: &Path, extent: &GeoExtent, projection: &MapProjection, area: Bounds) -> ReadError {
-    let (south, west) = projection.geo_from_world(area.min);
-    let (north, east) = projection.geo_from_world(area.max);
     let apart_km = extent.bounds(projection).centre().distance(area.centre()) / 1000.0;
-    let wanted = GeoExtent { min_lat_deg: south, max_lat_deg: north, min_lon_deg: west, max_lon_deg: east };
+    let wanted = GeoExtent::of_bounds(projection, area);
     ReadError::Elsewhere { path: path.to_owned(), wanted, extent: *extent, apart_km }
 }

@@ -2,6 +2,8 @@
 
 use trove_model::{Outcome, Report};
 
+use crate::geo_extent::GeoExtent;
+
 /// A key or value has at most 255 characters, of at most four bytes each.
 pub(super) const LONGEST_WORDS: usize = 1020;
 /// A way has at most 2000 nodes in the database; in extracts of old states of it more.
@@ -31,6 +33,11 @@ const KEYS: [&str; 126] = [
     "turn:lanes:forward", "type", "wall", "waterway", "width", "width:carriageway", "zone:maxspeed",
 ];
 
+/// Whether a tag of this key is kept.
+pub(super) fn is_kept(key: &str) -> bool {
+    KEYS.binary_search(&key).is_ok()
+}
+
 /// Tags of [`KEYS`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tags(Vec<(&'static str, String)>);
@@ -41,6 +48,11 @@ impl Tags {
         let Ok(i) = KEYS.binary_search(&key) else { return 0 };
         self.0.push((KEYS[i], value.trim().to_owned()));
         size_of_val(&self.0[0]) + value.len()
+    }
+
+    /// Adds the tags of another thing; of two of the same key the first counts.
+    pub(super) fn extend(&mut self, tags: Self) {
+        self.0.extend(tags.0);
     }
 
     /// The value of a key; empty where it is not tagged.
@@ -125,6 +137,10 @@ pub(super) struct Raw {
     pub(super) ways: Vec<RawWay>,
     /// Sorted by id after [`Raw::sorted`].
     pub(super) relations: Vec<RawRelation>,
+    /// What the file says that it covers; ways may lead beyond it.
+    pub(super) covers: Option<GeoExtent>,
+    /// Licence, with whom to name; empty where the file does not state any.
+    pub(super) licence: String,
 }
 
 impl Raw {
@@ -140,6 +156,17 @@ impl Raw {
         if !tags.is_empty() {
             self.things.push(RawThing { node, tags });
         }
+    }
+
+    /// Notes that the file covers this too.
+    pub(super) fn cover(&mut self, extent: GeoExtent) {
+        let whole = self.covers.get_or_insert(extent);
+        *whole = GeoExtent {
+            min_lat_deg: whole.min_lat_deg.min(extent.min_lat_deg),
+            max_lat_deg: whole.max_lat_deg.max(extent.max_lat_deg),
+            min_lon_deg: whole.min_lon_deg.min(extent.min_lon_deg),
+            max_lon_deg: whole.max_lon_deg.max(extent.max_lon_deg),
+        };
     }
 
     /// Adds a way, or notes why it is none.

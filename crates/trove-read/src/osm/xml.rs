@@ -6,6 +6,8 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 use trove_model::{Outcome, Report};
 
+use crate::geo_extent::GeoExtent;
+
 use super::fault::Fault;
 use super::raw::{LONGEST_WORDS, Raw, RawNode, RawRelation, RawWay, Tags};
 
@@ -73,6 +75,19 @@ fn begin(
         (0, _) => {
             let remedy = "give an OpenStreetMap extract (.osm or .osm.pbf); servers answer in HTML when they are busy";
             return Err(Fault::new("<osm>", format!("<{name}>"), remedy));
+        }
+        (1, "bounds") => {
+            let mut edges = [None; 4];
+            for_attributes(element, |name, text| {
+                let at = ["minlat", "maxlat", "minlon", "maxlon"].iter().position(|edge| *edge == name);
+                at.into_iter().for_each(|at| edges[at] = text.parse().ok());
+            })?;
+            let extent = if let [Some(south), Some(north), Some(west), Some(east)] = edges {
+                GeoExtent::between([south, north], [west, east])
+            } else {
+                None
+            };
+            extent.into_iter().for_each(|extent| raw.cover(extent));
         }
         (1, "node" | "way" | "relation") => {
             *tags = Tags::default();

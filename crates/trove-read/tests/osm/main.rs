@@ -1,6 +1,7 @@
 //! OpenStreetMap extracts, made up, damaged and real.
 #![allow(clippy::unwrap_used)]
 
+mod geojson;
 mod hostile;
 mod wire;
 
@@ -383,6 +384,29 @@ fn an_extract_of_another_city_is_an_error_that_says_where_both_are() {
     assert!(error.contains("42.33") && error.contains("latitude 0.0000°") && error.contains("km away"), "{error}");
     let extent = osm::extent(&path).unwrap();
     assert!((extent.bounds(&origin()).size_m() - DVec2::splat(10.0)).length() < 1e-6);
+}
+
+#[test]
+fn an_extract_covers_what_its_bounds_say_and_not_where_its_ways_lead() {
+    // The road leads on for a kilometre, into what another extract covers.
+    let content = nodes(&[(1, 0.0, 0.0), (2, 1000.0, 0.0)]) + &way(1, &[1, 2], "highway=primary");
+    let bounds = |low: f64, high: f64| {
+        let [low, high] = [low, high].map(|m| m * METRE_DEG);
+        format!("<bounds minlat='{low}' minlon='{low}' maxlat='{high}' maxlon='{high}'/>")
+    };
+    let there = Bounds { min: DVec2::new(800.0, -50.0), max: DVec2::new(900.0, 50.0) };
+    let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
+    let read = |bounds: &str| {
+        let path = file(&dir, "map.osm", format!("<osm>{bounds}{content}</osm>").as_bytes());
+        osm::read(&path, &ORIGIN, there, DrivingSide::Right, &report)
+    };
+    assert_eq!(read("").unwrap().roads.len(), 1);
+    assert!(matches!(read(&bounds(-100.0, 100.0)).unwrap_err(), ReadError::Elsewhere { .. }));
+    assert_eq!(read(&(bounds(-100.0, 100.0) + &bounds(700.0, 1000.0))).unwrap().roads.len(), 1);
+    // What is no rectangle says nothing.
+    for odd in ["<bounds minlat='a'/>", "<bounds minlat='9' maxlat='1' minlon='0' maxlon='1'/>", "<bounds/>"] {
+        assert_eq!(read(odd).unwrap().roads.len(), 1, "{odd}");
+    }
 }
 
 #[test]

@@ -24,7 +24,7 @@ pub(crate) struct Evaluate {
     /// Also compute boundary IoU.
     #[arg(long)]
     boundary: bool,
-    /// Also compute panoptic quality, from instance.png beside class.png or Cityscapes' instanceIds.
+    /// Also compute panoptic quality, from instance.png beside class.png, Cityscapes' instanceIds or KITTI-STEP's panoptic maps.
     #[arg(long)]
     panoptic: bool,
     /// Seed of the bootstrap over images.

@@ -122,15 +122,18 @@ impl Ink<'_> {
         let (left, left_ends) = end(from, self.frame.mitre[0], 0.0, -1.0);
         let (right, right_ends) = end(to, self.frame.mitre[1], self.frame.length_m, 1.0);
         let p = |x: f64, k: usize, z: f64| DVec3::new(x, y[k], z);
+        // Between two inner corners a ledge that is wider than its wall would be turned inside out.
+        if right[1] <= left[1] || right[0] <= left[0] {
+            return;
+        }
         let (root, z) = (if left_ends && right_ends { -0.02 } else { 0.0 }, out_m);
         let front = [p(left[1], 0, z), p(right[1], 0, z), p(right[1], 1, z), p(left[1], 1, z)];
         let back = [p(left[0], 0, root), p(right[0], 0, root), p(right[0], 1, root), p(left[0], 1, root)];
         self.face(slot, &front);
-        for (k, ends) in [(0, true), (1, right_ends), (2, true), (3, left_ends)] {
+        // A mitre is closed too: the next wall may have a window there, or none of it.
+        for k in 0..4 {
             let next = (k + 1) % 4;
-            if ends {
-                self.face(slot, &[front[next], front[k], back[k], back[next]]);
-            }
+            self.face(slot, &[front[next], front[k], back[k], back[next]]);
         }
     }
 

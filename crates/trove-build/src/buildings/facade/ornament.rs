@@ -11,12 +11,18 @@ use crate::buildings::shell::Slot;
 const ROOT_M: f64 = -0.02;
 /// What is painted stands out this far, so that nothing is coplanar.
 const PAINT_M: f64 = 0.004;
+/// What has no mitre stays this far from the ends of its wall.
+const END_M: f64 = 0.004;
 
 /// What surrounds an opening; plain walls have their sills alone.
 pub(super) fn surround(ink: &mut Ink<'_>, hole: &Hole<'_>, design: &FacadeDesign, plain: bool, random: &mut Random) {
     let (low, high) = (hole.low, hole.high);
+    // They end with their wall, and their backs are closed: the next window may be behind them.
     let block = |ink: &mut Ink<'_>, x: [f64; 2], y: [f64; 2], out: f64| {
-        ink.block(Slot::Stone, DVec3::new(x[0], y[0], ROOT_M), DVec3::new(x[1], y[1], out));
+        let [from, to] = x.map(|x| x.clamp(END_M, (ink.frame.length_m - END_M).max(END_M)));
+        if to > from {
+            ink.solid(Slot::Stone, DVec3::new(from, y[0], ROOT_M), DVec3::new(to, y[1], out));
+        }
     };
     let [wide, out] = design.surround_m.map(f64::from);
     let wide = if plain { 0.0 } else { wide };
@@ -108,9 +114,9 @@ pub(super) fn piers(ink: &mut Ink<'_>, design: &FacadeDesign, borders: &[f64], y
     }
     let length_m = ink.frame.length_m;
     for &x in borders {
-        let (from, to) = ((x - wide / 2.0).max(0.004), (x + wide / 2.0).min(length_m - 0.004));
+        let (from, to) = ((x - wide / 2.0).max(END_M), (x + wide / 2.0).min(length_m - END_M));
         if to > from {
-            ink.block(slot, DVec3::new(from, y[0], ROOT_M), DVec3::new(to, y[1], out));
+            ink.solid(slot, DVec3::new(from, y[0], ROOT_M), DVec3::new(to, y[1], out));
         }
     }
 }

@@ -29,6 +29,7 @@ pub(super) fn front(ink: &mut Ink<'_>, hole: &Hole<'_>, shares: &Fixtures, top: 
         let (from, to) = (DVec3::new(left, foot, -0.02), DVec3::new(right, foot + tall, 0.12));
         use super::ink::Side::{Bottom, Left, Right, Top};
         ink.sides(Slot::Iron, from, to, &[Left, Right, Bottom, Top]);
+        ink.pane(Slot::Iron, from.truncate(), to.truncate(), from.z, false);
         sign(ink, which, [DVec2::new(left, foot), DVec2::new(right, foot + tall)].map(|p| p.extend(0.12)));
     }
     if shaded && room_m > 0.2 {
@@ -58,6 +59,7 @@ fn blade_sign(ink: &mut Ink<'_>, x: f64, y: [f64; 2], which: usize) {
     let (a, b) = (DVec3::new(x, y[0], near), DVec3::new(x + thick, y[1], near + wide));
     use super::ink::Side::{Bottom, Front, Top};
     ink.sides(Slot::Iron, a, b, &[Bottom, Top, Front]);
+    ink.pane(Slot::Iron, a.truncate(), b.truncate(), near, false);
     let face = |x: f64, z: [f64; 2]| {
         let p = |y: f64, z: f64| DVec3::new(x, y, z);
         // Writing runs downwards.

@@ -79,6 +79,11 @@ fn eaves(shell: &mut Shell, roof: &Pitched, side: usize, reach_m: f64, has_eaves
         (ends[end] + along * out_m + inset).extend(z)
     };
     let section = |end: usize, points: [[f64; 2]; 4]| points.map(|[x, z]| at(end, x, z));
+    // Between two inner corners nothing is left of a short side's boards but what is turned inside out.
+    let least_m = |out_m: f64| (at(1, out_m, 0.0) - at(0, out_m, 0.0)).truncate().dot(own.along);
+    if least_m(reach_m + GUTTER_M[0]).min(least_m(-0.06)) <= 0.0 {
+        return;
+    }
     let top = |x: f64| eaves - slope * x - 0.012;
     let board = [
         [-0.06, top(-0.06)],

@@ -16,6 +16,8 @@ const STRAIGHT_M: f64 = 0.04;
 const MOST_SIDES: usize = 90;
 /// A roof whose outline closes within this has no inside to speak of, metres.
 const LEAST_RUN_M: f64 = 0.25;
+/// Triangles fill a face to this, m².
+const FILLED_M2: f64 = 1e-3;
 /// Steps of a barrel's or a dome's arc.
 const ARC_STEPS: usize = 6;
 /// The end of a wing wider than this is hipped, metres.
@@ -78,14 +80,14 @@ pub(super) fn pitched(volume: &Volume<'_>, shape: RoofShape, eaves: f64, top: f6
     let found = ends.filter(|s| s.last_s() < 2.2 * hipped.last_s());
     let wants_gables =
         matches!(shape, RoofShape::Gabled | RoofShape::Gambrel | RoofShape::Round | RoofShape::HalfHipped);
-    let became = if wants_gables && found.is_none() { RoofShape::Hipped } else { shape };
-    let skeleton = found.unwrap_or(hipped);
-    let run_m = skeleton.last_s();
-    if run_m < LEAST_RUN_M {
-        return None;
-    }
-    let profile = Profile::of(became);
-    Some(Pitched { skeleton, profile, eaves, rise_m: top - eaves, run_m, chains, edges, became })
+    let plain = if wants_gables { RoofShape::Hipped } else { shape };
+    let forms = found.map(|skeleton| (skeleton, shape)).into_iter().chain([(hipped, plain)]);
+    let roof = |(skeleton, became): (Skeleton, RoofShape)| {
+        let (run_m, profile) = (skeleton.last_s(), Profile::of(became));
+        let (chains, edges) = (chains.clone(), edges.clone());
+        Pitched { skeleton, profile, eaves, rise_m: top - eaves, run_m, chains, edges, became }
+    };
+    forms.map(roof).find(|roof| roof.run_m >= LEAST_RUN_M && roof.is_whole())
 }
 
 /// The corners that matter of an outline, and the rest of its points between them.
@@ -225,6 +227,26 @@ impl Pitched {
         self.skeleton.sides[side].start.is_infinite()
     }
 
+    /// A side's face in its own plane, with the outline's own points: along the side, and in time.
+    fn in_plane(&self, side: usize) -> Vec<DVec2> {
+        let own = &self.skeleton.sides[side];
+        let chain = &self.chains[side];
+        let between = chain[1..chain.len() - 1].iter().map(|p| DVec2::new((*p - own.from).dot(own.along), 0.0));
+        let mut corners = self.skeleton.faces[side].iter().map(|&n| self.skeleton.in_face(side, n));
+        corners.next().into_iter().chain(between).chain(corners).collect()
+    }
+
+    /// Whether triangles can fill every face: one that crosses itself would leave a hole in the roof.
+    fn is_whole(&self) -> bool {
+        (0..self.skeleton.faces.len()).filter(|&side| !self.skeleton.faces[side].is_empty()).all(|side| {
+            let flat = self.in_plane(side);
+            let area_m2 = |i: usize, j: usize, k: usize| (flat[j] - flat[i]).perp_dot(flat[k] - flat[i]) / 2.0;
+            let whole_m2: f64 = (1..flat.len() - 1).map(|i| area_m2(0, i, i + 1)).sum();
+            let filled_m2: f64 = fill::triangles(&flat).into_iter().map(|[i, j, k]| area_m2(i, j, k)).sum();
+            (whole_m2 - filled_m2).abs() <= FILLED_M2
+        })
+    }
+
     /// Puts the faces on a shell: slopes as roof, what stands upright as gables.
     pub(super) fn cover(&self, shell: &mut Shell) {
         let breaks = self.breaks();
@@ -244,11 +266,7 @@ impl Pitched {
             }
             ring.extend(&face[1..]);
             let Some(own) = self.skeleton.sides.get(side) else { continue };
-            let flat: Vec<DVec2> = ring
-                .iter()
-                .map(|&i| DVec2::new((points[i].truncate() - own.from).dot(own.along), points[i].z))
-                .collect();
-            for triangle in fill::triangles(&flat) {
+            for triangle in fill::triangles(&self.in_plane(side)) {
                 let mut piece: Vec<usize> = triangle.map(|i| ring[i]).to_vec();
                 for (level, &time) in breaks.iter().enumerate() {
                     let (below, above) = cut(&piece, level, time, &mut points, &mut cuts);

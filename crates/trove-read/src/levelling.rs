@@ -1,12 +1,13 @@
-//! The vehicle's height and tilt, which nuScenes leaves out.
+//! The vehicle's height and tilt, which a recording leaves out (nuScenes) or lets drift (KITTI).
 //!
-//! Every ego pose has z = 0, so on a slope the same standing cone rises or sinks from keyframe to keyframe by up to a
-//! metre. What stands still tells the truth: for each keyframe a small rigid motion (height, and tilt about two axes)
-//! is sought after which all standing objects keep their heights. Camera, LiDAR and boxes of a keyframe move together,
-//! so every projection stays what the devkit says.
+//! Where every ego pose has z = 0, on a slope the same standing cone rises or sinks from keyframe to keyframe by up to a
+//! metre. What stands still tells the truth: a small rigid motion (height, and tilt about two axes) is sought after which
+//! all standing objects keep their heights. It is sought at knots, and linear in time between them. Camera, LiDAR and
+//! boxes of a keyframe move together, so every projection stays what the devkit says.
 //!
-//! Least squares with Huber's weights; the objects' heights are eliminated, and a dense system of three unknowns a
-//! keyframe is left.
+//! Least squares with Huber's weights; the objects' heights are eliminated, and a system of three unknowns a knot is left.
+
+use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec2, DVec3};
 use trove_model::{Drive, Outcome, Pose, Report, Track, World};
@@ -25,15 +26,31 @@ const HUBER_M: f64 = 0.05;
 const ROUNDS: usize = 10;
 /// Metres or radians below which a motion is not worth a word.
 const NOTICEABLE: f64 = 1e-3;
-/// Weights of what is believed without evidence: tilts are near 0 (1/20 rad), heights change little (3 m a keyframe),
-/// and the first keyframe is at height 0.
-const TILT_PRIOR: f64 = 400.0;
-const CHANGE_PRIOR: f64 = 0.1;
+/// The first knot is at height 0.
 const START_PRIOR: f64 = 1e6;
+/// The system of more knots would take seconds; in longer drives they lie farther apart.
+const MOST_KNOTS: usize = 600;
+
+/// What is believed of a recording's heights without evidence, as weights against a standing object's, in m⁻².
+pub(crate) struct Trust {
+    /// That tilts are as recorded: the reciprocal square of a likely error, radians, over that of a height of 1 m.
+    pub(crate) tilt: f64,
+    /// That the error of the height does not change from knot to knot: likewise, metres.
+    pub(crate) change: f64,
+    /// Time from knot to knot, nanoseconds; 0 where every keyframe is one.
+    pub(crate) step_ns: i64,
+}
+
+/// Between which knots a keyframe lies: the first of them, and the second's share.
+#[derive(Clone, Copy)]
+struct Between {
+    knot: usize,
+    share: f64,
+}
 
 /// A standing object's bottom at a keyframe.
 struct Sight {
-    keyframe: usize,
+    between: Between,
     /// Derivatives of its height by the keyframe's height and tilts: 1 and the distance to the vehicle in x and y.
     slope: [f64; 3],
     height_m: f64,
@@ -42,25 +59,54 @@ struct Sight {
 }
 
 /// Moves each keyframe of a drive so that what stands still keeps its height.
-pub(super) fn level(drive: &mut Drive, report: &Report) {
+pub(crate) fn level(drive: &mut Drive, trust: &Trust, report: &Report) {
+    let (knots, between) = knots(drive, trust.step_ns);
     let mut objects: Vec<Vec<Sight>> =
-        drive.tracks.iter().filter(|track| stands(track)).map(|track| sights(track, drive)).collect();
+        drive.tracks.iter().filter(|track| stands(track)).map(|track| sights(track, drive, &between)).collect();
     objects.retain(|sights| sights.len() >= LEAST_BOXES);
     if objects.is_empty() {
         return;
     }
-    let mut motion = vec![0.0; 3 * drive.keyframes.len()];
+    let mut motion = vec![0.0; 3 * knots];
     settle(&mut objects, &motion);
-    report.measure("nuscenes.standing_height_error_before_m", median_residual_m(&objects));
+    let measured = |when: &str| format!("{}.standing_height_error_{when}_m", drive.dataset);
+    report.measure(&measured("before"), median_residual_m(&objects));
     for _ in 0..ROUNDS {
-        motion = solve(&objects, drive.keyframes.len());
+        motion = solve(&objects, knots, trust);
         settle(&mut objects, &motion);
     }
-    report.measure("nuscenes.standing_height_error_after_m", median_residual_m(&objects));
+    report.measure(&measured("after"), median_residual_m(&objects));
     if motion.iter().any(|m| m.abs() > NOTICEABLE) {
         report.note(Outcome::Guessed, "height and tilt of the vehicle, from static objects", &drive.id);
     }
-    apply(drive, &motion);
+    apply(drive, &between, &motion);
+}
+
+/// How many knots there are, and between which each keyframe lies.
+fn knots(drive: &Drive, step_ns: i64) -> (usize, Vec<Between>) {
+    let times_ns: Vec<i64> = drive.keyframes.iter().map(|k| k.time_ns).collect();
+    if step_ns <= 0 || times_ns.len() < 2 {
+        return (times_ns.len(), (0..times_ns.len()).map(|knot| Between { knot, share: 0.0 }).collect());
+    }
+    let (first, last) = (times_ns[0], times_ns[times_ns.len() - 1]);
+    let duration = last.saturating_sub(first).max(1) as f64;
+    let spans = (duration / step_ns as f64).ceil().clamp(1.0, (MOST_KNOTS - 1) as f64);
+    let between = times_ns.iter().map(|t| {
+        let at = (t.saturating_sub(first) as f64 / duration * spans).clamp(0.0, spans);
+        let knot = at.floor().min(spans - 1.0);
+        Between { knot: knot as usize, share: at - knot }
+    });
+    (spans as usize + 1, between.collect())
+}
+
+impl Between {
+    /// Height and two tilts at the keyframe.
+    fn motion(self, motion: &[f64]) -> [f64; 3] {
+        let of = |i: usize| motion[3 * self.knot + i];
+        // The last knot may have none after it.
+        let next = |i: usize| if self.share > 0.0 { motion[3 * (self.knot + 1) + i] } else { 0.0 };
+        [0, 1, 2].map(|i| (1.0 - self.share) * of(i) + self.share * next(i))
+    }
 }
 
 fn stands(track: &Track) -> bool {
@@ -69,14 +115,14 @@ fn stands(track: &Track) -> bool {
         .is_some_and(|bounds| bounds.size_m().max_element() < STANDING_M)
 }
 
-fn sights(track: &Track, drive: &Drive) -> Vec<Sight> {
+fn sights(track: &Track, drive: &Drive, between: &[Between]) -> Vec<Sight> {
     let sight = |&(keyframe, cuboid): &(usize, trove_model::Cuboid)| {
         let centre = cuboid.world_from_body.translation;
         let from_ego: DVec2 = (centre - drive.keyframes[keyframe].world_from_ego.translation).truncate();
         let distance_m = from_ego.length();
         let share = 1.0 / (1.0 + (distance_m / HALF_WEIGHT_M).powi(2));
         (distance_m < REACH_M).then(|| Sight {
-            keyframe,
+            between: between[keyframe],
             slope: [1.0, from_ego.x, from_ego.y],
             height_m: centre.z - cuboid.size_m.z / 2.0,
             weight: share * share,
@@ -92,7 +138,15 @@ impl Sight {
     }
 
     fn moved_m(&self, motion: &[f64]) -> f64 {
-        self.height_m + (0..3).map(|i| self.slope[i] * motion[3 * self.keyframe + i]).sum::<f64>()
+        let at = self.between.motion(motion);
+        self.height_m + (0..3).map(|i| self.slope[i] * at[i]).sum::<f64>()
+    }
+
+    /// Derivatives of its height by the unknowns that it depends on, by their indices.
+    fn derivatives(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+        let Between { knot, share } = self.between;
+        let of = move |knot: usize, part: f64| (0..3).map(move |i| (3 * knot + i, part * self.slope[i]));
+        of(knot, 1.0 - share).chain(of(knot + 1, share).filter(move |_| share > 0.0))
     }
 }
 
@@ -113,73 +167,78 @@ fn median_residual_m(objects: &[Vec<Sight>]) -> f64 {
     residuals[residuals.len() / 2]
 }
 
-/// Height and two tilts of each keyframe.
-fn solve(objects: &[Vec<Sight>], keyframes: usize) -> Vec<f64> {
-    let n = 3 * keyframes;
+/// Height and two tilts of each knot.
+fn solve(objects: &[Vec<Sight>], knots: usize, trust: &Trust) -> Vec<f64> {
+    let n = 3 * knots;
     let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
     for sights in objects {
         // The object's own height is the weighted mean of its sights, so it leaves the sums less their mean's.
         let total: f64 = sights.iter().map(Sight::robust_weight).sum();
         let mean_m = sights.iter().map(|s| s.robust_weight() * s.height_m).sum::<f64>() / total;
+        let mut together = BTreeMap::<usize, f64>::new();
         for s in sights {
-            for i in 0..3 {
-                let row = 3 * s.keyframe + i;
-                right[row] -= s.robust_weight() * s.slope[i] * (s.height_m - mean_m);
-                for j in 0..3 {
-                    matrix[row * n + 3 * s.keyframe + j] += s.robust_weight() * s.slope[i] * s.slope[j];
+            for (row, a) in s.derivatives() {
+                right[row] -= s.robust_weight() * a * (s.height_m - mean_m);
+                *together.entry(row).or_default() += s.robust_weight() * a;
+                for (column, b) in s.derivatives() {
+                    matrix[row * n + column] += s.robust_weight() * a * b;
                 }
-                for other in sights {
-                    let both = s.robust_weight() * other.robust_weight() / total;
-                    for j in 0..3 {
-                        matrix[row * n + 3 * other.keyframe + j] -= both * s.slope[i] * other.slope[j];
-                    }
-                }
+            }
+        }
+        for (row, a) in &together {
+            for (column, b) in &together {
+                matrix[row * n + column] -= a * b / total;
             }
         }
     }
     matrix[0] += START_PRIOR;
-    for k in 0..keyframes {
+    for k in 0..knots {
         for tilt in [3 * k + 1, 3 * k + 2] {
-            matrix[tilt * n + tilt] += TILT_PRIOR;
+            matrix[tilt * n + tilt] += trust.tilt;
         }
-        if k + 1 < keyframes {
+        if k + 1 < knots {
             let (a, b) = (3 * k, 3 * k + 3);
             for (row, column, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {
-                matrix[row * n + column] += sign * CHANGE_PRIOR;
+                matrix[row * n + column] += sign * trust.change;
             }
         }
     }
     cholesky_solve(matrix, right)
 }
 
-/// Solves a symmetric positive definite system, which the priors make of it.
+/// Solves a symmetric positive definite system, which the priors make of it. What is 0 before a row's first number stays
+/// so, and objects are seen for a while only, so most of a long drive's system is passed over.
 fn cholesky_solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
-    for j in 0..n {
-        for i in j..n {
-            let dot: f64 = (0..j).map(|k| matrix[i * n + k] * matrix[j * n + k]).sum();
+    let first: Vec<usize> = (0..n).map(|i| (0..i).find(|k| matrix[i * n + k] != 0.0).unwrap_or(i)).collect();
+    for i in 0..n {
+        for j in first[i]..=i {
+            let dot: f64 = (first[i].max(first[j])..j).map(|k| matrix[i * n + k] * matrix[j * n + k]).sum();
             let value = matrix[i * n + j] - dot;
             matrix[i * n + j] = if i == j { value.max(f64::MIN_POSITIVE).sqrt() } else { value / matrix[j * n + j] };
         }
     }
     for i in 0..n {
-        let dot: f64 = (0..i).map(|k| matrix[i * n + k] * right[k]).sum();
+        let dot: f64 = (first[i]..i).map(|k| matrix[i * n + k] * right[k]).sum();
         right[i] = (right[i] - dot) / matrix[i * n + i];
     }
     for i in (0..n).rev() {
-        let dot: f64 = (i + 1..n).map(|k| matrix[k * n + i] * right[k]).sum();
-        right[i] = (right[i] - dot) / matrix[i * n + i];
+        right[i] /= matrix[i * n + i];
+        for k in first[i]..i {
+            right[k] -= matrix[i * n + k] * right[i];
+        }
     }
     right
 }
 
 /// Moves everything of each keyframe, its tracks' boxes included.
-fn apply(drive: &mut Drive, motion: &[f64]) {
+fn apply(drive: &mut Drive, between: &[Between], motion: &[f64]) {
     let motions: Vec<Pose<World, World>> = drive
         .keyframes
         .iter()
-        .zip(motion.chunks_exact(3))
-        .map(|(keyframe, m)| {
+        .zip(between)
+        .map(|(keyframe, between)| {
+            let m = between.motion(motion);
             let ego = keyframe.world_from_ego.translation;
             let rotation = DQuat::from_scaled_axis(DVec3::new(m[2], -m[1], 0.0));
             Pose::new(rotation, ego + DVec3::Z * m[0] - rotation * ego)
@@ -210,11 +269,14 @@ mod tests {
     use super::*;
     use trove_model::{Cuboid, DriveOrigin, Ego, EgoBody, Keyframe, Kind, MapProjection};
 
+    /// As nuScenes', whose heights are none.
+    const BLIND: Trust = Trust { tilt: 400.0, change: 0.1, step_ns: 0 };
+
     /// A vehicle that drives up a slope of 4 % past cones, recorded as nuScenes does: always at height 0.
     fn drive_uphill() -> Drive {
         let ego = |k: usize| DVec3::new(5.0 * k as f64, 0.0, 0.0);
         let keyframe = |k| Keyframe {
-            time_ns: 0,
+            time_ns: 500_000_000 * k as i64,
             token: String::new(),
             world_from_ego: Pose::<World, Ego>::from_yaw(0.0, ego(k)),
             exposures: Vec::new(),
@@ -249,7 +311,7 @@ mod tests {
     #[test]
     fn a_vehicle_on_a_slope_rises_and_what_stands_keeps_its_height() {
         let (mut drive, report) = (drive_uphill(), Report::default());
-        level(&mut drive, &report);
+        level(&mut drive, &BLIND, &report);
         let climbed_m =
             drive.keyframes[9].world_from_ego.translation.z - drive.keyframes[0].world_from_ego.translation.z;
         assert!((climbed_m - 0.04 * 45.0).abs() < 0.1, "climbed {climbed_m} m");
@@ -263,7 +325,7 @@ mod tests {
     #[test]
     fn what_a_keyframe_sees_stays_where_it_was_seen() {
         let (mut drive, before) = (drive_uphill(), drive_uphill());
-        level(&mut drive, &Report::default());
+        level(&mut drive, &BLIND, &Report::default());
         for (after, before) in drive.tracks.iter().zip(&before.tracks).flat_map(|(a, b)| a.boxes.iter().zip(&b.boxes)) {
             let in_ego = |drive: &Drive, (k, cuboid): &(usize, Cuboid)| {
                 drive.keyframes[*k].world_from_ego.inverse().point(cuboid.world_from_body.translation)
@@ -274,13 +336,44 @@ mod tests {
     }
 
     #[test]
+    fn between_knots_a_drift_is_linear() {
+        // The slope's height grows evenly, so four knots in place of ten keyframes tell as much.
+        let (mut drive, report) = (drive_uphill(), Report::default());
+        let trust = Trust { step_ns: 1_500_000_000, ..BLIND };
+        assert_eq!(knots(&drive, trust.step_ns).0, 4);
+        level(&mut drive, &trust, &report);
+        let climbed_m =
+            drive.keyframes[9].world_from_ego.translation.z - drive.keyframes[0].world_from_ego.translation.z;
+        assert!((climbed_m - 0.04 * 45.0).abs() < 0.1, "climbed {climbed_m} m");
+        let error_m = report.measurements().into_iter().find(|m| m.name.ends_with("after_m")).unwrap().value;
+        assert!(error_m < 0.02, "{error_m} m");
+    }
+
+    #[test]
+    fn a_system_with_gaps_is_solved_as_a_whole_one() {
+        let (n, mut matrix) = (6, vec![0.0; 36]);
+        let right: Vec<f64> = (0..n).map(|i| i as f64 - 2.0).collect();
+        for i in 0..n {
+            matrix[i * n + i] = 4.0;
+            if i >= 2 {
+                (matrix[i * n + i - 2], matrix[(i - 2) * n + i]) = (1.0, 1.0);
+            }
+        }
+        let found = cholesky_solve(matrix.clone(), right.clone());
+        for i in 0..n {
+            let product: f64 = (0..n).map(|j| matrix[i * n + j] * found[j]).sum();
+            assert!((product - right[i]).abs() < 1e-12, "row {i}");
+        }
+    }
+
+    #[test]
     fn a_level_drive_is_left_alone() {
         let mut drive = drive_uphill();
         for (_, cuboid) in drive.tracks.iter_mut().flat_map(|track| &mut track.boxes) {
             cuboid.world_from_body.translation.z = 0.5;
         }
         let before = drive.clone();
-        level(&mut drive, &Report::default());
+        level(&mut drive, &BLIND, &Report::default());
         assert_eq!(drive, before);
     }
 }

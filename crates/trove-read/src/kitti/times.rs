@@ -1,0 +1,53 @@
+//! `timestamps.txt`: a line a frame, `2011-09-26 13:04:32.351950336`, by the clock of the recording computer.
+
+use std::path::Path;
+
+use toml::value::Datetime;
+
+use super::facts::FACTS;
+use super::text;
+use crate::ReadError;
+
+/// The time of each frame, nanoseconds since 1970 UTC; `None` where a line is none.
+pub(super) fn read(path: &Path) -> Result<Vec<Option<i64>>, ReadError> {
+    Ok(text::read(path)?.lines().map(time_ns).collect())
+}
+
+/// When the frame of a number was taken that has no time, nanoseconds since 1970 UTC.
+pub(super) fn unknown_ns(frame: usize) -> i64 {
+    let start_ns = time_ns(&FACTS.unknown_time).expect("a test reads it");
+    start_ns.saturating_add((frame as f64 * FACTS.frame_s * 1e9) as i64)
+}
+
+/// Nanoseconds since 1970 UTC; `None` for what is no time of KITTI's decades.
+fn time_ns(line: &str) -> Option<i64> {
+    let parsed: Datetime = line.trim().parse().ok()?;
+    let (date, time) = (parsed.date?, parsed.time?);
+    if parsed.offset.is_some() || !(1970..=2200).contains(&date.year) {
+        return None;
+    }
+    let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
+    let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
+    Some((days * 86_400 + of_day_s - FACTS.utc_offset_s) * 1_000_000_000 + time.nanosecond.map_or(0, i64::from))
+}
+
+/// Days since 1970-01-01 of a Gregorian date, with years that start in March so that the leap day comes last.
+fn days_from_civil(year: i64, month: i64, day: i64) -> i64 {
+    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
+    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_summer_time_in_karlsruhe() {
+        assert_eq!(time_ns("2011-09-26 13:04:32.351950336"), Some(1_317_035_072_351_950_336));
+        for line in ["", "2011-09-26", "13:04:32", "2011-13-26 13:04:32", "2011-09-26 13:04:32Z", "yesterday"] {
+            assert_eq!(time_ns(line), None, "{line}");
+        }
+        assert_eq!(unknown_ns(10) - unknown_ns(0), 1_000_000_000);
+    }
+}
