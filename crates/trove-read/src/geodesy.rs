@@ -96,13 +96,13 @@ mod tests {
     fn utm_is_that_of_the_tables() {
         // Pittsburgh's origin of Argoverse 2 (av2/geometry/utm.py) and the place that it is given for.
         let zone = Utm::new(17, false).unwrap();
-        let (lat_deg, lon_deg) = zone.geo_from_utm(DVec2::new(583_710.0070, 4_477_259.9999)).unwrap();
+        let (lat_deg, lon_deg) = zone.geo_from_utm(DVec2::new(583_710.007_0, 4_477_259.999_9)).unwrap();
         assert!(
             (lat_deg - 40.44177902989321).abs() < 1e-7 && (lon_deg + 80.01294377242584).abs() < 1e-7,
             "{lat_deg} {lon_deg}"
         );
         let back = zone.utm_from_geo(lat_deg, lon_deg).unwrap();
-        assert!((back - DVec2::new(583_710.0070, 4_477_259.9999)).length() < 1e-3);
+        assert!((back - DVec2::new(583_710.007_0, 4_477_259.999_9)).length() < 1e-3);
         assert!(Utm::new(61, false).is_none() && Utm::new(0, true).is_none());
         assert_eq!(zone.geo_from_utm(DVec2::new(f64::NAN, 0.0)), None);
     }

@@ -18,7 +18,7 @@ fn of_any_unit(text: &str) -> Option<i64> {
         // A number of seconds this large would be after the year 5000.
         let per_unit = match number.unsigned_abs() {
             ..100_000_000_000_000 => 1_000_000,
-            ..100_000_000_000_000_000 => 1000,
+            100_000_000_000_000..100_000_000_000_000_000 => 1000,
             _ => 1,
         };
         return number.checked_mul(per_unit);

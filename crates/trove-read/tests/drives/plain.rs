@@ -12,10 +12,13 @@ use trove_read::{DATASETS, ReadError};
 use crate::canonical;
 use crate::comparison::{TIGHT, differences};
 
+/// A pose of the vehicle as a file says it: key and value.
+type VehicleSaid<'a> = &'a dyn Fn(&Pose<World, trove_model::Ego>) -> (&'static str, Value);
+
 /// How a file says where things are: georeference, and poses of vehicles and of anything else in World.
 struct Said<'a> {
     georeference: Value,
-    vehicle: &'a dyn Fn(&Pose<World, trove_model::Ego>) -> (&'static str, Value),
+    vehicle: VehicleSaid<'a>,
     /// From World to the file's; `None` where boxes are told from the vehicle.
     file_from_world: Option<&'a dyn Fn(DVec3, DQuat) -> (DVec3, DQuat)>,
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
+use proptest::prelude::*;
 use serde_json::{Value, json};
 use trove_model::{Drive, LidarClass, Report};
 
@@ -13,6 +14,27 @@ const POINTS: [[f32; 3]; 2] = [[2.0, 1.0, -0.5], [f32::NAN, 0.0, 0.0]];
 
 fn bin() -> Vec<u8> {
     POINTS.iter().flat_map(|p| [p[0], p[1], p[2], 7.0]).flat_map(f32::to_le_bytes).collect()
+}
+
+/// One point at (14, 6, 0.5).
+fn las() -> Vec<u8> {
+    let mut las = vec![0; 227];
+    las[..4].copy_from_slice(b"LASF");
+    (las[24], las[25]) = (1, 2);
+    las[96..100].copy_from_slice(&227u32.to_le_bytes());
+    las[105..107].copy_from_slice(&20u16.to_le_bytes());
+    las[107..111].copy_from_slice(&1u32.to_le_bytes());
+    (0..3).for_each(|i| las[131 + 8 * i..139 + 8 * i].copy_from_slice(&0.5f64.to_le_bytes()));
+    las.extend([28i32, 12, 1].into_iter().flat_map(i32::to_le_bytes).chain([0; 8]));
+    las
+}
+
+/// The same point, packed: 12 bytes as they are.
+fn pcd() -> Vec<u8> {
+    let header =
+        "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary_compressed\n";
+    let point = [14f32, 6.0, 0.5].map(f32::to_le_bytes).concat();
+    [header.as_bytes(), &13u32.to_le_bytes(), &12u32.to_le_bytes(), &[11], &point].concat()
 }
 
 fn with_lidar(lidar: &Value, files: &[(&str, &[u8])]) -> (Drive, Report) {
@@ -44,16 +66,10 @@ fn points_in_world_keep_their_place_and_every_form_of_file_is_read() {
     let (drive, _) = with_lidar(&json!({"file": "p.pcd", "is_in_world": true}), &[("p.pcd", pcd)]);
     let sweep = drive.keyframes[0].lidar.as_ref().unwrap();
     assert_eq!(sweep.points_world, [Vec3::new(2.0, 1.0, 0.5)]);
-    let mut las = vec![0; 227];
-    las[..4].copy_from_slice(b"LASF");
-    (las[24], las[25]) = (1, 2);
-    las[96..100].copy_from_slice(&227u32.to_le_bytes());
-    las[105..107].copy_from_slice(&20u16.to_le_bytes());
-    las[107..111].copy_from_slice(&1u32.to_le_bytes());
-    (0..3).for_each(|i| las[131 + 8 * i..139 + 8 * i].copy_from_slice(&0.5f64.to_le_bytes()));
-    las.extend([28i32, 12, 1].into_iter().flat_map(i32::to_le_bytes).chain([0; 8]));
-    let (drive, _) = with_lidar(&json!({"file": "p.las", "is_in_world": true}), &[("p.las", &las)]);
-    assert_eq!(drive.keyframes[0].lidar.as_ref().unwrap().points_world, [Vec3::new(2.0, 1.0, 0.5)]);
+    for (file, bytes) in [("p.las", las()), ("q.pcd", self::pcd())] {
+        let (drive, _) = with_lidar(&json!({"file": file, "is_in_world": true}), &[(file, &bytes)]);
+        assert_eq!(drive.keyframes[0].lidar.as_ref().unwrap().points_world, [Vec3::new(2.0, 1.0, 0.5)], "{file}");
+    }
 }
 
 #[test]
@@ -110,4 +126,17 @@ fn a_camera_that_fires_beside_the_keyframe_sees_from_between_the_poses() {
     // The car keeps its distance, so it is as fast as the vehicle.
     let speed = drive.keyframes[0].boxes[0].velocity_mps.unwrap();
     assert!(speed.distance(DVec3::new(8.0, 0.0, 0.0)) < 1e-9, "{speed}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+    #[test]
+    fn damaged_points_never_panic(is_las in any::<bool>(), at in 0.0..1.0f64, byte in any::<u8>(), cut in 0.0..2.0f64) {
+        let (file, mut bytes) = if is_las { ("p.las", las()) } else { ("p.pcd", pcd()) };
+        let at = (at * bytes.len() as f64) as usize;
+        bytes[at] = byte;
+        bytes.truncate((cut * bytes.len() as f64) as usize);
+        let (drive, report) = with_lidar(&json!({"file": file}), &[(file, &bytes)]);
+        prop_assert!(drive.keyframes[0].lidar.is_some() || notes(&report).iter().any(|(what, _)| what.contains("LiDAR")));
+    }
 }
