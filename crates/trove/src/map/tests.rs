@@ -316,7 +316,7 @@ fn files_are_named_as_the_recipe_would_name_them() {
     fs::write(&file, "").unwrap();
     assert_eq!(PathBuf::from(told(&recipe, &file)), file);
     let out = PathBuf::from("maps/city.osm");
-    assert_eq!(names(&out, 1), [out.clone()]);
+    assert_eq!(names(&out, 1), std::slice::from_ref(&out));
     assert_eq!(names(&out, 2), [PathBuf::from("maps/city-1.osm"), PathBuf::from("maps/city-2.osm")]);
 }
 
@@ -326,7 +326,7 @@ fn the_command_writes_what_the_recipe_s_place_needs() {
     let (recipe, out) = (folder.path().join("recipe.toml"), folder.path().join("maps/helsinki.osm"));
     fs::write(&recipe, "[place]\nlat_deg = 60.1708\nlon_deg = 24.9414\n[map]\nosm = \"maps/helsinki.osm\"\n").unwrap();
     let loopback = Loopback::new(vec![Answer::Says(ok(WHOLE))]);
-    let usage = ["trove", "map", recipe.to_str().unwrap()].iter().map(std::ffi::OsString::from);
+    let usage = ["trove", "map", recipe.to_str().unwrap()].map(std::ffi::OsString::from);
     assert_eq!(crate::main(usage, &[]), 2, "without --out or --dry-run");
     let command = |dry_run, json| MapCommand {
         recipe: recipe.clone(),
