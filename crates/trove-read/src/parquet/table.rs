@@ -231,7 +231,7 @@ mod tests {
         let count = |name: &str| names.iter().flatten().filter(|n| *n == name).count();
         assert_eq!((count("FRONT"), count("SIDE_RIGHT"), names.len()), (8364, 364, 15_844));
         let times = table.integers("key.frame_timestamp_micros").unwrap();
-        assert_eq!(times.iter().flatten().sum::<i64>() % 1_000_000_000_000, 622_686_114_269);
+        assert_eq!(times.iter().flatten().map(|t| i128::from(*t)).sum::<i128>() % 1_000_000_000_000, 622_686_114_269);
         let lists = |name: &str| {
             let mut rows =
                 table.column(&format!("[CameraHumanKeypointsComponent].camera_keypoints[*].{name}")).unwrap();
