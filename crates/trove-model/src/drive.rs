@@ -209,7 +209,7 @@ impl Drive {
             cuboid.world_from_body = moved * cuboid.world_from_body;
         }
         if let Some(map) = &mut self.lane_map {
-            map.points_mut().for_each(|p| *p = moved.point(p.extend(0.0)).truncate());
+            map.move_points(|p| moved.point(p.extend(0.0)).truncate());
         }
         self
     }

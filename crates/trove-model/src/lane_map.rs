@@ -65,14 +65,27 @@ pub struct LaneMap {
 }
 
 impl LaneMap {
-    /// Every point of it.
-    pub(crate) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec2> {
-        let Self { drivable, lanes, walkways, crossings, stop_lines, carparks, road_dividers, lane_dividers } = self;
+    /// Moves every point of it in plane.
+    pub(crate) fn move_points(&mut self, moved: impl Fn(DVec2) -> DVec2) {
+        let Self {
+            drivable,
+            lanes,
+            walkways,
+            crossings,
+            stop_lines,
+            carparks,
+            road_dividers,
+            lane_dividers,
+            marks,
+            ground,
+        } = self;
         let (lane_polygons, centrelines): (Vec<_>, Vec<_>) =
             lanes.iter_mut().map(|lane| (&mut lane.polygon, &mut lane.centreline)).unzip();
         let areas = [drivable, walkways, crossings, stop_lines, carparks].into_iter().flatten().chain(lane_polygons);
         let rings = areas.flat_map(|area| std::iter::once(&mut area.exterior).chain(&mut area.holes));
         let lines = road_dividers.iter_mut().chain(lane_dividers).chain(centrelines);
-        rings.chain(lines).flatten()
+        let lines = lines.chain(marks.iter_mut().map(|mark| &mut mark.line));
+        rings.chain(lines).flatten().for_each(|p| *p = moved(*p));
+        ground.iter_mut().for_each(|p| *p = moved(p.truncate()).extend(p.z));
     }
 }
