@@ -41,6 +41,8 @@ pub mod human_body;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;
+pub mod relief;
+pub mod rig;
 
 pub use datasets::DATASETS;
 pub use error::ReadError;
