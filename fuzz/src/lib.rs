@@ -8,6 +8,7 @@
 //! ```
 
 mod datasets;
+mod elevation;
 mod maps;
 mod models;
 pub mod mutator;
@@ -33,9 +34,11 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 20] = [
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
+    Target { name: "hgt", seeds: elevation::tile_seeds, prepare: |_| (), feed: elevation::feed_tile },
+    Target { name: "geotiff", seeds: elevation::picture_seeds, prepare: |_| (), feed: elevation::feed_picture },
     Target {
         name: "nuscenes_tables",
         seeds: datasets::table_seeds,

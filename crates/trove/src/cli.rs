@@ -52,9 +52,9 @@ enum Command {
         json: bool,
     },
     /// List the drives in a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
-    #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes")]
+    #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes\n  trove inspect my-rig.toml")]
     Inspect {
-        /// The dataset's root folder.
+        /// The dataset's root folder; or a rig: its TOML file, or the name of a preset.
         root: PathBuf,
         /// Which dataset it is; without it the one whose root the folder looks like.
         #[arg(long, value_parser = PossibleValuesParser::new(DATASETS.iter().map(|dataset| dataset.name)))]

@@ -6,7 +6,7 @@ use trove_build::PlacePlan;
 use trove_model::{Bounds, Drive, DrivingSide, MapProjection, Report, Seed, StreetMap};
 
 use crate::recipe::{PlaceSection, Recipe};
-use crate::street_map::street_map;
+use crate::street_map::{relief, street_map};
 
 /// Name of the scene in the output.
 pub(crate) const NAME: &str = "place";
@@ -26,14 +26,15 @@ pub(crate) fn drive(
         MapProjection { origin_lat_deg: place.lat_deg, origin_lon_deg: place.lon_deg, anchor_m: DVec2::ZERO };
     let area = Bounds::square(DVec2::ZERO, place.size_m);
     let map = street_map(recipe, &projection, area, driving_side, report)?;
-    let (extract, map) = map.context("the recipe has no map.osm")?;
+    let (extract, mut map) = map.context("the recipe has no map.osm")?;
+    map.relief = relief(recipe, &projection, area, report)?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;
     let time_ns = SOLSTICE_NS + (solar_hours * 3600e9) as i64;
     let seed = Seed(recipe.seed).child("place");
     let plan = PlacePlan { name: NAME, projection, size_m: place.size_m, driving_side, time_ns };
     let drive = trove_build::place_drive(&map, &plan, seed, report)
         .with_context(|| format!("{}: around {}, {}", extract.display(), place.lat_deg, place.lon_deg))?;
-    Ok((drive, Some(map)))
+    Ok((trove_build::on_relief(drive, &map), Some(map)))
 }
 
 #[cfg(test)]

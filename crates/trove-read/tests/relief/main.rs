@@ -1,5 +1,7 @@
 //! Elevation files that the tests write, whole and damaged, and real ones.
 
+#![allow(clippy::unwrap_used)] // all of this is tests
+
 mod damaged;
 mod real;
 mod wire;
