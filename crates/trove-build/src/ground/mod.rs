@@ -81,7 +81,7 @@ pub(crate) fn ground<'a>(
             let example = format!("{}: {:.0} % of the place", drive.id, 100.0 * unknown);
             report.note(Outcome::Guessed, "ground beyond the elevation files, as high as their edge", example);
         }
-        let (field, hanging) = terrain::terrain(map.unwrap_or(&StreetMap::default()), field);
+        let (field, hanging) = terrain::terrain(map.unwrap_or(&StreetMap::default()), field, land);
         spans = hanging;
         heights = if observations.is_empty() { field } else { merge::merged(heights, &field, &observations) };
     }

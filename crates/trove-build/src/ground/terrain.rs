@@ -3,6 +3,7 @@
 use glam::{DVec2, UVec2};
 use trove_model::{Bounds, HeightField, LandKind, Polygon, Raster, Road, RoadKind, StreetMap};
 
+use super::land::Land;
 use super::profiles::{Profiles, hangs};
 use super::spans::Spans;
 use crate::geometry::distance_field::DistanceField;
@@ -29,9 +30,8 @@ const BANK_M: f64 = 15.0;
 /// Passes that round off the creases between all of these.
 const ROUNDINGS: usize = 2;
 
-/// Lays water and roads into the land, a height field.
-pub(super) fn terrain(map: &StreetMap, land: HeightField) -> (HeightField, Spans) {
-    let mut field = land;
+/// Lays water and roads into a field of the land's heights; roads go on over the land beyond it.
+pub(super) fn terrain(map: &StreetMap, mut field: HeightField, land: Land<'_>) -> (HeightField, Spans) {
     let waters: Vec<(&Polygon, f32)> = map
         .land
         .iter()
@@ -39,7 +39,10 @@ pub(super) fn terrain(map: &StreetMap, land: HeightField) -> (HeightField, Spans
         .filter_map(|l| Some((&l.polygon, water_level_m(&field, &l.polygon)?)))
         .collect();
     waters.iter().for_each(|(water, level_m)| flatten(&mut field, water, *level_m, BANK_M));
-    let profiles = Profiles::new(map, |p| field.height_m(p));
+    let last = DVec2::new(f64::from(field.nodes.width), f64::from(field.nodes.height)) - 1.0;
+    let whole = Bounds { min: field.origin, max: field.origin + last * field.cell_m };
+    let beyond = |p: DVec2| if whole.contains(p) { None } else { land.height_m(p) };
+    let profiles = Profiles::new(map, |p| beyond(p).unwrap_or_else(|| field.height_m(p)));
     let spans = Spans::new(map, &profiles);
     lay_roads(&mut field, map, &profiles);
     for _ in 0..ROUNDINGS {
