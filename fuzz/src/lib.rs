@@ -8,6 +8,7 @@
 //! ```
 
 mod datasets;
+mod elevation;
 mod kitti;
 mod maps;
 mod models;
@@ -40,6 +41,8 @@ pub const TARGETS: &[Target] = &[
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
     Target { name: "geojson", seeds: maps::geojson_seeds, prepare: |_| (), feed: maps::feed_geojson },
+    Target { name: "hgt", seeds: elevation::tile_seeds, prepare: |_| (), feed: elevation::feed_tile },
+    Target { name: "geotiff", seeds: elevation::picture_seeds, prepare: |_| (), feed: elevation::feed_picture },
     Target {
         name: "nuscenes_tables",
         seeds: datasets::table_seeds,

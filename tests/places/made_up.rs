@@ -23,6 +23,7 @@ pub(crate) fn town() -> StreetMap {
         land: land(),
         furniture: furniture(),
         lines: lines(),
+        relief: None,
         licence: "made up".into(),
     }
 }

@@ -54,6 +54,7 @@ mod place;
 mod placement;
 mod roads;
 mod site;
+mod standing;
 mod surroundings;
 #[cfg(test)]
 mod testing;
@@ -67,6 +68,8 @@ pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use place::{PlacePlan, Seeds, place_drive};
 pub use placement::{AssetFit, ObjectFit};
+pub use roads::HORIZON_M;
 pub use site::{BuildSettings, Site, area, build};
+pub use standing::on_relief;
 pub use traffic::Traffic;
 pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings, shots};

@@ -14,6 +14,7 @@ use crate::assembly::Weather;
 use crate::assembly::{Actor, Assembly};
 use crate::error::BuildError;
 use crate::furniture::furniture;
+use crate::ground::{Ground, ground};
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds};
@@ -24,7 +25,7 @@ use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
 use crate::traffic::Traffic;
 use crate::vegetation::{driven_path, undergrowth, vegetation};
-use crate::{buildings, ground, roads, traffic};
+use crate::{buildings, roads, traffic};
 
 /// A recorded drive's place is at least this wide, metres, as in the paper's toolkit.
 const MIN_SIDE_M: f64 = 600.0;
@@ -113,6 +114,8 @@ pub fn build(
 ) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
     let (seeds, locale) = (settings.seeds, &settings.locale);
+    let relief = map.and_then(|map| map.relief.as_ref());
+    let map = map.filter(|map| !map.is_only_relief());
     let map = map.and_then(|map| agreed(drive, map, locale.driving_side, bounds, settings.on_disagreement, report));
     let map = map.as_ref();
 
@@ -121,9 +124,9 @@ pub fn build(
     let library = &library.in_season(conditions.season());
 
     // What lies and stands for good.
-    let ground = ground::height_field(drive, locale.kerb.height_m, bounds, report);
+    let Ground { heights: ground, spans, land } = ground(drive, map, relief, locale.kerb.height_m, bounds, report);
     let place = Place { drive, map, bounds, ground: &ground, library, locale, conditions, seeds: &seeds, report };
-    let surfaces = roads::surfaces(&place);
+    let surfaces = roads::surfaces(&place, &spans, land);
     let buildings = buildings::buildings(&place, &surfaces);
 
     // The recorded objects come before all that is made up around them.
@@ -173,10 +176,12 @@ pub fn build(
     let light = light(drive, bounds, &settings.light, seeds.light.child("light"));
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     switch_on(&light, &mut assembly.stock, lit);
+    let sources = assembly.provenance(drive, map).into_iter().chain(settings.borders.clone());
+    let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {
         light,
         season: conditions.season(),
-        provenance: assembly.provenance(drive, map).into_iter().chain(settings.borders.clone()).collect(),
+        provenance: sources,
         ground,
         stock: assembly.stock,
         fixed: assembly.fixed,

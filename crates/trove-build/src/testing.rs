@@ -11,6 +11,7 @@ use trove_model::{
 };
 use trove_read::locale::Locales;
 
+use crate::ground::Spans;
 use crate::place::{Conditions, Place, Seeds};
 use crate::roads::{self, RoadSurfaces};
 
@@ -87,7 +88,8 @@ fn street() -> LaneMap {
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
-    roads::surfaces(&place(drive, None, bounds, ground, &library(), &Seed(0).into(), &Report::default()))
+    let (library, seeds, report) = (library(), Seed(0).into(), Report::default());
+    roads::surfaces(&place(drive, None, bounds, ground, &library, &seeds, &report), &Spans::default(), None)
 }
 
 /// What a place in Singapore is built from, in the climate and season of the made-up drive.

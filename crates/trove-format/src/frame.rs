@@ -101,6 +101,8 @@ pub enum LensModel {
     BrownConrady,
     /// Equidistant with a polynomial of the angle: a fisheye.
     KannalaBrandt,
+    /// A panorama: columns are equal steps of longitude, rows of latitude, of 1/fx and 1/fy radians.
+    Equirectangular,
 }
 
 /// World = (Δlon, Δlat) · `metres_per_rad` − `anchor_m`, angles in radians from the origin.
@@ -202,6 +204,7 @@ impl From<&Distortion> for LensModel {
             Distortion::None => Self::Pinhole,
             Distortion::BrownConrady(_) => Self::BrownConrady,
             Distortion::KannalaBrandt(_) => Self::KannalaBrandt,
+            Distortion::Equirectangular => Self::Equirectangular,
         }
     }
 }

@@ -40,3 +40,5 @@ by_name!(class, trove_model::Class, trove_model::CLASSES.map(|row| row.class), |
     .name);
 by_name!(outcome, trove_model::Outcome, trove_model::Outcome::ALL, trove_model::Outcome::name);
 by_name!(season, trove_model::Season, trove_model::Season::ALL, trove_model::Season::name);
+by_name!(paint, trove_model::Paint, trove_model::Paint::ALL, trove_model::Paint::name);
+by_name!(mark_pattern, trove_model::MarkPattern, trove_model::MarkPattern::ALL, trove_model::MarkPattern::name);

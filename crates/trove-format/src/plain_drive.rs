@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use trove_model::Kind;
+use trove_model::{Kind, MarkPattern, Paint};
 
 use crate::{LensModel, names};
 
@@ -319,6 +319,27 @@ pub struct PlainLaneMap {
     pub road_dividers: Vec<Vec<[f64; 2]>>,
     /// Lines between lanes of one direction.
     pub lane_dividers: Vec<Vec<[f64; 2]>>,
+    /// Painted lines, where the map knows their paint; those that are above have none here.
+    pub marks: Vec<PlainLaneMark>,
+    /// Points of the ground, x, y and z in World, where the map has its height.
+    pub ground: Vec<[f64; 3]>,
+}
+
+/// A painted line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "LaneMark"))]
+#[serde(deny_unknown_fields)]
+pub struct PlainLaneMark {
+    /// Along its middle.
+    pub line: Vec<[f64; 2]>,
+    /// Its paint.
+    #[serde(with = "names::paint")]
+    #[cfg_attr(test, schemars(schema_with = "names::paint::schema"))]
+    pub paint: Paint,
+    /// Its pattern, the left side first as seen along the line.
+    #[serde(with = "names::mark_pattern")]
+    #[cfg_attr(test, schemars(schema_with = "names::mark_pattern::schema"))]
+    pub pattern: MarkPattern,
 }
 
 /// A lane.

@@ -38,6 +38,24 @@ pub enum MarkPattern {
     DashedSolid,
 }
 
+impl MarkPattern {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Solid, Self::Dashed, Self::DoubleSolid, Self::DoubleDashed, Self::SolidDashed, Self::DashedSolid];
+
+    /// Its name in files (`double_solid`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solid => "solid",
+            Self::Dashed => "dashed",
+            Self::DoubleSolid => "double_solid",
+            Self::DoubleDashed => "double_dashed",
+            Self::SolidDashed => "solid_dashed",
+            Self::DashedSolid => "dashed_solid",
+        }
+    }
+}
+
 /// What a dataset's map says around a drive, in World's plane.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaneMap {

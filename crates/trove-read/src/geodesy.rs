@@ -6,8 +6,6 @@ use glam::{DQuat, DVec2, DVec3};
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
-/// Radius of the sphere of KITTI's Mercator projection (WGS84's equatorial radius), metres.
-pub(crate) const EQUATORIAL_RADIUS_M: f64 = 6_378_137.0;
 /// A step north for telling which way it is, radians (6 m).
 const STEP_RAD: f64 = 1e-6;
 
@@ -120,7 +118,7 @@ mod tests {
     #[test]
     fn ecef_s_axes_are_the_equator_and_the_pole() {
         let ecef = Ecef::new().unwrap();
-        let (lat_deg, lon_deg, height_m) = ecef.geo_from_ecef(DVec3::new(0.0, EQUATORIAL_RADIUS_M + 5.0, 0.0)).unwrap();
+        let (lat_deg, lon_deg, height_m) = ecef.geo_from_ecef(DVec3::new(0.0, 6_378_137.0 + 5.0, 0.0)).unwrap();
         assert!(lat_deg.abs() < 1e-9 && (lon_deg - 90.0).abs() < 1e-9 && (height_m - 5.0).abs() < 1e-4);
         // There the axis y looks up and x to the west.
         let rotation = east_north_up_from_ecef(lat_deg, lon_deg);

@@ -47,9 +47,11 @@ mod lidar_file;
 pub mod locale;
 pub mod nuscenes;
 pub mod osm;
-mod plain;
 mod parquet;
+mod plain;
 mod protobuf;
+pub mod relief;
+pub mod rig;
 pub mod waymo;
 
 pub use datasets::DATASETS;

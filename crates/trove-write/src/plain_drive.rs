@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use glam::{DQuat, DVec2};
+use glam::{DQuat, DVec2, DVec3};
 use trove_files::{open_regular, write_atomically};
 use trove_format::{
     LensModel, PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoreference, PlainKeyframe, PlainLane,
-    PlainLaneMap, PlainLidar, PlainPicture, PlainPolygon, PlainPose,
+    PlainLaneMap, PlainLaneMark, PlainLidar, PlainPicture, PlainPolygon, PlainPose,
 };
 use trove_model::{
-    Camera, Drive, Ego, Exposure, Frame, Keyframe, Lane, LaneMap, Lens, LidarClass, LidarSweep, ObjectBox, Outcome,
-    Polygon, Pose, Report,
+    Camera, Drive, Ego, Exposure, Frame, Keyframe, Lane, LaneMap, LaneMark, Lens, LidarClass, LidarSweep, ObjectBox,
+    Outcome, Polygon, Pose, Report,
 };
 
 use crate::WriteError;
@@ -190,7 +190,18 @@ fn copied(from: &Path, folder: &Path, camera: &str, k: usize, report: &Report) -
 }
 
 fn lane_map(map: &LaneMap) -> PlainLaneMap {
-    let LaneMap { drivable, lanes, walkways, crossings, stop_lines, carparks, road_dividers, lane_dividers } = map;
+    let LaneMap {
+        drivable,
+        lanes,
+        walkways,
+        crossings,
+        stop_lines,
+        carparks,
+        road_dividers,
+        lane_dividers,
+        marks,
+        ground,
+    } = map;
     let line = |line: &Vec<DVec2>| line.iter().map(DVec2::to_array).collect::<Vec<_>>();
     let polygon = |Polygon { exterior, holes }: &Polygon| PlainPolygon {
         outline: line(exterior),
@@ -202,6 +213,7 @@ fn lane_map(map: &LaneMap) -> PlainLaneMap {
         polygon: polygon(surface),
         centreline: line(centreline),
     };
+    let mark = |mark: &LaneMark| PlainLaneMark { line: line(&mark.line), paint: mark.paint, pattern: mark.pattern };
     PlainLaneMap {
         drivable: polygons(drivable),
         lanes: lanes.iter().map(lane).collect(),
@@ -211,5 +223,7 @@ fn lane_map(map: &LaneMap) -> PlainLaneMap {
         carparks: polygons(carparks),
         road_dividers: road_dividers.iter().map(line).collect(),
         lane_dividers: lane_dividers.iter().map(line).collect(),
+        marks: marks.iter().map(mark).collect(),
+        ground: ground.iter().map(DVec3::to_array).collect(),
     }
 }

@@ -53,9 +53,9 @@ enum Command {
         json: bool,
     },
     /// List the drives in a dataset: place, keyframes, cameras, boxes by class, LiDAR, map.
-    #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes")]
+    #[command(after_help = "Example:\n  trove inspect data/nuscenes --dataset nuscenes\n  trove inspect my-rig.toml")]
     Inspect {
-        /// The dataset's root folder.
+        /// The dataset's root folder; or a rig: its TOML file, or the name of a preset.
         root: PathBuf,
         #[command(flatten)]
         dataset: DatasetChoice,

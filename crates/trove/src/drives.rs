@@ -36,7 +36,8 @@ impl DatasetChoice {
             Ok((key.trim().to_owned(), toml_value(value)))
         });
         let options = options.collect::<Result<_>>()?;
-        let section = DriveSection { dataset, root: root.to_owned(), scenes: None, keyframes: Keyframes::All, at: None, options };
+        let section =
+            DriveSection { dataset, root: root.to_owned(), scenes: None, keyframes: Keyframes::All, at: None, options };
         Ok(section.opener()?(root, cache::folder().as_deref(), report)?)
     }
 }

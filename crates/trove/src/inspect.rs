@@ -11,10 +11,14 @@ use trove_read::drive_source::DriveDescription;
 use crate::build::print_entries;
 use crate::drives::DatasetChoice;
 use crate::message::shown;
+use crate::rigs::{own_rig, print_rig};
 
-/// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map. The exit status is 1 where one
-/// cannot be read.
+/// Prints the drives of a dataset: place, keyframes, cameras, boxes by class, LiDAR, map; or the cameras of a rig, where
+/// the root is a `.toml` file or the name of a preset. The exit status is 1 where a drive cannot be read.
 pub(crate) fn run(root: &Path, dataset: &DatasetChoice, as_json: bool) -> Result<i32> {
+    if let Some(cameras) = own_rig(root).filter(|_| dataset.dataset.is_none()) {
+        return print_rig(&cameras?, as_json).map(|()| 0);
+    }
     let report = Report::default();
     let opened = dataset.open(root, &report)?;
     let (mut drives, mut faults) = (Vec::new(), Vec::new());

@@ -37,6 +37,7 @@ mod overview;
 mod place;
 mod progress;
 pub mod recipe;
+mod rigs;
 pub mod run;
 mod sources;
 mod street_map;

@@ -6,7 +6,7 @@ use trove_build::PlacePlan;
 use trove_model::{Bounds, Drive, DrivingSide, MapProjection, Report, Seed, StreetMap};
 
 use crate::recipe::{PlaceSection, Recipe};
-use crate::street_map::street_map;
+use crate::street_map::{relief, street_map};
 
 /// Name of the scene in the output.
 pub(crate) const NAME: &str = "place";
@@ -17,8 +17,7 @@ const SOLSTICE_NS: i64 = 1_718_928_000_000_000_000; // 2024-06-21 00:00 UTC
 
 /// Where a place lies on earth, and the square that is built of it.
 pub(crate) fn area(place: &PlaceSection) -> (MapProjection, Bounds) {
-    let projection =
-        MapProjection::spherical(place.lat_deg, place.lon_deg, DVec2::ZERO);
+    let projection = MapProjection::spherical(place.lat_deg, place.lon_deg, DVec2::ZERO);
     (projection, Bounds::square(DVec2::ZERO, place.size_m))
 }
 
@@ -31,14 +30,15 @@ pub(crate) fn drive(
 ) -> Result<(Drive, Option<StreetMap>)> {
     let (projection, area) = area(place);
     let map = street_map(recipe, &projection, area, driving_side, report)?;
-    let (extract, map) = map.context("the recipe has no map.osm")?;
+    let (extract, mut map) = map.context("the recipe has no map.osm")?;
+    map.relief = relief(recipe, &projection, area, report)?;
     let solar_hours = 15.0 - place.lon_deg / 15.0;
     let time_ns = SOLSTICE_NS + (solar_hours * 3600e9) as i64;
     let seed = Seed(recipe.seed).child("place");
     let plan = PlacePlan { name: NAME, projection, size_m: place.size_m, driving_side, time_ns };
     let drive = trove_build::place_drive(&map, &plan, seed, report)
         .with_context(|| format!("{}: around {}, {}", extract.display(), place.lat_deg, place.lon_deg))?;
-    Ok((drive, Some(map)))
+    Ok((trove_build::on_relief(drive, &map), Some(map)))
 }
 
 #[cfg(test)]

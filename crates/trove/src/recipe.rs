@@ -18,6 +18,7 @@ use trove_format::FrameFile;
 use trove_read::DATASETS;
 use trove_read::drive_source::Opener;
 use trove_read::osm::GeoJsonFrame;
+use trove_read::rig;
 use trove_render::Denoising;
 
 use self::check::check;
@@ -162,7 +163,10 @@ pub struct MapSection {
     /// What the coordinates of GeoJSON files are that do not say so themselves.
     #[serde(default)]
     pub geojson_frame: GeoJsonFrame,
-    /// What becomes of it where it does not lie on the drive.
+    /// Elevation files, SRTM `.hgt` (zipped or not) or GeoTIFF: relief where nothing was recorded.
+    #[serde(default)]
+    pub elevation: Extracts,
+    /// What becomes of the extract where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
     /// Whose customs the place follows: `auto`, the country that it lies in, or an ISO 3166-1 code.
@@ -184,6 +188,7 @@ impl Default for MapSection {
         Self {
             osm: Extracts::default(),
             geojson_frame: GeoJsonFrame::default(),
+            elevation: Extracts::default(),
             on_disagreement: OnDisagreement::default(),
             country: auto(),
             locales: None,
@@ -272,7 +277,7 @@ pub struct AssetsSection {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ViewsSection {
-    /// Which of the vehicle's cameras.
+    /// Which of the vehicle's cameras, or which others in their place.
     pub rig: Rig,
     /// How many other vehicles carry the rig too.
     pub other_vehicles: usize,
@@ -285,10 +290,19 @@ pub enum Rig {
     /// `"all"`
     #[serde(with = "all")]
     All,
-    /// One camera's name.
+    /// One camera's name, a preset's, or a path that ends in `.toml`.
     One(String),
     /// Names of cameras.
     Named(Vec<String>),
+}
+
+/// Cameras in place of the recorded ones.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OwnRig {
+    /// A file's, as this process reaches it.
+    File(PathBuf),
+    /// A preset's.
+    Preset(&'static str),
 }
 
 /// `[weather]`
@@ -548,10 +562,18 @@ impl Recipe {
         Weather { dirt: self.weather.dirt, wetness: self.weather.wetness, season: self.weather.season.into() }
     }
 
+    /// The cameras in place of the recorded ones; `None` where these are meant.
+    pub fn own_rig(&self) -> Option<OwnRig> {
+        let Rig::One(name) = &self.views.rig else { return None };
+        let preset = rig::presets().find(|preset| preset == name).map(OwnRig::Preset);
+        preset.or_else(|| name.ends_with(".toml").then(|| OwnRig::File(self.at(Path::new(name)))))
+    }
+
     /// The cameras that are asked for; `None` for all.
     pub fn camera_names(&self) -> Option<Vec<String>> {
         match &self.views.rig {
             Rig::All => None,
+            Rig::One(_) if self.own_rig().is_some() => None,
             Rig::One(name) => Some(vec![name.clone()]),
             Rig::Named(names) => Some(names.clone()),
         }
@@ -601,7 +623,7 @@ fn unknown_field(error: &toml::de::Error) -> Option<(&str, Vec<&str>)> {
 }
 
 /// The known name that is nearest to an unknown one, as the end of a message.
-fn nearest(unknown: &str, known: &[&str]) -> String {
+pub(crate) fn nearest(unknown: &str, known: &[&str]) -> String {
     let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
     nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
@@ -635,6 +657,32 @@ mod tests {
     fn a_map_is_one_extract_or_several() {
         for (text, count) in [("", 0), ("[map]\nosm = \"a.osm\"\n", 1), ("[map]\nosm = [\"a.osm\", \"b.osm\"]\n", 2)] {
             assert_eq!(Recipe::parse(&format!("{DRIVE}{text}")).unwrap().map.osm.paths().len(), count, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_rig_is_named_cameras_a_preset_or_a_file() {
+        let mut recipe = Recipe::parse(DRIVE).unwrap();
+        recipe.folder = "folder".into();
+        for (rig, own, names) in [
+            ("all", None, None),
+            ("CAM_FRONT", None, Some(vec!["CAM_FRONT".to_owned()])),
+            ("kitti", Some(OwnRig::Preset("kitti")), None),
+            ("a/my.toml", Some(OwnRig::File("folder/a/my.toml".into())), None),
+        ] {
+            let text = toml::from_str::<ViewsSection>(&format!("rig = \"{rig}\"")).unwrap();
+            recipe.views.rig = text.rig;
+            assert_eq!((recipe.own_rig(), recipe.camera_names()), (own, names), "{rig}");
+        }
+        recipe.views.rig = Rig::Named(vec!["kitti".into()]);
+        assert_eq!((recipe.own_rig(), recipe.camera_names()), (None, Some(vec!["kitti".into()])));
+    }
+
+    #[test]
+    fn relief_is_one_file_or_several() {
+        for (text, count) in [("", 0), ("\"N43E007.hgt.zip\"", 1), ("[\"a.tif\", \"b.hgt\"]", 2)] {
+            let map = if text.is_empty() { String::new() } else { format!("[map]\nelevation = {text}\n") };
+            assert_eq!(Recipe::parse(&format!("{DRIVE}{map}")).unwrap().map.elevation.paths().len(), count, "{text}");
         }
     }
 

@@ -4,14 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
-use trove_model::{Bounds, Drive, EnvironmentMap, Locale, MapProjection, Outcome, Provenance, Report, StreetMap};
+use trove_model::{
+    Bounds, Drive, EnvironmentMap, Exposure, Locale, MapProjection, Outcome, Provenance, Report, RigCamera, StreetMap,
+};
 use trove_read::drive_source::DriveSource;
 use trove_read::environment;
 use trove_read::locale::{self, Locales};
+use trove_read::rig;
 
 use crate::contents::Contents;
-use crate::recipe::Recipe;
-use crate::street_map::street_map;
+use crate::recipe::{OwnRig, Recipe};
+use crate::street_map::{relief, street_map};
 use crate::{cache, place};
 
 /// Opened sources of a recipe.
@@ -21,6 +24,8 @@ pub(crate) struct Sources<'a> {
     /// The picture of the sky, where one is asked for.
     environment: Option<Arc<EnvironmentMap>>,
     locales: Locales,
+    /// The cameras in place of the recorded ones.
+    rig: Option<Vec<RigCamera>>,
 }
 
 impl<'a> Sources<'a> {
@@ -51,7 +56,12 @@ impl<'a> Sources<'a> {
             let hint = nearest.map(|known| format!("; did you mean {known:?}?")).unwrap_or_default();
             bail!("map.country: expected \"auto\" or the ISO 3166-1 code of a country, found {code:?}{hint}");
         }
-        Ok(Self { recipe, dataset, environment, locales })
+        let rig = match recipe.own_rig() {
+            Some(OwnRig::File(path)) => Some(rig::read(&path)?),
+            Some(OwnRig::Preset(name)) => rig::preset(name),
+            None => None,
+        };
+        Ok(Self { recipe, dataset, environment, locales, rig })
     }
 
     pub(crate) fn recipe(&self) -> &'a Recipe {
@@ -127,24 +137,43 @@ impl<'a> Sources<'a> {
         let Some(dataset) = &self.dataset else {
             return Ok(place::area(self.recipe.place.as_ref().context("the recipe has no [place]")?));
         };
-        let drive = dataset.read(scene, report)?;
+        let drive = self.laid(dataset.as_ref(), scene, report)?;
+        ensure!(drive.is_georeferenced, "{scene}: expected a drive whose place on earth is known; set drive.at");
         let area = trove_build::area(&drive).with_context(|| format!("{scene}: nothing was recorded"))?;
         Ok((drive.projection, area))
     }
 
-    /// One scene's drive and the map around it.
+    /// One scene's drive, where the recipe lays it.
+    fn laid(&self, dataset: &dyn DriveSource, scene: &str, report: &Report) -> Result<Drive> {
+        let drive = dataset.read(scene, report)?;
+        match self.recipe.drive.as_ref().and_then(|section| section.at) {
+            Some(at) => at.lay(drive),
+            None => Ok(drive),
+        }
+    }
+
+    /// The cameras in place of the recorded ones; `None` where these are meant.
+    pub(crate) fn rig(&self) -> Option<&[RigCamera]> {
+        self.rig.as_deref()
+    }
+
+    /// One scene's drive, with the recipe's own rig where it has one, and the map around it.
     pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
+        let (mut drive, map) = self.recorded(scene, report)?;
+        if let Some(rig) = &self.rig {
+            carry(&mut drive, rig);
+        }
+        Ok((drive, map))
+    }
+
+    fn recorded(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
         // What is guessed is reported when the place is built.
         let side = |lat_deg, lon_deg| self.locale(lat_deg, lon_deg, &Report::default()).driving_side;
         let Some(dataset) = &self.dataset else {
             let place = self.recipe.place.as_ref().context("the recipe has no [place]")?;
             return place::drive(self.recipe, place, side(place.lat_deg, place.lon_deg), report);
         };
-        let drive = dataset.read(scene, report)?;
-        let drive = match self.recipe.drive.as_ref().and_then(|section| section.at) {
-            Some(at) => at.lay(drive)?,
-            None => drive,
-        };
+        let drive = self.laid(dataset.as_ref(), scene, report)?;
         if !drive.is_georeferenced {
             report.note(Outcome::Warned, "unknown where on earth the drive lies: no street map is laid on it", scene);
             return Ok((drive, None));
@@ -155,6 +184,27 @@ impl<'a> Sources<'a> {
         if map.is_none() {
             report.note(Outcome::Warned, "no street map: only the dataset's own map is built", scene);
         }
-        Ok((drive, map.map(|(_, map)| map)))
+        let mut map = map.map(|(_, map)| map);
+        if let Some(relief) = relief(self.recipe, &drive.projection, area, report)? {
+            map.get_or_insert_default().relief = Some(relief);
+        }
+        Ok((drive, map))
     }
+}
+
+/// Puts another rig on a drive's vehicle; all its cameras take their pictures at the time of the keyframe.
+fn carry(drive: &mut Drive, rig: &[RigCamera]) {
+    for keyframe in &mut drive.keyframes {
+        let exposure = |(camera, mounted): (usize, &RigCamera)| Exposure {
+            camera,
+            time_ns: keyframe.time_ns,
+            world_from_ego: keyframe.world_from_ego,
+            lens: mounted.lens,
+            ego_from_camera: mounted.ego_from_camera,
+            token: None,
+            file: None,
+        };
+        keyframe.exposures = rig.iter().enumerate().map(exposure).collect();
+    }
+    drive.rig = rig.to_vec();
 }

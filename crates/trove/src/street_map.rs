@@ -1,10 +1,10 @@
-//! Which of a recipe's extracts covers a place.
+//! Which of a recipe's extracts covers a place, and how high it lies.
 
 use std::path::Path;
 
 use anyhow::Result;
-use trove_model::{Bounds, DrivingSide, MapProjection, Report, StreetMap};
-use trove_read::{ReadError, osm};
+use trove_model::{Bounds, DrivingSide, MapProjection, Relief, Report, StreetMap};
+use trove_read::{ReadError, osm, relief};
 
 use crate::recipe::Recipe;
 
@@ -26,6 +26,20 @@ pub(crate) fn street_map<'r>(
         }
     }
     elsewhere.map_or(Ok(None), |error| Err(error.into()))
+}
+
+/// What the recipe's elevation files know of a place and of the land around it; `None` where that is nothing.
+pub(crate) fn relief(
+    recipe: &Recipe,
+    projection: &MapProjection,
+    area: Bounds,
+    report: &Report,
+) -> Result<Option<Relief>> {
+    let paths: Vec<_> = recipe.map.elevation.paths().iter().map(|path| recipe.at(path)).collect();
+    if paths.is_empty() {
+        return Ok(None);
+    }
+    Ok(relief::read(&paths, projection, area.grown(trove_build::HORIZON_M), report)?)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use trove_model::{
 };
 
 use super::furniture;
+use crate::ground::Spans;
 use crate::pieces::Piece;
 use crate::place::Place;
 use crate::placement::Stand;
@@ -43,7 +44,7 @@ fn furnished(country: &str, map: &StreetMap) -> Furnished {
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
     let seeds = Seed(0).into();
     let place = Place { locale, ..testing::place(&drive, Some(map), bounds, &ground, &library, &seeds, &report) };
-    let surfaces = roads::surfaces(&place);
+    let surfaces = roads::surfaces(&place, &Spans::default(), None);
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
     let kerbs = Kerbs::new(&drive, Some(map), &surfaces, bounds);

@@ -4,7 +4,7 @@
 //! all creases of it, so each piece lies in one plane, neighbours meet without gaps, and a marking a few
 //! millimetres above a road is that much above it everywhere.
 
-use glam::{DVec2, UVec2, Vec2, Vec3};
+use glam::{DVec2, UVec2, Vec2};
 use trove_model::{Bounds, HeightField, Mesh, Polygon};
 
 use super::blocks::{Blocks, middle};
@@ -51,6 +51,11 @@ impl<'a> Drape<'a> {
     /// With ramps, where heights above the ground are less.
     pub(crate) fn with_ramps(field: &'a HeightField, ramps: &'a Ramps) -> Self {
         Self { field, ramps: Some(ramps), blocks: Blocks::new(field, |cell| ramps.has(cell.as_ivec2())) }
+    }
+
+    /// What it lies on.
+    pub(super) fn field(&self) -> &HeightField {
+        self.field
     }
 
     /// Where the field ends.
@@ -173,35 +178,6 @@ impl<'a> Drape<'a> {
             mesh.triangles.extend([[first, first + 2, first + 1], [first, first + 3, first + 2]]);
             v_m += across.length();
         }
-    }
-
-    /// The ground beyond the field out to `reach_m`, at the height of the field's edge.
-    pub(crate) fn apron(&self, reach_m: f64, lift_m: f64) -> Mesh {
-        let cell_m = self.field.cell_m;
-        let last = UVec2::new(self.field.nodes.width - 1, self.field.nodes.height - 1);
-        let coordinate = |origin: f64, last: u32| -> Vec<f64> {
-            let inside = (0..=last).map(|i| origin + f64::from(i) * cell_m);
-            let far = origin + f64::from(last) * cell_m + reach_m;
-            std::iter::once(origin - reach_m).chain(inside).chain(std::iter::once(far)).collect()
-        };
-        let (xs, ys) = (coordinate(self.field.origin.x, last.x), coordinate(self.field.origin.y, last.y));
-        let mut mesh = Mesh::default();
-        for (j, y) in ys.windows(2).enumerate() {
-            for (i, x) in xs.windows(2).enumerate() {
-                let inside = (1..=last.x as usize).contains(&i) && (1..=last.y as usize).contains(&j);
-                if inside {
-                    continue;
-                }
-                let first = mesh.positions.len() as u32;
-                for p in [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])].map(|(x, y)| DVec2::new(x, y)) {
-                    mesh.positions.push(p.extend(self.height_m(p) + lift_m).as_vec3());
-                    mesh.normals.push(Vec3::Z);
-                    mesh.uvs.push(p.as_vec2());
-                }
-                mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-            }
-        }
-        mesh
     }
 
     /// Halves the cells until an even block is left, cuts that along its diagonal and triangulates what lies there.
@@ -352,6 +328,7 @@ fn welded(mesh: &Mesh) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
     use trove_model::Raster;
 
     fn hilly() -> HeightField {
@@ -411,18 +388,5 @@ mod tests {
             area += normal.length() / 2.0;
         }
         assert!((area - 4.0).abs() < 0.2, "{area}");
-    }
-
-    #[test]
-    fn the_apron_goes_on_where_the_field_ends() {
-        let field = hilly();
-        let mesh = Drape::new(&field).apron(100.0, 0.0);
-        let area: f32 = mesh
-            .triangles
-            .iter()
-            .map(|t| t.map(|i| mesh.positions[i as usize].truncate()))
-            .map(|[a, b, c]| (b - a).perp_dot(c - a) / 2.0)
-            .sum();
-        assert!((area - (240.0 * 240.0 - 40.0 * 40.0)).abs() < 1.0);
     }
 }

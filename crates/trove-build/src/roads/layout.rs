@@ -9,7 +9,7 @@ use trove_model::{
 use super::corners;
 use super::course::{self, Bay, Course};
 use super::cross_section::{Band, CrossSection, cross_section};
-use super::decks::{self, Deck, Trench};
+use super::decks::{self, Deck, Lift, Trench};
 use super::evidence::{self, Trace};
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
@@ -92,6 +92,7 @@ pub(super) fn layout<'a>(
     map: Option<&'a StreetMap>,
     driving_side: DrivingSide,
     bounds: Bounds,
+    lift: &Lift<'_>,
     report: &Report,
 ) -> Layout<'a> {
     let whole = vec![rectangle(bounds)];
@@ -104,7 +105,7 @@ pub(super) fn layout<'a>(
 
     // Roads of the map where the recording ends, their corners rounded.
     let on_left = driving_side.is_left();
-    let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), report)).unwrap_or_default();
+    let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), lift, report)).unwrap_or_default();
     let stretches = network::stretches(levels.ground, &recorded, on_left, report);
     let section = |road: &Road| cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
     let decks: Vec<_> = levels.decks.into_iter().map(|d| (d.clone(), section(d.road))).collect();

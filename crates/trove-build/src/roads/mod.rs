@@ -28,7 +28,7 @@ use footings::Footings;
 use seed_name::seed_name;
 
 use crate::geometry::plane;
-use crate::ground::{Drape, Lawn, Ramps};
+use crate::ground::{Apron, Drape, Land, Lawn, Ramps, Spans, apron};
 use crate::pieces::Palette;
 use crate::pieces::Piece;
 use crate::place::Place;
@@ -37,8 +37,8 @@ use crate::place::Place;
 pub(crate) const KERB_M: f64 = 0.12;
 /// Water lies this much below the road.
 const WATER_M: f64 = -0.8;
-/// The ground goes on this far beyond the place, to its horizon.
-const HORIZON_M: f64 = 2000.0;
+/// The ground goes on this far beyond the place, to its horizon, metres: a relief is wanted that far.
+pub const HORIZON_M: f64 = 2000.0;
 
 /// The surfaces of a place.
 #[derive(Clone, Debug)]
@@ -95,14 +95,16 @@ impl RoadSurfaces {
 }
 
 /// Builds the surfaces of a place: the dataset's map where it has one, OpenStreetMap beyond it.
-pub(crate) fn surfaces(place: &Place<'_>) -> RoadSurfaces {
+/// `spans` tells how high bridges and tunnels run, and `land` what lies beyond it, both where there is a relief.
+pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>) -> RoadSurfaces {
     let Place { drive, map, bounds, ground, library, locale, conditions, seeds, report } = *place;
     let seed = seeds.materials.child("roads");
     let kerb_m = locale.kerb.height_m;
     // Up to the end of the height field, where the apron begins.
     let field = Drape::new(ground).bounds();
     let bounds = Bounds { min: bounds.min.min(field.min), max: bounds.max.max(field.max) };
-    let layout = layout::layout(drive, map, locale.driving_side, bounds, report);
+    let lift = decks::Lift { ground, spans };
+    let layout = layout::layout(drive, map, locale.driving_side, bounds, &lift, report);
     let near = wear::near(drive);
     let (markings, covers) = rayon::join(
         || markings::markings(drive, map, &layout, &near, &locale.markings, seed.child("markings"), report),
@@ -187,9 +189,10 @@ pub(crate) fn surfaces(place: &Place<'_>) -> RoadSurfaces {
     add(decks.asphalt, Class::Road, SurfaceKind::Asphalt);
     add(decks.paint, Class::Road, SurfaceKind::MarkingWhite);
     add(decks.concrete, Class::Void, SurfaceKind::Concrete);
-    let mut apron = drape.apron(HORIZON_M, kerb_m);
-    lawn.color(&mut apron);
-    add(apron, Class::Ground, SurfaceKind::Grass);
+    let Apron { land: mut beyond, sea } = apron(&drape, HORIZON_M, [kerb_m, WATER_M], land);
+    lawn.color(&mut beyond);
+    add(beyond, Class::Ground, SurfaceKind::Grass);
+    add(sea, Class::Ground, SurfaceKind::Water);
 
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
     let lanes = course::lanes(&layout.courses);

@@ -5,11 +5,13 @@ use trove_model::{
     AssetLibrary, Bounds, Class, DrivingSide, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
 };
 
+use super::decks::Lift;
 use super::layout::layout;
-use super::{Footing, RoadSurfaces, land, surfaces};
+use super::{Footing, RoadSurfaces, land};
 use crate::geometry::plane;
-use crate::ground::Drape;
+use crate::ground::{Drape, Spans};
 use crate::pieces::Piece;
+use crate::place::Place;
 use crate::testing::{drive, place};
 
 /// Side streets across the recorded street, which runs along x from y = −4 to 12.
@@ -31,6 +33,10 @@ fn bounds() -> Bounds {
 fn hilly() -> HeightField {
     let nodes = Raster::from_fn(182, 182, |x, y| (x as f32 * 0.05).sin() + 0.02 * y as f32);
     HeightField { origin: bounds().min - 1.0, cell_m: 2.0, nodes }
+}
+
+fn surfaces(place: &Place<'_>) -> RoadSurfaces {
+    super::surfaces(place, &Spans::default(), None)
 }
 
 fn built() -> RoadSurfaces {
@@ -61,7 +67,9 @@ fn is_apron(piece: &Piece) -> bool {
 fn the_plane_is_covered_once() {
     let report = Report::default();
     let (drive, map, bounds) = (drive(), map(), bounds());
-    let layout = layout(&drive, Some(&map), DrivingSide::Left, bounds, &report);
+    let (flat, spans) = (HeightField::flat(bounds, 0.0), Spans::default());
+    let lift = Lift { ground: &flat, spans: &spans };
+    let layout = layout(&drive, Some(&map), DrivingSide::Left, bounds, &lift, &report);
     let covers = land::covers(layout.land.clone(), &layout.car_parks, Some(&map), bounds);
     let mut areas = vec![layout.carriageway, layout.kerb, layout.pavement, layout.tracks];
     areas.extend(covers.into_iter().map(|cover| cover.area));

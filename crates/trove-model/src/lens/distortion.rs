@@ -1,6 +1,6 @@
 //! What lenses do to the picture of a pinhole.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -13,7 +13,7 @@ const SEARCH_STEPS: usize = 3000;
 
 /// A lens's model of distortion, with how far from the axis it can be inverted.
 ///
-/// Both models are valid only as far as the picture's radius grows with the angle from the axis; what lies beyond is
+/// The two with coefficients are valid only as far as the picture's radius grows with the angle from the axis; what lies beyond is
 /// outside the lens's reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Distortion {
@@ -23,6 +23,8 @@ pub enum Distortion {
     BrownConrady(BrownConrady),
     /// Equidistant with a polynomial of the angle: a fisheye.
     KannalaBrandt(KannalaBrandt),
+    /// No lens but a panorama: longitude about the camera's y axis and latitude, in radians in place of focal lengths.
+    Equirectangular,
 }
 
 /// Brown 1971 with the rational radial factor (1 + k₁r² + k₂r⁴ + k₃r⁶) / (1 + k₄r² + k₅r⁴ + k₆r⁶), as OpenCV has it.
@@ -63,7 +65,7 @@ impl Distortion {
     /// The coefficients in the order in which they are given; none for a pinhole.
     pub fn coefficients(&self) -> Vec<f64> {
         match self {
-            Self::None => Vec::new(),
+            Self::None | Self::Equirectangular => Vec::new(),
             Self::BrownConrady(BrownConrady { k, p, .. }) => vec![k[0], k[1], p[0], p[1], k[2], k[3], k[4], k[5]],
             Self::KannalaBrandt(KannalaBrandt { k, .. }) => k.to_vec(),
         }
@@ -75,12 +77,13 @@ impl Distortion {
             Self::None => "pinhole",
             Self::BrownConrady(_) => "brown-conrady",
             Self::KannalaBrandt(_) => "kannala-brandt",
+            Self::Equirectangular => "equirectangular",
         }
     }
 
-    /// Whether the model is one for more than a half-space: a fisheye.
+    /// Whether the model is one for more than a half-space: a fisheye or a panorama.
     pub fn sees_behind(&self) -> bool {
-        matches!(self, Self::KannalaBrandt(_))
+        matches!(self, Self::KannalaBrandt(_) | Self::Equirectangular)
     }
 
     /// Position in focal lengths from the principal point of a direction (of any length) in Camera, in front of the
@@ -94,6 +97,7 @@ impl Distortion {
                 let angle = v.truncate().length().atan2(v.z);
                 (angle <= model.max_rad).then(|| model.at(angle, v.truncate()))
             }
+            Self::Equirectangular => Some(panorama_from_direction(v)),
         }
     }
 
@@ -107,6 +111,7 @@ impl Distortion {
                 model.distorted(if outside { across.normalize_or(DVec2::X) * model.max_r } else { across / v.z }).0
             }
             Self::KannalaBrandt(model) => model.at(across.length().atan2(v.z).min(model.max_rad), across),
+            Self::Equirectangular => panorama_from_direction(v),
         }
     }
 
@@ -119,8 +124,17 @@ impl Distortion {
                 let (sin, cos) = angle.sin_cos();
                 (image.normalize_or_zero() * sin).extend(cos)
             }),
+            Self::Equirectangular => (image.x.abs() <= PI && image.y.abs() <= FRAC_PI_2).then(|| {
+                let ((sin, cos), (down, level)) = (image.x.sin_cos(), image.y.sin_cos());
+                DVec3::new(level * sin, down, level * cos)
+            }),
         }
     }
+}
+
+/// Longitude to the right of ahead and latitude below the horizon, radians.
+fn panorama_from_direction(v: DVec3) -> DVec2 {
+    DVec2::new(v.x.atan2(v.z), v.y.atan2(v.x.hypot(v.z)))
 }
 
 impl BrownConrady {

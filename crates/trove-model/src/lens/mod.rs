@@ -228,10 +228,36 @@ mod tests {
         assert_eq!(narrow.unproject(DVec2::new(400.0 + 245.0, 400.0)), None);
     }
 
+    /// Of the whole sphere.
+    const PANORAMA: Lens = Lens {
+        width_px: 2000,
+        height_px: 1000,
+        fx_px: 1000.0 / std::f64::consts::PI,
+        fy_px: 1000.0 / std::f64::consts::PI,
+        cx_px: 1000.0,
+        cy_px: 500.0,
+        distortion: Distortion::Equirectangular,
+    };
+
+    #[test]
+    fn a_panorama_sees_all_around_with_equal_steps_of_both_angles() {
+        for (direction, pixel) in [
+            (DVec3::Z, [1000.0, 500.0]),
+            (DVec3::X, [1500.0, 500.0]),
+            (DVec3::new(-1.0, 0.0, -1.0), [250.0, 500.0]),
+            (DVec3::new(0.0, 1.0, 1.0), [1000.0, 750.0]),
+            (DVec3::new(1e-12, 0.0, -1.0), [2000.0, 500.0]),
+        ] {
+            let found = PANORAMA.project(direction).unwrap();
+            assert!(found.distance(DVec2::from_array(pixel)) < 1e-6, "{direction}: {found}");
+        }
+        assert_eq!(PANORAMA.unproject(DVec2::new(-1.0, 500.0)), None);
+    }
+
     proptest! {
         #[test]
         fn unprojecting_and_projecting_returns_the_pixel(x in 0.0..1.0f64, y in 0.0..1.0f64, far in 0.1..500.0f64) {
-            for lens in [PINHOLE].into_iter().chain(typical()) {
+            for lens in [PINHOLE, PANORAMA].into_iter().chain(typical()) {
                 let pixel = DVec2::new(x * f64::from(lens.width_px), y * f64::from(lens.height_px));
                 let Some(direction) = lens.unproject(pixel) else { continue };
                 prop_assert!((direction.length() - 1.0).abs() < 1e-12);

@@ -37,6 +37,20 @@ pub enum Paint {
     Red,
 }
 
+impl Paint {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::White, Self::Yellow, Self::Red];
+
+    /// Its name in files (`white`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::White => "white",
+            Self::Yellow => "yellow",
+            Self::Red => "red",
+        }
+    }
+}
+
 /// The line between directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]

@@ -100,7 +100,7 @@ mod tests {
     fn within_a_kilometre_world_is_the_devkit_s_mercator_to_a_decimetre() {
         let first = fix(LINE).unwrap();
         let georeference = Georeference::at(&first, Pose::IDENTITY);
-        let radius_m = crate::geodesy::EQUATORIAL_RADIUS_M;
+        let radius_m = 6_378_137.0;
         let scale = first.lat_deg.to_radians().cos();
         let mercator = |f: &Fix| {
             let y = (std::f64::consts::FRAC_PI_4 + f.lat_deg.to_radians() / 2.0).tan().ln();

@@ -38,6 +38,7 @@ fn lens_distortion(model: LensModel, coefficients: &[f64]) -> Result<Distortion,
         LensModel::Pinhole => (coefficients.is_empty().then_some(Distortion::None), 0),
         LensModel::BrownConrady => (Distortion::brown_conrady(coefficients), 8),
         LensModel::KannalaBrandt => (Distortion::kannala_brandt(coefficients), 4),
+        LensModel::Equirectangular => (coefficients.is_empty().then_some(Distortion::Equirectangular), 0),
     };
     let found = coefficients.len();
     distortion

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use trove_format::{PlainLaneMap, PlainPolygon};
-use trove_model::{Lane, LaneMap, Polygon};
+use trove_model::{Lane, LaneMap, LaneMark, Polygon};
 
 use super::earth::{self, Earth};
 
@@ -32,6 +32,13 @@ pub(super) fn lane_map(given: &PlainLaneMap, earth: &Earth) -> Result<LaneMap, S
             if lane.centreline.is_empty() { vec![] } else { line("lanes.centreline", &lane.centreline, 2)? };
         Ok(Lane { token: lane.token.clone(), polygon: polygon("lanes", &lane.polygon)?, centreline })
     });
+    let marks = given.marks.iter().map(|mark| {
+        Ok(LaneMark { line: line("marks.line", &mark.line, 2)?, paint: mark.paint, pattern: mark.pattern })
+    });
+    let ground = given.ground.iter().map(|&point| {
+        let world = earth.point(DVec3::from(point));
+        earth::near("lane_map.ground", world).map(|()| world)
+    });
     Ok(LaneMap {
         drivable: polygons("drivable", &given.drivable)?,
         lanes: lanes.collect::<Result<_, String>>()?,
@@ -41,5 +48,7 @@ pub(super) fn lane_map(given: &PlainLaneMap, earth: &Earth) -> Result<LaneMap, S
         carparks: polygons("carparks", &given.carparks)?,
         road_dividers: lines("road_dividers", &given.road_dividers)?,
         lane_dividers: lines("lane_dividers", &given.lane_dividers)?,
+        marks: marks.collect::<Result<_, String>>()?,
+        ground: ground.collect::<Result<_, String>>()?,
     })
 }

@@ -7,10 +7,10 @@ mod canonical;
 mod comparison;
 mod kitti;
 mod nuscenes;
-mod plain;
 #[allow(dead_code)] // the reader's other tests use the rest
 #[path = "../waymo/parquet_writer.rs"]
 mod parquet_writer;
+mod plain;
 mod waymo;
 #[allow(dead_code)] // the reader's other tests use the rest
 #[path = "../waymo/writer.rs"]

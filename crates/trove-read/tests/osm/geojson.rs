@@ -254,8 +254,7 @@ fn files_that_are_no_geojson_say_where_and_what_to_do() {
 
 #[test]
 fn metres_in_the_datasets_plane_lie_where_the_dataset_has_them() {
-    let projection =
-        MapProjection::spherical(40.44, -79.99, DVec2::new(1000.0, 2000.0));
+    let projection = MapProjection::spherical(40.44, -79.99, DVec2::new(1000.0, 2000.0));
     let metres = feature("LineString", "[[1010, 2020.5], [990.25, 1900]]", "{}");
     let far = feature("LineString", "[[1e300, 0], [-3e7, 1]]", "{}");
     let plain = collection(&[metres, far]);

@@ -125,12 +125,7 @@ mod tests {
         assert_eq!([min_lat_deg, max_lat_deg, min_lon_deg, max_lon_deg], [59.9973, 60.0027, 24.9946, 25.0054]);
         assert!((at(60.0, 25.0, 400.0).km2() - 0.6 * 0.6).abs() < 0.01);
         assert!(
-            needed(
-                "a",
-                &MapProjection::spherical(0.0, 0.0, DVec2::ZERO),
-                Bounds::square(DVec2::ZERO, 10.0)
-            )
-            .is_err()
+            needed("a", &MapProjection::spherical(0.0, 0.0, DVec2::ZERO), Bounds::square(DVec2::ZERO, 10.0)).is_err()
         );
     }
 

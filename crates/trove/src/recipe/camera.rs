@@ -80,6 +80,8 @@ pub enum LensModel {
     BrownConrady,
     /// A fisheye: k₁ k₂ k₃ k₄.
     KannalaBrandt,
+    /// A panorama.
+    Equirectangular,
 }
 
 /// `[camera.sensor]`: a car's camera, unless told otherwise.
@@ -188,6 +190,7 @@ impl LensSection {
             LensModel::Pinhole => (given.is_empty().then_some(Distortion::None), 0),
             LensModel::BrownConrady => (Distortion::brown_conrady(given), 8),
             LensModel::KannalaBrandt => (Distortion::kannala_brandt(given), 4),
+            LensModel::Equirectangular => (given.is_empty().then_some(Distortion::Equirectangular), 0),
         };
         let distortion =
             distortion.ok_or_else(|| anyhow!("distortion: expected at most {most} finite numbers, found {given:?}"))?;

@@ -1,13 +1,15 @@
 //! What a run is told apart by, and what makes it another one.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
 use serde_json::Value;
 use trove_format::{FrameFile, RunIdentity, Versions};
+use trove_model::RigCamera;
 use trove_render::Renderer;
 
-use super::inputs;
+use super::inputs::{self, CAMERA};
 use crate::contents::Contents;
 use crate::library;
 use crate::recipe::Recipe;
@@ -41,10 +43,13 @@ pub(super) fn of_run(
 }
 
 /// What of a recipe decides which frames a scene has.
-pub(super) fn planned(recipe: &Recipe) -> Result<Value> {
+pub(super) fn planned(recipe: &Recipe, sources: &Sources) -> Result<Value> {
     let recipe = serde_json::to_value(recipe)?;
     let values = PLANNED.iter().map(|key| (key.join("."), at(&recipe, key).cloned().unwrap_or_default()));
-    Ok(Value::Object(values.collect()))
+    // What a rig's file holds may grow while the recipe stays as it is.
+    let names = |rig: &[RigCamera]| Value::from_iter(rig.iter().map(|camera| camera.name.clone()));
+    let cameras = sources.rig().map(|rig| ("views.rig's cameras".to_owned(), names(rig)));
+    Ok(Value::Object(values.chain(cameras).collect()))
 }
 
 /// What makes a run another one than that which a folder was begun with, a line each; empty where it may go on.
@@ -57,13 +62,16 @@ pub(super) fn differences(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
                 keys.remove(key);
             }
         }
+        if let Some(inputs) = value.get_mut("inputs").and_then(Value::as_object_mut) {
+            inputs.retain(|input, _| !input.starts_with(CAMERA));
+        }
         value
     });
     // Where no picture showed light, none has been denoised either.
     if !shows_light(&was.recipe) || !shows_light(&is.recipe) {
         sides.iter_mut().for_each(|side| side["versions"]["denoiser"] = Value::Null);
     }
-    let mut found = Vec::new();
+    let mut found = cameras(was, is);
     compare("", &sides[0], &sides[1], &mut found);
     let more = found.len().saturating_sub(TOLD);
     found.truncate(TOLD);
@@ -71,6 +79,22 @@ pub(super) fn differences(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
         found.push(format!("{more} more"));
     }
     found
+}
+
+/// What differs between the rigs of two runs where they have some of their own: cameras may be added. One that was left
+/// out for a run could come back as another, so none may.
+fn cameras(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
+    let own = |identity: &RunIdentity| -> BTreeMap<String, String> {
+        let cameras = identity.inputs.iter().filter_map(|(input, camera)| Some((input.strip_prefix(CAMERA)?, camera)));
+        cameras.map(|(name, camera)| (name.to_owned(), camera.clone())).collect()
+    };
+    let [was, is] = [was, is].map(own);
+    if was.is_empty() != is.is_empty() {
+        let words = |own: &BTreeMap<_, _>| if own.is_empty() { "the recorded cameras" } else { "a rig of its own" };
+        return vec![format!("views.rig was {}, is {}", words(&was), words(&is))];
+    }
+    let changed = was.iter().filter(|(name, camera)| is.get(*name) != Some(*camera));
+    changed.map(|(name, _)| format!("camera {name} of views.rig has changed or gone")).collect()
 }
 
 fn at<'a>(recipe: &'a Value, [section, key]: &[&str; 2]) -> Option<&'a Value> {
@@ -151,6 +175,26 @@ mod tests {
             ("output", "files", json!(["class"])),
         ] {
             assert_eq!(told(&|v| v["recipe"][section][key] = more.clone()), "", "{key}");
+        }
+    }
+
+    #[test]
+    fn a_rig_of_ones_own_may_gain_cameras_and_keeps_those_that_it_has() {
+        let rig = |cameras: &[(&str, &str)]| {
+            identity(|v| {
+                v["recipe"]["views"]["rig"] = json!("rig.toml");
+                cameras.iter().for_each(|(name, camera)| v["inputs"][format!("{CAMERA}{name}")] = json!(camera));
+            })
+        };
+        let was = rig(&[("A", "1"), ("B", "2")]);
+        for (is, told) in [
+            (rig(&[("A", "1"), ("B", "2")]), ""),
+            (rig(&[("A", "1"), ("B", "2"), ("C", "3")]), ""),
+            (rig(&[("B", "2")]), "camera A of views.rig has changed or gone"),
+            (rig(&[("A", "1"), ("B", "3")]), "camera B of views.rig has changed or gone"),
+            (identity(|_| ()), "views.rig was a rig of its own, is the recorded cameras"),
+        ] {
+            assert_eq!(differences(&was, &is).join("; "), told);
         }
     }
 

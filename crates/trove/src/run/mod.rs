@@ -17,12 +17,13 @@ use anyhow::{Context, Result, bail, ensure};
 use trove_build::ALL_CAMERAS;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap, Viewpoint};
+use trove_read::rig;
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
 
 use crate::contents::Contents;
 use crate::progress::Progress;
-use crate::recipe::Recipe;
+use crate::recipe::{Recipe, nearest};
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::{interrupt, library, message};
@@ -102,13 +103,14 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let hints: Vec<Vec<usize>> =
         scenes.iter().map(|(scene, keyframes)| frames_hints(recipe, scene, *keyframes, frames)).collect();
     let planned = hints.iter().flatten().sum();
+    let keyframes_and_cameras = identity::planned(recipe, &sources)?;
     let mut run = Run {
         recipe,
         renderer: &renderer,
         sources,
         library: library::gather(recipe, &options.search, &mut contents, &report)?,
         contents,
-        planned: identity::planned(recipe)?,
+        planned: keyframes_and_cameras,
         output,
         writer: Worker::new(options.format.exporter(out), write),
         format: options.format,
@@ -355,7 +357,14 @@ impl Run<'_> {
         for (key, name) in in_views.chain(with_lens.map(|name| ("camera.lens", name.clone()))) {
             if drive.rig.iter().all(|camera| camera.name != name) {
                 let known: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
-                bail!("{key}: expected cameras among {}, found {name}", known.join(", "));
+                let others: Vec<&str> = rig::presets().filter(|_| key == "views.rig").collect();
+                let hint = nearest(&name, &[&known[..], &others].concat());
+                let or = if others.is_empty() {
+                    String::new()
+                } else {
+                    format!(", a preset ({}) or a .toml file", others.join(", "))
+                };
+                bail!("{key}: expected cameras among {}{or}, found {name}{hint}", known.join(", "));
             }
         }
         Ok(())

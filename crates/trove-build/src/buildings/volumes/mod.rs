@@ -39,6 +39,8 @@ const POST_INSET_M: f64 = 0.5;
 const POSTS_APART_M: f64 = 6.0;
 /// Eaves are seen up to this distance from the driven path, metres.
 pub(super) const EAVES_SEEN_M: f64 = 250.0;
+/// Under a building on less than this the ground counts as level, metres.
+const LEAST_SLOPE_M: f64 = 1.5;
 /// The ground below a building is looked at in these steps, metres.
 const GROUND_STEP_M: f64 = 4.0;
 
@@ -89,7 +91,9 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'a>, seed: Seed
                     volumes.push(Volume { footprint, posts, ..volume });
                 }
             }
-            let floor_m = lowest_ground_m(&volumes, plot.ground) + KERB_M;
+            let [lowest_m, highest_m] = ground_m(&volumes, plot.ground);
+            rise(&mut volumes, highest_m - lowest_m);
+            let floor_m = lowest_m + KERB_M;
             let near = path.nearest(whole.footprint.centroid(), FAR_M + 100.0);
             let reach_m = whole.footprint.bounds().map_or(0.0, |b| b.size_m().length() / 2.0);
             let path_m = near.map_or(FAR_M, |n| (n.distance_m - reach_m).max(0.0));
@@ -254,14 +258,32 @@ fn posts(footprint: &Polygon, streets: &RoadSurfaces) -> Vec<glam::DVec2> {
     posts
 }
 
-/// Lowest height of the ground around some volumes.
-fn lowest_ground_m(volumes: &[Volume<'_>], ground: &HeightField) -> f64 {
+/// Makes a house higher where the slope that it stands on would bury it, so that what rises above the slope's upper side
+/// is a storey at least; what hangs above the ground rises with it.
+fn rise(volumes: &mut [Volume<'_>], slope_m: f64) {
+    let lowest_eaves_m = volumes.iter().map(|v| v.eaves_m).fold(f64::INFINITY, f64::min);
+    let by_m = slope_m + STOREY_M - KERB_M - lowest_eaves_m;
+    if slope_m < LEAST_SLOPE_M || by_m <= 0.0 || !by_m.is_finite() {
+        return;
+    }
+    for volume in volumes {
+        volume.eaves_m += by_m;
+        volume.top_m += by_m;
+        if volume.bottom_m > 0.0 {
+            volume.bottom_m += by_m;
+        }
+    }
+}
+
+/// Lowest and highest height of the ground around some volumes.
+fn ground_m(volumes: &[Volume<'_>], ground: &HeightField) -> [f64; 2] {
     let edges = volumes.iter().flat_map(|v| v.footprint.edges());
     let along = edges.flat_map(|(a, b)| {
         let steps = (a.distance(b) / GROUND_STEP_M).ceil().max(1.0) as usize;
         (0..steps).map(move |i| a.lerp(b, i as f64 / steps as f64))
     });
-    along.map(|p| ground.height_m(p)).fold(f64::INFINITY, f64::min)
+    let heights_m = along.map(|p| ground.height_m(p));
+    heights_m.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
 }
 
 /// Without the points that lie on the line of their neighbours, to a millimetre.

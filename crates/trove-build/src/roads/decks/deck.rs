@@ -3,6 +3,7 @@
 use glam::DVec2;
 use trove_model::{Polygon, Road};
 
+use super::lift::Lift;
 use crate::geometry::plane::strip;
 use crate::roads::network::resampled;
 
@@ -48,6 +49,14 @@ pub(super) fn split(line: &[DVec2], at_m: f64) -> (Vec<DVec2>, Vec<DVec2>) {
 }
 
 impl Deck<'_> {
+    /// With its heights counted from its road's own course over the ground, in place of from the ground.
+    pub(super) fn lifted(mut self, lift: &Lift<'_>) -> Self {
+        for (height_m, &p) in self.heights_m.iter_mut().zip(&self.line) {
+            *height_m += lift.at(self.road, p);
+        }
+        self
+    }
+
     /// Half of the width from outer side to outer side.
     pub(super) fn half_width_m(&self, carriageway_m: f64) -> f64 {
         carriageway_m / 2.0 + EDGE_M

@@ -7,9 +7,10 @@ use trove_model::Road;
 
 use super::crossings::Crossings;
 use super::deck::{Deck, Key, LEVEL_M, deck, key, split};
+use super::lift::Lift;
 
-/// Slopes that are tried, with whether the roads that lead up rise too.
-const ATTEMPTS: [(f64, bool); 4] = [(0.06, false), (0.06, true), (0.09, true), (0.13, true)];
+/// Slopes that are tried, with whether the roads that lead up rise too; over a valley a bridge need not rise at all.
+const ATTEMPTS: [(f64, bool); 5] = [(0.0, false), (0.06, false), (0.06, true), (0.09, true), (0.13, true)];
 /// The least difference of levels at a crossing.
 const CLEAR_M: f64 = 5.0;
 /// A road that leads up begins to rise at least this far from the next junction.
@@ -25,12 +26,22 @@ pub(super) struct Attempt {
 
 impl Attempt {
     /// The gentlest that leaves room below at all crossings.
-    pub(super) fn first_that_clears(group: &[&Road], ground: &[&Road], crossings: &Crossings) -> Option<Self> {
+    pub(super) fn first_that_clears(
+        group: &[&Road],
+        ground: &[&Road],
+        crossings: &Crossings,
+        lift: &Lift<'_>,
+    ) -> Option<Self> {
+        let lift_m = |road: usize, along_m: f64| {
+            let position = split(&group[road].centreline, along_m).0.last().copied();
+            position.map_or(0.0, |position| lift.at(group[road], position))
+        };
         let attempts = ATTEMPTS.iter().map(|&(slope, leads_up)| Self::new(group, ground, slope, leads_up));
         attempts.into_iter().find(|attempt| {
             crossings.all.iter().all(|c| {
-                let below_m = c.below.map_or(0.0, |(road, along_m)| attempt.height_m(group[road], along_m));
-                attempt.height_m(group[c.road], c.along_m) - below_m >= CLEAR_M
+                let height_m = |road: usize, along_m| attempt.height_m(group[road], along_m) + lift_m(road, along_m);
+                let below_m = c.below.map_or(0.0, |(road, along_m)| height_m(road, along_m));
+                height_m(c.road, c.along_m) - below_m >= CLEAR_M
             })
         })
     }
@@ -99,9 +110,11 @@ impl Attempt {
     }
 
     /// The group's decks and those of the roads that lead up to it.
-    pub(super) fn decks<'a>(&self, group: &[&'a Road], ground: &[&'a Road]) -> Vec<Deck<'a>> {
-        let mut decks: Vec<Deck<'a>> =
-            group.iter().map(|road| deck(road, &road.centreline, |along_m| self.height_m(road, along_m))).collect();
+    pub(super) fn decks<'a>(&self, group: &[&'a Road], ground: &[&'a Road], lift: &Lift<'_>) -> Vec<Deck<'a>> {
+        let group = group.iter();
+        let mut decks: Vec<Deck<'a>> = group
+            .map(|road| deck(road, &road.centreline, |along_m| self.height_m(road, along_m)).lifted(lift))
+            .collect();
         for (&road, ends) in &self.risen {
             for (end, &metres) in ends.iter().enumerate().filter(|(_, metres)| **metres > 0.0) {
                 let mut line = ground[road].centreline.clone();

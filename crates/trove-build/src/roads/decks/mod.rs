@@ -6,6 +6,7 @@
 mod crossings;
 mod deck;
 mod heights;
+mod lift;
 mod sweep;
 mod trenches;
 
@@ -21,6 +22,7 @@ use super::network::{RECORDED, resampled};
 use crate::geometry::plane_raster::PlaneRaster;
 
 pub(super) use self::deck::Deck;
+pub(super) use self::lift::Lift;
 pub(super) use self::sweep::meshes;
 pub(super) use self::trenches::Trench;
 
@@ -39,7 +41,13 @@ pub(super) struct Levels<'a> {
 }
 
 /// Divides the map's roads for cars around a place; what can be built on no level is dropped and reported.
-pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bounds, report: &Report) -> Levels<'a> {
+pub(super) fn levels<'a>(
+    map: &'a StreetMap,
+    recorded: &PlaneRaster,
+    bounds: Bounds,
+    lift: &Lift<'_>,
+    report: &Report,
+) -> Levels<'a> {
     let reaches = |r: &&Road| Bounds::around(r.centreline.iter().copied()).is_some_and(|b| b.overlaps(&bounds));
     let cars: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars()).filter(reaches).collect();
     let mut ground: Vec<&Road> = Vec::new();
@@ -63,14 +71,14 @@ pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bou
     let mut level: Vec<&Road> = Vec::new();
     for group in connected(&raised) {
         let crossings = Crossings::new(&group, &ground, &raised, map);
-        if crossings.is_empty() {
-            // Over nothing but water or a valley a bridge carries its road on the level.
+        if crossings.is_empty() && !group.iter().any(|road| lift.is_high(road)) {
+            // Over nothing but water a bridge carries its road on the level.
             level.extend(group);
             continue;
         }
-        match Attempt::first_that_clears(&group, &ground, &crossings) {
+        match Attempt::first_that_clears(&group, &ground, &crossings, lift) {
             Some(attempt) => {
-                let built = attempt.decks(&group, &ground);
+                let built = attempt.decks(&group, &ground, lift);
                 // What would rise out of the recorded road is that road.
                 let rises = |d: &Deck<'_>| {
                     let mut points = d.line.iter().zip(&d.heights_m);
@@ -99,7 +107,7 @@ pub(super) fn levels<'a>(map: &'a StreetMap, recorded: &PlaneRaster, bounds: Bou
         ground.iter().enumerate().map(|(i, road)| (*road, shortened(&road.centreline, ends(i)))).collect();
     lines.extend(level.into_iter().map(|road| (road, road.centreline.clone())));
     lines.retain(|(_, line)| line.len() > 1);
-    let trenches = trenches::trenches(&tunnels, &ground, map, recorded, report);
+    let trenches = trenches::trenches(&tunnels, &ground, map, recorded, lift, report);
     Levels { ground: lines, decks, trenches }
 }
 
@@ -159,7 +167,9 @@ mod tests {
 
     fn levels_of(map: &StreetMap, report: &Report) -> (Ways, Ways) {
         let bounds = Bounds::square(DVec2::ZERO, 500.0);
-        let levels = levels(map, &PlaneRaster::new(bounds, 1.0), bounds, report);
+        let flat = trove_model::HeightField::flat(bounds, 0.0);
+        let lift = Lift { ground: &flat, spans: &crate::ground::Spans::default() };
+        let levels = levels(map, &PlaneRaster::new(bounds, 1.0), bounds, &lift, report);
         let length = |line: &[DVec2]| line.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
         let highest = |d: &Deck<'_>| d.heights_m.iter().copied().fold(0.0, f64::max);
         let ground = levels.ground.iter().map(|(r, line)| (r.id, length(line).round())).collect();

@@ -6,6 +6,7 @@ use glam::DVec2;
 use trove_model::{Outcome, Polygon, Report, Road, StreetMap};
 
 use super::deck::{Deck, EDGE_M, Key, deck, key, split};
+use super::lift::Lift;
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::geometry::segments::SegmentIndex;
@@ -13,6 +14,11 @@ use crate::geometry::segments::SegmentIndex;
 /// How deep the road lies at the portal, and how steep it goes there.
 const DEPTH_M: f64 = 5.2;
 const SLOPE: f64 = 0.11;
+/// A portal stands where a hill is so much higher than the mouth, and the road as deep as it goes but for so much; and
+/// this far in at least.
+const HILL_M: f64 = 1.0;
+const NEARLY: f64 = 0.3;
+const HILL_FROM_M: f64 = 6.0;
 /// How far the tunnel can be looked into.
 const INSIDE_M: f64 = 16.0;
 /// Beside an open ramp this much is free, from its middle to that of another road.
@@ -42,6 +48,7 @@ pub(super) fn trenches<'a>(
     ground: &[&Road],
     map: &StreetMap,
     recorded: &PlaneRaster,
+    lift: &Lift<'_>,
     report: &Report,
 ) -> Vec<Trench<'a>> {
     let met: BTreeSet<Key> = ground.iter().flat_map(|r| &r.centreline).map(|&p| key(p)).collect();
@@ -51,7 +58,7 @@ pub(super) fn trenches<'a>(
         let mut line = road.centreline.clone();
         for _ in 0..2 {
             if met.contains(&key(line[0])) {
-                let trench = trench(road, &line);
+                let trench = trench(road, &line, lift);
                 if is_free(&trench, ground, map, recorded) {
                     trenches.push(trench);
                 } else {
@@ -65,15 +72,32 @@ pub(super) fn trenches<'a>(
     trenches
 }
 
-fn trench<'a>(road: &'a Road, line: &[DVec2]) -> Trench<'a> {
-    let open_m = DEPTH_M / SLOPE;
-    let deck = deck(road, &split(line, open_m + INSIDE_M).0, |along_m| -(along_m * SLOPE).min(DEPTH_M));
-    let mut along_m = 0.0;
-    let reaches = |pair: &[DVec2]| {
-        along_m += pair[0].distance(pair[1]);
-        along_m >= open_m
+fn trench<'a>(road: &'a Road, line: &[DVec2], lift: &Lift<'_>) -> Trench<'a> {
+    let most_m = DEPTH_M / SLOPE;
+    let line = split(line, most_m + INSIDE_M).0;
+    // Under a hill a road goes down less, or not at all.
+    let descent_m = |along_m: f64| {
+        let at = split(&line, along_m).0.last().copied().unwrap_or_default();
+        (DEPTH_M + lift.at(road, at)).clamp(0.0, along_m * SLOPE)
     };
-    let portal = deck.line.windows(2).position(reaches).map_or(0, |i| i + 1);
+    let deck = deck(road, &line, |along_m| -descent_m(along_m)).lifted(lift);
+    let mut along_m = 0.0;
+    let reaches = |i: &usize| {
+        along_m += deck.line[*i].distance(deck.line[i - 1]);
+        along_m >= most_m
+            || (along_m > HILL_FROM_M
+                && lift.at(road, deck.line[*i]) < -HILL_M
+                && deck.heights_m[*i] < NEARLY - DEPTH_M)
+    };
+    let portal = (1..deck.line.len()).find(reaches).unwrap_or(0);
+    // What is seen of the tunnel ends behind the portal.
+    let mut inside_m = 0.0;
+    let seen = |i: &usize| {
+        inside_m += deck.line[*i].distance(deck.line[i - 1]);
+        inside_m > INSIDE_M
+    };
+    let end = (portal + 1..deck.line.len()).find(seen).map_or(deck.line.len(), |i| i + 1);
+    let deck = Deck { line: deck.line[..end].to_vec(), heights_m: deck.heights_m[..end].to_vec(), ..deck };
     Trench { deck, portal }
 }
 
@@ -112,7 +136,9 @@ mod tests {
         let ground: Vec<&Road> = roads.iter().collect();
         let recorded = PlaneRaster::new(Bounds::square(DVec2::ZERO, 900.0), 1.0);
         let report = Report::default();
-        let trenches = trenches(&[&tunnel], &ground, &StreetMap::default(), &recorded, &report);
+        let flat = trove_model::HeightField::flat(Bounds::square(DVec2::ZERO, 900.0), 0.0);
+        let lift = Lift { ground: &flat, spans: &crate::ground::Spans::default() };
+        let trenches = trenches(&[&tunnel], &ground, &StreetMap::default(), &recorded, &lift, &report);
         assert_eq!(trenches.len(), 1);
         let (deck, portal) = (&trenches[0].deck, trenches[0].portal);
         assert!((deck.line[portal].x - DEPTH_M / SLOPE).abs() < 2.1 && deck.heights_m[portal] < 0.3 - DEPTH_M);

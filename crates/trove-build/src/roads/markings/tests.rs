@@ -1,9 +1,13 @@
 //! What holds of the paint on made-up streets.
 
 use glam::DVec2;
-use trove_model::{Bounds, Drive, Furniture, FurnitureKind, Polygon, Report, RoadKind, Seed, Sides, StreetMap, Turns};
+use trove_model::{
+    Bounds, Drive, Furniture, FurnitureKind, HeightField, Polygon, Report, RoadKind, Seed, Sides, StreetMap, Turns,
+};
 
 use super::*;
+use crate::ground::Spans;
+use crate::roads::decks::Lift;
 use crate::roads::layout::layout;
 use crate::testing;
 
@@ -27,7 +31,9 @@ fn junction() -> StreetMap {
 
 fn painted(country: &str, map: &StreetMap) -> (Markings, Vec<Polygon>) {
     let (drive, locale) = (Drive { lane_map: None, ..testing::drive() }, testing::locale(country));
-    let layout = layout(&drive, Some(map), locale.driving_side, bounds(), &Report::default());
+    let (flat, spans) = (HeightField::flat(bounds(), 0.0), Spans::default());
+    let lift = Lift { ground: &flat, spans: &spans };
+    let layout = layout(&drive, Some(map), locale.driving_side, bounds(), &lift, &Report::default());
     let near = [crate::geometry::plane::rectangle(bounds())];
     let found = markings(&drive, Some(map), &layout, &near, &locale.markings, Seed(3), &Report::default());
     (found, layout.carriageway.clone())
