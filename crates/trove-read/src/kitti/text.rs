@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
-use trove_files::{LARGEST_TEXT, read_text};
+use trove_files::read_text;
 
 use crate::ReadError;
 
+/// Several times a long sequence's labels: more lines, each of them a mistake to report, would take minutes.
+const LARGEST: u64 = 8 << 20;
+
 /// A text file.
 pub(super) fn read(path: &Path) -> Result<String, ReadError> {
-    read_text(path, LARGEST_TEXT).map_err(|error| ReadError::io(path, error))
+    read_text(path, LARGEST).map_err(|error| ReadError::io(path, error))
 }
 
 /// A file's content is not what it should be.

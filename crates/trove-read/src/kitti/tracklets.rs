@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::{DQuat, DVec3, EulerRot};
 use quick_xml::Reader;
 use quick_xml::events::Event;
+use trove_files::{LARGEST_TEXT, read_text};
 use trove_model::{Body, Outcome, Pose, Report, SensorFrame};
 
 use super::text;
@@ -42,7 +43,7 @@ type Words = BTreeMap<String, String>;
 
 /// Reads a file; an object that is damaged is left out and reported.
 pub(super) fn read(path: &Path, report: &Report) -> Result<Vec<Tracklet>, ReadError> {
-    let text = text::read(path)?;
+    let text = read_text(path, LARGEST_TEXT).map_err(|error| ReadError::io(path, error))?;
     let mut reader = Reader::from_str(&text);
     let damaged = |byte: u64, found: String| {
         text::damaged(path, &format!("byte {byte}"), "a whole list of tracklets (XML)", found)

@@ -17,9 +17,14 @@ use crate::comparison::{TIGHT, Tolerances, differences};
 const START_NS: i64 = 1_317_034_800_000_000_000;
 const FRAME_NS: i64 = 100_000_000;
 
-/// What KITTI can say at all: its cameras have numbers.
+/// With cameras of numbers.
+fn whole() -> Drive {
+    canonical::with_cameras(canonical::drive(), ["image_00", "image_01"])
+}
+
+/// Extracted recordings have all but boxes, which are numbered by synced frames.
 fn extracted() -> Drive {
-    let mut drive = canonical::with_cameras(canonical::drive(), ["image_00", "image_01"]);
+    let mut drive = whole();
     drive.tracks.clear();
     drive.keyframes.iter_mut().for_each(|k| k.boxes.clear());
     drive
@@ -27,7 +32,7 @@ fn extracted() -> Drive {
 
 /// Rectified cameras look the same way, and share the vehicle's pose with the frame.
 fn synced() -> Drive {
-    let mut drive = canonical::with_cameras(canonical::drive(), ["image_00", "image_01"]);
+    let mut drive = whole();
     let rotation = drive.rig[0].ego_from_camera.rotation;
     for camera in &mut drive.rig {
         camera.ego_from_camera.rotation = rotation;
@@ -85,9 +90,9 @@ fn read(root: &Path, name: &str, report: &Report) -> Drive {
     Kitti::open(root, None).unwrap().read(name, report).unwrap()
 }
 
-fn check(write: impl FnOnce(&Drive, &Path), expected: &Drive, name: &str) -> Report {
+fn check(write: impl FnOnce(&Path), expected: &Drive, name: &str) -> Report {
     let (root, report) = (tempfile::tempdir().unwrap(), Report::default());
-    write(&canonical::drive(), root.path());
+    write(root.path());
     let drive = read(root.path(), name, &report);
     assert_eq!(differences(expected, &drive, &TIGHT), [""; 0], "{name}");
     assert_eq!((drive.dataset.as_str(), drive.id.as_str()), ("kitti", name));
@@ -101,19 +106,19 @@ fn check(write: impl FnOnce(&Drive, &Path), expected: &Drive, name: &str) -> Rep
 
 #[test]
 fn a_synced_recording_comes_back() {
-    let report = check(|drive, root| writer::raw(&synced_from(drive), root, true), &synced(), writer::SYNCED);
+    let report = check(|root| writer::raw(&synced(), root, true), &synced(), writer::SYNCED);
     assert!(report.entries().is_empty(), "{:?}", report.entries());
 }
 
 #[test]
 fn an_extracted_recording_comes_back_with_its_cameras_own_lenses_times_and_poses() {
-    let report = check(|drive, root| writer::raw(drive, root, false), &extracted(), writer::EXTRACTED);
+    let report = check(|root| writer::raw(&whole(), root, false), &extracted(), writer::EXTRACTED);
     assert!(report.entries().is_empty(), "{:?}", report.entries());
 }
 
 #[test]
 fn a_tracking_sequence_comes_back() {
-    let report = check(|drive, root| writer::tracking(&synced_from(drive), root), &tracking(), "0003");
+    let report = check(|root| writer::tracking(&synced(), root), &tracking(), "0003");
     let said: Vec<_> = report.entries().into_iter().map(|e| e.what).collect();
     assert_eq!(
         said,
@@ -124,13 +129,8 @@ fn a_tracking_sequence_comes_back() {
 #[test]
 fn object_frames_come_back_each_as_a_drive_of_its_own() {
     for k in 0..6 {
-        check(|drive, root| writer::object(&synced_from(drive), root), &object(k), &format!("{k:06}"));
+        check(|root| writer::object(&synced(), root), &object(k), &format!("{k:06}"));
     }
-}
-
-/// The canonical drive with the cameras that rectified forms can say.
-fn synced_from(_: &Drive) -> Drive {
-    synced()
 }
 
 #[test]
