@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use trove_model::{Drive, LidarClass, LidarSweep, ObjectBox};
 
 /// Weight of the driven path against one box: the vehicle certainly stood on the ground.
@@ -12,6 +13,8 @@ const PATH_WEIGHT: f64 = 4.0;
 const HALF_WEIGHT_RANGE_M: f64 = 15.0;
 /// Boxes of one track nearer to each other than this are one standing object.
 const STANDING_M: f64 = 1.0;
+/// Weight of a height in the dataset's map, which was surveyed and averaged.
+const MAPPED_WEIGHT: f64 = 1.0;
 /// Side of the cells that LiDAR points are gathered in, and the range within which they are dense enough.
 const LIDAR_CELL_M: f64 = 2.0;
 const LIDAR_REACH_M: f64 = 30.0;
@@ -34,8 +37,22 @@ pub(super) fn observations(drive: &Drive, kerb_m: f64) -> Vec<Observation> {
     let sweeps = drive.keyframes.iter().filter_map(|k| k.lidar.as_ref()).flat_map(lidar_ground);
     path.chain(standing_once(drive, kerb_m))
         .chain(sweeps)
+        .chain(mapped(drive, kerb_m))
         .filter(|o| o.position.is_finite() && o.height_m.is_finite())
         .collect()
+}
+
+/// Heights in the dataset's map; those beside the road are brought to the carriageway's level.
+fn mapped(drive: &Drive, kerb_m: f64) -> Vec<Observation> {
+    let Some(map) = &drive.lane_map else { return Vec::new() };
+    let areas: Vec<_> = map.drivable.iter().chain(&map.carparks).filter_map(|p| Some((p, p.bounds()?))).collect();
+    let is_road = |p: DVec2| areas.iter().any(|(area, bounds)| bounds.contains(p) && area.contains(p));
+    let observation = |point: &DVec3| {
+        let position = point.truncate();
+        let height_m = point.z - if is_road(position) { 0.0 } else { kerb_m };
+        Observation { position, height_m, weight: MAPPED_WEIGHT }
+    };
+    map.ground.par_iter().map(observation).collect()
 }
 
 /// The bottom of every annotated box, brought to the carriageway's level.
@@ -47,7 +64,7 @@ pub(super) fn box_bottoms(drive: &Drive, kerb_m: f64) -> impl Iterator<Item = Ob
 }
 
 fn box_bottom(drive: &Drive, kerb_m: f64, object: &ObjectBox, ego: DVec2) -> Observation {
-    let down = glam::DVec3::new(0.0, 0.0, -object.cuboid.size_m.z / 2.0);
+    let down = DVec3::new(0.0, 0.0, -object.cuboid.size_m.z / 2.0);
     let bottom = object.cuboid.world_from_body.point(down);
     let position = bottom.truncate();
     let raised = drive.lane_map.as_ref().is_some_and(|m| {
@@ -111,4 +128,22 @@ fn lidar_ground(sweep: &LidarSweep) -> Vec<Observation> {
         })
     };
     cells.into_iter().filter_map(low).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn mapped_heights_beside_the_road_are_brought_down_by_the_kerb() {
+        let mut drive = testing::drive();
+        // The street's carriageway ends at y = 12.
+        let ground = [DVec3::new(0.0, 11.0, 2.0), DVec3::new(0.0, 13.0, 2.15)];
+        drive.lane_map.as_mut().unwrap().ground = ground.to_vec();
+        let heights: Vec<_> = mapped(&drive, 0.15).iter().map(|o| o.height_m).collect();
+        assert!(heights.iter().all(|h| (h - 2.0).abs() < 1e-12), "{heights:?}");
+        let count = |drive: &Drive| observations(drive, 0.15).len();
+        assert_eq!(count(&drive), count(&testing::drive()) + 2);
+    }
 }

@@ -24,8 +24,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster<f32>, (String, String)> {
     }
     let Some([height, width]) = shape(&header) else { return wrong("a shape of two numbers", &header) };
     let bytes_each = 2usize << kind;
-    let expected = u64::from(width) * u64::from(height) * bytes_each as u64;
-    if expected != data.len() as u64 || width == 0 || height == 0 {
+    let expected = u128::from(width) * u128::from(height) * bytes_each as u128;
+    if expected != data.len() as u128 || width == 0 || height == 0 {
         return wrong(&format!("{height} × {width} values of {bytes_each} bytes"), &format!("{} bytes", data.len()));
     }
     let value = |bytes: &[u8]| match *bytes {

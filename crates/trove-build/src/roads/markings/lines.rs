@@ -33,15 +33,23 @@ impl Stroke {
     /// What of it gets paint, where nothing has been painted yet.
     pub(super) fn painted(&self, painted: &mut PlaneRaster) -> Vec<Polygon> {
         let half_m = self.width_m / 2.0;
+        let solid = |line: &[DVec2]| strip(line, half_m);
+        let broken =
+            |line: &[DVec2], dash| dashes(line, dash).iter().flat_map(|d| strip(d, half_m)).collect::<Vec<_>>();
+        let beside = |line: &[DVec2], side: f64| shifted(line, side * DOUBLE / 2.0 * self.width_m);
+        let both = |left: Vec<Polygon>, right: Vec<Polygon>| [left, right].concat();
         fresh(&self.line, painted)
             .iter()
-            .flat_map(|line| match self.pattern {
-                LinePattern::Solid => strip(line, half_m),
-                LinePattern::Dashed(dash) => dashes(line, dash).iter().flat_map(|d| strip(d, half_m)).collect(),
-                LinePattern::Double => [-0.5, 0.5]
-                    .iter()
-                    .flat_map(|side| strip(&shifted(line, side * DOUBLE * self.width_m), half_m))
-                    .collect(),
+            .flat_map(|line| {
+                let (left, right) = (beside(line, 1.0), beside(line, -1.0));
+                match self.pattern {
+                    LinePattern::Solid => solid(line),
+                    LinePattern::Dashed(dash) => broken(line, dash),
+                    LinePattern::Double => both(solid(&right), solid(&left)),
+                    LinePattern::DoubleDashed(dash) => both(broken(&left, dash), broken(&right, dash)),
+                    LinePattern::SolidDashed(dash) => both(solid(&left), broken(&right, dash)),
+                    LinePattern::DashedSolid(dash) => both(broken(&left, dash), solid(&right)),
+                }
             })
             .collect()
     }
@@ -186,6 +194,24 @@ pub(super) fn dashes(line: &[DVec2], dash: Dash) -> Vec<Vec<DVec2>> {
 mod tests {
     use super::*;
     use trove_model::Bounds;
+
+    #[test]
+    fn a_line_that_is_broken_on_one_side_is_solid_on_the_other() {
+        let dash = Dash { dash_m: 3.0, gap_m: 9.0 };
+        // Metres of paint to the left of a line of 48 m along x, and to the right.
+        let painted_m = |pattern| {
+            let line = vec![DVec2::new(-24.0, 0.0), DVec2::new(24.0, 0.0)];
+            let stroke = Stroke { line, paint: Paint::Yellow, pattern, width_m: 0.1 };
+            let mut raster = PlaneRaster::new(Bounds::square(DVec2::ZERO, 60.0), 0.25);
+            let (left, right): (Vec<_>, Vec<_>) =
+                stroke.painted(&mut raster).into_iter().partition(|p| p.centroid().y > 0.0);
+            [left, right].map(|side| (side.iter().map(Polygon::area_m2).sum::<f64>() / 0.1).round())
+        };
+        assert_eq!(painted_m(LinePattern::SolidDashed(dash)), [48.0, 12.0]);
+        assert_eq!(painted_m(LinePattern::DashedSolid(dash)), [12.0, 48.0]);
+        assert_eq!(painted_m(LinePattern::DoubleDashed(dash)), [12.0, 12.0]);
+        assert_eq!(painted_m(LinePattern::Double), [48.0, 48.0]);
+    }
 
     #[test]
     fn dashes_are_as_long_as_the_country_says_round_corners_too() {

@@ -18,8 +18,8 @@ use std::collections::BTreeMap;
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
 use trove_model::{
-    Bounds, CentreLine, Drive, KerbLines, LinePattern, MarkingCustoms, Paint, Polygon, Report, RoadKind, Seed,
-    StreetMap,
+    Bounds, CentreLine, Dash, Drive, KerbLines, LinePattern, MarkPattern, MarkingCustoms, Paint, Polygon, Report,
+    RoadKind, Seed, StreetMap,
 };
 
 use self::approaches::{Control, approach, box_junction};
@@ -183,7 +183,19 @@ fn recorded_strokes(drive: &Drive, customs: &MarkingCustoms) -> Vec<Stroke> {
         |line: &Vec<DVec2>, paint, pattern| Stroke { line: line.clone(), paint, pattern, width_m: customs.line_m };
     let dividers = map.road_dividers.iter().map(|line| stroke(line, paint, wide));
     let lanes = map.lane_dividers.iter().map(|line| stroke(line, Paint::White, LinePattern::Dashed(customs.lane)));
-    dividers.chain(lanes).collect()
+    let marks = map.marks.iter().map(|mark| stroke(&mark.line, mark.paint, line_pattern(mark.pattern, customs.lane)));
+    dividers.chain(lanes).chain(marks).collect()
+}
+
+fn line_pattern(pattern: MarkPattern, dash: Dash) -> LinePattern {
+    match pattern {
+        MarkPattern::Solid => LinePattern::Solid,
+        MarkPattern::Dashed => LinePattern::Dashed(dash),
+        MarkPattern::DoubleSolid => LinePattern::Double,
+        MarkPattern::DoubleDashed => LinePattern::DoubleDashed(dash),
+        MarkPattern::SolidDashed => LinePattern::SolidDashed(dash),
+        MarkPattern::DashedSolid => LinePattern::DashedSolid(dash),
+    }
 }
 
 fn is_unrecorded(line: &[DVec2], layout: &Layout<'_>) -> bool {
