@@ -18,7 +18,7 @@ fn feed(folder: &Path, name: &str, data: &[u8]) {
     if fs::write(&path, data).is_err() {
         return;
     }
-    let projection = MapProjection { origin_lat_deg: 0.5, origin_lon_deg: 0.5, anchor_m: DVec2::ZERO };
+    let projection = MapProjection::spherical(0.5, 0.5, DVec2::ZERO);
     // Whatever is wrong is an error.
     let _ = relief::read(&[path], &projection, Bounds::square(DVec2::ZERO, 4000.0), &Report::default());
 }

@@ -64,7 +64,7 @@ mod tests {
             relief: Some(relief),
             ..StreetMap::default()
         };
-        let projection = MapProjection { origin_lat_deg: 43.7, origin_lon_deg: 7.4, anchor_m: DVec2::ZERO };
+        let projection = MapProjection::spherical(43.7, 7.4, DVec2::ZERO);
         let driving_side = DrivingSide::Right;
         let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side, time_ns: 0 };
         let flat = place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();

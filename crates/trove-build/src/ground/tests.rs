@@ -139,7 +139,7 @@ fn ground_that_the_relief_lacks_goes_on_at_its_edge_and_is_reported() {
 #[ignore = "needs TROVE_TEST_DATA"]
 fn real_monaco_is_steep_its_roads_can_be_driven_and_its_sea_is_flat() {
     let data = std::path::PathBuf::from(std::env::var_os("TROVE_TEST_DATA").expect("TROVE_TEST_DATA"));
-    let projection = MapProjection { origin_lat_deg: 43.7385, origin_lon_deg: 7.4240, anchor_m: DVec2::ZERO };
+    let projection = MapProjection::spherical(43.7385, 7.4240, DVec2::ZERO);
     let (bounds, report) = (Bounds::square(DVec2::ZERO, 700.0), Report::default());
     let extract = data.join("osm/monaco-latest.osm.pbf");
     let map = trove_read::osm::read(&extract, &projection, bounds, DrivingSide::Right, &report).unwrap();
