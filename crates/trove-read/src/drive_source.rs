@@ -120,7 +120,8 @@ impl DriveDescription {
             lon_deg,
             keyframes: keyframes.len(),
             duration_s: duration_ns as f64 * 1e-9,
-            path_m: (1..keyframes.len()).map(|i| position(i - 1).distance(position(i))).sum(),
+            // A sum of nothing is −0.
+            path_m: (1..keyframes.len()).map(|i| position(i - 1).distance(position(i))).fold(0.0, |a, b| a + b),
             cameras: drive.rig.iter().map(|camera| camera.name.clone()).collect(),
             tracks: drive.tracks.len(),
             boxes,

@@ -13,6 +13,8 @@ use super::oxts::{Fix, Georeference, fix};
 use super::{pictures, text, times};
 use crate::ReadError;
 
+const CAMERAS: [&str; 4] = ["image_00", "image_01", "image_02", "image_03"];
+
 /// How many keyframes a recording has.
 pub(super) fn keyframes(root: &Path, recording: &Recording) -> usize {
     match recording.form {
@@ -25,8 +27,7 @@ pub(super) fn keyframes(root: &Path, recording: &Recording) -> usize {
 pub(super) fn files(root: &Path, recording: &Recording, frames: usize) -> Vec<PathBuf> {
     let mut files = vec![calibration_file(root, recording), label_file(root, recording), oxts_file(root, recording)];
     files.extend((0..frames).map(|frame| root.join(sweep_file(recording, frame))));
-    let cameras = ["image_00", "image_01", "image_02", "image_03"];
-    files.extend(cameras.iter().filter_map(|camera| first_picture(root, recording, camera, frames)));
+    files.extend(CAMERAS.iter().filter_map(|camera| first_picture(root, recording, camera, frames)));
     files
 }
 
@@ -42,7 +43,9 @@ pub(super) fn read(
         _ => Some(fixes(root, recording, report)?),
     };
     let frames = fixes.as_ref().map_or(1, Vec::len);
-    let size_px = |camera: &str| pictures::size_px(&first_picture(root, recording, camera, frames)?, report);
+    let own_size_px = |camera: &str| pictures::size_px(&first_picture(root, recording, camera, frames)?, report);
+    // Rectified pictures of a day are all of one size.
+    let size_px = |camera: &str| own_size_px(camera).or_else(|| CAMERAS.into_iter().find_map(own_size_px));
     let mounting = Mounting::of_benchmark(&calibration_file(root, recording), size_px, report)?;
     let (georeference, poses) = match &fixes {
         None => (None, vec![(0, Pose::IDENTITY)]),

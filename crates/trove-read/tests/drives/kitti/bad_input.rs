@@ -157,7 +157,9 @@ fn a_broken_tracklet_is_left_out_and_reported() {
 fn a_damaged_sweep_or_picture_is_reported_and_the_drive_stands() {
     let root = changed(LABELS, |text| text);
     std::fs::write(root.path().join("training/velodyne/0003/000002.bin"), [0; 33]).unwrap();
-    std::fs::write(root.path().join("training/image_00/0003/000001.png"), "no picture").unwrap();
+    for camera in ["image_00", "image_01"] {
+        std::fs::write(root.path().join(format!("training/{camera}/0003/000001.png")), "no picture").unwrap();
+    }
     let report = Report::default();
     let drive = load(root.path(), &report).unwrap();
     assert!(drive.keyframes.len() == 6 && drive.keyframes.iter().all(|k| k.lidar.is_none()));
