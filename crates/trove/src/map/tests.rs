@@ -343,5 +343,5 @@ fn the_command_writes_what_the_recipe_s_place_needs() {
     command(false, true).run_with(Some(folder.path())).unwrap();
     assert_eq!((fs::read_to_string(&out).unwrap().as_str(), loopback.asked().len()), (WHOLE, 1));
     // 400 m and a margin of 100 m on each side, outwards to a ten-thousandth of a degree.
-    assert!(loopback.asked()[0].body.contains("60.1681%2C24.9360%2C60.1735%2C24.9468"), "{:?}", loopback.asked());
+    assert!(loopback.asked()[0].body.contains("60.1681%2C24.9359%2C60.1735%2C24.9469"), "{:?}", loopback.asked());
 }
