@@ -15,7 +15,7 @@ use trove_model::{
 use trove_read::ReadError;
 use trove_read::osm::{self, GeoJsonFrame};
 
-use crate::{METRE_DEG, ORIGIN, file, nodes, noted, read_bytes, way};
+use crate::{METRE_DEG, file, nodes, noted, origin, read_bytes, way};
 
 /// Far more than any of these takes.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -372,6 +372,6 @@ fn real_roads_of_pittsburgh_lie_where_the_file_has_them() {
     assert!((first.centreline[0] + middle_m).distance(DVec2::new(674.369, -40.14)) < 1e-6);
     let guessed = report.entries().into_iter().find(|e| e.what.contains("taken for a road")).unwrap();
     assert_eq!(guessed.count as usize, lines);
-    let as_degrees = osm::read(&path, &ORIGIN, area, DrivingSide::Right, &report).unwrap_err().to_string();
+    let as_degrees = osm::read(&path, &origin(), area, DrivingSide::Right, &report).unwrap_err().to_string();
     assert!(as_degrees.contains("map.geojson_frame = \"dataset\""), "{as_degrees}");
 }

@@ -398,7 +398,7 @@ fn an_extract_covers_what_its_bounds_say_and_not_where_its_ways_lead() {
     let (dir, report) = (tempfile::tempdir().unwrap(), Report::default());
     let read = |bounds: &str| {
         let path = file(&dir, "map.osm", format!("<osm>{bounds}{content}</osm>").as_bytes());
-        osm::read(&path, &ORIGIN, there, DrivingSide::Right, &report)
+        osm::read(&path, &origin(), there, DrivingSide::Right, &report)
     };
     assert_eq!(read("").unwrap().roads.len(), 1);
     assert!(matches!(read(&bounds(-100.0, 100.0)).unwrap_err(), ReadError::Elsewhere { .. }));

@@ -40,7 +40,7 @@ impl Files {
 }
 
 fn projection(origin_lat_deg: f64, origin_lon_deg: f64) -> MapProjection {
-    MapProjection { origin_lat_deg, origin_lon_deg, anchor_m: DVec2::ZERO }
+    MapProjection::spherical(origin_lat_deg, origin_lon_deg, DVec2::ZERO)
 }
 
 /// 500 m at the middle, rising 200 m a degree east and falling 400 m a degree north.
