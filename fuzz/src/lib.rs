@@ -7,6 +7,7 @@
 //! trove_fuzz::run_once("recipe", b"[drive]\ndataset = 7");
 //! ```
 
+mod argoverse2;
 mod datasets;
 mod elevation;
 mod kitti;
@@ -93,6 +94,22 @@ pub const TARGETS: &[Target] = &[
         seeds: waymo::component_seeds,
         prepare: waymo::prepare_components,
         feed: waymo::feed_component,
+        name: "argoverse2_feather",
+        seeds: argoverse2::feather_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_feather,
+    },
+    Target {
+        name: "argoverse2_ground",
+        seeds: argoverse2::height_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_height,
+    },
+    Target {
+        name: "argoverse2_map",
+        seeds: argoverse2::map_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_map,
     },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },
