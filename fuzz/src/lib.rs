@@ -94,6 +94,8 @@ pub const TARGETS: &[Target] = &[
         seeds: waymo::component_seeds,
         prepare: waymo::prepare_components,
         feed: waymo::feed_component,
+    },
+    Target {
         name: "argoverse2_feather",
         seeds: argoverse2::feather_seeds,
         prepare: argoverse2::prepare,
