@@ -94,12 +94,10 @@ fn look(
         let material = &scene.materials[all[first.triangle as usize].material].name;
         // A model's pieces of cloth may be numbered.
         let is_sheet = SHEETS.iter().any(|sheet| material.starts_with(sheet));
-        if !is_sheet && scene.instances[all[first.triangle as usize].instance].class == Class::Building {
-            if !first.from_front {
-                let building = name(&scene.instances[all[first.triangle as usize].instance]);
-                let seen = insides.entry(building).or_insert((0, drawing.point(first, towards), material.as_str()));
-                seen.0 += 1;
-            }
+        let instance = &scene.instances[all[first.triangle as usize].instance];
+        if !is_sheet && instance.class == Class::Building && !first.from_front {
+            let point = || (0, drawing.point(first, towards), material.as_str());
+            insides.entry(name(instance)).or_insert_with(point).0 += 1;
         }
     }
     for (what, (rays, at)) in fights {
