@@ -7,6 +7,7 @@
 //! trove_fuzz::run_once("recipe", b"[drive]\ndataset = 7");
 //! ```
 
+mod argoverse2;
 mod datasets;
 mod maps;
 mod models;
@@ -33,7 +34,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 21] = [
     Target { name: "osm_xml", seeds: maps::xml_seeds, prepare: |_| (), feed: maps::feed },
     Target { name: "osm_pbf", seeds: maps::pbf_seeds, prepare: |_| (), feed: maps::feed_pbf },
     Target {
@@ -59,6 +60,24 @@ pub const TARGETS: [Target; 18] = [
         seeds: datasets::index_seeds,
         prepare: datasets::prepare_index,
         feed: datasets::feed_index,
+    },
+    Target {
+        name: "argoverse2_feather",
+        seeds: argoverse2::feather_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_feather,
+    },
+    Target {
+        name: "argoverse2_ground",
+        seeds: argoverse2::height_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_height,
+    },
+    Target {
+        name: "argoverse2_map",
+        seeds: argoverse2::map_seeds,
+        prepare: argoverse2::prepare,
+        feed: argoverse2::feed_map,
     },
     Target { name: "gltf", seeds: models::gltf_seeds, prepare: models::prepare, feed: models::feed_gltf },
     Target { name: "fbx", seeds: models::fbx_seeds, prepare: models::prepare, feed: models::feed_fbx },

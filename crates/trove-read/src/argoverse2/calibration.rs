@@ -28,6 +28,9 @@ pub(super) struct Calibration {
     pub(super) lidar_axle: DVec3,
 }
 
+/// A camera's name with its lens, or with what is wrong with it.
+type NamedLens = (String, Result<Lens, &'static str>);
+
 /// Reads a log's `calibration`; a camera that has no usable lens or place is left out and reported.
 pub(super) fn read(folder: &Path, report: &Report) -> Result<Calibration, ReadError> {
     let mounts = mounts(&folder.join("egovehicle_SE3_sensor.feather"), report)?;
@@ -73,7 +76,7 @@ fn mounts(path: &Path, report: &Report) -> Result<BTreeMap<String, Pose<Axle, Ca
 ///
 /// The published pictures are without distortion (user guide, "Sensor Suite"), and the devkit projects onto them as onto a
 /// pinhole's: k1 to k3 belong to the pictures before they were straightened.
-fn lenses(path: &Path) -> Result<Vec<(String, Result<Lens, &'static str>)>, ReadError> {
+fn lenses(path: &Path) -> Result<Vec<NamedLens>, ReadError> {
     const COLUMNS: [&str; 7] = ["sensor_name", "fx_px", "fy_px", "cx_px", "cy_px", "width_px", "height_px"];
     let table = Table::read(path, &COLUMNS)?;
     let (fx, fy) = (table.numbers("fx_px")?, table.numbers("fy_px")?);

@@ -1,6 +1,7 @@
 //! An opened dataset: which logs it has.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
 use trove_files::PathComponent;
@@ -38,10 +39,15 @@ impl Argoverse2 {
             if let Err(why) = PathComponent::new(&name) {
                 let what = "Argoverse 2 log whose name cannot be a scene's";
                 report.note(Outcome::Dropped, what, format!("{}: {why}", folder.display()));
-            } else if logs.contains_key(&name) {
-                report.note(Outcome::Dropped, "Argoverse 2 log with the name of another", folder.display());
-            } else {
-                logs.insert(name, folder);
+                continue;
+            }
+            match logs.entry(name) {
+                Entry::Vacant(slot) => {
+                    slot.insert(folder);
+                }
+                Entry::Occupied(_) => {
+                    report.note(Outcome::Dropped, "Argoverse 2 log with the name of another", folder.display());
+                }
             }
         }
         if logs.is_empty() {

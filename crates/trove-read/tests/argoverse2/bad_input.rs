@@ -68,6 +68,10 @@ fn a_broken_row_is_left_out_and_reported() {
     );
 }
 
+type MapChange<'a> = &'a dyn Fn(&mut Value);
+/// Lanes, drivable areas, crossings and marks.
+type LayerCounts = (usize, usize, usize, usize);
+
 #[test]
 fn a_broken_map_row_is_left_out_and_reported() {
     let damaged = |change: &dyn Fn(&mut Value)| {
@@ -77,7 +81,7 @@ fn a_broken_map_row_is_left_out_and_reported() {
         let map = load(log.write().path(), &report).unwrap().lane_map.unwrap();
         ((map.lanes.len(), map.drivable.len(), map.crossings.len(), map.marks.len()), said(&report).join("\n"))
     };
-    let cases: [(&dyn Fn(&mut Value), (usize, usize, usize, usize), &str); 7] = [
+    let cases: [(MapChange<'_>, LayerCounts, &str); 7] = [
         (&|m| m["lane_segments"]["2"] = json!(7), (1, 1, 1, 3), "map lane segment: 2: invalid type"),
         (&|m| m["lane_segments"]["1"]["left_lane_boundary"][0]["x"] = json!("5"), (1, 1, 1, 3), "map lane segment: 1"),
         (&|m| m["lane_segments"]["1"]["left_lane_boundary"][0]["x"] = json!(1e300), (1, 1, 1, 3), "absurd points"),

@@ -24,4 +24,4 @@ pub(crate) fn utm(zone: u32, lat_deg: f64, lon_deg: f64) -> DVec2 {
 }
 
 /// Origin of Pittsburgh's frame on the grid of zone 17, metres.
-pub(crate) const PITTSBURGH_UTM_M: DVec2 = DVec2::new(583_710.0070, 4_477_259.9999);
+pub(crate) const PITTSBURGH_UTM_M: DVec2 = DVec2::new(583_710.007, 4_477_259.999_9);
