@@ -23,8 +23,8 @@ pub struct MapProjection {
 }
 
 impl MapProjection {
-    /// On a sphere of WGS84's equatorial radius, as in the tools of nuScenes (`export_poses.py`) and KITTI, to a centimetre
-    /// over a city. Up to 0.5 % longer than a tape would measure.
+    /// On a sphere of WGS84's equatorial radius, as in the tools of nuScenes (`export_poses.py`) and, within 10 cm over
+    /// the first kilometre, KITTI (whose Mercator grows to the north). Up to 0.5 % longer than a tape would measure.
     pub fn spherical(origin_lat_deg: f64, origin_lon_deg: f64, anchor_m: DVec2) -> Self {
         let cos_lat = origin_lat_deg.to_radians().cos();
         let metres_per_rad = DVec2::new(EQUATORIAL_RADIUS_M * cos_lat, EQUATORIAL_RADIUS_M);
