@@ -12,6 +12,7 @@ import csv
 import json
 from collections import defaultdict
 from pathlib import Path
+from typing import Any
 
 
 def read_rows(path: Path) -> list[dict[str, str]]:
@@ -19,11 +20,11 @@ def read_rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def read_pose(row: dict[str, str]) -> dict:
+def read_pose(row: dict[str, str]) -> dict[str, object]:
     return {"translation_m": [float(row[key]) for key in ("x_m", "y_m", "z_m")], "yaw_rad": float(row["yaw_rad"])}
 
 
-def read_box(row: dict[str, str]) -> dict:
+def read_box(row: dict[str, str]) -> dict[str, object]:
     return {
         "track": row["track"],
         "kind": row["kind"],
@@ -38,7 +39,7 @@ def time_ns(row: dict[str, str]) -> int:
     return int(seconds) * 1_000_000_000 + int(fraction.ljust(9, "0")[:9] or 0)
 
 
-def convert(poses: list[dict[str, str]], boxes: list[dict[str, str]], origin: tuple[float, float]) -> dict:
+def convert(poses: list[dict[str, str]], boxes: list[dict[str, str]], origin: tuple[float, float]) -> dict[str, Any]:
     """The drive as `drive.json` has it."""
     boxes_at = defaultdict(list)
     for row in boxes:
