@@ -50,11 +50,12 @@ chromium: install .tools/chromium/chromium
 	node tests/browser/unpack.mjs .tools/chromium
 	rm -rf .tools/chromium/node_modules
 
-# Feeds every reader with damage; the build is that of the tests, with its checks of overflow.
+# Feeds every reader with damage; the build is that of test-rust, with its checks of overflow.
 SECONDS ?= 10
 SEED ?= 1
 fuzz:
-	cargo run --locked -p trove-fuzz --bin fuzz -- --seconds $(SECONDS) --seed $(SEED)
+	cargo build --locked --workspace --exclude trove-py --bin fuzz
+	$${CARGO_TARGET_DIR:-target}/debug/fuzz --seconds $(SECONDS) --seed $(SEED)
 
 # Plants faults in a copy of the sources, one after another, and shows that a test catches each.
 test-planted:

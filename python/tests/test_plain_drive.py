@@ -57,10 +57,10 @@ def test_inspect_tells_everything_that_is_wrong(converted, tmp_path):
 
 
 def test_a_scene_is_generated_from_it_and_from_what_export_makes_of_it(converted, tmp_path):
-    done = trove("export", converted, "--format", "trove", "--out", tmp_path / "again")
+    done = trove("export", converted, "--format", "trove", "--out", tmp_path / "exported")
     assert done.returncode == 0, done.stderr
     objects = {}
-    for name, root in {"first": converted, "again": tmp_path / "again"}.items():
+    for name, root in {"first": converted, "again": tmp_path / "exported"}.items():
         recipe = tmp_path / f"{name}.toml"
         recipe.write_text(
             f'[drive]\ndataset = "trove"\nroot = "{root}"\nkeyframes = [0]\n[render]\nscale = 0.1\nlight = false\n'
