@@ -1,6 +1,7 @@
 //! Times as devices write them.
 
 use toml::value::{Datetime, Offset};
+use trove_model::days_from_civil;
 
 /// No trace is of a time after 2096, or so long before 1970: differences of times fit into 64 bits.
 const LATEST_NS: u64 = 4_000_000_000_000_000_000;
@@ -38,13 +39,6 @@ fn of_any_unit(text: &str) -> Option<i64> {
     let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
     let seconds = days * 86_400 + of_day_s - offset_min * 60;
     Some(seconds * 1_000_000_000 + time.nanosecond.map_or(0, i64::from))
-}
-
-/// Days since 1970-01-01 of a Gregorian date, with years that start in March so that the leap day comes last.
-fn days_from_civil(year: i64, month: i64, day: i64) -> i64 {
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
 }
 
 #[cfg(test)]

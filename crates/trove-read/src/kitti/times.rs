@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use toml::value::Datetime;
+use trove_model::days_from_civil;
 
 use super::facts::FACTS;
 use super::text;
@@ -29,13 +30,6 @@ fn time_ns(line: &str) -> Option<i64> {
     let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
     let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
     Some((days * 86_400 + of_day_s - FACTS.utc_offset_s) * 1_000_000_000 + time.nanosecond.map_or(0, i64::from))
-}
-
-/// Days since 1970-01-01 of a Gregorian date, with years that start in March so that the leap day comes last.
-fn days_from_civil(year: i64, month: i64, day: i64) -> i64 {
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
 }
 
 #[cfg(test)]

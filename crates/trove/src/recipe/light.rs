@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{Moment, SkyChoice};
+use trove_model::days_from_civil;
 
 use super::check::check;
 
@@ -101,13 +102,6 @@ impl LightSection {
         let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
         Ok(Some((days * 86_400 + of_day_s - offset_min * 60) * 1_000_000_000))
     }
-}
-
-/// Days since 1970-01-01 of a Gregorian date, with years that start in March so that the leap day comes last.
-fn days_from_civil(year: i64, month: i64, day: i64) -> i64 {
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
 }
 
 #[cfg(test)]
