@@ -8,7 +8,7 @@ use trove_model::{
     Outcome, Polygon, Provenance, Report, Scene, SceneObject, Season, StreetMap,
 };
 
-use crate::agreement::{OnDisagreement, agreed};
+use crate::agreement::{OnDisagreement, agreed, assumed};
 use crate::assembly::Stock;
 use crate::assembly::Weather;
 use crate::assembly::{Actor, Assembly};
@@ -17,8 +17,7 @@ use crate::furniture::furniture;
 use crate::ground::{Ground, ground};
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
-use crate::place::{Conditions, Place, Seeds};
-use crate::place::{apart_s, next, previous};
+use crate::place::{Conditions, Place, Seeds, apart_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::surroundings::Clearance;
 use crate::surroundings::Kerbs;
@@ -117,7 +116,10 @@ pub fn build(
     let relief = map.and_then(|map| map.relief.as_ref());
     let map = map.filter(|map| !map.is_only_relief());
     let map = map.and_then(|map| agreed(drive, map, locale.driving_side, bounds, settings.on_disagreement, report));
-    let map = map.as_ref();
+    // Where nothing is known but the recording, it tells where streets are.
+    let assumed = (map.is_none() && drive.lane_map.is_none()).then(|| assumed(drive, locale, report));
+    let known = map.as_ref();
+    let map = assumed.as_ref().or(known);
 
     // Plants are those of the season.
     let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season);
@@ -125,7 +127,9 @@ pub fn build(
 
     // What lies and stands for good.
     let Ground { heights: ground, spans, land } = ground(drive, map, relief, locale.kerb.height_m, bounds, report);
-    let place = Place { drive, map, bounds, ground: &ground, library, locale, conditions, seeds: &seeds, report };
+    let is_assumed = assumed.is_some();
+    let place =
+        Place { drive, map, is_assumed, bounds, ground: &ground, library, locale, conditions, seeds: &seeds, report };
     let surfaces = roads::surfaces(&place, &spans, land);
     let buildings = buildings::buildings(&place, &surfaces);
 
@@ -176,7 +180,7 @@ pub fn build(
     let light = light(drive, bounds, &settings.light, seeds.light.child("light"));
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     switch_on(&light, &mut assembly.stock, lit);
-    let sources = assembly.provenance(drive, map).into_iter().chain(settings.borders.clone());
+    let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {
         light,

@@ -103,7 +103,18 @@ pub(crate) fn place<'a>(
     report: &'a Report,
 ) -> Place<'a> {
     static SINGAPORE: LazyLock<Locale> = LazyLock::new(|| locale("SG"));
-    Place { drive, map, bounds, ground, library, locale: &SINGAPORE, conditions: conditions(), seeds, report }
+    Place {
+        drive,
+        map,
+        is_assumed: false,
+        bounds,
+        ground,
+        library,
+        locale: &SINGAPORE,
+        conditions: conditions(),
+        seeds,
+        report,
+    }
 }
 
 /// The climate and season of the made-up drive.

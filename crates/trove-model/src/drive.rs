@@ -172,6 +172,23 @@ pub struct LidarSweep {
     pub classes: Vec<LidarClass>,
 }
 
+impl LidarSweep {
+    /// Height angle of the highest beam, radians over the horizon: only one point in a hundred is above it; a quarter turn
+    /// where there are no points.
+    pub fn highest_beam_rad(&self) -> f64 {
+        let mut heights: Vec<f64> = self.points_world.iter().map(|p| self.height_rad(p.as_dvec3())).collect();
+        heights.retain(|h| h.is_finite());
+        heights.sort_by(f64::total_cmp);
+        heights.get(heights.len() * 99 / 100).copied().unwrap_or(std::f64::consts::FRAC_PI_2)
+    }
+
+    /// Height angle of a point of World as the sensor sees it, radians over the horizon.
+    pub fn height_rad(&self, point: DVec3) -> f64 {
+        let ray = point - self.origin_world;
+        (ray.z / ray.length().max(1e-6)).asin()
+    }
+}
+
 impl Drive {
     /// Rectangle around the driven path, the annotated objects and the LiDAR points nearer than `reach_m` to the
     /// path; `None` for a drive without keyframes.

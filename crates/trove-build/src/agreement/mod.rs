@@ -1,5 +1,7 @@
-//! How well a street map and a drive agree, and the small correction that lays one on the other.
+//! How well a street map and a drive agree, and the small correction that lays one on the other; and what a drive tells of
+//! its streets where there is no map.
 
+mod assumed;
 mod correction;
 mod evidence;
 mod fit;
@@ -9,6 +11,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Drive, DrivingSide, Outcome, Report, StreetMap};
 
 use crate::geometry::segments::SegmentIndex;
+pub(crate) use assumed::{assumed, has_houses};
 use evidence::{Evidence, Movable, Pulls};
 use fit::{Fit, fit, median_m};
 

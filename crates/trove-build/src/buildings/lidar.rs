@@ -10,7 +10,7 @@ use trove_model::{
     Seed,
 };
 
-use super::volumes::{FIRST_LIDAR_ID, STOREY_M};
+use super::volumes::{FIRST_UNMAPPED_ID, STOREY_M};
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, strip, union};
 use crate::roads::{Footing, RoadSurfaces};
@@ -22,6 +22,12 @@ const REACH_M: f64 = 100.0;
 const SIGHT_M: f64 = 60.0;
 /// Fences, cars and people are below, metres over the ground.
 const LOWEST_M: f64 = 2.5;
+/// A LiDAR whose beams rise no steeper than this sees no near wall so high, radians: lower points of its count, and a
+/// wall that so large a share of is seen within so little of the highest beam goes on above it.
+const LEVEL_RAD: f64 = 0.1;
+const LOWEST_LEVEL_M: f64 = 1.8;
+const EDGE_RAD: f64 = 0.012;
+const EDGE_SHARE: f64 = 0.6;
 /// One point is kept a cube of this side, so that near walls do not outweigh far ones, metres.
 const CUBE_M: f64 = 0.25;
 /// Directions of lines, and the width of the strips that are looked along, metres.
@@ -48,7 +54,7 @@ const MOST_FACADES: usize = 16;
 /// What a map that has buildings does not show this near to them is none, metres.
 const MAPPED_M: f64 = 40.0;
 /// Smaller than this is not built, m².
-const LEAST_M2: f64 = 30.0;
+pub(super) const LEAST_M2: f64 = 30.0;
 /// A longer facade is that of an office or a block of flats, metres.
 const LARGE_M: f64 = 16.0;
 /// Points within this distance of a wall belong to it; of so many of them the highest twentieth is left out.
@@ -60,6 +66,8 @@ const MIN_WALL_POINTS: usize = 20;
 struct Seen {
     at: DVec2,
     above_m: f64,
+    /// Near the highest beam of a LiDAR that sees no higher.
+    is_at_edge: bool,
     /// Where it was seen from.
     origin: DVec2,
 }
@@ -112,14 +120,17 @@ pub(super) fn unmapped(
         taken = union(&[taken, vec![footprint.clone()]].concat());
         // The beams do not reach the eaves.
         let height_m = Some((storeys * STOREY_M).max(facade.top_m));
-        built.push(Building { height_m, ..Building::new(FIRST_LIDAR_ID + built.len() as i64, footprint, Some(kind)) });
+        built.push(Building {
+            height_m,
+            ..Building::new(FIRST_UNMAPPED_ID + built.len() as i64, footprint, Some(kind))
+        });
     }
     report.measure("buildings.from_lidar", built.len() as f64);
     built
 }
 
 /// Kind, storeys and depth of a building of which only a facade of some length is known.
-fn guess(length_m: f64, usual: &LidarBuildings, random: &mut Random) -> (BuildingKind, f64, f64) {
+pub(super) fn guess(length_m: f64, usual: &LidarBuildings, random: &mut Random) -> (BuildingKind, f64, f64) {
     let (drawn, storeys, depth) = (random.unit(), random.unit(), random.unit());
     if length_m < LARGE_M {
         return (
@@ -139,7 +150,7 @@ fn guess(length_m: f64, usual: &LidarBuildings, random: &mut Random) -> (Buildin
 pub(super) fn seen_walls(drive: &Drive, buildings: &[&Building], ground: &HeightField) -> Vec<Option<f64>> {
     let near = Near::new(buildings.iter().map(|b| Some(b.footprint.bounds()?.grown(WALL_M))));
     let mut heights: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for point in structures(drive, ground) {
+    for point in structures(drive, ground).filter(|p| p.above_m > LOWEST_M) {
         let is_at = |&i: &usize| buildings[i].footprint.edge_distance_m(point.at) < WALL_M;
         for i in near.at(Bounds { min: point.at, max: point.at }).filter(is_at) {
             heights.entry(i).or_default().push(point.above_m);
@@ -159,6 +170,9 @@ fn structures<'a>(drive: &'a Drive, ground: &'a HeightField) -> impl Iterator<It
     drive.keyframes.iter().filter_map(|k| Some((k, k.lidar.as_ref()?))).flat_map(move |(keyframe, sweep)| {
         let boxes: Vec<_> = keyframe.boxes.iter().map(|b| b.cuboid.grown(0.25)).collect();
         let labels = (sweep.classes.len() == sweep.points_world.len()).then_some(&sweep.classes);
+        let highest_rad = sweep.highest_beam_rad();
+        let is_level = highest_rad < LEVEL_RAD;
+        let lowest_m = if is_level { LOWEST_LEVEL_M } else { LOWEST_M };
         let is_new = |position: DVec3, cubes: &mut BTreeSet<[i32; 3]>| {
             let cube: IVec3 = (position / CUBE_M).floor().as_ivec3();
             cubes.insert(cube.to_array())
@@ -170,16 +184,18 @@ fn structures<'a>(drive: &'a Drive, ground: &'a HeightField) -> impl Iterator<It
                 continue;
             }
             let above_m = position.z - ground.height_m(position.truncate());
-            if above_m > LOWEST_M && !boxes.iter().any(|b| b.contains(position)) && is_new(position, &mut cubes) {
-                found.push(Seen { at: position.truncate(), above_m, origin: sweep.origin_world.truncate() });
+            if above_m > lowest_m && !boxes.iter().any(|b| b.contains(position)) && is_new(position, &mut cubes) {
+                let is_at_edge = is_level && sweep.height_rad(position) > highest_rad - EDGE_RAD;
+                let origin = sweep.origin_world.truncate();
+                found.push(Seen { at: position.truncate(), above_m, is_at_edge, origin });
             }
         }
         found
     })
 }
 
-/// What nothing may stand on: recorded objects with the vehicle's way, and the sight lines from it to them.
-fn kept_free(drive: &Drive) -> Vec<Polygon> {
+/// What no made-up house may stand on: recorded objects with the vehicle's way, and the sight lines from it to them.
+pub(super) fn kept_free(drive: &Drive) -> Vec<Polygon> {
     let mut free = grown(&union(&recorded(drive).collect::<Vec<_>>()), 1.0);
     let path: Vec<DVec2> = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     free.extend(strip(&path, 2.0));
@@ -269,7 +285,13 @@ impl Line {
         let density = [own.len() as f64 / OWN_M, others / (BESIDE_M - 1.5 * OWN_M)];
         let top_m = own.iter().map(|p| p.above_m).fold(0.0, f64::max);
         let low_m = own.iter().map(|p| p.above_m).fold(f64::INFINITY, f64::min);
-        if density[0] < CONTRAST * density[1] || top_m < MIN_TOP_M || low_m > MAX_LOW_M {
+        let steps = |of: &mut dyn Iterator<Item = &Seen>| {
+            of.map(|p| (p.at.dot(self.along) / STEP_M).floor() as i64).collect::<BTreeSet<_>>().len() as f64
+        };
+        let all = steps(&mut own.iter().copied());
+        let goes_on = steps(&mut own.iter().copied().filter(|p| p.is_at_edge)) > EDGE_SHARE * all;
+        let is_high = top_m > MIN_TOP_M || goes_on;
+        if density[0] < CONTRAST * density[1] || !is_high || low_m > MAX_LOW_M {
             return None;
         }
         let origin = own.first()?.origin;
@@ -297,12 +319,20 @@ mod tests {
     use trove_model::LidarSweep;
 
     fn built(low: DVec3, size: DVec3, mapped: &[Building]) -> Vec<Building> {
+        built_from(&[(low, size, 4000)], mapped)
+    }
+
+    /// From boxes with so many points in each.
+    fn built_from(clouds: &[(DVec3, DVec3, usize)], mapped: &[Building]) -> Vec<Building> {
         let mut random = Seed(2).random();
-        let point = |_| (low + DVec3::new(random.unit(), random.unit(), random.unit()) * size).as_vec3();
+        let mut cloud = |&(low, size, count): &(DVec3, DVec3, usize)| -> Vec<glam::Vec3> {
+            let point = |_| (low + DVec3::new(random.unit(), random.unit(), random.unit()) * size).as_vec3();
+            (0..count).map(point).collect()
+        };
         let mut drive = testing::drive();
         drive.keyframes[2].lidar = Some(LidarSweep {
             origin_world: DVec3::new(10.0, 0.0, 1.8),
-            points_world: (0..4000).map(point).collect(),
+            points_world: clouds.iter().flat_map(&mut cloud).collect(),
             classes: Vec::new(),
         });
         let ground = HeightField::flat(crate::area(&drive).unwrap(), 0.0);
@@ -331,6 +361,17 @@ mod tests {
         assert!(bounds.max.y < -19.5 && bounds.min.y < -27.0 && bounds.size_m().x > 20.0, "{bounds:?}");
         assert!(found[0].height_m.unwrap() >= 6.0);
         assert_eq!(format!("{found:?}"), format!("{:?}", built(low, size, &[])));
+    }
+
+    #[test]
+    fn a_wall_of_which_level_beams_see_only_the_foot_goes_on_above_them_and_a_fence_does_not() {
+        let (low, size) = (DVec3::new(0.0, -20.0, 0.0), DVec3::new(24.0, 0.03, 2.3));
+        let found = built(low, size, &[]);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].height_m.unwrap() > 6.0);
+        // The same points, below beams that rise to 13° and would have seen more of a wall.
+        let [foot, crown] = [(low, size, 4000), (DVec3::new(30.0, -40.0, 9.0), DVec3::ONE, 200)];
+        assert!(built_from(&[foot, crown], &[]).is_empty());
     }
 
     #[test]

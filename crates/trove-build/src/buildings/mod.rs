@@ -7,6 +7,7 @@ mod lidar;
 mod rectangle;
 mod replace;
 mod roof;
+mod rows;
 mod shell;
 mod sight;
 mod volumes;
@@ -42,7 +43,10 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     let mapped = map.map_or(&[][..], |m| &m.buildings);
     let seed = seeds.facades.child("buildings");
     let plan_seed = seeds.place.child("buildings");
-    let unmapped = lidar::unmapped(drive, mapped, &customs.from_lidar, keep_clear, ground, plan_seed, report);
+    let mut unmapped = lidar::unmapped(drive, mapped, &customs.from_lidar, keep_clear, ground, plan_seed, report);
+    if place.is_assumed {
+        unmapped.extend(rows::rows(place, keep_clear, &unmapped, plan_seed));
+    }
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
     let seen_m = lidar::seen_walls(drive, &all, ground);
     let plot = volumes::Plot { drive, customs, streets: keep_clear, ground, bounds, seen_m: &seen_m };

@@ -19,6 +19,8 @@ pub(crate) struct Place<'a> {
     pub drive: &'a Drive,
     /// The street map, laid on the recording; `None` where there is none.
     pub map: Option<&'a StreetMap>,
+    /// Whether that map is none but made up from the recording, streets without houses.
+    pub is_assumed: bool,
     /// The area that is built, World, metres.
     pub bounds: Bounds,
     /// Height of the carriageway.

@@ -69,8 +69,8 @@ pub(crate) struct Casting<'a, 'b> {
 struct Part<'a> {
     /// The token of the first of its row, and the row's middle size.
     row: (&'a str, DVec3),
-    /// Its speed, for whom a single box shows none.
-    alone_mps: f64,
+    /// Its speed, for whom a single box shows none; `None` where that is not known.
+    alone_mps: Option<f64>,
 }
 
 impl<'a> Casting<'a, '_> {
@@ -89,7 +89,7 @@ impl<'a> Casting<'a, '_> {
             let cast = median_size_m(&boxes).and_then(|size_m| {
                 // A row is of one make, which fits its middle size.
                 let row_size_m = row_size_m(self.drive, &rows, first).unwrap_or(size_m);
-                let part = Part { row: (&tracks[first].token, row_size_m), alone_mps: 0.0 };
+                let part = Part { row: (&tracks[first].token, row_size_m), alone_mps: self.annotated_mps(i, track) };
                 self.role(track, &boxes, size_m, &part)
             });
             roles.push(cast.map(|(role, fit)| {
@@ -106,8 +106,15 @@ impl<'a> Casting<'a, '_> {
     pub(crate) fn added(&self, track: &Track, speed_mps: f64) -> Option<Role<'a>> {
         let boxes = self.sound_boxes(track);
         let size_m = median_size_m(&boxes)?;
-        let part = Part { row: (&track.token, size_m), alone_mps: speed_mps };
+        let part = Part { row: (&track.token, size_m), alone_mps: Some(speed_mps) };
         Some(self.role(track, &boxes, size_m, &part)?.0)
+    }
+
+    /// The speed that the annotation of a track's first box states.
+    fn annotated_mps(&self, track: usize, Track { boxes, .. }: &Track) -> Option<f64> {
+        let &(keyframe, _) = boxes.first()?;
+        let object = self.drive.keyframes.get(keyframe)?.boxes.iter().find(|b| b.track == track)?;
+        Some(object.velocity_mps?.truncate().length())
     }
 
     fn sound_boxes(&self, track: &Track) -> Vec<(usize, Cuboid)> {
@@ -130,8 +137,7 @@ impl<'a> Casting<'a, '_> {
         let (first, row_size_m) = part.row;
         let seed = individual_seed(track.kind, seeds).child(&track.token);
         let row_seed = choice_seed(track.kind, seeds).child(first);
-        let sits = track.kind == Kind::Adult;
-        let gait = Gait::new(drive, boxes, size_m.z, sits, part.alone_mps);
+        let gait = Gait::new(drive, boxes, size_m, track.kind, part.alone_mps);
         let of_kind = |mode: Mode| library.of_kind(track.kind).filter(move |asset| mode.allows(asset));
         let mut ranked = ranked(of_kind(gait.main_mode()), row_size_m, track.kind);
         if ranked.is_empty() {

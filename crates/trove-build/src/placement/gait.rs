@@ -1,6 +1,7 @@
 //! In which posture people are seen at every keyframe: who walks is in the phase to which the way so far has led.
 
-use trove_model::{Asset, Cuboid, Drive, Posture, Seed};
+use glam::DVec3;
+use trove_model::{Asset, Class, Cuboid, Drive, Kind, Posture, Seed};
 
 /// Slower than this is standing, m/s: annotators' hands tremble.
 const WALKS_MPS: f64 = 0.35;
@@ -8,6 +9,8 @@ const WALKS_MPS: f64 = 0.35;
 const RUNS_MPS: f64 = 2.2;
 /// A box lower than this is of someone who sits, metres; children are a kind of their own.
 const SITS_M: f64 = 1.3;
+/// A box longer than this share of its height is of someone who takes a step, where nothing else tells.
+const STRIDE_SHARE: f64 = 0.5;
 
 /// What someone does, whatever the phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +43,19 @@ pub(super) struct Gait {
     modes: Vec<Mode>,
     /// Way along its own heading since the first box, metres, for each of its boxes.
     way_m: Vec<f64>,
+    /// Only the box itself tells the posture, so whose fits it best stays.
+    by_size: bool,
 }
 
 impl Gait {
-    /// `alone_mps` is the speed of someone of whom there is one box alone.
-    pub(super) fn new(drive: &Drive, boxes: &[(usize, Cuboid)], height_m: f64, sits: bool, alone_mps: f64) -> Self {
+    /// `alone_mps` is the speed of someone of whom there is one box alone; where it is not known, a long box walks.
+    pub(super) fn new(
+        drive: &Drive,
+        boxes: &[(usize, Cuboid)],
+        size_m: DVec3,
+        kind: Kind,
+        alone_mps: Option<f64>,
+    ) -> Self {
         let time_s = |k: usize| drive.keyframes.get(k).map_or(0.0, |k| k.time_ns as f64 * 1e-9);
         let step_m = |a: &Cuboid, b: &Cuboid| {
             let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
@@ -52,7 +63,8 @@ impl Gait {
             (moved.x * cos + moved.y * sin, moved.truncate().length())
         };
         let mut way_m = vec![0.0; boxes.len()];
-        let mut speeds_mps: Vec<f64> = vec![alone_mps; boxes.len()];
+        let mut speeds_mps: Vec<f64> = vec![alone_mps.unwrap_or(0.0); boxes.len()];
+        let by_size = boxes.len() == 1 && alone_mps.is_none() && kind.class() == Class::Human;
         for i in 1..boxes.len() {
             let ((k, before), (l, now)) = (&boxes[i - 1], &boxes[i]);
             let (ahead_m, far_m) = step_m(before, now);
@@ -65,12 +77,13 @@ impl Gait {
             }
         }
         let mode = |&speed_mps: &f64| match speed_mps {
-            _ if sits && height_m < SITS_M => Mode::Sitting,
+            _ if kind == Kind::Adult && size_m.z < SITS_M => Mode::Sitting,
+            _ if by_size && size_m.x > STRIDE_SHARE * size_m.z => Mode::Walking,
             v if v < WALKS_MPS => Mode::Standing,
             v if v < RUNS_MPS => Mode::Walking,
             _ => Mode::Running,
         };
-        Self { modes: speeds_mps.iter().map(mode).collect(), way_m }
+        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, by_size }
     }
 
     /// Whether it is ever on its way.
@@ -105,6 +118,7 @@ impl Gait {
         let posture = |(mode, way_m): (&Mode, &f64)| {
             let found = match mode {
                 // Who was chosen in this mode stays as chosen.
+                _ if self.by_size && Mode::of(chosen) == Some(*mode) => Some(chosen),
                 Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen),
                 Mode::Standing => drawn(&still[0]),
                 Mode::Sitting => drawn(&still[1]),
@@ -136,8 +150,9 @@ fn phase_off(asset: &Asset, start: f64, way_m: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::testing;
-    use glam::DVec3;
-    use trove_model::{Figure, Kind, Pose};
+    use trove_model::{Figure, Pose};
+
+    const SIZE_M: DVec3 = DVec3::new(0.6, 0.6, 1.75);
 
     fn person(posture: Posture) -> Asset {
         let figure = Figure { person: "adult/a".into(), posture };
@@ -155,7 +170,7 @@ mod tests {
     /// Boxes at every keyframe of the test's drive, so far apart.
     fn boxes(step_m: f64) -> Vec<(usize, Cuboid)> {
         let at = |k: usize| Pose::from_yaw(0.0, DVec3::X * step_m * k as f64);
-        (0..10).map(|k| (k, Cuboid { world_from_body: at(k), size_m: DVec3::new(0.6, 0.6, 1.75) })).collect()
+        (0..10).map(|k| (k, Cuboid { world_from_body: at(k), size_m: SIZE_M })).collect()
     }
 
     fn phase(asset: &Asset) -> Option<f32> {
@@ -170,22 +185,38 @@ mod tests {
         let (drive, people) = (testing::drive(), people());
         let apart_s = (drive.keyframes[1].time_ns - drive.keyframes[0].time_ns) as f64 * 1e-9;
         // An eighth of a cycle a keyframe, at a walking speed for half-second keyframes.
-        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), 1.75, true, 0.0);
+        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), SIZE_M, Kind::Adult, Some(0.0));
         assert_eq!(gait.main_mode(), Mode::Walking, "{apart_s}");
         let postures = gait.postures(&people[0], people.iter(), 1.0, Seed(1));
         let phases: Vec<f32> = postures.iter().map(|a| phase(a).unwrap()).collect();
         for pair in phases.windows(2) {
             assert!(((pair[1] - pair[0]).rem_euclid(1.0) - 0.625).abs() < 1e-6, "{phases:?}");
         }
-        let still = Gait::new(&drive, &boxes(0.01), 1.75, true, 0.0);
+        let still = Gait::new(&drive, &boxes(0.01), SIZE_M, Kind::Adult, Some(0.0));
         assert_eq!(still.main_mode(), Mode::Standing);
         assert!(still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == people[8].id));
     }
 
     #[test]
+    fn a_single_box_walks_where_it_is_long_and_keeps_the_step_that_fits_it() {
+        let (drive, people) = (testing::drive(), people());
+        let new = |length_m, mps| Gait::new(&drive, &boxes(0.0)[..1], SIZE_M.with_x(length_m), Kind::Adult, mps);
+        assert_eq!(new(0.6, None).main_mode(), Mode::Standing);
+        assert_eq!(new(1.2, Some(0.0)).main_mode(), Mode::Standing);
+        assert_eq!(new(0.6, Some(1.4)).main_mode(), Mode::Walking);
+        let car = Gait::new(&drive, &boxes(0.0)[..1], DVec3::new(4.5, 1.8, 1.5), Kind::Car, None);
+        assert!(!car.moves());
+        let long = new(1.2, None);
+        assert_eq!(long.main_mode(), Mode::Walking);
+        for chosen in &people[..8] {
+            assert_eq!(long.postures(chosen, people.iter(), 1.0, Seed(1))[0].id, chosen.id);
+        }
+    }
+
+    #[test]
     fn a_low_box_is_of_someone_who_sits_and_other_assets_have_no_posture() {
         let (drive, people) = (testing::drive(), people());
-        let gait = Gait::new(&drive, &boxes(0.0), 1.2, true, 0.0);
+        let gait = Gait::new(&drive, &boxes(0.0), SIZE_M.with_z(1.2), Kind::Adult, Some(0.0));
         assert_eq!(gait.main_mode(), Mode::Sitting);
         assert!(Mode::Sitting.allows(&people[9]) && !Mode::Sitting.allows(&people[0]));
         let car = testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5]);

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use trove_model::{Cuboid, Keyframe, Kind, LidarClass, LidarSweep, Seed};
+use trove_model::{Cuboid, Keyframe, Kind, LidarClass, Seed};
 
 use super::columns::Columns;
 use super::wish::{Wish, species_group};
@@ -124,7 +124,7 @@ fn leaves(keyframe: &Keyframe, around: &Surroundings, clearance: &Clearance) -> 
         .map(|b| b.cuboid.grown(0.25))
         .map(|cuboid| (cuboid, cuboid.size_m.length_squared() / 4.0))
         .collect();
-    let highest_rad = highest_beam_rad(sweep);
+    let highest_rad = sweep.highest_beam_rad();
     let labels = (sweep.classes.len() == sweep.points_world.len()).then_some(&sweep.classes);
     let mut leaves = Vec::new();
     for (i, point) in sweep.points_world.iter().enumerate() {
@@ -132,8 +132,7 @@ fn leaves(keyframe: &Keyframe, around: &Surroundings, clearance: &Clearance) -> 
             continue;
         }
         let position = point.as_dvec3();
-        let ray = position - sweep.origin_world;
-        let range_m = ray.length();
+        let range_m = position.distance(sweep.origin_world);
         let plane = position.truncate();
         if !(OWN_BODY_M..REACH_M).contains(&range_m) || !around.place.bounds.contains(plane) {
             continue;
@@ -150,22 +149,11 @@ fn leaves(keyframe: &Keyframe, around: &Surroundings, clearance: &Clearance) -> 
             position,
             above_m,
             mass: (range_m / UNIT_RANGE_M).powi(2),
-            cut: (ray.z / range_m).asin() > highest_rad - BEAM_EDGE_RAD,
+            cut: sweep.height_rad(position) > highest_rad - BEAM_EDGE_RAD,
             labelled: labels.is_some(),
         });
     }
     leaves
-}
-
-/// Height angle of the highest beam: only one point in a hundred is above it.
-fn highest_beam_rad(sweep: &LidarSweep) -> f64 {
-    let heights = sweep.points_world.iter().map(|p| {
-        let ray = p.as_dvec3() - sweep.origin_world;
-        (ray.z / ray.length().max(1e-6)).asin()
-    });
-    let mut heights: Vec<f64> = heights.filter(|h| h.is_finite()).collect();
-    heights.sort_by(f64::total_cmp);
-    heights.get(heights.len() * 99 / 100).copied().unwrap_or(std::f64::consts::FRAC_PI_2)
 }
 
 /// Sums of the points in a cube, from its corner.
@@ -236,7 +224,7 @@ mod tests {
     use crate::placement::Stand;
     use crate::surroundings::Kerbs;
     use crate::testing;
-    use trove_model::{HeightField, Report};
+    use trove_model::{HeightField, LidarSweep, Report};
 
     /// A crown 4 m above the land, a wall beside it, and a sensor on the road.
     fn sweep(labelled: bool) -> LidarSweep {

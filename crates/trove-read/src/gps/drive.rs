@@ -20,6 +20,10 @@ const LONG_GAP_S: f64 = 10.0;
 const MOST_KEYFRAMES: f64 = 200_000.0;
 /// Nanoseconds of 1 January 2000: devices that count from elsewhere are earlier.
 const YEAR_2000_NS: i64 = 946_684_800_000_000_000;
+/// What their traces begin at: noon of 21 June 2000 at longitude 0.
+const UNKNOWN_NS: i64 = 961_588_800_000_000_000;
+/// The sun takes so long for a degree, nanoseconds.
+const DEGREE_NS: f64 = 240e9;
 
 /// How far apart keyframes stand.
 #[derive(Clone, Copy, Debug)]
@@ -39,10 +43,13 @@ pub(super) fn drive(
 ) -> Result<Drive, Fault> {
     let kept = clean::possible(fixes, report);
     let Some(first) = kept.first() else { return Err(Fault::new("the whole", "positions with their times", "none")) };
-    if first.time_ns < YEAR_2000_NS {
-        let what = "GPS: times that do not count from 1970: light.time says when it was";
-        report.note(Outcome::Warned, what, name);
-    }
+    let start_ns = if first.time_ns < YEAR_2000_NS {
+        let what = "GPS: times that do not count from 1970: noon in June, unless light.time says when it was";
+        report.note(Outcome::Guessed, what, name);
+        UNKNOWN_NS - (first.lon_deg * DEGREE_NS) as i64
+    } else {
+        first.time_ns
+    };
     let projection = MapProjection::ellipsoidal(first.lat_deg, first.lon_deg, DVec2::ZERO);
     let seconds = |fix: &Fix| fix.time_ns.saturating_sub(first.time_ns) as f64 * 1e-9;
     let times_s: Vec<f64> = kept.iter().map(seconds).collect();
@@ -75,7 +82,7 @@ pub(super) fn drive(
     for n in 0..=(whole / step + 1e-9) as usize {
         let (i, share) = between(scale, n as f64 * step);
         let (time_s, world_from_ego) = moment(&samples, &poses, i, share);
-        let time_ns = first.time_ns.saturating_add((time_s * 1e9).round() as i64);
+        let time_ns = start_ns.saturating_add((time_s * 1e9).round() as i64);
         keyframes.push(keyframe(n, time_ns, world_from_ego, rig));
     }
     report.note(Outcome::Guessed, "recording vehicle's size: that of an ordinary car", name);

@@ -2,8 +2,8 @@
 
 use trove_model::{Building, BuildingCustoms, BuildingKind, Polygon, RoofShape};
 
-/// Ids of buildings that only the LiDAR saw start here, far below those of any relation.
-pub(in crate::buildings) const FIRST_LIDAR_ID: i64 = i64::MIN / 2;
+/// Ids of buildings that are on no map start here, far below those of any relation.
+pub(in crate::buildings) const FIRST_UNMAPPED_ID: i64 = i64::MIN / 2;
 /// A side is covered if this share of its length is.
 const COVERED_SHARE: f64 = 0.6;
 /// Height of a storey that is not measured.
@@ -79,10 +79,10 @@ impl<'a> House<'a> {
     }
 }
 
-/// `osm way 12`; `LiDAR building 3` for one that no map has.
+/// `osm way 12`; `unmapped building 3` for one that is on no map.
 pub(in crate::buildings) fn name(building: &Building) -> String {
-    if building.id < FIRST_LIDAR_ID / 2 {
-        return format!("LiDAR building {}", building.id - FIRST_LIDAR_ID);
+    if building.id < FIRST_UNMAPPED_ID / 2 {
+        return format!("unmapped building {}", building.id - FIRST_UNMAPPED_ID);
     }
     if building.id < 0 { format!("osm relation {}", -building.id) } else { format!("osm way {}", building.id) }
 }

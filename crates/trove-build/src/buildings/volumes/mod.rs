@@ -19,7 +19,7 @@ use crate::surroundings::recorded;
 use heights::{Neighbourhood, heights};
 #[cfg(test)]
 pub(super) use house::Beside;
-pub(super) use house::{FIRST_LIDAR_ID, House, STOREY_M, Volume, name};
+pub(super) use house::{FIRST_UNMAPPED_ID, House, STOREY_M, Volume, name};
 
 /// A building of which less than this share stands clear of the road is a mistake of one of the maps.
 const CLEAR_SHARE: f64 = 0.5;
