@@ -4,7 +4,8 @@
 
 OUT is what `trove generate` wrote from KITTI's object or tracking benchmark, and LABELS the folder of its label files
 (`label_2`, `label_02`). Every car that the annotators call whole and unhidden is looked up by its token in
-`ego.image_02` of frames in the recording's size; compared are their rectangle and that of the rendered model's pixels as if nothing hid it.
+`ego.image_02` of frames in the recording's size; compared are their rectangle and that of the rendered model's pixels
+as if nothing hid it.
 
 The exit status is 1 where the mean of their IoU is below 0.75, or nothing was compared.
 """
