@@ -80,6 +80,7 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
         world_from_camera: Pose::new(DQuat::from_mat3(&DMat3::from_cols(across, -up, -normal)), normal * 2.0),
         world_from_camera_previous: None,
         world_from_camera_next: None,
+        beside: [None; 2],
         time_ns: 0,
         shutter: Shutter::INSTANT,
         spp: 64,

@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Bounds, BuildingCustoms, Camera, Cuboid, Distortion, Drive, DriveOrigin, Ego, EgoBody,
     Exposure, HeightField, Keyframe, Kind, Lane, LaneMap, Lens, Locale, MapProjection, Material, Mesh, ObjectBox,
-    Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track,
+    Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed, Slot, StreetMap, Track, Trajectory,
 };
 use trove_read::locale::Locales;
 
@@ -198,6 +198,8 @@ pub(crate) fn drive() -> Drive {
         is_georeferenced: true,
         projection: MapProjection::spherical(1.3, 103.8, DVec2::ZERO),
         keyframes: (0..10).map(keyframe).collect(),
+        path: Trajectory::default(),
+        sweeps: Vec::new(),
         tracks: cast.iter().map(track).collect(),
         rig,
         ego_body: EgoBody { centre_ego: DVec3::new(1.0, 0.0, 0.78), size_m: DVec3::new(4.1, 1.8, 1.56) },

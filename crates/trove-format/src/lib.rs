@@ -57,7 +57,7 @@ pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
 pub use plain_drive::{
     PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoPose, PlainGeoreference, PlainKeyframe, PlainLane,
-    PlainLaneMap, PlainLaneMark, PlainLidar, PlainPicture, PlainPolygon, PlainPose,
+    PlainLaneMap, PlainLaneMark, PlainLidar, PlainMoment, PlainPicture, PlainPolygon, PlainPose, PlainSweep,
 };
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{

@@ -39,6 +39,12 @@ pub struct PlainDrive<K = PlainKeyframe, C = PlainCamera> {
     /// The road as the recording's own map has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lane_map: Option<PlainLaneMap>,
+    /// The vehicle between the keyframes too, in the order of time; default: no more is known than there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<PlainMoment>,
+    /// LiDAR sweeps between the keyframes, in the order of time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sweeps: Vec<PlainSweep>,
     /// The annotated moments in the order of time; in `drive.jsonl` they follow, one a line.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keyframes: Vec<K>,
@@ -278,6 +284,32 @@ pub struct PlainBox {
     /// Visible share, 0 to 1; default: unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visibility: Option<f32>,
+}
+
+/// Where the vehicle was at a time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "Moment"))]
+#[serde(deny_unknown_fields)]
+pub struct PlainMoment {
+    /// Nanoseconds since 1970 UTC; later than the moment before.
+    pub time_ns: i64,
+    /// The vehicle in World.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub world_from_ego: Option<PlainPose>,
+    /// Instead, where the georeference is `wgs84`: the vehicle on the earth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geo_from_ego: Option<PlainGeoPose>,
+}
+
+/// A LiDAR sweep between keyframes; the vehicle is where `path` has it at that time, or else between the keyframes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "Sweep"))]
+#[serde(deny_unknown_fields)]
+pub struct PlainSweep {
+    /// Nanoseconds since 1970 UTC; later than the sweep before.
+    pub time_ns: i64,
+    /// The LiDAR's points.
+    pub lidar: PlainLidar,
 }
 
 /// A LiDAR sweep.

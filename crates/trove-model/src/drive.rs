@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, World};
+use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, Trajectory, World};
 
 /// One recorded scene: where the vehicle went, what its cameras saw, and who was there.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,10 @@ pub struct Drive {
     pub ego_body: EgoBody,
     /// Annotated moments in the order of time.
     pub keyframes: Vec<Keyframe>,
+    /// The vehicle between the keyframes too; empty where the recording knows no more than they do.
+    pub path: Trajectory<World, Ego>,
+    /// What the LiDAR saw between the keyframes, in the order of time.
+    pub sweeps: Vec<Sweep>,
     /// Objects followed over time; [`ObjectBox::track`] is an index into it.
     pub tracks: Vec<Track>,
     /// The dataset's own map.
@@ -172,6 +176,15 @@ pub struct LidarSweep {
     pub classes: Vec<LidarClass>,
 }
 
+/// One LiDAR revolution that no keyframe has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Time of it, nanoseconds since 1970 UTC.
+    pub time_ns: i64,
+    /// Its points.
+    pub lidar: LidarSweep,
+}
+
 impl LidarSweep {
     /// Height angle of the highest beam, radians over the horizon: only one point in a hundred is above it; a quarter turn
     /// where there are no points.
@@ -186,6 +199,12 @@ impl LidarSweep {
     pub fn height_rad(&self, point: DVec3) -> f64 {
         let ray = point - self.origin_world;
         (ray.z / ray.length().max(1e-6)).asin()
+    }
+
+    /// Moves sensor and points.
+    pub fn move_by(&mut self, moved: &Pose<World, World>) {
+        self.origin_world = moved.point(self.origin_world);
+        self.points_world.iter_mut().for_each(|p| *p = moved.point(p.as_dvec3()).as_vec3());
     }
 }
 
@@ -204,6 +223,18 @@ impl Drive {
         Bounds::around(path.chain(boxes).chain(points))
     }
 
+    /// The vehicle at a time, nanoseconds since 1970 UTC: on its path, else between the keyframes, and at the first or last
+    /// beyond them; `None` for a drive without keyframes.
+    pub fn world_from_ego_at(&self, time_ns: i64) -> Option<Pose<World, Ego>> {
+        self.path.at(time_ns).or_else(|| {
+            let next = self.keyframes.partition_point(|k| k.time_ns <= time_ns);
+            let (before, after) = (next.checked_sub(1).and_then(|i| self.keyframes.get(i)), self.keyframes.get(next));
+            let (Some(a), Some(b)) = (before, after) else { return before.or(after).map(|k| k.world_from_ego) };
+            let share = time_ns.saturating_sub(a.time_ns) as f64 / b.time_ns.saturating_sub(a.time_ns) as f64;
+            Some(a.world_from_ego.interpolate(&b.world_from_ego, share))
+        })
+    }
+
     /// Laid in another World, whose z axis is this one's: everything recorded, and the dataset's own map, turned by
     /// `turn_rad` counter-clockwise about the origin and then shifted in plane.
     pub fn moved(mut self, turn_rad: f64, shift_m: DVec2) -> Self {
@@ -218,10 +249,11 @@ impl Drive {
                 object.velocity_mps = object.velocity_mps.map(|velocity| moved.vector(velocity));
             }
             if let Some(sweep) = &mut keyframe.lidar {
-                sweep.origin_world = moved.point(sweep.origin_world);
-                sweep.points_world.iter_mut().for_each(|p| *p = moved.point(p.as_dvec3()).as_vec3());
+                sweep.move_by(&moved);
             }
         }
+        self.path = self.path.map(|_, pose| moved * *pose);
+        self.sweeps.iter_mut().for_each(|sweep| sweep.lidar.move_by(&moved));
         for (_, cuboid) in self.tracks.iter_mut().flat_map(|track| &mut track.boxes) {
             cuboid.world_from_body = moved * cuboid.world_from_body;
         }
@@ -281,7 +313,7 @@ mod tests {
             world_from_ego: pose,
             exposures: vec![exposure],
             boxes: vec![object],
-            lidar: Some(sweep),
+            lidar: Some(sweep.clone()),
         };
         let corners = [[6.0, 6.0], [9.0, 6.0], [9.0, 9.0]].map(DVec2::from_array).to_vec();
         let drive = Drive {
@@ -294,6 +326,8 @@ mod tests {
             rig: Vec::new(),
             ego_body: EgoBody { centre_ego: DVec3::ZERO, size_m: DVec3::ONE },
             keyframes: vec![keyframe],
+            path: Trajectory::new(vec![(0, pose)]).0,
+            sweeps: vec![Sweep { time_ns: 0, lidar: sweep }],
             tracks: vec![Track { token: String::new(), kind: Kind::Car, boxes: vec![(0, cuboid)] }],
             lane_map: Some(LaneMap { drivable: vec![Polygon::simple(corners)], ..LaneMap::default() }),
             licence: String::new(),
@@ -311,8 +345,12 @@ mod tests {
                 ego.point(sweep.points_world[0].as_dvec3()),
                 ego.point(keyframe.exposures[0].world_from_ego.point(DVec3::X)),
                 ego.point(corner.extend(0.0)),
+                ego.point(drive.path.at(0).unwrap().point(DVec3::X)),
+                ego.point(drive.sweeps[0].lidar.points_world[0].as_dvec3()),
             ]
         };
+        assert_eq!(drive.world_from_ego_at(0), Some(pose));
+        assert_eq!(drive.world_from_ego_at(-9), Some(pose), "at the first keyframe");
         let before = seen(&drive);
         let moved = drive.moved(1.2, DVec2::new(-30.0, 7.0));
         for (a, b) in before.iter().zip(seen(&moved)) {

@@ -63,6 +63,7 @@ mod shot;
 mod street_map;
 mod surface_kind;
 mod tags;
+mod trajectory;
 mod variation;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
@@ -70,7 +71,9 @@ pub use calendar::days_from_civil;
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
 pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, LabelRow, label_rows, label_table};
 pub use cuboid::Cuboid;
-pub use drive::{Drive, DriveOrigin, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Track};
+pub use drive::{
+    Drive, DriveOrigin, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Sweep, Track,
+};
 pub use facade::{Course, FacadeDesign, Filling, Fixtures, Interior, Opening};
 pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
@@ -98,7 +101,7 @@ pub use role::Role;
 pub use scene::{Instance, InstanceId, Origin, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
-pub use shot::{ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
+pub use shot::{CameraBeside, ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
 pub use street_map::{
     BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
@@ -106,3 +109,4 @@ pub use street_map::{
 };
 pub use surface_kind::SurfaceKind;
 pub use tags::Tags;
+pub use trajectory::{Disorder, Trajectory};

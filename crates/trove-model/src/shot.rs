@@ -76,23 +76,19 @@ impl SensorModel {
     };
 }
 
-/// When the sensor's rows see light, and how far the neighbouring keyframes are in time. Of exposure and readout together
-/// things move for the middle 0.1 s and stand before and after it; the camera moves all the time.
+/// When the sensor's rows see light. Of exposure and readout together things move for the middle 0.1 s and stand before
+/// and after it; the camera moves all the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
     /// Time for which every row is exposed, seconds; 0 is an instant.
     pub exposure_s: f64,
     /// From the first row's exposure to the last one's, seconds; 0 is a global shutter.
     pub readout_s: f64,
-    /// From the previous keyframe's picture to this one, seconds, more than 0; infinite where there is none.
-    pub since_previous_s: f64,
-    /// From this picture to the next keyframe's, seconds, more than 0; infinite where there is none.
-    pub until_next_s: f64,
 }
 
 impl Shutter {
-    /// Everything at once; keyframes half a second apart.
-    pub const INSTANT: Self = Self { exposure_s: 0.0, readout_s: 0.0, since_previous_s: 0.5, until_next_s: 0.5 };
+    /// Everything at once.
+    pub const INSTANT: Self = Self { exposure_s: 0.0, readout_s: 0.0 };
 
     /// Whether a picture is taken all at once.
     pub fn is_instant(&self) -> bool {
@@ -125,6 +121,15 @@ pub enum Viewpoint {
     Free,
 }
 
+/// Where a shot's camera is some time before or after the exposure's middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraBeside {
+    /// That time, seconds, more than 0.
+    pub apart_s: f64,
+    /// Its pose then.
+    pub world_from_camera: Pose<World, Camera>,
+}
+
 /// A camera at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
@@ -140,6 +145,8 @@ pub struct Shot {
     pub world_from_camera_previous: Option<Pose<World, Camera>>,
     /// The same camera at the next keyframe; `None` where there is none, and forward flow is not defined.
     pub world_from_camera_next: Option<Pose<World, Camera>>,
+    /// The camera shortly before, and shortly after: how it moves while light is gathered. Where both are missing it stands.
+    pub beside: [Option<CameraBeside>; 2],
     /// Time of the exposure's middle, to which pose and labels belong, nanoseconds since 1970 UTC.
     pub time_ns: i64,
     /// When light is gathered for the picture around that time.
@@ -168,6 +175,7 @@ impl Shot {
             world_from_camera,
             world_from_camera_previous: None,
             world_from_camera_next: None,
+            beside: [None; 2],
             time_ns: 0,
             shutter: Shutter::INSTANT,
             spp: 1,
@@ -184,14 +192,17 @@ impl Shot {
         SensorRay { origin: self.world_from_camera.translation, direction, time_s: 0.0 }
     }
 
-    /// The camera's pose `time_s` seconds after the exposure's middle: it moves evenly between the keyframes, and as
-    /// between the others where one is missing; without any it stands still.
+    /// The camera's pose `time_s` seconds after the exposure's middle: it moves evenly from where it is before, and to where
+    /// it is after, and on from one where the other is missing.
     pub fn world_from_camera_at(&self, time_s: f64) -> Pose<World, Camera> {
-        let towards = |other: &Pose<World, Camera>, share: f64| self.world_from_camera.interpolate(other, share);
-        let next = self.world_from_camera_next.map(|p| towards(&p, time_s / self.shutter.until_next_s));
-        let previous = self.world_from_camera_previous.map(|p| towards(&p, -time_s / self.shutter.since_previous_s));
-        let (first, second) = if time_s >= 0.0 { (next, previous) } else { (previous, next) };
-        first.or(second).unwrap_or(self.world_from_camera)
+        let [before, after] = self.beside;
+        let (other, after_s) = match (before, after) {
+            (Some(before), None) => (before, -before.apart_s),
+            (Some(before), _) if time_s < 0.0 => (before, -before.apart_s),
+            (_, Some(after)) => (after, after.apart_s),
+            (None, None) => return self.world_from_camera,
+        };
+        self.world_from_camera.interpolate(&other.world_from_camera, time_s / after_s)
     }
 }
 
@@ -218,7 +229,7 @@ mod tests {
     use crate::Distortion;
 
     #[test]
-    fn a_camera_moves_evenly_and_on_where_a_keyframe_is_missing() {
+    fn a_camera_moves_evenly_and_on_where_one_side_is_missing() {
         let at = |yaw_rad: f64, x: f64| Pose::from_yaw(yaw_rad, DVec3::X * x);
         let lens = Lens {
             width_px: 1,
@@ -229,9 +240,10 @@ mod tests {
             cy_px: 0.5,
             distortion: Distortion::None,
         };
+        let beside = |pose| Some(CameraBeside { apart_s: 0.5, world_from_camera: pose });
         let mut shot = Shot {
-            world_from_camera_next: Some(at(0.4, 5.0)),
-            shutter: Shutter { exposure_s: 0.01, readout_s: 0.03, ..Shutter::INSTANT },
+            beside: [None, beside(at(0.4, 5.0))],
+            shutter: Shutter { exposure_s: 0.01, readout_s: 0.03 },
             ..Shot::new("v", lens, at(0.0, 0.0))
         };
         assert_eq!(shot.shutter.time_s(0.5, 0.5), 0.0);
@@ -240,7 +252,11 @@ mod tests {
             let pose = shot.world_from_camera_at(time_s);
             assert!((pose.translation.x - 10.0 * time_s).abs() < 1e-9 && (pose.yaw_rad() - 0.8 * time_s).abs() < 1e-5);
         }
-        shot.world_from_camera_previous = Some(at(0.0, -1.0));
+        shot.beside[0] = beside(at(0.0, -1.0));
         assert!((shot.world_from_camera_at(-0.05).translation.x + 0.1).abs() < 1e-9);
+        shot.beside[1] = None;
+        assert!((shot.world_from_camera_at(0.05).translation.x - 0.1).abs() < 1e-9);
+        shot.beside[0] = None;
+        assert_eq!(shot.world_from_camera_at(0.05), shot.world_from_camera);
     }
 }

@@ -25,6 +25,8 @@ const INSTANCES: usize = 76;
 const TRACK: usize = 18;
 /// `sample_data` rows of a scene for each sensor: keyframes and what lies between them.
 const SWEEPS: usize = 258;
+/// Points of a LiDAR sweep.
+const SWEEP_POINTS: usize = 34_720;
 /// Between two samples, microseconds.
 const PERIOD_US: i64 = 500_000;
 
@@ -63,6 +65,7 @@ fn measure_all(scenes: usize) -> Outcome<()> {
         bytes as f64 / 1e9,
         start.elapsed().as_secs_f64()
     );
+    write_sweeps(root.path(), scenes / 2)?;
     for pass in ["first pass and one scene", "later, one scene"] {
         println!("{pass}:");
         let status = Command::new(std::env::current_exe()?).arg("load").arg(root.path()).arg(&cache).status()?;
@@ -81,12 +84,15 @@ fn load(root: &Path, cache: &Path) -> Outcome<()> {
     let dataset = NuScenes::open(root, VERSION, Some(cache), &report)?;
     let opened_s = start.elapsed().as_secs_f64();
     let scenes = dataset.scenes();
-    let drive = dataset.drive(&scenes[scenes.len() / 2].name, &report)?;
+    let scene = &scenes[scenes.len() / 2].name;
+    let drive = dataset.drive(scene, &report)?;
     let total_s = start.elapsed().as_secs_f64();
     let boxes: usize = drive.keyframes.iter().map(|k| k.boxes.len()).sum();
     assert_eq!((drive.keyframes.len(), boxes, drive.rig.len()), (SAMPLES, INSTANCES * TRACK, 6));
+    assert_eq!(drive.path.moments().len(), SWEEPS);
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).map_or("unknown", str::trim);
+    println!("  {} sweeps between keyframes of {} points", drive.sweeps.len(), SWEEP_POINTS);
     println!("  open {opened_s:.2} s, scene {:.2} s, together {total_s:.2} s, peak memory {peak}", total_s - opened_s);
     Ok(())
 }
@@ -171,18 +177,47 @@ fn write_tables(folder: &Path, scenes: usize) -> Outcome<u64> {
     Ok(written)
 }
 
+/// Writes the LiDAR files of a scene.
+fn write_sweeps(root: &Path, scene: usize) -> Outcome<()> {
+    let mut random = Seed(4).random();
+    for i in 0..SWEEPS {
+        let mut points = Vec::with_capacity(SWEEP_POINTS * 20);
+        for _ in 0..SWEEP_POINTS {
+            let point = [random.range(-50.0, 50.0), random.range(-50.0, 50.0), -1.8, 7.0, 3.0];
+            points.extend(point.iter().flat_map(|v| (*v as f32).to_le_bytes()));
+        }
+        let path = root.join(file(scene, i, &CHANNELS[0]));
+        std::fs::create_dir_all(path.parent().ok_or("a file below a folder")?)?;
+        std::fs::write(path, points)?;
+    }
+    Ok(())
+}
+
+/// Time of a scene's i-th row of a sensor, microseconds.
+fn time_us(scene: usize, i: usize) -> i64 {
+    start_us(scene) + i as i64 * PERIOD_US * SAMPLES as i64 / SWEEPS as i64
+}
+
+/// The sample that a row belongs to, and whether it is the first of it.
+fn sample(i: usize) -> (usize, bool) {
+    let key = i * SAMPLES / SWEEPS;
+    (key, i == 0 || (i - 1) * SAMPLES / SWEEPS < key)
+}
+
+fn file(scene: usize, i: usize, (channel, _, ending): &(&str, &str, &str)) -> String {
+    let folder = if sample(i).1 { "samples" } else { "sweeps" };
+    let time_us = time_us(scene, i);
+    format!("{folder}/{channel}/n008-2018-08-01-15-16-36-0400__{channel}__{time_us}.{ending}")
+}
+
 fn write_sensor_data(mut data: Table, mut poses: Table, scenes: usize) -> Outcome<u64> {
     let mut random = Seed(2).random();
     for i in 0..SWEEPS {
         for scene in 0..scenes {
-            let key = i * SAMPLES / SWEEPS;
-            let is_key = i == 0 || (i - 1) * SAMPLES / SWEEPS < key;
-            let time_us = start_us(scene) + i as i64 * PERIOD_US * SAMPLES as i64 / SWEEPS as i64;
-            for (c, (channel, modality, ending)) in CHANNELS.iter().enumerate() {
+            let ((key, is_key), time_us) = (sample(i), time_us(scene, i));
+            for (c, sensor @ (_, modality, ending)) in CHANNELS.iter().enumerate() {
                 let me = token("sample_data", (scene * SWEEPS + i) * 12 + c);
-                let folder = if is_key { "samples" } else { "sweeps" };
                 let (height, width) = if *modality == "camera" { (900, 1600) } else { (0, 0) };
-                let file = format!("{folder}/{channel}/n008-2018-08-01-15-16-36-0400__{channel}__{time_us}.{ending}");
                 data.row(&[
                     text("token", &me),
                     text("sample_token", &token("sample", scene * SAMPLES + key)),
@@ -193,7 +228,7 @@ fn write_sensor_data(mut data: Table, mut poses: Table, scenes: usize) -> Outcom
                     plain("is_key_frame", is_key),
                     plain("height", height),
                     plain("width", width),
-                    text("filename", &file),
+                    text("filename", &file(scene, i, sensor)),
                     text("prev", &neighbour("sample_data", scene, SWEEPS, i, -1)),
                     text("next", &neighbour("sample_data", scene, SWEEPS, i, 1)),
                 ])?;

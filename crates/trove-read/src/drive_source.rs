@@ -90,6 +90,12 @@ pub struct DriveDescription {
     pub tracks: usize,
     /// How many boxes there are in all keyframes, by the names of their classes.
     pub boxes: BTreeMap<&'static str, usize>,
+    /// How many poses of the vehicle there are with those between the keyframes; 0 where no more is known than there.
+    pub path_poses: usize,
+    /// How many of these a second, from the first to the last; 0 without them.
+    pub path_hz: f64,
+    /// How many LiDAR sweeps between the keyframes are read.
+    pub sweeps_between: usize,
     /// How many keyframes have a LiDAR sweep.
     pub lidar_keyframes: usize,
     /// Whether LiDAR returns have classes.
@@ -107,6 +113,8 @@ impl DriveDescription {
         let sweeps = || keyframes.iter().filter_map(|k| k.lidar.as_ref());
         let duration_ns =
             keyframes.first().zip(keyframes.last()).map_or(0, |(first, last)| last.time_ns - first.time_ns);
+        let path = drive.path.moments();
+        let path_ns = path.first().zip(path.last()).map_or(0, |(first, last)| last.0.saturating_sub(first.0));
         let position = |i: usize| keyframes[i].world_from_ego.translation;
         let mut boxes = BTreeMap::new();
         for object in keyframes.iter().flat_map(|k| &k.boxes) {
@@ -125,6 +133,9 @@ impl DriveDescription {
             cameras: drive.rig.iter().map(|camera| camera.name.clone()).collect(),
             tracks: drive.tracks.len(),
             boxes,
+            path_poses: path.len(),
+            path_hz: if path_ns > 0 { (path.len() - 1) as f64 / (path_ns as f64 * 1e-9) } else { 0.0 },
+            sweeps_between: drive.sweeps.len(),
             lidar_keyframes: sweeps().count(),
             lidar_labels: sweeps().any(|sweep| !sweep.classes.is_empty()),
             lane_map: drive.lane_map.is_some(),

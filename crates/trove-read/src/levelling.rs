@@ -3,14 +3,15 @@
 //! Where every ego pose has z = 0, on a slope the same standing cone rises or sinks from keyframe to keyframe by up to a
 //! metre. What stands still tells the truth: a small rigid motion (height, and tilt about two axes) is sought after which
 //! all standing objects keep their heights. It is sought at knots, and linear in time between them. Camera, LiDAR and
-//! boxes of a keyframe move together, so every projection stays what the devkit says.
+//! boxes of a keyframe move together, so every projection stays what the devkit says; what was recorded between two of them
+//! moves with both.
 //!
 //! Least squares with Huber's weights; the objects' heights are eliminated, and a system of three unknowns a knot is left.
 
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec2, DVec3};
-use trove_model::{Drive, Outcome, Pose, Report, Track, World};
+use trove_model::{Drive, Keyframe, Outcome, Pose, Report, Track, World};
 
 /// An object that moves less than this over the drive stands still.
 const STANDING_M: f64 = 1.0;
@@ -41,7 +42,10 @@ pub(crate) struct Trust {
     pub(crate) step_ns: i64,
 }
 
-/// Between which knots a keyframe lies: the first of them, and the second's share.
+/// When there are knots, nanoseconds, each later than the one before.
+struct Knots(Vec<i64>);
+
+/// Between which knots a moment lies: the first of them, and the second's share.
 #[derive(Clone, Copy)]
 struct Between {
     knot: usize,
@@ -51,7 +55,7 @@ struct Between {
 /// A standing object's bottom at a keyframe.
 struct Sight {
     between: Between,
-    /// Derivatives of its height by the keyframe's height and tilts: 1 and the distance to the vehicle in x and y.
+    /// Derivatives of its height by the vehicle's height and tilts: 1 and the distance to the vehicle in x and y.
     slope: [f64; 3],
     height_m: f64,
     weight: f64,
@@ -60,47 +64,57 @@ struct Sight {
 
 /// Moves each keyframe of a drive so that what stands still keeps its height.
 pub(crate) fn level(drive: &mut Drive, trust: &Trust, report: &Report) {
-    let (knots, between) = knots(drive, trust.step_ns);
+    let knots = Knots::of(drive, trust.step_ns);
     let mut objects: Vec<Vec<Sight>> =
-        drive.tracks.iter().filter(|track| stands(track)).map(|track| sights(track, drive, &between)).collect();
+        drive.tracks.iter().filter(|track| stands(track)).map(|track| sights(track, drive, &knots)).collect();
     objects.retain(|sights| sights.len() >= LEAST_BOXES);
     if objects.is_empty() {
         return;
     }
-    let mut motion = vec![0.0; 3 * knots];
+    let mut motion = vec![0.0; 3 * knots.0.len()];
     settle(&mut objects, &motion);
     let measured = |when: &str| format!("{}.standing_height_error_{when}_m", drive.dataset);
     report.measure(&measured("before"), median_residual_m(&objects));
     for _ in 0..ROUNDS {
-        motion = solve(&objects, knots, trust);
+        motion = solve(&objects, knots.0.len(), trust);
         settle(&mut objects, &motion);
     }
     report.measure(&measured("after"), median_residual_m(&objects));
     if motion.iter().any(|m| m.abs() > NOTICEABLE) {
         report.note(Outcome::Guessed, "height and tilt of the vehicle, from static objects", &drive.id);
     }
-    apply(drive, &between, &motion);
+    apply(drive, &knots, &motion);
 }
 
-/// How many knots there are, and between which each keyframe lies.
-fn knots(drive: &Drive, step_ns: i64) -> (usize, Vec<Between>) {
-    let times_ns: Vec<i64> = drive.keyframes.iter().map(|k| k.time_ns).collect();
-    if step_ns <= 0 || times_ns.len() < 2 {
-        return (times_ns.len(), (0..times_ns.len()).map(|knot| Between { knot, share: 0.0 }).collect());
+impl Knots {
+    fn of(drive: &Drive, step_ns: i64) -> Self {
+        let mut times_ns: Vec<i64> = drive.keyframes.iter().map(|k| k.time_ns).collect();
+        times_ns.dedup();
+        let (Some(&first), Some(&last)) = (times_ns.first(), times_ns.last()) else { return Self(times_ns) };
+        if step_ns <= 0 || first == last {
+            return Self(times_ns);
+        }
+        let duration = last.saturating_sub(first) as f64;
+        let spans = (duration / step_ns as f64).ceil().clamp(1.0, (MOST_KNOTS - 1) as f64);
+        let mut evenly: Vec<i64> =
+            (0..=spans as i64).map(|i| first.saturating_add((i as f64 / spans * duration).round() as i64)).collect();
+        evenly.dedup();
+        Self(evenly)
     }
-    let (first, last) = (times_ns[0], times_ns[times_ns.len() - 1]);
-    let duration = last.saturating_sub(first).max(1) as f64;
-    let spans = (duration / step_ns as f64).ceil().clamp(1.0, (MOST_KNOTS - 1) as f64);
-    let between = times_ns.iter().map(|t| {
-        let at = (t.saturating_sub(first) as f64 / duration * spans).clamp(0.0, spans);
-        let knot = at.floor().min(spans - 1.0);
-        Between { knot: knot as usize, share: at - knot }
-    });
-    (spans as usize + 1, between.collect())
+
+    /// Where a time lies; before the first knot as at it, and likewise after the last.
+    fn at(&self, time_ns: i64) -> Between {
+        let knot = self.0.partition_point(|t| *t <= time_ns).saturating_sub(1);
+        let share = match self.0.get(knot..knot + 2) {
+            Some(&[from, to]) => time_ns.saturating_sub(from).max(0) as f64 / to.saturating_sub(from) as f64,
+            _ => 0.0,
+        };
+        Between { knot, share }
+    }
 }
 
 impl Between {
-    /// Height and two tilts at the keyframe.
+    /// Height and two tilts at the moment.
     fn motion(self, motion: &[f64]) -> [f64; 3] {
         let of = |i: usize| motion[3 * self.knot + i];
         // The last knot may have none after it.
@@ -115,14 +129,14 @@ fn stands(track: &Track) -> bool {
         .is_some_and(|bounds| bounds.size_m().max_element() < STANDING_M)
 }
 
-fn sights(track: &Track, drive: &Drive, between: &[Between]) -> Vec<Sight> {
+fn sights(track: &Track, drive: &Drive, knots: &Knots) -> Vec<Sight> {
     let sight = |&(keyframe, cuboid): &(usize, trove_model::Cuboid)| {
         let centre = cuboid.world_from_body.translation;
         let from_ego: DVec2 = (centre - drive.keyframes[keyframe].world_from_ego.translation).truncate();
         let distance_m = from_ego.length();
         let share = 1.0 / (1.0 + (distance_m / HALF_WEIGHT_M).powi(2));
         (distance_m < REACH_M).then(|| Sight {
-            between: between[keyframe],
+            between: knots.at(drive.keyframes[keyframe].time_ns),
             slope: [1.0, from_ego.x, from_ego.y],
             height_m: centre.z - cuboid.size_m.z / 2.0,
             weight: share * share,
@@ -231,32 +245,32 @@ fn cholesky_solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Vec<f64> {
     right
 }
 
-/// Moves everything of each keyframe, its tracks' boxes included.
-fn apply(drive: &mut Drive, between: &[Between], motion: &[f64]) {
-    let motions: Vec<Pose<World, World>> = drive
-        .keyframes
-        .iter()
-        .zip(between)
-        .map(|(keyframe, between)| {
-            let m = between.motion(motion);
-            let ego = keyframe.world_from_ego.translation;
-            let rotation = DQuat::from_scaled_axis(DVec3::new(m[2], -m[1], 0.0));
-            Pose::new(rotation, ego + DVec3::Z * m[0] - rotation * ego)
-        })
-        .collect();
-    for (keyframe, &moved) in drive.keyframes.iter_mut().zip(&motions) {
-        keyframe.world_from_ego = moved * keyframe.world_from_ego;
+/// Moves everything of each keyframe, its tracks' boxes included, and what was recorded between them.
+fn apply(drive: &mut Drive, knots: &Knots, motion: &[f64]) {
+    let moved = |time_ns: i64, ego: DVec3| {
+        let m = knots.at(time_ns).motion(motion);
+        let rotation = DQuat::from_scaled_axis(DVec3::new(m[2], -m[1], 0.0));
+        Pose::<World, World>::new(rotation, ego + DVec3::Z * m[0] - rotation * ego)
+    };
+    let of_keyframe = |keyframe: &Keyframe| moved(keyframe.time_ns, keyframe.world_from_ego.translation);
+    let motions: Vec<_> = drive.keyframes.iter().map(of_keyframe).collect();
+    let mut sweeps = std::mem::take(&mut drive.sweeps);
+    for sweep in &mut sweeps {
+        let Some(ego) = drive.world_from_ego_at(sweep.time_ns) else { continue };
+        sweep.lidar.move_by(&moved(sweep.time_ns, ego.translation));
+    }
+    drive.sweeps = sweeps;
+    drive.path = drive.path.map(|time_ns, pose| moved(time_ns, pose.translation) * *pose);
+    for (keyframe, moved) in drive.keyframes.iter_mut().zip(&motions) {
+        keyframe.world_from_ego = *moved * keyframe.world_from_ego;
         for exposure in &mut keyframe.exposures {
-            exposure.world_from_ego = moved * exposure.world_from_ego;
+            exposure.world_from_ego = *moved * exposure.world_from_ego;
         }
         for object in &mut keyframe.boxes {
-            object.cuboid.world_from_body = moved * object.cuboid.world_from_body;
+            object.cuboid.world_from_body = *moved * object.cuboid.world_from_body;
         }
         if let Some(sweep) = &mut keyframe.lidar {
-            sweep.origin_world = moved.point(sweep.origin_world);
-            for point in &mut sweep.points_world {
-                *point = moved.point(point.as_dvec3()).as_vec3();
-            }
+            sweep.move_by(moved);
         }
     }
     for (keyframe, cuboid) in drive.tracks.iter_mut().flat_map(|track| &mut track.boxes) {
@@ -267,7 +281,7 @@ fn apply(drive: &mut Drive, between: &[Between], motion: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::{Cuboid, DriveOrigin, Ego, EgoBody, Keyframe, Kind, MapProjection};
+    use trove_model::{Cuboid, DriveOrigin, Ego, EgoBody, Kind, LidarSweep, MapProjection, Sweep, Trajectory};
 
     /// As nuScenes', whose heights are none.
     const BLIND: Trust = Trust { tilt: 400.0, change: 0.1, step_ns: 0 };
@@ -302,6 +316,8 @@ mod tests {
             rig: Vec::new(),
             ego_body: EgoBody { centre_ego: DVec3::ZERO, size_m: DVec3::ONE },
             keyframes: (0..10).map(keyframe).collect(),
+            path: Trajectory::default(),
+            sweeps: Vec::new(),
             tracks: (0..16).map(track).collect(),
             lane_map: None,
             licence: String::new(),
@@ -336,11 +352,34 @@ mod tests {
     }
 
     #[test]
+    fn what_was_recorded_between_keyframes_rises_with_them() {
+        let mut drive = drive_uphill();
+        let pose = |i: i64| Pose::<World, Ego>::from_yaw(0.0, DVec3::new(0.5 * i as f64, 0.0, 0.0));
+        drive.path = Trajectory::new((0..=90).map(|i| (50_000_000 * i, pose(i))).collect()).0;
+        let origin_world = pose(33).translation + DVec3::Z * 1.8;
+        let ground = (pose(33).translation + DVec3::new(10.0, 0.0, 0.4)).as_vec3();
+        let lidar = LidarSweep { origin_world, points_world: vec![ground], classes: Vec::new() };
+        drive.sweeps = vec![Sweep { time_ns: 50_000_000 * 33, lidar }];
+        level(&mut drive, &BLIND, &Report::default());
+        for keyframe in &drive.keyframes {
+            assert_eq!(drive.path.at(keyframe.time_ns), Some(keyframe.world_from_ego));
+        }
+        for (time_ns, pose) in drive.path.moments() {
+            let slope_m = 0.04 * 1e-8 * *time_ns as f64;
+            assert!((pose.translation.z - slope_m).abs() < 0.1, "{time_ns}: {}", pose.translation.z);
+        }
+        let (ego, lidar) = (drive.path.at(50_000_000 * 33).unwrap(), &drive.sweeps[0].lidar);
+        assert!(ego.inverse().point(lidar.origin_world).distance(DVec3::Z * 1.8) < 1e-9);
+        let seen = ego.inverse().point(lidar.points_world[0].as_dvec3());
+        assert!(seen.distance(DVec3::new(10.0, 0.0, 0.4)) < 1e-5, "{seen}");
+    }
+
+    #[test]
     fn between_knots_a_drift_is_linear() {
         // The slope's height grows evenly, so four knots in place of ten keyframes tell as much.
         let (mut drive, report) = (drive_uphill(), Report::default());
         let trust = Trust { step_ns: 1_500_000_000, ..BLIND };
-        assert_eq!(knots(&drive, trust.step_ns).0, 4);
+        assert_eq!(Knots::of(&drive, trust.step_ns).0.len(), 4);
         level(&mut drive, &trust, &report);
         let climbed_m =
             drive.keyframes[9].world_from_ego.translation.z - drive.keyframes[0].world_from_ego.translation.z;

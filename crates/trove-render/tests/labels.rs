@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
 use trove_model::{
-    Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind, Labels, Lens,
-    Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
+    Body, Camera, CameraBeside, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind,
+    Labels, Lens, Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
+    Shutter, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -241,13 +242,8 @@ fn colour_is_sheared_by_a_rolling_shutter_and_labels_are_not() {
         Pose::new(DQuat::from_rotation_z(angle) * now.rotation, now.translation)
     };
     let shutter = Shutter { readout_s, ..Shutter::INSTANT };
-    let rolling = Shot {
-        world_from_camera_next: Some(turned(0.5 * yaw_rate)),
-        world_from_camera_previous: Some(turned(-0.5 * yaw_rate)),
-        shutter,
-        spp: 16,
-        ..shot(PLACE)
-    };
+    let rolling =
+        Shot { beside: [-0.5, 0.5].map(|s| Some(beside(turned(s * yaw_rate)))), shutter, spp: 16, ..shot(PLACE) };
     // Where the dark pole's middle is in each row.
     let column = |shot: &Shot, y: u32| {
         let radiance = colour(&scene, shot);
@@ -277,7 +273,7 @@ fn an_edge_is_blurred_as_wide_as_the_camera_turns_while_it_is_exposed() {
     let now = shot(PLACE).world_from_camera;
     let turned = Pose::new(DQuat::from_rotation_z(0.5) * now.rotation, now.translation);
     let exposed = |exposure_s: f64| Shot {
-        world_from_camera_next: Some(turned),
+        beside: [None, Some(beside(turned))],
         shutter: Shutter { exposure_s, ..Shutter::INSTANT },
         spp: 16,
         ..shot(PLACE)
@@ -397,6 +393,11 @@ fn centres() -> impl Iterator<Item = (u32, u32, DVec2)> {
 }
 
 /// A camera that looks north.
+/// A camera's pose half a second away.
+fn beside(world_from_camera: Pose<World, Camera>) -> CameraBeside {
+    CameraBeside { apart_s: 0.5, world_from_camera }
+}
+
 fn shot(position: DVec3) -> Shot {
     let rotation = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
     Shot { seed: Seed(1), ..Shot::new("test", LENS, Pose::<World, Camera>::new(rotation, position)) }

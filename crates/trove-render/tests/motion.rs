@@ -90,7 +90,7 @@ fn labels_know_nothing_of_the_shutter() {
             let prepared = renderer.prepare(scene).unwrap();
             renderer.render(&prepared, &shot(shutter), false, &|_| false).unwrap().labels
         };
-        let open = Shutter { exposure_s: 0.05, readout_s: 0.05, ..Shutter::INSTANT };
+        let open = Shutter { exposure_s: 0.05, readout_s: 0.05 };
         let [instant, exposed] = [Shutter::INSTANT, open].map(|shutter| labels(shutter, &passing));
         assert_eq!(format!("{instant:?}"), format!("{exposed:?}"));
         let mut standing = passing.clone();
@@ -103,7 +103,7 @@ fn labels_know_nothing_of_the_shutter() {
 
 #[test]
 fn where_nothing_moves_the_shutter_changes_no_byte() {
-    let open = Shutter { exposure_s: 0.03, readout_s: 0.05, ..Shutter::INSTANT };
+    let open = Shutter { exposure_s: 0.03, readout_s: 0.05 };
     for kernel in kernels() {
         let [instant, exposed] =
             [Shutter::INSTANT, open].map(|shutter| lights(&passing(DVec3::ZERO), &shot(shutter), kernel));
@@ -114,7 +114,7 @@ fn where_nothing_moves_the_shutter_changes_no_byte() {
 #[test]
 fn one_thread_and_two_blur_alike() {
     let scene = passing(DVec3::new(9.0, -4.0, 2.0));
-    let shot = shot(Shutter { exposure_s: 0.05, readout_s: 0.03, ..Shutter::INSTANT });
+    let shot = shot(Shutter { exposure_s: 0.05, readout_s: 0.03 });
     for kernel in kernels() {
         let [one, two] = [1, 2].map(|threads| radiance(&scene, &shot, &renderer(kernel, threads)));
         assert!(one == two, "{kernel:?}");

@@ -8,11 +8,11 @@ use glam::{DQuat, DVec2, DVec3};
 use trove_files::{open_regular, write_atomically};
 use trove_format::{
     LensModel, PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoreference, PlainKeyframe, PlainLane,
-    PlainLaneMap, PlainLaneMark, PlainLidar, PlainPicture, PlainPolygon, PlainPose,
+    PlainLaneMap, PlainLaneMark, PlainLidar, PlainMoment, PlainPicture, PlainPolygon, PlainPose, PlainSweep,
 };
 use trove_model::{
-    Camera, Drive, Ego, Exposure, Frame, Keyframe, Lane, LaneMap, LaneMark, Lens, LidarClass, LidarSweep, ObjectBox,
-    Outcome, Polygon, Pose, Report,
+    Camera, Drive, Ego, Exposure, Frame, Lane, LaneMap, LaneMark, Lens, LidarClass, LidarSweep, ObjectBox, Outcome,
+    Polygon, Pose, Report, World,
 };
 
 use crate::WriteError;
@@ -53,7 +53,8 @@ pub fn write_plain_drive(
             pictures.insert(camera.name.clone(), picture(exposure, recalibrated, file));
         }
         let lidar = keyframe.lidar.as_ref().filter(|_| files.lidar);
-        let lidar = lidar.map(|sweep| plain_lidar(sweep, keyframe, k, folder)).transpose()?;
+        let lidar = lidar.map(|sweep| plain_lidar(sweep, &keyframe.world_from_ego, &format!("{k:06}"), folder));
+        let lidar = lidar.transpose()?;
         keyframes.push(PlainKeyframe {
             time_ns: keyframe.time_ns,
             token: keyframe.token.clone(),
@@ -64,6 +65,17 @@ pub fn write_plain_drive(
             lidar,
         });
     }
+    let mut sweeps = Vec::new();
+    for (i, sweep) in drive.sweeps.iter().enumerate().filter(|_| files.lidar) {
+        let Some(world_from_ego) = drive.world_from_ego_at(sweep.time_ns) else { continue };
+        let lidar = plain_lidar(&sweep.lidar, &world_from_ego, &format!("between-{i:06}"), folder)?;
+        sweeps.push(PlainSweep { time_ns: sweep.time_ns, lidar });
+    }
+    let moment = |(time_ns, world_from_ego): &(i64, Pose<World, Ego>)| PlainMoment {
+        time_ns: *time_ns,
+        world_from_ego: Some(pose(world_from_ego)),
+        geo_from_ego: None,
+    };
     let cameras = drive.rig.iter().map(|c| (c.name.clone(), plain_camera(&c.lens, &c.ego_from_camera)));
     let plain = PlainDrive {
         trove_drive: PlainDrive::VERSION,
@@ -77,6 +89,8 @@ pub fn write_plain_drive(
         }),
         cameras: cameras.collect(),
         lane_map: drive.lane_map.as_ref().map(lane_map),
+        path: drive.path.moments().iter().map(moment).collect(),
+        sweeps,
         keyframes,
     };
     write(&folder.join(PlainDrive::LINES_NAME), &plain.to_json_lines())
@@ -151,12 +165,17 @@ fn plain_box(object: &ObjectBox, track: &str) -> PlainBox {
 }
 
 /// A sweep's points stay in World, where they are the same to the last digit.
-fn plain_lidar(sweep: &LidarSweep, keyframe: &Keyframe, k: usize, folder: &Path) -> Result<PlainLidar, WriteError> {
+fn plain_lidar(
+    sweep: &LidarSweep,
+    world_from_ego: &Pose<World, Ego>,
+    name: &str,
+    folder: &Path,
+) -> Result<PlainLidar, WriteError> {
     create(&folder.join("lidar"))?;
-    let file = format!("lidar/{k:06}.bin");
+    let file = format!("lidar/{name}.bin");
     let point = |p: &glam::Vec3| [p.x, p.y, p.z, 0.0].map(f32::to_le_bytes).concat();
     write(&folder.join(&file), &sweep.points_world.iter().flat_map(point).collect::<Vec<u8>>())?;
-    let labels = (!sweep.classes.is_empty()).then(|| format!("lidar/{k:06}.labels"));
+    let labels = (!sweep.classes.is_empty()).then(|| format!("lidar/{name}.labels"));
     if let Some(labels) = &labels {
         let number = |class: &LidarClass| match class {
             LidarClass::Other => 0,
@@ -168,7 +187,7 @@ fn plain_lidar(sweep: &LidarSweep, keyframe: &Keyframe, k: usize, folder: &Path)
         };
         write(&folder.join(labels), &sweep.classes.iter().map(number).collect::<Vec<u8>>())?;
     }
-    let mounted = keyframe.world_from_ego.inverse().point(sweep.origin_world);
+    let mounted = world_from_ego.inverse().point(sweep.origin_world);
     let ego_from_lidar = PlainPose { translation_m: mounted.to_array(), rotation_wxyz: None, yaw_rad: None };
     Ok(PlainLidar { file, labels, ego_from_lidar: Some(ego_from_lidar), is_in_world: true })
 }

@@ -84,8 +84,15 @@ fn the_canonical_drive_comes_back_with_its_files_and_its_map() {
     let moved = found.lane_map.as_ref().unwrap().lanes[0].centreline[1];
     assert_eq!(moved, DVec2::new(4.25, 5.125) - first.truncate());
 
+    let alone = canonical::without_between(drive.clone());
+    let (found, _) = there_and_back(&alone, pictures.path(), PlainFiles { lidar: true, pictures: true });
+    assert_eq!(differences(&alone, &found, &TIGHT), [""; 0]);
+
     let (bare, report) = there_and_back(&drive, pictures.path(), PlainFiles::default());
-    assert!(bare.keyframes.iter().all(|k| k.lidar.is_none() && k.exposures.iter().all(|e| e.file.is_none())));
+    assert!(
+        bare.sweeps.is_empty()
+            && bare.keyframes.iter().all(|k| k.lidar.is_none() && k.exposures.iter().all(|e| e.file.is_none()))
+    );
     assert_eq!(report.entries(), []);
 }
 

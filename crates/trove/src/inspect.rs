@@ -57,6 +57,10 @@ struct Inspected<'a> {
 fn print(drive: &DriveDescription) {
     println!("{} ({}, {:.5}, {:.5})", drive.scene, shown(&drive.place), drive.lat_deg, drive.lon_deg);
     println!("  {} keyframes over {:.1} s and {:.0} m", drive.keyframes, drive.duration_s, drive.path_m);
+    if drive.path_poses > 0 || drive.sweeps_between > 0 {
+        let (poses, hz, sweeps) = (drive.path_poses, drive.path_hz, drive.sweeps_between);
+        println!("  between keyframes: path of {poses} poses ({hz:.1} a second), {sweeps} LiDAR sweeps");
+    }
     println!("  cameras: {}", drive.cameras.join(", "));
     let boxes: Vec<String> = drive.boxes.iter().map(|(class, n)| format!("{class} {n}")).collect();
     println!("  {} tracks; boxes: {}", drive.tracks, boxes.join(", "));

@@ -34,7 +34,9 @@ pub(super) fn observations(drive: &Drive, kerb_m: f64) -> Vec<Observation> {
         let at = k.world_from_ego.translation;
         Observation { position: at.truncate(), height_m: at.z, weight: PATH_WEIGHT }
     });
-    let sweeps = drive.keyframes.iter().filter_map(|k| k.lidar.as_ref()).flat_map(lidar_ground);
+    let between = drive.sweeps.par_iter().map(|sweep| &sweep.lidar);
+    let sweeps = drive.keyframes.par_iter().filter_map(|k| k.lidar.as_ref()).chain(between);
+    let sweeps: Vec<_> = sweeps.flat_map_iter(lidar_ground).collect();
     path.chain(standing_once(drive, kerb_m))
         .chain(sweeps)
         .chain(mapped(drive, kerb_m))
@@ -134,6 +136,21 @@ fn lidar_ground(sweep: &LidarSweep) -> Vec<Observation> {
 mod tests {
     use super::*;
     use crate::testing;
+    use glam::Vec3;
+    use trove_model::Sweep;
+
+    #[test]
+    fn sweeps_between_the_keyframes_see_the_ground_too() {
+        let mut drive = testing::drive();
+        let before = observations(&drive, 0.15);
+        let points_world = (0..400).map(|i| Vec3::new(210.0 + 0.1 * (i % 20) as f32, 7.0 + 0.1 * (i / 20) as f32, 0.3));
+        let origin_world = DVec3::new(200.0, 8.0, 2.1);
+        let lidar = LidarSweep { origin_world, points_world: points_world.collect(), classes: Vec::new() };
+        drive.sweeps = vec![Sweep { time_ns: drive.keyframes[0].time_ns + 1, lidar }];
+        let seen: Vec<_> = observations(&drive, 0.15).into_iter().filter(|o| o.position.x > 205.0).collect();
+        assert!(before.iter().all(|o| o.position.x < 205.0), "nothing else knows of it");
+        assert!(!seen.is_empty() && seen.iter().all(|o| (o.height_m - 0.3).abs() < 1e-6), "{seen:?}");
+    }
 
     #[test]
     fn mapped_heights_beside_the_road_are_brought_down_by_the_kerb() {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
     Bounds, Camera, Distortion, Drive, DriveOrigin, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection,
-    Outcome, Pose, Report, RigCamera, Road, Seed, StreetMap, World,
+    Outcome, Pose, Report, RigCamera, Road, Seed, StreetMap, Trajectory, World,
 };
 
 use crate::error::BuildError;
@@ -95,6 +95,8 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         projection,
         is_georeferenced: true,
         keyframes: stands.iter().enumerate().map(keyframe).collect(),
+        path: Trajectory::default(),
+        sweeps: Vec::new(),
         rig,
         ego_body: EgoBody { centre_ego: DVec3::new(1.2, 0.0, 0.78), size_m: DVec3::new(4.08, 1.73, 1.56) },
         tracks: Vec::new(),

@@ -1,8 +1,11 @@
 //! The rig on other vehicles of the scene.
 
 use glam::DVec3;
-use trove_model::{Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, Viewpoint, World};
+use trove_model::{
+    Camera, Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, Viewpoint, World,
+};
 
+use super::motion;
 use super::settings::{ViewSettings, shot_seed};
 use crate::place::Seeds;
 use crate::place::{next, previous};
@@ -87,9 +90,14 @@ impl Carrier {
         let moment = &drive.keyframes[keyframe];
         let world_from_rig = |k: Option<usize>| Some(world_from_rig(drive, &site.placed(self.track, k?)?, self.lift_m));
         let Some(now) = world_from_rig(Some(keyframe)) else { return Vec::new() };
-        let before = world_from_rig(previous(drive, keyframe));
-        let after = world_from_rig(next(drive, keyframe));
-        let times_ns = [previous(drive, keyframe), next(drive, keyframe)].map(|k| Some(drive.keyframes[k?].time_ns));
+        let neighbours = [previous(drive, keyframe), next(drive, keyframe)];
+        let [before, after] = neighbours.map(world_from_rig);
+        let beside = |k: Option<usize>, mounted: Pose<Ego, Camera>| {
+            motion::at_keyframe(
+                moment.time_ns,
+                world_from_rig(k).zip(k).map(|(rig, k)| (rig * mounted, drive.keyframes[k].time_ns)),
+            )
+        };
         let cameras = drive.rig.iter().enumerate().filter(|(_, c)| views.wants(&c.name));
         let mounted = |camera: &RigCamera| views.mounted(&camera.ego_from_camera);
         cameras
@@ -101,8 +109,9 @@ impl Carrier {
                     world_from_camera: now * mounted(camera),
                     world_from_camera_previous: before.map(|rig| rig * mounted(camera)),
                     world_from_camera_next: after.map(|rig| rig * mounted(camera)),
+                    beside: neighbours.map(|k| beside(k, mounted(camera))),
                     time_ns: moment.time_ns,
-                    shutter: views.shutter(moment.time_ns, times_ns),
+                    shutter: views.shutter(),
                     spp: views.spp,
                     noise: views.noise,
                     film: views.film,

@@ -1,6 +1,7 @@
 //! Where the pictures are taken from.
 
 mod carriers;
+mod motion;
 mod settings;
 
 use trove_model::{Drive, Outcome, Report, Shot, Viewpoint};
@@ -40,15 +41,16 @@ pub fn shots(
         };
         let neighbours = [at(previous(drive, keyframe)), at(next(drive, keyframe))];
         let [before, after] = neighbours.map(|n| n.map(|(pose, _)| pose));
-        let times_ns = neighbours.map(|n| n.map(|(_, time_ns)| time_ns));
+        let beside = neighbours.map(|n| motion::at_keyframe(exposure.time_ns, n));
         let view = format!("ego.{}", camera.name);
         shots.push(Shot {
             lens: views.lens(&camera.name, &exposure.lens),
             world_from_camera,
             world_from_camera_previous: before,
             world_from_camera_next: after,
+            beside: motion::on_path(&drive.path, exposure.time_ns, world_from_camera, beside),
             time_ns: exposure.time_ns,
-            shutter: views.shutter(exposure.time_ns, times_ns),
+            shutter: views.shutter(),
             spp: views.spp,
             noise: views.noise,
             film: views.film,
@@ -67,7 +69,8 @@ mod tests {
     use super::*;
     use crate::testing;
     use crate::{BuildSettings, LightChoice, OnDisagreement, build};
-    use trove_model::Seed;
+    use glam::DVec3;
+    use trove_model::{Pose, Seed, Trajectory};
 
     fn site() -> Site {
         let weather = crate::Weather::default();
@@ -100,6 +103,36 @@ mod tests {
         assert_eq!(front.world_from_camera_next, Some(drive.keyframes[1].exposures[1].world_from_camera()));
         assert_eq!((front.lens.width_px, front.lens.fx_px), (80, 63.0));
         assert_eq!(front.carrier, Some(trove_model::InstanceId(5)));
+    }
+
+    #[test]
+    fn a_camera_moves_as_the_vehicle_s_path_says_and_else_as_between_keyframes() {
+        let (mut drive, site) = (testing::drive(), site());
+        let front = |drive: &Drive| {
+            let views = ViewSettings { size: PictureSize::Scaled(0.5), spp: 1, ..ViewSettings::default() };
+            let shots = shots(drive, &site, 1, &views, &Seed(1).into(), &Report::default());
+            shots.into_iter().find(|s| s.view == "ego.CAM_FRONT").unwrap()
+        };
+        let shot = front(&drive);
+        let [before, after] = shot.beside.map(|beside| beside.unwrap());
+        assert_eq!(Some(before.world_from_camera), shot.world_from_camera_previous);
+        assert_eq!(Some(after.world_from_camera), shot.world_from_camera_next);
+        assert_eq!(after.apart_s, 0.5);
+        // It brakes: 20 m/s before the picture, 10 m/s after it, and turns to the left all the time.
+        let pose = |time_s: f64| {
+            let east = if time_s < 0.0 { 20.0 * time_s } else { 10.0 * time_s };
+            Pose::from_yaw(0.3 * time_s, DVec3::new(east, 3.0, 0.0))
+        };
+        let at = |i: i64| (shot.time_ns + i * 50_000_000, pose(i as f64 * 0.05));
+        drive.path = Trajectory::new((-3..4).map(at).collect()).0;
+        let shot = front(&drive);
+        let now = pose(0.0).inverse() * shot.world_from_camera;
+        for time_s in [-0.1, -0.02, 0.01, 0.1] {
+            let (found, expected) = (shot.world_from_camera_at(time_s), pose(time_s) * now);
+            assert!(found.translation.distance(expected.translation) < 2e-3, "{time_s}: {found:?} {expected:?}");
+            assert!(found.rotation.angle_between(expected.rotation) < 1e-6);
+        }
+        assert_eq!(shot.world_from_camera_previous, front(&testing::drive()).world_from_camera_previous, "flow");
     }
 
     #[test]

@@ -90,14 +90,8 @@ impl ViewSettings {
         }
     }
 
-    /// `neighbours_ns` are the times of the previous and the next keyframe's picture.
-    pub(super) fn shutter(&self, time_ns: i64, neighbours_ns: [Option<i64>; 2]) -> Shutter {
-        let [since_previous_s, until_next_s] = neighbours_ns.map(|other_ns| {
-            let apart_ns = other_ns.map_or(0, |other_ns| other_ns.abs_diff(time_ns));
-            // Without a neighbour, or with one at the same time, there is no motion to scale.
-            if apart_ns == 0 { f64::INFINITY } else { apart_ns as f64 * 1e-9 }
-        });
-        Shutter { exposure_s: self.exposure_s, readout_s: self.readout_s, since_previous_s, until_next_s }
+    pub(super) fn shutter(&self) -> Shutter {
+        Shutter { exposure_s: self.exposure_s, readout_s: self.readout_s }
     }
 }
 

@@ -12,8 +12,7 @@ use super::dataset::{ANNOTATIONS, Argoverse2, LICENCE, POSES, keyframe_times};
 use super::exposures::{Pictures, files_by_time};
 use super::frames::Axle;
 use super::ground;
-use super::poses::Poses;
-use super::{boxes, calibration, clock, lane_map, lidar, riders};
+use super::{boxes, calibration, clock, lane_map, lidar, poses, riders};
 use crate::ReadError;
 
 /// Argoverse 2's recording cars are Ford Fusion Hybrids: published length, width without mirrors, and height without the
@@ -27,7 +26,7 @@ impl Argoverse2 {
     /// There is no such log, or its poses, calibration or annotations cannot be read or are not what the dataset's are.
     pub fn drive(&self, name: &str, report: &Report) -> Result<Drive, ReadError> {
         let log = self.folder(name)?;
-        let poses = Poses::read(&log.join(POSES), report)?;
+        let poses = poses::path(&log.join(POSES), report)?;
         let calibration = calibration::read(&log.join("calibration"), report)?;
         let annotations = match log.join(ANNOTATIONS) {
             path if path.exists() => boxes::read(&path, report)?,
@@ -87,6 +86,8 @@ impl Argoverse2 {
             rig: calibration.rig,
             ego_body: EGO_BODY,
             keyframes,
+            path: poses.map(|_, pose| frame.world_from_ego(pose)).later(shift_ns),
+            sweeps: Vec::new(),
             tracks,
             lane_map,
             licence: LICENCE.to_owned(),

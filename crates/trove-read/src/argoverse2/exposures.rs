@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use trove_model::{Exposure, Outcome, Report, RigCamera};
+use trove_model::{Exposure, Outcome, Report, RigCamera, Trajectory};
 
 use super::city::CityFrame;
-use super::poses::Poses;
+use super::frames::{Axle, City};
 
 /// Cameras fire twenty times a second: a picture farther from a keyframe than this is another's, nanoseconds.
 const FARTHEST_NS: u64 = 50_000_000;
@@ -43,7 +43,13 @@ impl<'a> Pictures<'a> {
     }
 
     /// Those nearest to a keyframe, in time and place; a camera without one is taken to have fired with the keyframe.
-    pub(super) fn exposures(&self, time_ns: i64, root: &Path, poses: &Poses, frame: &CityFrame) -> Vec<Exposure> {
+    pub(super) fn exposures(
+        &self,
+        time_ns: i64,
+        root: &Path,
+        poses: &Trajectory<City, Axle>,
+        frame: &CityFrame,
+    ) -> Vec<Exposure> {
         let exposure = |(camera, fixed): (usize, &RigCamera)| {
             let files = &self.files[camera];
             let around = files.range(..time_ns).next_back().into_iter().chain(files.range(time_ns..).next());

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use trove_model::{
-    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Outcome, Pose, Report, RigCamera, World,
+    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Outcome, Pose, Report, RigCamera, Trajectory, World,
 };
 
 use super::clean;
@@ -82,7 +82,7 @@ pub(super) fn drive(
     for n in 0..=(whole / step + 1e-9) as usize {
         let (i, share) = between(scale, n as f64 * step);
         let (time_s, world_from_ego) = moment(&samples, &poses, i, share);
-        let time_ns = start_ns.saturating_add((time_s * 1e9).round() as i64);
+        let time_ns = after(start_ns, time_s);
         keyframes.push(keyframe(n, time_ns, world_from_ego, rig));
     }
     report.note(Outcome::Guessed, "recording vehicle's size: that of an ordinary car", name);
@@ -96,10 +96,22 @@ pub(super) fn drive(
         rig: rig.to_vec(),
         ego_body: ORDINARY_CAR,
         keyframes,
+        path: path(first.time_ns, &samples, &poses),
+        sweeps: Vec::new(),
         tracks: Vec::new(),
         lane_map: None,
         licence: licence.to_owned(),
     })
+}
+
+/// The vehicle at each fix.
+fn path(first_ns: i64, samples: &[Sample], poses: &[Pose<World, Ego>]) -> Trajectory<World, Ego> {
+    let moments = samples.iter().zip(poses).map(|(sample, pose)| (after(first_ns, sample.time_s), *pose));
+    Trajectory::new(moments.collect()).0
+}
+
+fn after(first_ns: i64, time_s: f64) -> i64 {
+    first_ns.saturating_add((time_s * 1e9).round() as i64)
 }
 
 fn keyframe(n: usize, time_ns: i64, world_from_ego: Pose<World, Ego>, rig: &[RigCamera]) -> Keyframe {

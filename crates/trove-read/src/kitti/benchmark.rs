@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use trove_model::{Outcome, Pose, Report};
+use trove_model::{Outcome, Pose, Report, Trajectory};
 
 use super::boxes::Annotation;
 use super::drive::{Moment, Picture, Recorded};
@@ -76,6 +76,7 @@ pub(super) fn read(
     let moments: Vec<Moment> = poses.iter().map(moment).collect();
     report.note(Outcome::Guessed, "time of a KITTI benchmark's frames, which have none", &recording.name);
     Ok(Recorded {
+        path: Trajectory::default(),
         name: recording.name.clone(),
         licence,
         projection: georeference.map(|georeference| georeference.projection),

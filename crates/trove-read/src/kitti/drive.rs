@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use trove_model::{
-    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Pose, Report, RigCamera, SensorFrame, World,
+    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Pose, Report, RigCamera, SensorFrame, Trajectory, World,
 };
 
 use super::boxes::{self, Annotation};
@@ -23,6 +23,8 @@ pub(super) struct Recorded {
     /// `None` where the recording has no poses.
     pub(super) projection: Option<MapProjection>,
     pub(super) moments: Vec<Moment>,
+    /// The vehicle between the moments too; empty where no more is known.
+    pub(super) path: Trajectory<World, Ego>,
     pub(super) annotations: Vec<Annotation>,
     pub(super) ego_from_velodyne: Pose<Ego, SensorFrame>,
 }
@@ -51,7 +53,7 @@ pub(super) struct Picture {
 
 /// Joins a recording.
 pub(super) fn join(root: &Path, recorded: Recorded, report: &Report) -> Drive {
-    let Recorded { name, licence, rig, projection, moments, annotations, ego_from_velodyne } = recorded;
+    let Recorded { name, licence, rig, projection, moments, path, annotations, ego_from_velodyne } = recorded;
     let mut keyframes: Vec<Keyframe> = moments
         .iter()
         .map(|moment| Keyframe {
@@ -82,6 +84,8 @@ pub(super) fn join(root: &Path, recorded: Recorded, report: &Report) -> Drive {
         rig,
         ego_body: FACTS.ego_body(),
         keyframes,
+        path,
+        sweeps: Vec::new(),
         tracks,
         lane_map: None,
         licence: licence.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use trove_model::{Ego, Outcome, Pose, Report, World};
+use trove_model::{Ego, Outcome, Pose, Report, Trajectory, World};
 
 use super::boxes::Annotation;
 use super::drive::{Moment, Picture, Recorded};
@@ -60,13 +60,17 @@ pub(super) fn read(
     };
     let poses: Vec<_> = fixes.iter().filter_map(pose).collect();
     let below = format!("{}{}/", recording.below, recording.name);
-    let moments = match recording.form {
-        Form::Synced => synced(root, &below, &mounting, &poses)?,
-        _ => extracted(root, recording, &below, &mounting, &poses, report)?,
+    // Synced frames are what fixes there are; an extracted drive has ten a frame.
+    let (moments, path) = match is_synced {
+        true => (synced(root, &below, &mounting, &poses)?, Trajectory::default()),
+        false => {
+            let moments = extracted(root, recording, &below, &mounting, &poses, report)?;
+            (moments, Trajectory::new(poses.iter().map(|(_, time_ns, pose)| (*time_ns, *pose)).collect()).0)
+        }
     };
-    let path = folder.join("tracklet_labels.xml");
-    let annotations = match path.is_file() {
-        true if is_synced => annotations(&tracklets::read(&path, report)?, &moments, &mounting, report),
+    let tracklets_file = folder.join("tracklet_labels.xml");
+    let annotations = match tracklets_file.is_file() {
+        true if is_synced => annotations(&tracklets::read(&tracklets_file, report)?, &moments, &mounting, report),
         true => {
             report.note(Outcome::Dropped, "tracklets, whose frames are those of the synced drive", &recording.name);
             Vec::new()
@@ -81,6 +85,7 @@ pub(super) fn read(
         licence,
         projection: Some(georeference.projection),
         moments,
+        path,
         annotations,
         ego_from_velodyne: mounting.ego_from_velodyne,
         rig: mounting.rig,

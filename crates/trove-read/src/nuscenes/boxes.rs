@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::{DVec2, DVec3};
 use trove_model::{Cuboid, Keyframe, Kind, ObjectBox, Outcome, Report, Track};
 
-use super::kinds::{WITH_RIDER, WITHOUT_RIDER, kind_of_category, with_rider};
+use super::kinds::{WITH_RIDER, WITHOUT_RIDER, with_rider};
 use super::poses;
 use super::records::AnnotationRecord;
 use super::tables::Tables;
@@ -67,7 +67,7 @@ pub(super) fn place(
 fn object(tables: &Tables, annotation: &AnnotationRecord, anchor_m: DVec2) -> Result<ObjectBox, String> {
     let instance = tables.instances.get(&annotation.instance_token).ok_or("unknown instance")?;
     let category = &tables.categories.get(&instance.category_token).ok_or("unknown category token")?.name;
-    let kind = kind_of_category(category).ok_or_else(|| format!("unknown category '{category}'"))?;
+    let kind = tables.relative.kind(category).ok_or_else(|| format!("unknown category '{category}'"))?;
     let [width, length, height] = annotation.size;
     let size_m = DVec3::new(length, width, height);
     if size_m.min_element() <= 0.0 {
@@ -117,10 +117,8 @@ fn velocity_mps(
 
 /// The middle of the annotator's bin (`v40-60` → 0.5).
 fn visibility(tables: &Tables, annotation: &AnnotationRecord, report: &Report) -> Option<f32> {
-    if annotation.visibility_token.is_empty() {
-        return None;
-    }
-    let level = tables.visibilities.get(&annotation.visibility_token).map_or("", |v| v.level.as_str());
+    let token = annotation.visibility_token.as_ref().filter(|token| !token.is_empty())?;
+    let level = tables.visibilities.get(token).map_or("", |v| v.level.as_str());
     let bin = level.strip_prefix('v').and_then(|l| l.split_once('-'));
     let middle = bin.and_then(|(a, b)| Some((a.parse::<f32>().ok()? + b.parse::<f32>().ok()?) / 200.0));
     if middle.is_none() {

@@ -4,14 +4,12 @@ use std::path::{Path, PathBuf};
 
 use trove_model::{Outcome, Report};
 
+use super::files::Files;
 use super::index::Index;
 use super::index_file::IndexFile;
 use super::records::{LogRecord, SceneRecord};
 use super::tables::Tables;
 use crate::ReadError;
-
-/// Licence of the dataset's records, with whom to name.
-pub const LICENCE: &str = "CC BY-NC-SA 4.0, nuScenes © Motional AD Inc.";
 
 /// Tables whose change makes an index stale.
 const INDEXED: [&str; 7] =
@@ -54,6 +52,7 @@ impl NuScenes {
         if !folder.is_dir() || version.is_empty() {
             return Err(no_such_version(root, version));
         }
+        refuse_nuimages(&folder)?;
         let tables = Tables::read(&folder, report)?;
         let file = cache_dir.map(|dir| IndexFile::new(dir, &folder, &INDEXED));
         let kept = file.as_ref().and_then(IndexFile::read).filter(|i| i.scenes.len() == tables.scenes.len());
@@ -75,12 +74,12 @@ impl NuScenes {
         Ok(Self { root: root.to_owned(), folder, tables, index })
     }
 
-    /// The versions below a root folder (`v1.0-mini`), sorted.
+    /// The versions below a root folder (`v1.0-mini`): the folders with tables, sorted.
     pub fn versions(root: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(root).into_iter().flatten().flatten();
-        let folders = entries.filter(|e| e.path().join("scene.json").is_file());
+        let has_tables = |folder: &Path| ["scene.json", "sample_data.json"].iter().any(|t| folder.join(t).is_file());
+        let folders = entries.filter(|e| has_tables(&e.path()));
         let mut names: Vec<_> = folders.filter_map(|e| e.file_name().into_string().ok()).collect();
-        names.retain(|name| name.starts_with("v1.0-"));
         names.sort();
         names
     }
@@ -103,6 +102,11 @@ impl NuScenes {
         scenes
     }
 
+    /// The recordings that the tables name.
+    pub(super) fn files(&self) -> Files<'_> {
+        Files::of(&self.root, self.folder.file_name().and_then(|name| name.to_str()).unwrap_or_default())
+    }
+
     pub(super) fn log(&self, scene: &SceneRecord) -> Option<&LogRecord> {
         self.tables.logs.get(&scene.log_token)
     }
@@ -121,6 +125,21 @@ impl NuScenes {
             },
         }
     }
+}
+
+/// nuImages has tables of the same form, of labels that lie in the picture.
+fn refuse_nuimages(folder: &Path) -> Result<(), ReadError> {
+    let is_there = |table: &str| folder.join(table).is_file();
+    if !is_there("object_ann.json") || is_there("sample_annotation.json") {
+        return Ok(());
+    }
+    Err(ReadError::Missing {
+        path: folder.to_owned(),
+        expected: "recorded scenes with 3D boxes (scene.json, sample_annotation.json)".to_owned(),
+        found: "nuImages: outlines in single pictures (object_ann.json), without objects' places or sizes".to_owned(),
+        remedy: "no virtual scene can be built from it: use nuScenes, whose pictures are of the same cameras"
+            .to_owned(),
+    })
 }
 
 fn no_such_version(root: &Path, version: &str) -> ReadError {

@@ -2,25 +2,28 @@
 
 use std::path::PathBuf;
 
-use glam::{DVec2, DVec3};
-use trove_model::{Drive, DriveOrigin, EgoBody, Keyframe, MapProjection, Outcome, Report};
+use glam::DVec2;
+use trove_model::{Drive, DriveOrigin, Keyframe, Outcome, Report};
 
-use super::dataset::{LICENCE, NuScenes};
-use super::exposures::{self, GlobalFromEgo, Taken};
+use super::dataset::NuScenes;
+use super::exposures::{self, GlobalFromEgo, Joined, Revolution, Taken};
 use super::index::read_spans;
-use super::lidar::{self, SweepFiles};
 use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
 use super::tables::ByToken;
-use super::{boxes, keyframes, kinds, lane_map, place};
+use super::{between, boxes, can_bus, keyframes, kinds, lane_map, lidar, place};
 use crate::ReadError;
 use crate::levelling::{self, Trust};
 
-/// nuScenes' recording cars are Renault Zoes: published length, width without mirrors, and height. The origin of Ego
-/// is the middle of the rear axle; wheelbase and rear overhang put the car's centre about 1.3 m before it.
-const EGO_BODY: EgoBody = EgoBody { centre_ego: DVec3::new(1.3, 0.0, 0.781), size_m: DVec3::new(4.084, 1.730, 1.562) };
-
 /// Heights are unknown: tilts are likely below 1/20 rad, and heights change by less than 3 m a keyframe.
 const HEIGHTS: Trust = Trust { tilt: 400.0, change: 0.1, step_ns: 0 };
+
+/// What was recorded of a scene.
+struct Recorded<'a> {
+    /// In the order of time.
+    moments: Vec<Moment<'a>>,
+    /// The LiDAR's between the keyframes, in the order of the table.
+    between: Vec<Revolution>,
+}
 
 /// A sample that is used, with what was taken for it.
 struct Moment<'a> {
@@ -45,14 +48,16 @@ impl NuScenes {
     pub(super) fn recorded_files(&self, scene: &str) -> Result<Vec<PathBuf>, ReadError> {
         let index = self.tables.scenes.iter().position(|s| s.name == scene);
         let index = index.ok_or_else(|| self.no_such_scene(scene))?;
-        let report = Report::default(); // said when the scene is read
-        let mut files = Vec::new();
-        for moment in moments(self, index, &report)? {
-            let Some(revolution) = moment.taken.revolution else { continue };
+        let (report, files_below) = (Report::default(), self.files()); // said when the scene is read
+        let recorded = Recorded::of(self, index, &report)?;
+        let mut files = vec![can_bus::file(scene)];
+        for revolution in recorded.revolutions() {
             let labels = self.tables.lidarseg_files.get(&revolution.token);
-            files.extend(labels.and_then(|file| exposures::existing(&self.root, file, &report)));
-            files.extend(revolution.file);
+            files.extend(labels.and_then(|file| files_below.existing(file, &report)));
+            files.extend(revolution.file.clone());
         }
+        let sweeps = between::chosen(&files_below, recorded.revolutions(), &recorded.between, &report);
+        files.extend(sweeps.into_iter().filter_map(|revolution| revolution.file.clone()));
         files.extend(self.log(&self.tables.scenes[index]).and_then(|log| lane_map::file(&log.location)));
         Ok(files.into_iter().map(|file| self.root.join(file)).filter(|path| path.is_file()).collect())
     }
@@ -62,7 +67,8 @@ impl NuScenes {
 fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, ReadError> {
     let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
     let record = &tables.scenes[scene];
-    let moments = moments(dataset, scene, report)?;
+    let recorded = Recorded::of(dataset, scene, report)?;
+    let moments = &recorded.moments;
     let Some(first) = moments.first() else { return Err(empty(dataset, &record.name)) };
 
     // World is the global frame with the first position taken off, so that numbers are small.
@@ -83,7 +89,11 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
             lidar: None,
         })
         .collect();
-    read_sweeps(dataset, &moments, &mut keyframes, world_pose, report);
+    let files = dataset.files();
+    read_sweeps(dataset, moments, &mut keyframes, world_pose, report);
+    let path = between::path(&files, &record.name, recorded.revolutions(), &recorded.between, report);
+    let sweeps = between::chosen(&files, recorded.revolutions(), &recorded.between, report);
+    let sweeps = between::sweeps(&files, &sweeps, world_pose, report);
 
     let annotations = read_spans::<AnnotationRecord>(&dataset.folder, &spans.annotations, report)?;
     let tracks = boxes::place(tables, &annotations, &mut keyframes, anchor_m, report);
@@ -92,44 +102,58 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
         report.note(Outcome::Warned, "nuScenes scene of an unknown log", &record.name);
     }
     let place_name = log.map_or("", |l| l.location.as_str());
-    let path: Vec<DVec2> = keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
-    let projection = place::projection(log, anchor_m, report);
+    let driven: Vec<DVec2> = keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
+    let (projection, is_georeferenced) = place::projection(tables.relative, log, anchor_m, report);
+    let is_flat = moments.iter().all(|m| m.global_from_ego.translation.z == first.global_from_ego.translation.z);
     let mut drive = Drive {
         id: record.name.clone(),
-        dataset: "nuscenes".to_owned(),
+        dataset: tables.relative.name.clone(),
         origin: DriveOrigin::Recorded,
         place: place_name.to_owned(),
-        is_georeferenced: projection.is_some(),
-        projection: projection.unwrap_or_else(|| MapProjection::spherical(0.0, 0.0, anchor_m)),
+        is_georeferenced,
+        projection,
         rig,
-        ego_body: EGO_BODY,
-        lane_map: lane_map::read(&dataset.root, place_name, anchor_m, &path, report),
+        ego_body: tables.relative.ego_body(),
+        lane_map: lane_map::read(&dataset.root, place_name, anchor_m, &driven, report),
         keyframes,
+        path: path.map(|_, pose| world_pose(*pose)),
+        sweeps,
         tracks,
-        licence: log.and_then(|l| l.trove_licence.clone()).unwrap_or_else(|| LICENCE.to_owned()),
+        licence: log.and_then(|l| l.trove_licence.clone()).unwrap_or_else(|| tables.relative.licence.clone()),
     };
-    levelling::level(&mut drive, &HEIGHTS, report);
+    // Some relatives know heights.
+    if is_flat {
+        levelling::level(&mut drive, &HEIGHTS, report);
+    }
     Ok(drive)
 }
 
-/// The scene's samples that have a pose, in order.
-fn moments<'a>(dataset: &'a NuScenes, scene: usize, report: &Report) -> Result<Vec<Moment<'a>>, ReadError> {
-    let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
-    let data = read_spans::<SampleDataRecord>(&dataset.folder, &spans.sample_data, report)?;
-    let ego_poses = read_spans::<EgoPoseRecord>(&dataset.folder, &spans.ego_poses, report)?;
-    let ego_poses: ByToken<_> = ego_poses.into_iter().map(|p| (p.token.clone(), p)).collect();
-    let mut taken = exposures::join(&dataset.root, tables, data, &ego_poses, report);
-    let moment = |sample: &'a SampleRecord| {
-        let taken = taken.remove(&sample.token).unwrap_or_default();
-        match taken.global_from_ego(sample.timestamp.saturating_mul(1000), &sample.token, report) {
-            Some(global_from_ego) => Some(Moment { sample, taken, global_from_ego }),
-            None => {
-                report.note(Outcome::Dropped, "nuScenes sample without a usable ego pose", &sample.token);
-                None
+impl<'a> Recorded<'a> {
+    /// The scene's samples that have a pose, in order, and what lies between.
+    fn of(dataset: &'a NuScenes, scene: usize, report: &Report) -> Result<Self, ReadError> {
+        let (tables, spans) = (&dataset.tables, &dataset.index.scenes[scene]);
+        let data = read_spans::<SampleDataRecord>(&dataset.folder, &spans.sample_data, report)?;
+        let ego_poses = read_spans::<EgoPoseRecord>(&dataset.folder, &spans.ego_poses, report)?;
+        let ego_poses: ByToken<_> = ego_poses.into_iter().map(|p| (p.token.clone(), p)).collect();
+        let Joined { mut of_samples, between } = exposures::join(&dataset.files(), tables, data, &ego_poses, report);
+        let moment = |sample: &'a SampleRecord| {
+            let taken = of_samples.remove(&sample.token).unwrap_or_default();
+            match taken.global_from_ego(sample.timestamp.saturating_mul(1000), &sample.token, report) {
+                Some(global_from_ego) => Some(Moment { sample, taken, global_from_ego }),
+                None => {
+                    report.note(Outcome::Dropped, "nuScenes sample without a usable ego pose", &sample.token);
+                    None
+                }
             }
-        }
-    };
-    Ok(keyframes::in_order(tables, scene, report).into_iter().filter_map(moment).collect())
+        };
+        let moments = keyframes::in_order(tables, scene, report).into_iter().filter_map(moment).collect();
+        Ok(Self { moments, between })
+    }
+
+    /// The LiDAR's at the keyframes.
+    fn revolutions(&self) -> impl Iterator<Item = &Revolution> {
+        self.moments.iter().filter_map(|moment| moment.taken.revolution.as_ref())
+    }
 }
 
 fn read_sweeps(
@@ -147,10 +171,10 @@ fn read_sweeps(
         let Some(revolution) = &moment.taken.revolution else { continue };
         let Some(points) = &revolution.file else { continue };
         let labels = dataset.tables.lidarseg_files.get(&revolution.token);
-        let labels = labels.and_then(|file| exposures::existing(&dataset.root, file, report));
-        let files = SweepFiles { points, labels: labels.as_deref() };
+        let labels = labels.and_then(|file| dataset.files().existing(file, report));
+        let labels = labels.as_deref().map(|labels| (labels, &classes));
         let world_from_sensor = world_pose(revolution.global_from_ego) * revolution.ego_from_sensor;
-        keyframe.lidar = lidar::sweep(&dataset.root, &files, world_from_sensor, &classes, report);
+        keyframe.lidar = lidar::sweep(&dataset.root, points, labels, world_from_sensor, report);
     }
 }
 

@@ -1,10 +1,10 @@
-//! What the sensors took for each keyframe, with its own time and pose.
+//! What the sensors took for each keyframe and between them, with its own time and pose.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Component, Path};
 
 use trove_model::{Camera, Ego, Exposure, Lens, Outcome, Pose, Report, RigCamera, SensorFrame, World};
 
+use super::files::Files;
 use super::poses;
 use super::records::{CalibratedSensorRecord, EgoPoseRecord, SampleDataRecord};
 use super::tables::{ByToken, Tables};
@@ -25,6 +25,7 @@ pub(super) struct Picture {
 
 /// What the top LiDAR took.
 pub(super) struct Revolution {
+    pub(super) time_ns: i64,
     pub(super) global_from_ego: GlobalFromEgo,
     pub(super) ego_from_sensor: Pose<Ego, SensorFrame>,
     pub(super) token: String,
@@ -61,15 +62,24 @@ impl Taken {
     }
 }
 
-/// Joins `sample_data` with poses and calibrations, by the sample's token; what does not join is reported.
+/// What was taken.
+#[derive(Default)]
+pub(super) struct Joined {
+    /// By the sample's token.
+    pub(super) of_samples: HashMap<String, Taken>,
+    /// The LiDAR's between the keyframes, in the order of the table.
+    pub(super) between: Vec<Revolution>,
+}
+
+/// Joins `sample_data` with poses and calibrations; what does not join is reported.
 pub(super) fn join(
-    root: &Path,
+    files: &Files,
     tables: &Tables,
     data: Vec<SampleDataRecord>,
     ego_poses: &ByToken<EgoPoseRecord>,
     report: &Report,
-) -> HashMap<String, Taken> {
-    let mut taken = HashMap::<String, Taken>::new();
+) -> Joined {
+    let mut joined = Joined::default();
     for record in data {
         let dropped = |why: &str| report.note(Outcome::Dropped, &format!("nuScenes sample_data: {why}"), &record.token);
         let Some(calibration) = tables.calibrated_sensors.get(&record.calibrated_sensor_token) else {
@@ -88,10 +98,12 @@ pub(super) fn join(
             dropped("ego_pose without a valid pose");
             continue;
         };
-        let of_sample = taken.entry(record.sample_token.clone()).or_default();
         let is_first = if sensor.modality == "camera" {
-            match picture(root, &sensor.channel, &record, calibration, global_from_ego, report) {
-                Ok(picture) => of_sample.pictures.insert(sensor.channel.clone(), picture).is_none(),
+            match picture(files, &sensor.channel, &record, calibration, global_from_ego, report) {
+                Ok(picture) => {
+                    let of_sample = joined.of_samples.entry(record.sample_token.clone()).or_default();
+                    of_sample.pictures.insert(sensor.channel.clone(), picture).is_none()
+                }
                 Err(why) => {
                     dropped(why);
                     continue;
@@ -102,18 +114,29 @@ pub(super) fn join(
                 dropped("calibration without a valid pose");
                 continue;
             };
-            let (token, file) = (record.token.clone(), existing(root, &record.filename, report));
-            of_sample.revolution.replace(Revolution { global_from_ego, ego_from_sensor, token, file }).is_none()
+            let revolution = Revolution {
+                time_ns: record.timestamp.saturating_mul(1000),
+                global_from_ego,
+                ego_from_sensor,
+                token: record.token.clone(),
+                file: files.existing(&record.filename, report),
+            };
+            if !record.is_key_frame {
+                joined.between.push(revolution);
+                continue;
+            }
+            let of_sample = joined.of_samples.entry(record.sample_token.clone()).or_default();
+            of_sample.revolution.replace(revolution).is_none()
         };
         if !is_first {
             dropped("replaced by a later one of the same sensor and sample");
         }
     }
-    taken
+    joined
 }
 
 fn picture(
-    root: &Path,
+    files: &Files,
     channel: &str,
     record: &SampleDataRecord,
     calibration: &CalibratedSensorRecord,
@@ -124,22 +147,12 @@ fn picture(
         channel: channel.to_owned(),
         time_ns: record.timestamp.saturating_mul(1000),
         global_from_ego,
-        lens: poses::lens(record.width, record.height, &calibration.camera_intrinsic)?,
+        lens: poses::lens(record.width.unwrap_or(0), record.height.unwrap_or(0), &calibration.camera_intrinsic)?,
         ego_from_camera: poses::pose(calibration.translation, calibration.rotation)
             .ok_or("calibration without a valid pose")?,
         token: record.token.clone(),
-        file: existing(root, &record.filename, report),
+        file: files.existing(&record.filename, report),
     })
-}
-
-/// A file's path below the root; `None` where it is not at hand. Paths that leave the root are not followed.
-pub(super) fn existing(root: &Path, file: &str, report: &Report) -> Option<String> {
-    let path = Path::new(file);
-    if !path.components().all(|c| matches!(c, Component::Normal(_))) {
-        report.note(Outcome::Dropped, "file name outside the dataset's folder", file);
-        return None;
-    }
-    (!file.is_empty() && root.join(path).is_file()).then(|| file.to_owned())
 }
 
 /// The cameras by name, each as it was when it was first used.

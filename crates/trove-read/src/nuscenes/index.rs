@@ -13,11 +13,8 @@ use trove_model::{Entry, Outcome, Report};
 
 use super::records::{AnnotationRecord, EgoPoseRecord, Record, SampleDataRecord};
 use super::table::{RawRecord, Table, records};
-use super::tables::{Tables, note_duplicate, parse, table_path};
+use super::tables::{LIDAR, Tables, note_duplicate, parse, table_path};
 use crate::ReadError;
-
-/// The sensor whose time is the keyframe's time.
-const LIDAR: &str = "LIDAR_TOP";
 
 /// Bytes of a table that hold whole records with commas between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +26,7 @@ pub(super) struct Span {
 /// One scene's records in the big tables, in the order of the files.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SceneSpans {
-    /// Keyframes' `sample_data` of cameras and the top LiDAR.
+    /// Keyframes' `sample_data` of cameras, and all of the top LiDAR.
     pub(super) sample_data: Vec<Span>,
     /// The poses that those name.
     pub(super) ego_poses: Vec<Span>,
@@ -112,9 +109,12 @@ fn sample_data_spans(
     let mut scene_of_pose = HashMap::new();
     each::<SampleDataRecord>(folder, |raw| {
         let Some(key) = parse::<SampleDataKey>(SampleDataRecord::TABLE, raw, report) else { return };
-        let is_used = |s: &super::records::SensorRecord| s.modality == "camera" || s.channel == LIDAR;
-        // A sensor that is not known stays, for the scene to report.
-        if !key.is_key_frame || !tables.sensor(&key.calibrated_sensor_token).is_none_or(is_used) {
+        // A keyframe's sensor that is not known stays, for the scene to report.
+        let is_used = match tables.sensor(&key.calibrated_sensor_token) {
+            Some(sensor) => sensor.channel == LIDAR || key.is_key_frame && sensor.modality == "camera",
+            None => key.is_key_frame,
+        };
+        if !is_used {
             return;
         }
         match scene_of_sample.get(&*key.sample_token) {

@@ -12,7 +12,7 @@ use trove_model::{Entry, Outcome};
 
 use super::index::{Index, SceneSpans, Span};
 
-const MAGIC: &[u8] = b"TROVE nuScenes index 1\n";
+const MAGIC: &[u8] = b"TROVE nuScenes index 2\n";
 
 /// An index's place and what it must have been made from.
 pub(super) struct IndexFile {

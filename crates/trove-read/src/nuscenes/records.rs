@@ -1,6 +1,9 @@
 //! The tables' records, as far as they are used.
 
-use serde::Deserialize;
+use std::fmt;
+
+use serde::de::{self, Visitor};
+use serde::{Deserialize, Deserializer};
 
 /// A record that is found by its token.
 pub(super) trait Record: for<'de> Deserialize<'de> {
@@ -26,6 +29,31 @@ macro_rules! record {
             }
         }
     };
+}
+
+/// A time that some relatives write with a fraction.
+pub(super) fn microseconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<i64, D::Error> {
+    struct Microseconds;
+    impl Visitor<'_> for Microseconds {
+        type Value = i64;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("microseconds since 1970")
+        }
+
+        fn visit_i64<E: de::Error>(self, time_us: i64) -> Result<i64, E> {
+            Ok(time_us)
+        }
+
+        fn visit_u64<E: de::Error>(self, time_us: u64) -> Result<i64, E> {
+            i64::try_from(time_us).map_err(E::custom)
+        }
+
+        fn visit_f64<E: de::Error>(self, time_us: f64) -> Result<i64, E> {
+            Ok(time_us.round() as i64)
+        }
+    }
+    deserializer.deserialize_any(Microseconds)
 }
 
 record!(
@@ -56,6 +84,7 @@ record!("log",
 record!(
     "sample",
     SampleRecord {
+        #[serde(deserialize_with = "microseconds")]
         timestamp: i64,
         scene_token: String,
         #[serde(default)]
@@ -69,11 +98,11 @@ record!(
         sample_token: String,
         ego_pose_token: String,
         calibrated_sensor_token: String,
+        #[serde(deserialize_with = "microseconds")]
         timestamp: i64,
-        #[serde(default)]
-        width: i64,
-        #[serde(default)]
-        height: i64,
+        is_key_frame: bool,
+        width: Option<i64>,
+        height: Option<i64>,
         #[serde(default)]
         filename: String,
     }
@@ -94,8 +123,7 @@ record!("sensor", SensorRecord { channel: String, modality: String });
 record!("sample_annotation", AnnotationRecord {
     sample_token: String,
     instance_token: String,
-    #[serde(default)]
-    visibility_token: String,
+    visibility_token: Option<String>,
     #[serde(default)]
     attribute_tokens: Vec<String>,
     translation: [f64; 3],

@@ -39,7 +39,7 @@ fn only_version(root: &Path) -> Result<String, ReadError> {
     match versions.as_slice() {
         [only] => Ok(only.clone()),
         [] => Err(missing(
-            "a nuScenes root with a folder v1.0-* of tables",
+            "a nuScenes root with a folder of tables, such as v1.0-mini",
             "none".into(),
             "give the folder that contains v1.0-trainval or v1.0-mini as the root",
         )),
@@ -76,7 +76,7 @@ mod tests {
         assert!(!(DATASET.is_at)(root.path()) && error().contains("v1.0-mini as the root"));
         for version in ["v1.0-mini", "v1.0-trainval"] {
             std::fs::create_dir(root.path().join(version)).unwrap();
-            std::fs::write(root.path().join(version).join("scene.json"), "[]").unwrap();
+            std::fs::write(root.path().join(version).join("sample_data.json"), "[]").unwrap();
         }
         assert!((DATASET.is_at)(root.path()));
         assert!(error().contains("one version, found v1.0-mini, v1.0-trainval"), "{}", error());

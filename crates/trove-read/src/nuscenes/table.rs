@@ -74,7 +74,8 @@ impl Table<File> {
 }
 
 impl<R: Read> Table<R> {
-    fn new(path: &Path, source: R) -> Self {
+    /// Over bytes that are said to be of a path.
+    pub(super) fn new(path: &Path, source: R) -> Self {
         let (buffer, path) = (Vec::new(), path.to_owned());
         Self { path, source, buffer, at: 0, base: 0, exhausted: false, expect: Expect::Array }
     }

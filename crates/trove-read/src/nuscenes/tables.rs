@@ -10,14 +10,20 @@ use super::records::{
     AnnotationRecord, AttributeRecord, CalibratedSensorRecord, CategoryRecord, EgoPoseRecord, InstanceRecord,
     LidarsegRecord, LogRecord, Record, SampleDataRecord, SampleRecord, SceneRecord, SensorRecord, VisibilityRecord,
 };
+use super::relatives::Relative;
 use super::table::{RawRecord, Table};
 use crate::ReadError;
+
+/// The LiDAR that is used, whose time is the keyframe's time.
+pub(super) const LIDAR: &str = "LIDAR_TOP";
 
 /// Records by token; for looking up, never for iterating.
 pub(super) type ByToken<T> = HashMap<String, T>;
 
 /// What is kept in memory while a dataset is open.
 pub(super) struct Tables {
+    /// Which dataset they are of.
+    pub(super) relative: &'static Relative,
     /// In the order of the file.
     pub(super) scenes: Vec<SceneRecord>,
     /// For each scene the tokens of its samples, in the order of the file.
@@ -52,15 +58,17 @@ impl Tables {
         }
         let lidarseg: Vec<LidarsegRecord> =
             if table_path::<LidarsegRecord>(folder).exists() { read_table(folder, report)? } else { Vec::new() };
+        let categories: ByToken<CategoryRecord> = by_token(read_table(folder, report)?);
         Ok(Self {
+            relative: Relative::of(categories.values().map(|category| category.name.as_str())),
             samples_of_scene,
             samples: by_token(samples),
             scenes,
             logs: by_token(read_table(folder, report)?),
-            sensors: by_token(sensors_with_names(read_table(folder, report)?, report)),
+            sensors: by_token(usable_sensors(read_table(folder, report)?, report)),
             calibrated_sensors: by_token(read_table(folder, report)?),
             instances: by_token(read_table(folder, report)?),
-            categories: by_token(read_table(folder, report)?),
+            categories,
             attributes: by_token(read_table(folder, report)?),
             visibilities: by_token(read_table(folder, report)?),
             lidarseg_files: lidarseg.into_iter().map(|r| (r.sample_data_token, r.filename)).collect(),
@@ -98,8 +106,11 @@ fn scenes_with_own_names(mut scenes: Vec<SceneRecord>, report: &Report) -> Vec<S
     scenes
 }
 
-/// Channels become parts of folders' names.
-fn sensors_with_names(mut sensors: Vec<SensorRecord>, report: &Report) -> Vec<SensorRecord> {
+/// Channels become parts of folders' names; of several LiDARs one is used.
+fn usable_sensors(mut sensors: Vec<SensorRecord>, report: &Report) -> Vec<SensorRecord> {
+    for other in sensors.iter().filter(|sensor| sensor.modality == "lidar" && sensor.channel != LIDAR) {
+        report.note(Outcome::Dropped, &format!("nuScenes LiDAR other than {LIDAR}"), &other.channel);
+    }
     sensors.retain(|sensor| {
         PathComponent::new(&sensor.channel)
             .inspect_err(|why| {

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use glam::DVec3;
 use trove_files::PathComponent;
-use trove_format::PlainEgoBody;
-use trove_model::{Drive, DriveOrigin, EgoBody, Exposure, Keyframe, Outcome, Report, RigCamera};
+use trove_format::{PlainDrive, PlainEgoBody, PlainSweep};
+use trove_model::{Drive, DriveOrigin, EgoBody, Exposure, Keyframe, Outcome, Report, RigCamera, Sweep};
 
 use super::camera::camera;
 use super::earth::Earth;
 use super::exposures::{self, Place};
-use super::faults::Faults;
+use super::faults::{Faults, Located, Part};
 use super::keyframes;
 use super::parts::{self, Parts};
 use super::{boxes, lane_map, lidar};
@@ -20,6 +20,9 @@ use crate::budget::Budget;
 /// An ordinary car: length, width without mirrors and height of a compact, with Ego on its rear axle.
 pub(crate) const ORDINARY_CAR: EgoBody =
     EgoBody { centre_ego: DVec3::new(1.35, 0.0, 0.75), size_m: DVec3::new(4.4, 1.8, 1.5) };
+
+/// Points of all sweeps between the keyframes: they take 240 MB in memory.
+const MOST_POINTS_BETWEEN: usize = 20_000_000;
 
 /// Reads a drive from its file's text; `name` is the drive's.
 pub(super) fn read(text: &str, path: &Path, name: &str, place: &Place, report: &Report) -> Result<Drive, ReadError> {
@@ -59,6 +62,7 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
         return None;
     }
     let posed = keyframes::posed(moments, earth, faults);
+    let path = keyframes::path(&header.value.path, &header.part, earth, faults);
     let mut keyframes = Vec::new();
     for (k, one) in posed.iter().enumerate() {
         let (moment, part) = (&one.moment.value, &one.moment.part);
@@ -68,7 +72,7 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
             time_ns: moment.time_ns,
             token: moment.token.clone(),
             world_from_ego: one.world_from_ego,
-            exposures: exposures::exposures(&posed, k, &rig, (earth, place), faults, report),
+            exposures: exposures::exposures(&posed, k, &rig, &path, (earth, place), faults, report),
             boxes: Vec::new(),
             lidar,
         });
@@ -80,7 +84,7 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
     if header.value.ego_body.is_none() {
         report.note(Outcome::Guessed, "recording vehicle's size: that of an ordinary car", name);
     }
-    Some(Drive {
+    let mut drive = Drive {
         id: name.to_owned(),
         dataset: "trove".to_owned(),
         origin: DriveOrigin::Recorded,
@@ -90,10 +94,42 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
         rig,
         ego_body: ego_body.unwrap_or(ORDINARY_CAR),
         keyframes,
+        path,
+        sweeps: Vec::new(),
         tracks,
         lane_map,
         licence: header.value.licence.clone(),
-    })
+    };
+    drive.sweeps = sweeps(&drive, header, (earth, place), faults, report);
+    Some(drive)
+}
+
+/// The sweeps between the keyframes.
+fn sweeps(
+    drive: &Drive,
+    header: &Located<PlainDrive<(), ()>>,
+    (earth, place): (&Earth, &Place),
+    faults: &mut Faults,
+    report: &Report,
+) -> Vec<Sweep> {
+    let (mut sweeps, mut before_ns, mut left) = (Vec::new(), None, MOST_POINTS_BETWEEN);
+    for (i, PlainSweep { time_ns, lidar }) in header.value.sweeps.iter().enumerate() {
+        let part = Part { text: header.part.text, path: format!("sweeps[{i}]") };
+        if !keyframes::later(&part, *time_ns, before_ns.replace(*time_ns), faults) {
+            continue;
+        }
+        let Some(world_from_ego) = drive.world_from_ego_at(*time_ns) else { continue };
+        let Some(lidar) = lidar::sweep(lidar, world_from_ego, (earth, place), &part, faults, report) else { continue };
+        match left.checked_sub(lidar.points_world.len()) {
+            Some(rest) => left = rest,
+            None => {
+                report.note(Outcome::Dropped, "LiDAR sweep between keyframes: a drive has too many points", &part.path);
+                break;
+            }
+        }
+        sweeps.push(Sweep { time_ns: *time_ns, lidar });
+    }
+    sweeps
 }
 
 fn ego_body(body: &PlainEgoBody) -> Result<EgoBody, String> {

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path};
 
-use trove_model::{Exposure, Outcome, Report, RigCamera};
+use trove_model::{Ego, Exposure, Outcome, Report, RigCamera, Trajectory, World};
 
 use super::camera::camera;
 use super::earth::Earth;
@@ -34,6 +34,7 @@ pub(super) fn exposures(
     posed: &[Posed],
     k: usize,
     rig: &[RigCamera],
+    path: &Trajectory<World, Ego>,
     (earth, place): (&Earth, &Place),
     faults: &mut Faults,
     report: &Report,
@@ -75,7 +76,8 @@ pub(super) fn exposures(
             let pose = earth.ego(picture.world_from_ego.as_ref(), picture.geo_from_ego.as_ref());
             exposure.world_from_ego = faults.take(part, pose).unwrap_or(world_from_ego);
         } else if exposure.time_ns != moment.time_ns {
-            exposure.world_from_ego = keyframes::at(posed, exposure.time_ns).unwrap_or(world_from_ego);
+            let between = path.at(exposure.time_ns).or_else(|| keyframes::at(posed, exposure.time_ns));
+            exposure.world_from_ego = between.unwrap_or(world_from_ego);
         }
         if let Some(calibrated) = picture.camera.as_ref().and_then(|c| faults.take(part, camera(c))) {
             (exposure.lens, exposure.ego_from_camera) = calibrated;

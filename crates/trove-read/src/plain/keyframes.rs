@@ -1,11 +1,12 @@
-//! The vehicle at each keyframe.
+//! The vehicle at each keyframe, and between them.
 
 use std::collections::BTreeSet;
 
-use trove_model::{Ego, Pose, World};
+use trove_format::PlainMoment;
+use trove_model::{Ego, Pose, Trajectory, World};
 
 use super::earth::Earth;
-use super::faults::{Faults, Located};
+use super::faults::{Faults, Located, Part};
 use super::parts::Moment;
 
 /// No recording is of a time after 2096, or so long before 1970: differences of times fit into 64 bits.
@@ -28,15 +29,7 @@ pub(super) fn posed<'a, 'm>(
     let mut posed = Vec::new();
     for moment in moments {
         let (part, value) = (&moment.part, &moment.value);
-        if let Some(before_ns) = before_ns.filter(|&before_ns| value.time_ns <= before_ns) {
-            faults.say(
-                part,
-                &format!("time_ns: expected more than {before_ns} of the one before, found {}", value.time_ns),
-            );
-        }
-        before_ns = Some(value.time_ns);
-        if value.time_ns.unsigned_abs() > LATEST_NS {
-            faults.say(part, &format!("time_ns: expected nanoseconds since 1970, found {}", value.time_ns));
+        if !later(part, value.time_ns, before_ns.replace(value.time_ns), faults) {
             continue;
         }
         if !value.token.is_empty() && !tokens.insert(value.token.as_str()) {
@@ -48,6 +41,31 @@ pub(super) fn posed<'a, 'm>(
         }
     }
     posed
+}
+
+/// The vehicle between the keyframes, in the order of time, which is a fault where the file's is another.
+pub(super) fn path(moments: &[PlainMoment], part: &Part, earth: &Earth, faults: &mut Faults) -> Trajectory<World, Ego> {
+    let mut path = Vec::with_capacity(moments.len());
+    for (i, moment) in moments.iter().enumerate() {
+        let part = Part { text: part.text, path: format!("path[{i}]") };
+        if later(&part, moment.time_ns, i.checked_sub(1).map(|before| moments[before].time_ns), faults) {
+            let pose = earth.ego(moment.world_from_ego.as_ref(), moment.geo_from_ego.as_ref());
+            path.extend(faults.take(&part, pose).map(|pose| (moment.time_ns, pose)));
+        }
+    }
+    Trajectory::new(path).0
+}
+
+/// Whether a time is one, and later than that of what stands before; else a fault.
+pub(super) fn later(part: &Part, time_ns: i64, before_ns: Option<i64>, faults: &mut Faults) -> bool {
+    if let Some(before_ns) = before_ns.filter(|&before_ns| time_ns <= before_ns) {
+        faults.say(part, &format!("time_ns: expected more than {before_ns} of the one before, found {time_ns}"));
+    }
+    let is_time = time_ns.unsigned_abs() <= LATEST_NS;
+    if !is_time {
+        faults.say(part, &format!("time_ns: expected nanoseconds since 1970, found {time_ns}"));
+    }
+    is_time
 }
 
 /// The vehicle at a time, from the keyframes around it; at most half a step before the first and after the last.

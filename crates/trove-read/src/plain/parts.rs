@@ -28,7 +28,19 @@ pub(super) fn read<'a>(text: &'a str, is_lines: bool, faults: &mut Faults<'a>) -
     let first = if is_lines { lines.next().unwrap_or_default() } else { text };
     let part = Part { text: first, path: String::new() };
     let drive: PlainDrive<&RawValue, &RawValue> = faults.read(&part)?;
-    let PlainDrive { trove_drive, name, place, licence, georeference, ego_body, cameras, lane_map, keyframes } = drive;
+    let PlainDrive {
+        trove_drive,
+        name,
+        place,
+        licence,
+        georeference,
+        ego_body,
+        cameras,
+        lane_map,
+        path,
+        sweeps,
+        keyframes,
+    } = drive;
     if trove_drive != PlainDrive::VERSION {
         faults.say(&part, &format!("trove_drive: expected {}, found {trove_drive}", PlainDrive::VERSION));
     }
@@ -61,6 +73,8 @@ pub(super) fn read<'a>(text: &'a str, is_lines: bool, faults: &mut Faults<'a>) -
         ego_body,
         cameras: BTreeMap::new(),
         lane_map,
+        path,
+        sweeps,
         keyframes: Vec::new(),
     };
     Some(Parts { header: Located { part, value: header }, cameras: read_cameras, keyframes })
@@ -107,6 +121,9 @@ pub(super) fn name(text: &str, is_lines: bool) -> Option<String> {
 pub(super) fn lidar_files(text: &str, path: &Path) -> Vec<String> {
     let mut faults = Faults::of(text); // told when the drive is read
     let parts = read(text, path.extension().is_some_and(|e| e == "jsonl"), &mut faults);
-    let lidars = parts.into_iter().flat_map(|parts| parts.keyframes).filter_map(|k| k.value.lidar);
+    let lidars = parts.into_iter().flat_map(|Parts { header, keyframes, .. }| {
+        let between = header.value.sweeps.into_iter().map(|sweep| sweep.lidar);
+        keyframes.into_iter().filter_map(|k| k.value.lidar).chain(between)
+    });
     lidars.flat_map(|lidar| [Some(lidar.file), lidar.labels]).flatten().collect()
 }

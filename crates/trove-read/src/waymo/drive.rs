@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    Drive, DriveOrigin, Ego, EgoBody, Keyframe, LidarSweep, MapProjection, Outcome, Pose, Report, World,
+    Drive, DriveOrigin, Ego, EgoBody, Keyframe, LidarSweep, MapProjection, Outcome, Pose, Report, Trajectory, World,
 };
 
 use super::records::{FrameRecord, Returns, Segment};
@@ -54,6 +54,8 @@ pub(super) fn drive(path: &Path, mut segment: Segment, report: &Report) -> Resul
         rig: rig.into_iter().map(|(_, camera)| camera).collect(),
         ego_body: EGO_BODY,
         keyframes,
+        path: Trajectory::default(),
+        sweeps: Vec::new(),
         tracks,
         licence: vocabulary::licence().to_owned(),
     })

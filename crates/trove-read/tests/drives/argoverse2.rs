@@ -28,6 +28,7 @@ const HEIGHT_M: f64 = 231.0;
 /// What Argoverse 2 can say: its pictures are without distortion.
 fn sayable() -> Drive {
     let mut drive = canonical::with_cameras(canonical::drive(), ["ring_front_center", "ring_front_left"]);
+    drive.sweeps.clear(); // every sweep is a keyframe's
     let lenses = drive.keyframes.iter_mut().flat_map(|k| &mut k.exposures).map(|e| &mut e.lens);
     lenses.chain(drive.rig.iter_mut().map(|c| &mut c.lens)).for_each(|lens| lens.distortion = Distortion::None);
     drive
@@ -79,7 +80,9 @@ fn write(drive: &Drive) -> TempDir {
         let name = &drive.rig[exposure.camera].name;
         put(root.path(), &format!("sensors/cameras/{name}/{}.jpg", exposure.time_ns), b"");
     }
+    poses.extend(drive.path.moments().iter().map(|(time_ns, pose)| (*time_ns, grid.pose(pose))));
     poses.sort_by_key(|(time_ns, _)| *time_ns);
+    poses.dedup_by_key(|(time_ns, _)| *time_ns);
     let stamps = Column::Int(poses.iter().map(|(time_ns, _)| *time_ns).collect());
     let rows: Vec<_> = poses.into_iter().map(|(_, pose)| pose).collect();
     table(POSES, [vec![("timestamp_ns", stamps)], pose_columns(&rows)].concat());

@@ -1,7 +1,8 @@
 //! The drive that every dataset's form is tested with.
 //!
 //! Six keyframes at 2 Hz, in Pittsburgh, through a bend and up a slope; two cameras that fire before and after the
-//! keyframe; four tracks of different kinds at constant velocities; one LiDAR sweep on a regular grid of beams. Boxes are
+//! keyframe; four tracks of different kinds at constant velocities; one LiDAR sweep on a regular grid of beams at a keyframe and
+//! one between two; and the vehicle's pose twenty times a second. Boxes are
 //! upright in Ego, which is all that KITTI and Waymo can say of their orientation. A test changes what its dataset cannot
 //! say before it compares.
 
@@ -10,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DQuat, DVec2, DVec3, EulerRot};
 use trove_model::{
     Camera, Cuboid, Distortion, Drive, DriveOrigin, Ego, EgoBody, Exposure, Keyframe, Kind, Lens, LidarSweep,
-    MapProjection, ObjectBox, Pose, RigCamera, SensorFrame, Track, World,
+    MapProjection, ObjectBox, Pose, RigCamera, SensorFrame, Sweep, Track, Trajectory, World,
 };
 
 /// Where World's origin lies.
@@ -22,6 +23,10 @@ pub(crate) const START_NS: i64 = 1_600_000_000_500_000_000;
 pub(crate) const PERIOD_NS: i64 = 500_000_000;
 /// The keyframe with a LiDAR sweep.
 pub(crate) const SWEPT: usize = 2;
+/// Between two poses of the path.
+pub(crate) const STEP_NS: i64 = 50_000_000;
+/// The pose of the path with a LiDAR sweep between keyframes.
+pub(crate) const SWEPT_BETWEEN: i64 = 26;
 /// Beams, and columns of a revolution: azimuths fall from π (backwards) in equal steps, the first by half a step.
 pub(crate) const INCLINATIONS_RAD: [f64; 4] = [-0.35, -0.25, -0.15, -0.1];
 pub(crate) const COLUMNS: usize = 90;
@@ -123,10 +128,32 @@ pub(crate) fn drive() -> Drive {
         rig,
         ego_body: EgoBody { centre_ego: DVec3::new(1.35, 0.0, 0.75), size_m: DVec3::new(4.6, 1.8, 1.5) },
         keyframes,
+        path: Trajectory::new((0..=50).map(on_path).collect()).0,
+        sweeps: vec![Sweep { time_ns: on_path(SWEPT_BETWEEN).0, lidar: sweep(&on_path(SWEPT_BETWEEN).1) }],
         tracks,
         lane_map: None,
         licence: "CC0".into(),
     }
+}
+
+fn on_path(i: i64) -> (i64, Pose<World, Ego>) {
+    (START_NS + i * STEP_NS, world_from_ego((i * STEP_NS) as f64 * 1e-9))
+}
+
+fn sweep(world_from_ego: &Pose<World, Ego>) -> LidarSweep {
+    let world_from_sensor = *world_from_ego * ego_from_lidar();
+    LidarSweep {
+        origin_world: world_from_sensor.translation,
+        points_world: points_sensor().into_iter().map(|p| world_from_sensor.point(p).as_vec3()).collect(),
+        classes: Vec::new(),
+    }
+}
+
+/// A drive of which no more is known than its keyframes.
+pub(crate) fn without_between(mut drive: Drive) -> Drive {
+    drive.path = Trajectory::default();
+    drive.sweeps.clear();
+    drive
 }
 
 fn keyframe(k: usize, rig: &[RigCamera], tracks: &mut [Track]) -> Keyframe {
@@ -167,12 +194,7 @@ fn keyframe(k: usize, rig: &[RigCamera], tracks: &mut [Track]) -> Keyframe {
         }
     });
     let boxes = boxes.collect();
-    let world_from_sensor = ego * ego_from_lidar();
-    let lidar = (k == SWEPT).then(|| LidarSweep {
-        origin_world: world_from_sensor.translation,
-        points_world: points_sensor().into_iter().map(|p| world_from_sensor.point(p).as_vec3()).collect(),
-        classes: Vec::new(),
-    });
+    let lidar = (k == SWEPT).then(|| sweep(&ego));
     let exposures = rig.iter().enumerate().map(exposure).collect();
     Keyframe { time_ns, token: format!("keyframe-{k}"), world_from_ego: ego, exposures, boxes, lidar }
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Cuboid, Drive, Exposure, Frame, Keyframe, Lens, ObjectBox, Pose};
+use trove_model::{Cuboid, Drive, Exposure, Frame, Keyframe, Lens, LidarSweep, ObjectBox, Pose};
 
 use crate::canonical;
 
@@ -57,6 +57,15 @@ pub(crate) fn differences(expected: &Drive, found: &Drive, within: &Tolerances) 
         if apart_m > within.position_m {
             say(format!("place on earth: {apart_m:.4} m off, at {lat_deg}, {lon_deg}"));
         }
+    }
+    let mut between = Comparison { within, origins, place: "between keyframes".into(), told: &mut told };
+    between.paths(expected, found);
+    for (a, b) in expected.sweeps.iter().zip(&found.sweeps) {
+        between.times(a.time_ns, b.time_ns);
+        between.sweeps(Some(&a.lidar), Some(&b.lidar));
+    }
+    if expected.sweeps.len() != found.sweeps.len() {
+        between.say(&format!("expected {} sweeps, found {}", expected.sweeps.len(), found.sweeps.len()));
     }
     let mut same_tracks = BTreeMap::new();
     for (k, (a, b)) in expected.keyframes.iter().zip(&found.keyframes).enumerate() {
@@ -110,7 +119,26 @@ impl Comparison<'_> {
         if b.exposures.len() > a.exposures.len() {
             self.say(&format!("expected {} pictures, found {}", a.exposures.len(), b.exposures.len()));
         }
-        match (&a.lidar, &b.lidar) {
+        self.sweeps(a.lidar.as_ref(), b.lidar.as_ref());
+    }
+
+    /// A path may have more poses, such as those of pictures.
+    fn paths(&mut self, a: &Drive, b: &Drive) {
+        if a.path.moments().is_empty() != b.path.moments().is_empty() {
+            let counts = [a, b].map(|drive| drive.path.moments().len());
+            self.say(&format!("path: expected {} poses, found {}", counts[0], counts[1]));
+            return;
+        }
+        for (time_ns, pose) in a.path.moments() {
+            match b.path.at(*time_ns) {
+                Some(found) => self.world_poses("path", pose, &found),
+                None => self.say(&format!("path: nothing {} ns after the start", time_ns - canonical::START_NS)),
+            }
+        }
+    }
+
+    fn sweeps(&mut self, a: Option<&LidarSweep>, b: Option<&LidarSweep>) {
+        match (a, b) {
             (Some(a), Some(b)) if a.points_world.len() == b.points_world.len() => {
                 let offset = self.origins[1] - self.origins[0];
                 let apart_m = |(a, b): (&glam::Vec3, &glam::Vec3)| (b.as_dvec3() - a.as_dvec3() - offset).length();
@@ -122,7 +150,7 @@ impl Comparison<'_> {
             }
             (None, None) => {}
             (a, b) => {
-                let count = |s: &Option<trove_model::LidarSweep>| s.as_ref().map(|s| s.points_world.len());
+                let count = |s: Option<&LidarSweep>| s.map(|s| s.points_world.len());
                 self.say(&format!("LiDAR points: expected {:?}, found {:?}", count(a), count(b)));
             }
         }
@@ -233,6 +261,11 @@ fn the_canonical_drive_is_itself_and_no_other() {
             sweep.points_world.iter_mut().for_each(|p| *p += east.as_vec3());
         }
     }
+    moved.path = moved.path.map(|_, pose| Pose::new(pose.rotation, pose.translation + east));
+    for sweep in moved.sweeps.iter_mut().map(|sweep| &mut sweep.lidar) {
+        sweep.origin_world += east;
+        sweep.points_world.iter_mut().for_each(|p| *p += east.as_vec3());
+    }
     assert_eq!(differences(&drive, &moved, &TIGHT), [""; 0], "another origin of World");
     check(|d| d.is_georeferenced = false, "georeferenced");
     check(|d| d.projection.origin_lat_deg += 1e-7, "place on earth: 0.0111 m");
@@ -255,5 +288,12 @@ fn the_canonical_drive_is_itself_and_no_other() {
     check(|d| d.keyframes[2].boxes[0].track = 1, "'car' changes from one track to another");
     check(|d| d.tracks[0].boxes.truncate(5), "track track-0");
     check(|d| d.keyframes[2].lidar.as_mut().unwrap().points_world[7].x += 0.01, "LiDAR: points up to 0.01");
+    check(|d| d.path = d.path.clone().later(1_000_000), "path: 0.00801 m");
+    check(|d| d.path = trove_model::Trajectory::default(), "path: expected 51 poses, found 0");
+    check(|d| d.sweeps.clear(), "expected 1 sweeps, found 0");
+    check(
+        |d| d.sweeps[0].lidar.origin_world.z += 0.01,
+        "between keyframes: LiDAR: points up to 0.0000 m off, sensor 0.01",
+    );
     check(|d| d.keyframes[2].lidar = None, "LiDAR points: expected Some(360), found None");
 }

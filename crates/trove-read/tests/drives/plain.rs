@@ -63,6 +63,14 @@ fn write(drive: &Drive, said: &Said, is_lines: bool) -> TempDir {
     let mut header = json!({"trove_drive": 1, "name": "canonical", "georeference": said.georeference, "cameras": cameras,
         "licence": drive.licence, "ego_body": {"centre_m": drive.ego_body.centre_ego.to_array(),
         "size_m": drive.ego_body.size_m.to_array()}});
+    let lidar = |file: &str| json!({"file": file, "ego_from_lidar": posed(&canonical::ego_from_lidar())});
+    let on_path = |(time_ns, pose): &(i64, Pose<World, trove_model::Ego>)| {
+        let (key, vehicle) = (said.vehicle)(pose);
+        json!({"time_ns": time_ns, key: vehicle})
+    };
+    header["path"] = drive.path.moments().iter().map(on_path).collect();
+    let between = |sweep: &trove_model::Sweep| json!({"time_ns": sweep.time_ns, "lidar": lidar("lidar/2.bin")});
+    header["sweeps"] = drive.sweeps.iter().map(between).collect();
     let keyframe = |(k, moment): (usize, &trove_model::Keyframe)| {
         let mut value = json!({"time_ns": moment.time_ns, "token": moment.token});
         let (key, vehicle) = (said.vehicle)(&moment.world_from_ego);
@@ -88,7 +96,7 @@ fn write(drive: &Drive, said: &Said, is_lines: bool) -> TempDir {
         };
         value["boxes"] = moment.boxes.iter().map(object).collect();
         if moment.lidar.is_some() {
-            value["lidar"] = json!({"file": "lidar/2.bin", "ego_from_lidar": posed(&canonical::ego_from_lidar())});
+            value["lidar"] = lidar("lidar/2.bin");
             assert_eq!(k, canonical::SWEPT);
         }
         value

@@ -48,7 +48,7 @@ fn revolution(drive: &Drive) -> (writer::Scan, LidarSweep) {
 
 /// What Waymo can say of the drive, and the segment that says it.
 fn sayable() -> (Drive, writer::Segment) {
-    let mut drive = canonical::with_cameras(canonical::drive(), ["FRONT", "SIDE_LEFT"]);
+    let mut drive = canonical::with_cameras(canonical::without_between(canonical::drive()), ["FRONT", "SIDE_LEFT"]);
     drive.is_georeferenced = false;
     let (scan, sweep) = revolution(&drive);
     drive.keyframes[SWEPT].lidar = Some(sweep);

@@ -76,7 +76,7 @@ impl Dataset {
                     data.push(json!({"token": token, "sample_token": format!("k{i}"), "ego_pose_token": token,
                         "calibrated_sensor_token": format!("c-{channel}"), "timestamp": time_us, "fileformat": "x",
                         "is_key_frame": is_key_frame, "height": height, "width": width, "prev": "", "next": "",
-                        "filename": format!("samples/{channel}/{i}.bin")}));
+                        "filename": format!("{}/{channel}/{i}.bin", if is_key_frame { "samples" } else { "sweeps" })}));
                     poses.push(json!({"token": token, "timestamp": time_us, "rotation": [1.0, 0.0, 0.0, 0.0],
                         "translation": [100.4 + (time_us - START_US) as f64 * 1e-5, 200.6, 0.25]}));
                 }

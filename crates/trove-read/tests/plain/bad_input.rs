@@ -58,6 +58,49 @@ fn every_fault_is_told_with_its_place() {
 }
 
 #[test]
+fn what_cannot_be_between_keyframes_is_told() {
+    let at = |ms: i64, x: f64| json!({"time_ns": 1_600_000_000_000_000_000 + ms * 1_000_000, "world_from_ego": {"translation_m": [x, 5, 0]}});
+    let path = |change: fn(&mut Value), expect: &str| {
+        let mut path = json!([at(0, 12.0), at(50, 12.4), at(100, 12.8)]);
+        change(&mut path);
+        check(|d| d["path"] = path, expect);
+    };
+    path(|p| p[2]["time_ns"] = p[1]["time_ns"].clone(), "path[2]: time_ns: expected more than");
+    path(|p| p[1]["time_ns"] = json!(5), "path[1]: time_ns: expected more than");
+    path(|p| p[2]["time_ns"] = json!(i64::MAX), "path[2]: time_ns: expected nanoseconds since 1970");
+    path(|p| p[1]["world_from_ego"]["translation_m"][0] = json!(1e7), "path[1]: the vehicle: expected it near");
+    path(|p| p[1]["world_from_ego"]["rotation_wxyz"] = json!([0, 0, 0, 0]), "path[1]: world_from_ego.rotation_wxyz");
+    path(|p| drop(p[1].as_object_mut().unwrap().remove("world_from_ego")), "path[1]: expected world_from_ego");
+    path(|p| p[1]["world_from_ego"]["translation_m"] = json!([null, 2, 3]), "invalid type: null");
+    path(|p| p[1]["lidar"] = json!({}), "unknown field `lidar`");
+    check(|d| d["path"] = json!({}), "invalid type: map");
+    let sweep =
+        |ms: i64, file: &str| json!({"time_ns": 1_600_000_000_000_000_000 + ms * 1_000_000, "lidar": {"file": file}});
+    check(|d| d["sweeps"] = json!([sweep(50, "a.bin"), sweep(50, "b.bin")]), "sweeps[1]: time_ns: expected more than");
+    check(|d| d["sweeps"] = json!([sweep(50, "/dev/zero")]), "sweeps[0]: lidar.file: expected a path");
+    check(|d| d["sweeps"] = json!([{"time_ns": 7}]), "missing field `lidar`");
+}
+
+#[test]
+fn pictures_without_a_pose_lie_on_the_path_and_a_sweep_that_is_missing_is_reported() {
+    let mut drive = moments(3);
+    // Between the keyframes the vehicle swerves.
+    let start = 1_600_000_000_000_000_000_i64;
+    let at =
+        |ms: i64, y: f64| json!({"time_ns": start + ms * 1_000_000, "world_from_ego": {"translation_m": [14, y, 0]}});
+    drive["path"] = json!([at(200, 6.0), at(300, 7.0)]);
+    drive["sweeps"] = json!([{"time_ns": start + 250_000_000, "lidar": {"file": "lost.bin"}}]);
+    drive["keyframes"][0]["pictures"]["front"] = json!({"time_ns": start + 250_000_000});
+    let (root, report) = (tempfile::tempdir().unwrap(), Report::default());
+    put(root.path(), "drive.json", drive.to_string());
+    let found = read(root.path(), &report).unwrap();
+    let offset = found.keyframes[0].world_from_ego.translation - glam::DVec3::new(12.0, 5.0, 0.0);
+    let exposure = found.keyframes[0].exposures[0].world_from_ego.translation - offset;
+    assert!(exposure.distance(glam::DVec3::new(14.0, 6.5, 0.0)) < 1e-9, "{exposure}");
+    assert!(found.sweeps.is_empty() && notes(&report).iter().any(|(what, _)| what.contains("LiDAR file that cannot")));
+}
+
+#[test]
 fn what_cannot_be_is_told() {
     check(|d| d["trove_drive"] = json!(2), "trove_drive: expected 1, found 2");
     check(|d| drop(d.as_object_mut().unwrap().remove("trove_drive")), "missing field `trove_drive`");

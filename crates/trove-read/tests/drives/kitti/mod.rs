@@ -25,6 +25,7 @@ fn whole() -> Drive {
 /// Extracted recordings have all but boxes, which are numbered by synced frames.
 fn extracted() -> Drive {
     let mut drive = whole();
+    drive.sweeps.clear();
     drive.tracks.clear();
     drive.keyframes.iter_mut().for_each(|k| k.boxes.clear());
     drive
@@ -32,7 +33,7 @@ fn extracted() -> Drive {
 
 /// Rectified cameras look the same way, and share the vehicle's pose with the frame.
 fn synced() -> Drive {
-    let mut drive = whole();
+    let mut drive = canonical::without_between(whole());
     let rotation = drive.rig[0].ego_from_camera.rotation;
     for camera in &mut drive.rig {
         camera.ego_from_camera.rotation = rotation;

@@ -120,7 +120,9 @@ pub(crate) fn raw(drive: &Drive, root: &Path, is_synced: bool) {
         drive.keyframes.iter().map(|k| (k.time_ns, k.world_from_ego)).collect();
     if !is_synced {
         poses.extend(drive.keyframes.iter().flat_map(|k| &k.exposures).map(|e| (e.time_ns, e.world_from_ego)));
+        poses.extend(drive.path.moments());
         poses.sort_by_key(|(time_ns, _)| *time_ns);
+        poses.dedup_by_key(|(time_ns, _)| *time_ns);
     }
     let only_poses: Vec<_> = poses.iter().map(|(_, pose)| *pose).collect();
     for (i, line) in oxts(drive, &only_poses).iter().enumerate() {
