@@ -11,9 +11,10 @@ use trove_read::nuscenes::NuScenes;
 #[path = "../../crates/trove-read/tests/nuscenes/fixture.rs"]
 mod fixture;
 
-use fixture::{Dataset, SCENE, VERSION, put};
+use fixture::{Dataset, SCENE, START_US, VERSION, put};
 
 const SWEEP: &str = "samples/LIDAR_TOP/0.bin";
+const CAN_BUS: &str = "can_bus/scene-0001_pose.json";
 const LANES: &str = "maps/expansion/boston-seaport.json";
 /// FNV-1a, which the index ends with.
 const FNV: (u64, u64) = (0xcbf2_9ce4_8422_2325, 0x0100_0000_01b3);
@@ -65,6 +66,20 @@ pub(crate) fn feed_lidar(folder: &Path, data: &[u8]) {
 
 pub(crate) fn lidar_seeds() -> Vec<Vec<u8>> {
     vec![sweep()]
+}
+
+pub(crate) fn feed_can_bus(folder: &Path, data: &[u8]) {
+    put(folder, CAN_BUS, data);
+    read(folder, None);
+}
+
+/// Poses that agree with the tables', every 100 ms.
+pub(crate) fn can_bus_seeds() -> Vec<Vec<u8>> {
+    let message = |i: i64| {
+        json!({"utime": START_US + i * 100_000, "pos": [100.4 + i as f64, 200.6, 0.25],
+            "orientation": [1.0, 0.0, 0.0, 0.0], "vel": [10.0, 0.0, 0.0]})
+    };
+    vec![json!((0..=10).map(message).collect::<Vec<_>>()).to_string().into_bytes()]
 }
 
 pub(crate) fn feed_lane_map(folder: &Path, data: &[u8]) {

@@ -57,6 +57,12 @@ pub const TARGETS: &[Target] = &[
         feed: datasets::feed_lidar,
     },
     Target {
+        name: "nuscenes_can_bus",
+        seeds: datasets::can_bus_seeds,
+        prepare: datasets::prepare,
+        feed: datasets::feed_can_bus,
+    },
+    Target {
         name: "nuscenes_lane_map",
         seeds: datasets::lane_map_seeds,
         prepare: datasets::prepare,
