@@ -96,7 +96,7 @@ pub(super) fn drive(
         rig: rig.to_vec(),
         ego_body: ORDINARY_CAR,
         keyframes,
-        path: path(first.time_ns, &samples, &poses),
+        path: path(start_ns, &samples, &poses),
         sweeps: Vec::new(),
         tracks: Vec::new(),
         lane_map: None,
