@@ -28,5 +28,5 @@ pub(super) fn on_path(
 pub(super) fn at_keyframe(time_ns: i64, other: Option<(Pose<World, Camera>, i64)>) -> Option<CameraBeside> {
     let (world_from_camera, other_ns) = other?;
     let apart_ns = other_ns.abs_diff(time_ns);
-    (apart_ns > 0).then(|| CameraBeside { apart_s: apart_ns as f64 * 1e-9, world_from_camera })
+    (apart_ns > 0).then_some(CameraBeside { apart_s: apart_ns as f64 * 1e-9, world_from_camera })
 }

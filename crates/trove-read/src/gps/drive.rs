@@ -234,6 +234,8 @@ mod tests {
         let x = |t: f64| if t < 10.0 { 10.0 * t } else { 100.0 + 10.0 * (t - 70.0).max(0.0) };
         let trace = fixes((0..160).map(|i| 0.5 * f64::from(i)).map(|t| (t, DVec2::new(x(t), 0.0))));
         let drive = read(&trace, Apart::Metres(5.0));
+        assert_eq!(drive.path.moments().len(), 160, "a pose a fix");
+        assert!(drive.path.moments().iter().all(|(_, pose)| pose.translation.y.abs() < 0.1));
         let places: Vec<DVec3> = drive.keyframes.iter().map(|k| k.world_from_ego.translation).collect();
         assert!((places.len() as i32 - 40).abs() <= 1, "{}", places.len());
         for pair in places.windows(2) {

@@ -47,6 +47,11 @@ fn real_log_is_what_its_tables_hold() {
         ("VEHICULAR_TRAILER", 155),
     ];
     assert_eq!(counts.into_iter().collect::<Vec<_>>(), expected);
+    assert_eq!(drive.path.moments().len(), 2706);
+    for keyframe in &drive.keyframes {
+        let on_path = drive.path.at(keyframe.time_ns).unwrap();
+        assert!(on_path.translation.distance(keyframe.world_from_ego.translation) < 1e-9);
+    }
     let sweeps: Vec<_> = drive.keyframes.iter().filter_map(|k| Some(k.lidar.as_ref()?.points_world.len())).collect();
     assert_eq!((sweeps.len(), sweeps[0]), (2, 99_229));
     let map = drive.lane_map.as_ref().unwrap();
