@@ -4,26 +4,24 @@ mod identity;
 mod inputs;
 mod manifest;
 mod output;
+mod read;
 mod worker;
 
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc;
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail, ensure};
-use trove_build::ALL_CAMERAS;
+use anyhow::{Context, Result, ensure};
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
-use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, StreetMap, Viewpoint};
-use trove_read::rig;
+use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
 
 use crate::contents::Contents;
 use crate::progress::Progress;
-use crate::recipe::{Recipe, nearest};
+use crate::recipe::Recipe;
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::{interrupt, library, message};
@@ -31,6 +29,7 @@ pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, SiteSummary, variation_folder};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, is_whole, refuse_foreign};
+use read::Read;
 use worker::Worker;
 
 /// Cameras of a rig before the first drive has been read.
@@ -204,13 +203,6 @@ fn write(exporter: &mut Box<dyn Exporter>, Job { path, scene, shot, capture, met
     Ok((frame.path, files))
 }
 
-/// A scene as it was read: the same for all its variations.
-struct Read {
-    drive: Drive,
-    map: Option<StreetMap>,
-    report: Report,
-}
-
 /// A scene of one variation, ready to be photographed.
 struct Built<'a> {
     scene: VirtualScene<'a>,
@@ -227,18 +219,7 @@ struct Photographed {
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
     fn scene(&mut self, scene: &str, frames_hints: &[usize]) -> Result<(), Stop> {
-        let read = OnceCell::new();
-        // Read for the first variation of which something is missing.
-        let build = |run: &mut Self, variation: u32| {
-            let read = match read.get() {
-                Some(read) => read,
-                None => {
-                    let found = run.read(scene)?;
-                    read.get_or_init(|| found)
-                }
-            };
-            run.build(read, variation)
-        };
+        let read = Read::new(scene);
         // Of a counterfactual set v00, which the others are compared with.
         let mut base: Option<Built> = None;
         for (variation, &frames_hint) in (0..).zip(frames_hints) {
@@ -255,10 +236,10 @@ impl Run<'_> {
                 (Some(file), false) => (file, None),
                 (known, _) => {
                     if let Some(known) = known {
-                        self.refuse_another_recording(scene, &known)?;
+                        read.refuse_another(&known, &self.sources, &mut self.contents)?;
                     }
                     self.progress.say(&format!("building {scene} v{variation:02}"));
-                    match build(self, variation) {
+                    match self.build(&read, variation) {
                         Ok((file, built)) => {
                             self.output.write_site(&folder, &file)?;
                             (file, Some(built))
@@ -279,7 +260,7 @@ impl Run<'_> {
             self.progress.correct(frames_hint, wanted.count());
             let compares = built.is_some() && self.recipe.pictures(variation).contains(&FrameFile::Change);
             if compares && base.is_none() {
-                base = Some(build(self, 0)?.1);
+                base = Some(self.build(&read, 0)?.1);
             }
             self.frames(scene, variation, &file, built.as_ref(), base.as_ref().filter(|_| compares))?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
@@ -287,16 +268,6 @@ impl Run<'_> {
                 base = built;
             }
         }
-        Ok(())
-    }
-
-    /// An error where a scene that frames have been made of was recorded otherwise then.
-    fn refuse_another_recording(&mut self, scene: &str, known: &SiteFile) -> Result<()> {
-        let found = self.sources.recording(scene, &mut self.contents)?;
-        ensure!(
-            known.recording == found,
-            "{scene}: its recorded files have changed since its first frames were made; choose another --out"
-        );
         Ok(())
     }
 
@@ -320,14 +291,9 @@ impl Run<'_> {
         self.output.finished(&key.path(), &self.format.files(&self.recipe.pictures(key.variation)))
     }
 
-    fn read(&self, scene: &str) -> Result<Read> {
-        let report = Report::default();
-        let (drive, map) = self.sources.drive(scene, &report)?;
-        self.check_cameras(&drive)?;
-        Ok(Read { drive, map, report })
-    }
-
-    fn build<'r>(&mut self, Read { drive, map, report }: &'r Read, variation: u32) -> Result<(SiteFile, Built<'r>)> {
+    fn build<'r>(&mut self, read: &'r Read<'_>, variation: u32) -> Result<(SiteFile, Built<'r>)> {
+        let recording = read.recording(&self.sources, &mut self.contents)?.clone();
+        let (drive, map, report) = read.drive(&self.sources)?;
         let report = report.clone();
         let built = VirtualScene::build(&self.sources, (drive, map.as_ref()), &self.library, variation, &report)?;
         let keyframes = match &self.recipe.drive {
@@ -343,31 +309,11 @@ impl Run<'_> {
             fits: fit_rows(built.site.fits()),
             factors: built.factors.clone(),
             locale: Some((&built.locale).into()),
-            recording: self.sources.recording(&drive.id, &mut self.contents)?,
+            recording,
             planned: self.planned.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
         Ok((file, Built { scene: built, shots }))
-    }
-
-    /// The cameras that the recipe names are cameras of the drive.
-    fn check_cameras(&self, drive: &Drive) -> Result<()> {
-        let in_views = self.recipe.camera_names().unwrap_or_default().into_iter().map(|name| ("views.rig", name));
-        let with_lens = self.recipe.camera.lens.keys().filter(|name| *name != ALL_CAMERAS);
-        for (key, name) in in_views.chain(with_lens.map(|name| ("camera.lens", name.clone()))) {
-            if drive.rig.iter().all(|camera| camera.name != name) {
-                let known: Vec<&str> = drive.rig.iter().map(|camera| camera.name.as_str()).collect();
-                let others: Vec<&str> = rig::presets().filter(|_| key == "views.rig").collect();
-                let hint = nearest(&name, &[&known[..], &others].concat());
-                let or = if others.is_empty() {
-                    String::new()
-                } else {
-                    format!(", a preset ({}) or a .toml file", others.join(", "))
-                };
-                bail!("{key}: expected cameras among {}{or}, found {name}{hint}", known.join(", "));
-            }
-        }
-        Ok(())
     }
 
     /// Renders what is missing of a scene; `base` is what its pictures are compared with.
