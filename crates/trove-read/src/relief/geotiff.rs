@@ -1,7 +1,7 @@
 //! GeoTIFF with geographic coordinates: one band of heights in strips or tiles.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Seek};
 use std::path::Path;
 
 use tiff::TiffError;
@@ -13,11 +13,14 @@ use trove_model::{Outcome, Raster, Report};
 
 use super::geo_keys::{Fault, GeoTags};
 use super::sheet::{Cut, Sheet, Window, plausible};
+use super::texts;
 use crate::ReadError;
 use crate::budget::Budget;
 
 /// Larger strips and tiles are refused, bytes; GDAL's are 8 KiB to 1 MiB.
 const LARGEST_CHUNK: usize = 128 << 20;
+/// Longer texts are refused, bytes; GDAL's metadata are some kilobytes.
+const LONGEST_TEXT: u64 = 16 << 20;
 /// Where the file does not say.
 const NO_LICENCE: &str = "not stated in the file";
 
@@ -42,7 +45,13 @@ fn read_from(
     let mut limits = Limits::default();
     limits.decoding_buffer_size = LARGEST_CHUNK;
     limits.intermediate_buffer_size = LARGEST_CHUNK;
-    let mut tiff = Decoder::new(BufReader::new(file)).map_err(damaged)?.with_limits(limits);
+    let mut file = BufReader::new(file);
+    let longest = texts::longest(&mut file).map_err(damaged)?;
+    if longest > LONGEST_TEXT {
+        return Err(damaged(format!("a text of {longest} bytes")));
+    }
+    file.rewind().map_err(damaged)?;
+    let mut tiff = Decoder::new(file).map_err(damaged)?.with_limits(limits);
     let (width, height) = tiff.dimensions().map_err(damaged)?;
     let bands = number(&mut tiff, Tag::SamplesPerPixel)?.unwrap_or(1.0);
     if bands != 1.0 {

@@ -9,6 +9,7 @@ mod geo_keys;
 mod geotiff;
 mod hgt;
 mod sheet;
+mod texts;
 mod zip;
 
 use std::ffi::OsStr;

@@ -43,6 +43,7 @@ fn pictures_without_degrees_heights_or_an_end_say_what_to_do() {
         (tiff().shorts(34735, &[1, 1]).bytes(), "no coordinate system"),
         (tiff().shorts(277, &[3]).shorts(258, &[32, 32, 32]).bytes(), "3 bands"),
         (tiff().strips(SIDE, vec![vec![0; 400]]).bytes(), "gdal_translate"),
+        (tiff().entry(256, 2, 1 << 30, vec![0; 5]).bytes(), "a text of 1073741824 bytes"),
         (whole[..300].to_vec(), "complete GeoTIFF"),
         (whole[..5].to_vec(), "complete GeoTIFF"),
     ] {

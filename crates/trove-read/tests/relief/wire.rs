@@ -82,7 +82,7 @@ impl Tiff {
         self.entry(tag, 2, text.len() + 1, [text.as_bytes(), &[0]].concat())
     }
 
-    fn entry(mut self, tag: u16, kind: u16, count: usize, bytes: Vec<u8>) -> Self {
+    pub(crate) fn entry(mut self, tag: u16, kind: u16, count: usize, bytes: Vec<u8>) -> Self {
         self.entries.retain(|entry| entry.0 != tag);
         self.entries.push((tag, kind, count as u32, bytes));
         self
