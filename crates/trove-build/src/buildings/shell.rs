@@ -166,3 +166,23 @@ fn normal(points: &[DVec3]) -> Option<DVec3> {
     let o = *points.first()?;
     points.windows(2).map(|w| (w[0] - o).cross(w[1] - o)).sum::<DVec3>().try_normalize()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::open_edges_and_volume;
+
+    #[test]
+    fn a_body_looks_outwards_wherever_it_goes_first() {
+        let diamond = [[0.0, -1.0], [-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
+        let ring = |x: f64, z: f64| diamond.map(|[across, up]| DVec3::new(x, across, z + up));
+        // Ahead, back, and first up in its own plane, as a verge does at a gable's upright end.
+        for way in [vec![[2.0, 0.0]], vec![[-2.0, 0.0]], vec![[0.0, 0.5], [2.0, 0.5]], vec![[0.0, 0.5], [-2.0, 0.5]]] {
+            let mut shell = Shell::default();
+            let rings: Vec<_> = [[0.0; 2]].iter().chain(&way).map(|&[x, z]| ring(x, z)).collect();
+            shell.sweep([Slot::Boards; 4], &rings);
+            let (open, volume_m3) = open_edges_and_volume(&shell.finish());
+            assert!(open.is_empty() && (volume_m3 - 4.0).abs() < 1e-6, "{way:?}: {volume_m3} m³");
+        }
+    }
+}

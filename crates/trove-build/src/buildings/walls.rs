@@ -190,4 +190,33 @@ mod tests {
         assert_eq!(runs(&ring(4)).len(), 4);
         assert!(runs(&ring(4)).iter().all(|wall| wall.len() == 1));
     }
+
+    #[test]
+    fn rooms_beside_a_bent_wall_end_before_its_edge_at_their_corner() {
+        let wall = |line: &[DVec2], detail| Wall {
+            line: line.to_vec(),
+            number: 0,
+            first_bay: 0,
+            detail,
+            is_blank: false,
+            is_front: false,
+            corner: [0.0; 2],
+            mitre: [None; 2],
+            thick_m: 5.0,
+            thicknesses_m: [5.0; STATIONS],
+        };
+        // It leans over the house by 20° at the corner and is upright on the whole.
+        let mut bent = vec![DVec2::new(10.0, 0.0)];
+        for turned_deg in [110.0f64, 90.0, 70.0] {
+            bent.push(bent[bent.len() - 1] + DVec2::from_angle(turned_deg.to_radians()) * 3.0);
+        }
+        let [first, last] = [bent[0], bent[3]];
+        let mut walls = [
+            wall(&[DVec2::ZERO, first], Detail::Full),
+            wall(&bent, Detail::Flat),
+            wall(&[last, DVec2::ZERO], Detail::Flat),
+        ];
+        corners(&mut walls);
+        assert!((walls[0].corner[1] - 20f64.to_radians().tan()).abs() < 1e-9, "{:?}", walls[0].corner);
+    }
 }

@@ -1,7 +1,7 @@
 use glam::DVec2;
 use trove_model::{Building, Mesh, Polygon, Report, RoofShape, Seed};
 
-use super::roof;
+use super::{edges, pitched, roof};
 use crate::buildings::shell::{Shell, Slot};
 use crate::buildings::volumes::{Beside, House, Volume};
 use crate::testing::open_edges_and_volume;
@@ -49,21 +49,29 @@ fn footprints() -> Vec<(&'static str, Polygon)> {
         ("round", simple(&round)),
         ("straight points", simple(&[(0., 0.), (7., 0.002), (20., 0.), (20., 6.), (20.01, 8.), (20., 12.), (0., 12.)])),
         ("sliver", simple(&[(0., 0.), (30., 0.), (30., 0.4), (0., 0.5)])),
+        (
+            "notch",
+            simple(&[(0., 0.), (20., 0.), (20., 12.), (10.5, 12.), (10.5, 9.), (10., 9.), (10., 12.), (0., 12.)]),
+        ),
         ("tiny", simple(&[(0., 0.), (1.1, 0.), (1.1, 1.), (0., 1.)])),
     ]
 }
 
-/// A body from 10 to 18 m with its walls, as far from the driven path as given.
-fn body(footprint: &Polygon, shape: RoofShape, path_m: f64) -> (Mesh, usize) {
-    let building = Building::new(1, Polygon::default(), None);
+/// From 10 to 18 m, with nothing near it.
+fn volume<'a>(building: &'a Building, footprint: &Polygon, shape: RoofShape) -> Volume<'a> {
     let eaves_m = if shape == RoofShape::Flat { TOP_M } else { EAVES_M };
     let sides = footprint.edges().map(|(a, b)| Beside { covers: Vec::new(), length_m: a.distance(b), room_m: 0.8 });
-    let volume = Volume {
+    Volume {
         footprint: footprint.clone(),
         sides: sides.collect(),
-        ..Volume::new(&building, BOTTOM_M, eaves_m, TOP_M, shape)
-    };
-    let house = House { path_m, ..House::alone(&building, vec![volume]) };
+        ..Volume::new(building, BOTTOM_M, eaves_m, TOP_M, shape)
+    }
+}
+
+/// Such a volume with its walls, as far from the driven path as given.
+fn body(footprint: &Polygon, shape: RoofShape, path_m: f64) -> (Mesh, usize) {
+    let building = Building::new(1, Polygon::default(), None);
+    let house = House { path_m, ..House::alone(&building, vec![volume(&building, footprint, shape)]) };
     let mut shell = Shell::default();
     let top = roof(&mut shell, &house.volumes[0], &house, &mut Seed(3).random(), &Report::default());
     for (a, b) in footprint.edges() {
@@ -106,6 +114,35 @@ fn what_is_put_on_a_roof_is_closed_too_and_only_near_the_path() {
             assert!(far <= near && far < 700, "{shape:?} on {name}: {far} triangles, {near} near");
         }
     }
+}
+
+#[test]
+fn every_body_along_a_roofs_edges_looks_outwards() {
+    let building = Building::new(1, Polygon::default(), None);
+    let mut bodies = 0;
+    for (name, footprint) in footprints() {
+        let footprint = crate::geometry::plane::union(&[footprint]).remove(0);
+        for shape in SHAPES {
+            let volume = volume(&building, &footprint, shape);
+            let Some(roof) = pitched::pitched(&volume, shape, EAVES_M, TOP_M) else { continue };
+            let mut shell = Shell::default();
+            edges::edges(&mut shell, &roof, &volume, true);
+            // One after another each is closed: where no edge is open one ends.
+            let mut rest = shell.finish();
+            let triangles = std::mem::take(&mut rest.triangles);
+            for triangle in triangles {
+                rest.triangles.push(triangle);
+                let (open, volume_m3) = open_edges_and_volume(&rest);
+                if open.is_empty() {
+                    assert!(volume_m3 > 0.0, "{shape:?} on {name}: {volume_m3} m³");
+                    rest.triangles.clear();
+                    bodies += 1;
+                }
+            }
+            assert!(rest.triangles.is_empty(), "{shape:?} on {name}");
+        }
+    }
+    assert!(bodies > 300, "{bodies}");
 }
 
 #[test]
