@@ -31,7 +31,6 @@
 //! ```
 
 mod asset;
-mod calendar;
 mod capture;
 mod class;
 mod cuboid;
@@ -67,7 +66,6 @@ mod trajectory;
 mod variation;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
-pub use calendar::days_from_civil;
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
 pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, LabelRow, label_rows, label_table};
 pub use cuboid::Cuboid;

@@ -33,6 +33,7 @@
 pub mod argoverse2;
 pub mod asset_files;
 mod budget;
+mod clock_time;
 mod datasets;
 pub mod drive_source;
 pub mod environment;
@@ -54,5 +55,6 @@ pub mod relief;
 pub mod rig;
 pub mod waymo;
 
+pub use clock_time::ClockTime;
 pub use datasets::DATASETS;
 pub use error::ReadError;

@@ -1,7 +1,6 @@
 //! Times as devices write them.
 
-use toml::value::{Datetime, Offset};
-use trove_model::days_from_civil;
+use crate::ClockTime;
 
 /// No trace is of a time after 2096, or so long before 1970: differences of times fit into 64 bits.
 const LATEST_NS: u64 = 4_000_000_000_000_000_000;
@@ -27,18 +26,7 @@ fn of_any_unit(text: &str) -> Option<i64> {
     if let Ok(seconds) = text.parse::<f64>() {
         return (seconds.abs() < 4e9).then(|| (seconds * 1e9).round() as i64);
     }
-    let Datetime { date: Some(date), time: Some(time), offset } = text.parse().ok()? else { return None };
-    let offset_min = match offset {
-        Some(Offset::Custom { minutes }) => i64::from(minutes),
-        Some(Offset::Z) | None => 0,
-    };
-    if !(1700..=2200).contains(&date.year) {
-        return None;
-    }
-    let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
-    let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
-    let seconds = days * 86_400 + of_day_s - offset_min * 60;
-    Some(seconds * 1_000_000_000 + time.nanosecond.map_or(0, i64::from))
+    Some(ClockTime::parse(text)?.utc_ns(0))
 }
 
 #[cfg(test)]

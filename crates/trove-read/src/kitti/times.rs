@@ -2,12 +2,9 @@
 
 use std::path::Path;
 
-use toml::value::Datetime;
-use trove_model::days_from_civil;
-
 use super::facts::FACTS;
 use super::text;
-use crate::ReadError;
+use crate::{ClockTime, ReadError};
 
 /// The time of each frame, nanoseconds since 1970 UTC; `None` where a line is none.
 pub(super) fn read(path: &Path) -> Result<Vec<Option<i64>>, ReadError> {
@@ -22,14 +19,8 @@ pub(super) fn unknown_ns(frame: usize) -> i64 {
 
 /// Nanoseconds since 1970 UTC; `None` for what is no time of KITTI's decades.
 fn time_ns(line: &str) -> Option<i64> {
-    let parsed: Datetime = line.trim().parse().ok()?;
-    let (date, time) = (parsed.date?, parsed.time?);
-    if parsed.offset.is_some() || !(1970..=2200).contains(&date.year) {
-        return None;
-    }
-    let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
-    let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
-    Some((days * 86_400 + of_day_s - FACTS.utc_offset_s) * 1_000_000_000 + time.nanosecond.map_or(0, i64::from))
+    let time = ClockTime::parse(line).filter(|time| time.ahead_s.is_none())?;
+    Some(time.utc_ns(FACTS.utc_offset_s)).filter(|ns| *ns >= 0)
 }
 
 #[cfg(test)]

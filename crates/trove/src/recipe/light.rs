@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::{Moment, SkyChoice};
-use trove_model::days_from_civil;
+use trove_read::ClockTime;
 
 use super::check::check;
 
@@ -84,23 +84,16 @@ impl LightSection {
     /// The time that is told, nanoseconds since 1970 UTC.
     ///
     /// # Errors
-    /// A `light.time` that is not RFC 3339 with date, time and offset.
+    /// A `light.time` that is not RFC 3339 with date, time and offset, or is not from 1700 to 2200.
     pub fn time_ns(&self) -> Result<Option<i64>> {
         let Some(text) = &self.time else { return Ok(None) };
-        let wrong = || format!("light.time: expected a time such as \"2018-08-01T15:26:00Z\", found {text:?}");
-        let parsed: toml::value::Datetime = text.parse().with_context(wrong)?;
-        let (Some(date), Some(time), Some(offset)) = (parsed.date, parsed.time, parsed.offset) else {
-            anyhow::bail!("{} (date, time, and Z or an offset such as +08:00)", wrong());
-        };
-        let offset_min = match offset {
-            toml::value::Offset::Z => 0,
-            toml::value::Offset::Custom { minutes } => i64::from(minutes),
-        };
-        let of_day_s = i64::from(time.hour) * 3600 + i64::from(time.minute) * 60 + time.second.map_or(0, i64::from);
-        // Nanoseconds in 64 bits reach from 1678 to 2261.
-        anyhow::ensure!((1700..=2200).contains(&date.year), "{} (a year from 1700 to 2200)", wrong());
-        let days = days_from_civil(i64::from(date.year), i64::from(date.month), i64::from(date.day));
-        Ok(Some((days * 86_400 + of_day_s - offset_min * 60) * 1_000_000_000))
+        let time = ClockTime::parse(text).filter(|time| time.ahead_s.is_some()).with_context(|| {
+            format!(
+                "light.time: expected date, time, and Z or an offset such as +08:00, from 1700 to 2200, such as \
+                 \"2018-08-01T15:26:00Z\", found {text:?}"
+            )
+        })?;
+        Ok(Some(time.utc_ns(0)))
     }
 }
 
@@ -110,18 +103,11 @@ mod tests {
 
     #[test]
     fn times_are_read_with_their_offset() {
-        for (text, seconds) in [
-            ("1970-01-01T00:00:00Z", 0),
-            ("2018-08-01T15:26:00Z", 1_533_137_160),
-            ("2018-08-01T11:26:00-04:00", 1_533_137_160),
-            ("2000-02-29T23:59:59Z", 951_868_799),
-        ] {
-            let section = LightSection { time: Some(text.into()), ..LightSection::default() };
-            assert_eq!(section.time_ns().unwrap(), Some(seconds * 1_000_000_000), "{text}");
-        }
+        let section = |text: &str| LightSection { time: Some(text.into()), ..LightSection::default() };
+        let noon_ns = Some(1_533_124_800_000_000_000);
+        assert_eq!(section("2018-08-01T08:00:00-04:00").time_ns().unwrap(), noon_ns);
         for text in ["noon", "2018-08-01", "2018-08-01T15:26:00"] {
-            let section = LightSection { time: Some(text.into()), ..LightSection::default() };
-            assert!(section.check().unwrap_err().to_string().contains("light.time"), "{text}");
+            assert!(section(text).check().unwrap_err().to_string().contains("light.time"), "{text}");
         }
     }
 
