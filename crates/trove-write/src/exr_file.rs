@@ -41,7 +41,7 @@ fn encode_channels(
         Encoding { compression: Compression::ZIP16, line_order: LineOrder::Increasing, ..Encoding::default() };
     let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
-    // One core: the pipeline writes one frame while it renders the next.
+    // One core: the pipeline writes frames while it renders the next.
     Image::from_layer(layer)
         .write()
         .non_parallel()

@@ -37,7 +37,7 @@ impl Exporter for FrameFolders {
     /// Writes the folder under a hidden name beside it first, then renames it, so that it is never there in part. What an
     /// interrupted run left under the hidden name, and a folder without all its files, is replaced; a finished frame is
     /// not.
-    fn frame(&mut self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
+    fn frame(&self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
         let dir = self.root.at(&frame.path)?;
         narrowed(&frame.labels)?;
         let there = |file: &FrameFile| match file {
@@ -58,7 +58,7 @@ impl Exporter for FrameFolders {
         folder.finish()
     }
 
-    fn finish(&mut self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
+    fn finish(&self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
         let frame = |row: &trove_format::FrameRow| -> Result<_, WriteError> {
             Ok(contact_sheet::Frame { name: row.path.clone(), dir: self.root.at(&row.path)? })
         };

@@ -5,15 +5,15 @@ mod inputs;
 mod manifest;
 mod output;
 mod read;
-mod worker;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc;
+use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
+use rayon::Scope;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
@@ -30,10 +30,11 @@ use manifest::{FrameKey, SiteSummary, variation_folder};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, is_whole, refuse_foreign};
 use read::Read;
-use worker::Worker;
 
 /// Cameras of a rig before the first drive has been read.
 const CAMERAS_HINT: usize = 6;
+/// Frames that are encoded and written at once: pictures are large.
+const WRITING: usize = 2;
 
 /// How to run, beside the recipe; none of it changes the labels.
 pub struct RunOptions {
@@ -111,7 +112,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         contents,
         planned: keyframes_and_cameras,
         output,
-        writer: Worker::new(options.format.exporter(out), write),
+        exporter: options.format.exporter(out).into(),
+        writing: VecDeque::new(),
         format: options.format,
         progress: Progress::new(planned),
         report,
@@ -173,8 +175,9 @@ struct Run<'a> {
     /// Which keyframes and cameras the recipe asks for.
     planned: serde_json::Value,
     output: OutputFolder,
-    /// Encodes and writes frames while the next ones are rendered.
-    writer: Worker<Box<dyn Exporter>, Job, Written>,
+    exporter: Arc<dyn Exporter>,
+    /// Frames that are encoded and written while the next ones are rendered, in the order of rendering.
+    writing: VecDeque<Receiver<Written>>,
     format: ExportFormat,
     progress: Progress,
     report: Report,
@@ -183,7 +186,7 @@ struct Run<'a> {
     rendered: Vec<RenderedFrame>,
 }
 
-/// A rendered frame, for the writer.
+/// A rendered frame, to be written.
 struct Job {
     /// Below the output folder.
     path: String,
@@ -197,7 +200,7 @@ struct Job {
 /// A frame's path and files.
 type Written = Result<(String, Vec<WrittenFile>), WriteError>;
 
-fn write(exporter: &mut Box<dyn Exporter>, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
+fn write(exporter: &dyn Exporter, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
     let frame = Frame::of(path, &scene, &shot, capture, &meta)?;
     let files = exporter.frame(&frame, &pictures)?;
     Ok((frame.path, files))
@@ -347,7 +350,7 @@ impl Run<'_> {
             let before = base.map(|base| base.photographed(renderer, keyframe)).transpose()?;
             Ok((built.photographed(renderer, keyframe)?, before))
         };
-        // A keyframe is made ready, mostly by one core, while the pictures of the one before it are taken.
+        // A keyframe is made ready, mostly by one core, and frames are written, while further pictures are taken.
         renderer.beside(|threads| {
             let mut ahead = missing.iter().map(|(keyframe, keys)| {
                 let (made, waiting) = mpsc::channel();
@@ -365,7 +368,9 @@ impl Run<'_> {
                 for key in keys {
                     let shot = built.shot(key.keyframe, &key.view).context("a planned view has no shot")?;
                     let drive = built.scene.drive;
-                    self.frame(key, drive, &photographed, before.as_ref(), std::mem::take(&mut prepare_s), shot)?;
+                    let prepare_s = std::mem::take(&mut prepare_s);
+                    let job = self.frame(key, drive, &photographed, before.as_ref(), prepare_s, shot)?;
+                    self.write(threads, job)?;
                     self.progress.frame_done();
                 }
             }
@@ -373,7 +378,7 @@ impl Run<'_> {
         })
     }
 
-    /// Renders one frame and hands it to the writer.
+    /// Renders one frame.
     fn frame(
         &mut self,
         key: &FrameKey,
@@ -382,7 +387,7 @@ impl Run<'_> {
         before: Option<&Photographed>,
         prepare_s: f64,
         shot: &Shot,
-    ) -> Result<(), Stop> {
+    ) -> Result<Job, Stop> {
         self.progress.say(&key.path());
         let within = |share: f32| {
             self.progress.within(share);
@@ -414,36 +419,37 @@ impl Run<'_> {
             projection: drive.projection,
         };
         let path = key.path();
-        self.writer.give(Job {
-            path: path.clone(),
-            scene: scene.clone(),
-            shot: shot.clone(),
-            capture,
-            meta,
-            pictures: self.recipe.pictures(key.variation),
-        });
-        let written = self.writer.done();
-        self.record(written)?;
-        self.rendered.push(RenderedFrame { path, prepare_s, render_s });
-        if interrupt::requested() {
-            return Err(Stop::Interrupted);
-        }
-        Ok(())
+        self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s });
+        let pictures = self.recipe.pictures(key.variation);
+        Ok(Job { path, scene: scene.clone(), shot: shot.clone(), capture, meta, pictures })
     }
 
-    /// Writes down which frames are finished.
-    fn record(&mut self, written: Vec<Written>) -> Result<()> {
-        for frame in written {
-            let (path, files) = frame?;
-            self.output.record(&path, files)?;
+    /// Lets one of the renderer's threads write a frame, once there is room for it.
+    fn write(&mut self, threads: &Scope<'_>, job: Job) -> Result<(), Stop> {
+        while self.writing.len() >= WRITING {
+            self.record_next()?;
         }
-        Ok(())
+        let (done, waiting) = mpsc::channel();
+        let exporter = self.exporter.clone();
+        threads.spawn(move |_| drop(done.send(write(&*exporter, job))));
+        self.writing.push_back(waiting);
+        if interrupt::requested() { Err(Stop::Interrupted) } else { Ok(()) }
     }
 
-    /// Waits for the writer.
+    /// Waits for the frame that has been under way for longest, and writes down that it is finished.
+    fn record_next(&mut self) -> Result<()> {
+        let Some(waiting) = self.writing.pop_front() else { return Ok(()) };
+        // Without an answer its thread has panicked, and the panic goes on where the threads were lent.
+        let (path, files) = waiting.recv().context("a frame could not be written")??;
+        self.output.record(&path, files)
+    }
+
+    /// Waits for all frames that are under way.
     fn record_rest(&mut self) -> Result<()> {
-        let rest = self.writer.rest();
-        self.record(rest)
+        while !self.writing.is_empty() {
+            self.record_next()?;
+        }
+        Ok(())
     }
 
     /// The manifest's rows of all frames.
@@ -489,7 +495,7 @@ impl Run<'_> {
         let frames = rows.len();
         let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
         let report = manifest::report(&self.report, &self.sites);
-        self.writer.end().finish(&manifest, &report)?;
+        self.exporter.finish(&manifest, &report)?;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false })
     }
 
