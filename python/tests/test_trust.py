@@ -134,6 +134,28 @@ def test_a_scenes_name_does_not_choose_where_files_go(labels, tmp_path, name):
     assert not any(path.name == "frame.json" for path in written)
 
 
+def test_verify_names_every_damaged_frame_and_a_further_run_mends_it(recipe, finished, tmp_path):
+    out = tmp_path / "out"
+    shutil.copytree(finished, out)
+    assert trove("verify", out).returncode == 0
+    flipped, removed, *_ = sorted(path.relative_to(out) for path in out.glob("*/v00/*/*/class.png"))
+    data = bytearray((out / flipped).read_bytes())
+    data[len(data) // 2] ^= 1
+    (out / flipped).write_bytes(data)
+    (out / removed).unlink()
+    manifest = json.loads((out / "manifest.json").read_text())
+    last = manifest["frames"][-1]
+    last["files"]["class.png"] = "0" * 64
+    (out / "manifest.json").write_text(json.dumps(manifest))
+    damaged = trove("verify", out, "--json")
+    assert damaged.returncode == 1, damaged.stdout
+    found = json.loads(damaged.stdout)
+    assert (found["damaged"], found["unlisted"]) == ([str(flipped), str(removed)], [last["path"]])
+    assert rendered(recipe, out) == 2
+    assert trove("verify", out).returncode == 0
+    assert files(out) == files(finished)
+
+
 def test_nothing_of_the_working_folder_is_run(tmp_path):
     packages = tmp_path / ".venv" / "lib" / "python3.11" / "site-packages"
     source = tmp_path / "evil.c"
