@@ -165,7 +165,7 @@ mod tests {
             assert!(bounds.min.y > 9.0 || bounds.max.y < -4.0, "{bounds:?}");
             assert!(!house.footprint.contains(DVec2::new(30.0, -6.0)));
             let others = difference(
-                &[house.footprint.clone()],
+                std::slice::from_ref(&house.footprint),
                 &found[..i].iter().map(|h| h.footprint.clone()).collect::<Vec<_>>(),
             );
             assert!((others.iter().map(Polygon::area_m2).sum::<f64>() - house.footprint.area_m2()).abs() < 1.0);
