@@ -8,7 +8,6 @@ mod csv;
 mod drive;
 mod fix;
 mod gpx;
-mod rig;
 mod smooth;
 mod source;
 mod times;

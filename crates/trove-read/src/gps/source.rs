@@ -6,20 +6,21 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use trove_files::{LARGEST_TEXT, PathComponent, open_regular, read_text};
-use trove_model::{Drive, Outcome, Report, RigCamera};
+use trove_model::{Drive, Outcome, Report};
 
 use super::drive::{self, Apart};
 use super::fix::Fault;
-use super::{csv, gpx, rig};
+use super::{csv, gpx};
 use crate::ReadError;
 use crate::drive_source::{Dataset, DriveListing, DriveSource, Opener};
+use crate::rig;
 
 /// A line of names is shorter, bytes.
 const LONGEST_NAMES: u64 = 1 << 14;
 /// From one keyframe to the next where nothing else is asked for, metres.
 const SPACING_M: f64 = 10.0;
-/// The rig where none is named.
-const RIG: &str = "front";
+/// The preset of cameras that a trace is seen by; recipes name others in `views.rig`.
+const RIG: &str = "dashcam";
 
 pub(crate) const DATASET: Dataset = Dataset { name: "gps", is_at: |root| !files(root).is_empty(), configure };
 
@@ -31,15 +32,13 @@ struct Options {
     spacing_m: Option<f64>,
     /// … or seconds.
     interval_s: Option<f64>,
-    /// Name of the rig.
-    rig: Option<String>,
     /// Licence of the trace.
     licence: Option<String>,
 }
 
 fn configure(options: toml::Table) -> Result<Opener, toml::de::Error> {
     use serde::de::Error;
-    let Options { spacing_m, interval_s, rig: name, licence } = options.try_into()?;
+    let Options { spacing_m, interval_s, licence } = options.try_into()?;
     let positive = |key: &str, value: f64| {
         let what = format!("{key}: expected more than 0, found {value}");
         if value > 0.0 && value < 1e6 { Ok(value) } else { Err(toml::de::Error::custom(what)) }
@@ -49,14 +48,9 @@ fn configure(options: toml::Table) -> Result<Opener, toml::de::Error> {
         (None, Some(seconds)) => Apart::Seconds(positive("interval_s", seconds)?),
         (metres, None) => Apart::Metres(positive("spacing_m", metres.unwrap_or(SPACING_M))?),
     };
-    let rig = rig::rig(name.as_deref().unwrap_or(RIG)).map_err(toml::de::Error::custom)?;
     let licence = licence.unwrap_or_default();
     Ok(Box::new(move |root, _, report| {
-        Ok(Box::new(Traces::open(
-            root,
-            Traces { files: vec![], apart, rig: rig.clone(), licence: licence.clone() },
-            report,
-        )?))
+        Ok(Box::new(Traces::open(root, Traces { files: vec![], apart, licence: licence.clone() }, report)?))
     }))
 }
 
@@ -65,7 +59,6 @@ struct Traces {
     /// Names and files, in the order of names.
     files: Vec<(String, PathBuf)>,
     apart: Apart,
-    rig: Vec<RigCamera>,
     licence: String,
 }
 
@@ -141,7 +134,8 @@ impl DriveSource for Traces {
         let path = self.path(name)?;
         let text = read_text(path, LARGEST_TEXT).map_err(|source| ReadError::io(path, source))?;
         let fixes = if is_gpx(path) { gpx::fixes(&text, report) } else { csv::fixes(&text, report) };
-        let drive = fixes.and_then(|fixes| drive::drive(name, &fixes, self.apart, &self.rig, &self.licence, report));
+        let rig = rig::preset(RIG).expect("a preset, which a test reads");
+        let drive = fixes.and_then(|fixes| drive::drive(name, &fixes, self.apart, &rig, &self.licence, report));
         drive.map_err(|Fault { place, expected, found }| ReadError::Format {
             path: path.to_owned(),
             place,

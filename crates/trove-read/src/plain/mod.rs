@@ -16,6 +16,5 @@ mod parts;
 mod poses;
 mod source;
 
-pub(crate) use camera::camera;
 pub(crate) use drive::ORDINARY_CAR;
 pub(crate) use source::DATASET;

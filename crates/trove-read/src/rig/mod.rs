@@ -12,10 +12,11 @@ use crate::ReadError;
 use camera::CameraRow;
 
 /// Rigs that need no file, by name.
-const PRESETS: [(&str, &str); 8] = [
+const PRESETS: [(&str, &str); 9] = [
     ("360", include_str!("presets/360.toml")),
     ("argoverse2", include_str!("presets/argoverse2.toml")),
     ("cityscapes", include_str!("presets/cityscapes.toml")),
+    ("dashcam", include_str!("presets/dashcam.toml")),
     ("kitti", include_str!("presets/kitti.toml")),
     ("nuscenes", include_str!("presets/nuscenes.toml")),
     ("stereo", include_str!("presets/stereo.toml")),
