@@ -91,7 +91,7 @@ pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use polygon::{Bounds, Polygon};
-pub use projection::MapProjection;
+pub use projection::{DatasetPlane, MapProjection};
 pub use raster::Raster;
 pub use relief::Relief;
 pub use report::{Entry, Measurement, Outcome, Report};

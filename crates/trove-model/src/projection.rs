@@ -20,6 +20,26 @@ pub struct MapProjection {
     pub anchor_m: DVec2,
     /// Metres in a radian of longitude (x) and of latitude (y) at the origin.
     pub metres_per_rad: DVec2,
+    /// How World lies in the plane that the dataset's own coordinates are of.
+    pub plane: DatasetPlane,
+}
+
+/// The plane of a dataset's own coordinates, such as a city's: World = R(turn) · (plane − origin) / scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DatasetPlane {
+    /// World's origin in it, metres.
+    pub origin_m: DVec2,
+    /// Turns its axes into World's, counter-clockwise.
+    pub turn_rad: f64,
+    /// Its metres in one of World's.
+    pub scale: f64,
+}
+
+impl DatasetPlane {
+    /// A position of World, metres, from one in the plane.
+    pub fn world(&self, plane_m: DVec2) -> DVec2 {
+        DVec2::from_angle(self.turn_rad).rotate(plane_m - self.origin_m) / self.scale
+    }
 }
 
 impl MapProjection {
@@ -28,7 +48,7 @@ impl MapProjection {
     pub fn spherical(origin_lat_deg: f64, origin_lon_deg: f64, anchor_m: DVec2) -> Self {
         let cos_lat = origin_lat_deg.to_radians().cos();
         let metres_per_rad = DVec2::new(EQUATORIAL_RADIUS_M * cos_lat, EQUATORIAL_RADIUS_M);
-        Self { origin_lat_deg, origin_lon_deg, anchor_m, metres_per_rad }
+        Self::new(origin_lat_deg, origin_lon_deg, anchor_m, metres_per_rad)
     }
 
     /// On WGS84's ellipsoid: the metres of recordings in UTM or in a local frame.
@@ -40,7 +60,12 @@ impl MapProjection {
         let prime_vertical_m = EQUATORIAL_RADIUS_M / bent.sqrt();
         let meridian_m = prime_vertical_m * (1.0 - eccentricity2) / bent;
         let metres_per_rad = DVec2::new(prime_vertical_m * cos_lat, meridian_m);
-        Self { origin_lat_deg, origin_lon_deg, anchor_m, metres_per_rad }
+        Self::new(origin_lat_deg, origin_lon_deg, anchor_m, metres_per_rad)
+    }
+
+    fn new(origin_lat_deg: f64, origin_lon_deg: f64, anchor_m: DVec2, metres_per_rad: DVec2) -> Self {
+        let plane = DatasetPlane { origin_m: anchor_m, turn_rad: 0.0, scale: 1.0 };
+        Self { origin_lat_deg, origin_lon_deg, anchor_m, metres_per_rad, plane }
     }
 
     /// World coordinates, metres, of a position on earth; longitudes wrap at the antimeridian.

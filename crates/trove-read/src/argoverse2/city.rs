@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec2, DVec3};
-use trove_model::{Ego, MapProjection, Outcome, Pose, Report, World};
+use trove_model::{DatasetPlane, Ego, MapProjection, Outcome, Pose, Report, World};
 
 use super::frames::{Axle, City};
 use super::kinds::rows;
@@ -24,14 +24,13 @@ pub(super) fn axle_from_ego() -> Pose<Axle, Ego> {
 
 /// Where a log lies in its city and the city on earth.
 ///
-/// World = R(convergence) · (city − anchor) / scale in the plane, the same less the anchor's height in z. Convergence and
-/// scale are those of the UTM grid at the anchor: over a log of 500 m the first changes by 50 µrad and the second by a
-/// millionth. Heights, boxes and points are true metres already.
+/// Convergence and scale are those of the UTM grid at the anchor: over a log of 500 m the first changes by 50 µrad and the
+/// second by a millionth. Heights, boxes and points are true metres already.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CityFrame {
-    anchor_city_m: DVec3,
-    convergence_rad: f64,
-    scale: f64,
+    plane: DatasetPlane,
+    /// Height of World's origin in the city, metres.
+    anchor_z_m: f64,
     /// `None` where the city is not known.
     pub(super) projection: Option<MapProjection>,
 }
@@ -40,26 +39,25 @@ impl CityFrame {
     /// Of a log that begins at a position; a city whose origin is not known leaves World off the earth, which is reported.
     pub(super) fn new(city: Option<&str>, first_city_m: DVec3, report: &Report) -> Self {
         let anchor_city_m = first_city_m.round();
-        let placed = city.and_then(|city| place(city, anchor_city_m.truncate()));
-        if placed.is_none() {
+        let projection = city.and_then(|city| place(city, anchor_city_m.truncate()));
+        if projection.is_none() {
             let example = city.unwrap_or("a log without a map, whose name would say");
             let what = "Argoverse 2 city of unknown origin: no street map can be aligned with the drive";
             report.note(Outcome::Warned, what, example);
         }
-        let (projection, convergence_rad, scale) = placed.map_or((None, 0.0, 1.0), |(p, c, s)| (Some(p), c, s));
-        Self { anchor_city_m, convergence_rad, scale, projection }
+        let off_earth = DatasetPlane { origin_m: anchor_city_m.truncate(), turn_rad: 0.0, scale: 1.0 };
+        let plane = projection.map_or(off_earth, |projection| projection.plane);
+        Self { plane, anchor_z_m: anchor_city_m.z, projection }
     }
 
     /// A position in World.
     pub(super) fn world(&self, city_m: DVec3) -> DVec3 {
-        let from_anchor = city_m - self.anchor_city_m;
-        let plane = DVec2::from_angle(self.convergence_rad).rotate(from_anchor.truncate()) / self.scale;
-        plane.extend(from_anchor.z)
+        self.plane.world(city_m.truncate()).extend(city_m.z - self.anchor_z_m)
     }
 
     /// The vehicle's frame in World.
     pub(super) fn world_from_axle(&self, city_from_axle: &Pose<City, Axle>) -> Pose<World, Axle> {
-        let turn = DQuat::from_rotation_z(self.convergence_rad);
+        let turn = DQuat::from_rotation_z(self.plane.turn_rad);
         Pose::new(turn * city_from_axle.rotation, self.world(city_from_axle.translation))
     }
 
@@ -69,15 +67,16 @@ impl CityFrame {
     }
 }
 
-/// Projection, convergence and scale at a position in a city.
-fn place(city: &str, position_city_m: DVec2) -> Option<(MapProjection, f64, f64)> {
+/// How World lies on earth whose origin is at a position in a city.
+fn place(city: &str, origin_m: DVec2) -> Option<MapProjection> {
     let row = rows(CITIES).find(|row| row[0] == city)?;
     let number = |i: usize| row[i].parse::<f64>().ok();
     let utm = Utm::new(number(1)? as u32, false)?;
-    let (lat_deg, lon_deg) = utm.geo_from_utm(utm.utm_from_geo(number(2)?, number(3)?)? + position_city_m)?;
-    let (convergence_rad, scale) = utm.convergence_and_scale(lat_deg, lon_deg)?;
-    let is_sane = convergence_rad.abs() < TAU && (0.9..1.1).contains(&scale);
-    is_sane.then(|| (MapProjection::ellipsoidal(lat_deg, lon_deg, DVec2::ZERO), convergence_rad, scale))
+    let (lat_deg, lon_deg) = utm.geo_from_utm(utm.utm_from_geo(number(2)?, number(3)?)? + origin_m)?;
+    let (turn_rad, scale) = utm.convergence_and_scale(lat_deg, lon_deg)?;
+    let is_sane = turn_rad.abs() < TAU && (0.9..1.1).contains(&scale);
+    let projection = MapProjection::ellipsoidal(lat_deg, lon_deg, DVec2::ZERO);
+    is_sane.then_some(MapProjection { plane: DatasetPlane { origin_m, turn_rad, scale }, ..projection })
 }
 
 #[cfg(test)]
@@ -112,7 +111,8 @@ mod tests {
     #[test]
     fn every_city_has_an_origin_in_its_zone() {
         for row in rows(CITIES) {
-            let (projection, convergence_rad, scale) = place(row[0], DVec2::ZERO).unwrap();
+            let projection = place(row[0], DVec2::ZERO).unwrap();
+            let DatasetPlane { turn_rad: convergence_rad, scale, .. } = projection.plane;
             let zone = ((projection.origin_lon_deg + 180.0) / 6.0).floor() + 1.0;
             assert_eq!(zone.to_string(), row[1], "{}", row[0]);
             assert!(convergence_rad.abs() < 0.04 && (0.9995..1.0005).contains(&scale));

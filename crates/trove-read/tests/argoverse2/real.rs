@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 use serde_json::Value;
-use trove_model::{Drive, Report};
+use trove_model::{Bounds, Drive, DrivingSide, Report};
 use trove_read::argoverse2::Argoverse2;
+use trove_read::osm::{self, GeoJsonFrame};
 
 use super::utm::{PITTSBURGH_UTM_M, utm};
 
@@ -114,6 +115,32 @@ fn real_lidar_points_around_boxes_lie_in_them_or_near_their_surface() {
     let share = near as f64 / all as f64;
     println!("{near} of {all} points: {:.2} %", 100.0 * share);
     assert!(all > 10_000 && share >= 0.9, "{near} of {all}");
+}
+
+#[test]
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_roads_in_the_city_s_plane_lie_in_world_where_they_lie_on_earth() {
+    let (drive, _) = drive();
+    let path = data().join("osm_roads_PIT_cityframe.geojson");
+    let area = Bounds::square(DVec2::ZERO, 2000.0);
+    let report = Report::default();
+    let map = osm::read_in(GeoJsonFrame::Dataset, &path, &drive.projection, area, DrivingSide::Right, &report).unwrap();
+    assert!(map.roads.len() > 50, "{}", map.roads.len());
+    let text = std::fs::read(&path).unwrap();
+    let roads: Value = serde_json::from_slice(&text).unwrap();
+    let mut in_city: Vec<DVec2> = Vec::new();
+    for feature in roads["features"].as_array().unwrap() {
+        in_city.extend(
+            serde_json::from_value::<Vec<DVec2>>(feature["geometry"]["coordinates"].clone()).unwrap_or_default(),
+        );
+    }
+    // Through degrees and another program's UTM, of what lies within the kilometre that the plane is true for.
+    for world in map.roads.iter().flat_map(|road| &road.centreline).filter(|p| p.length() < 500.0) {
+        let (lat_deg, lon_deg) = drive.projection.geo_from_world(*world);
+        let city = utm(17, lat_deg, lon_deg) - PITTSBURGH_UTM_M;
+        let off_m = in_city.iter().map(|p| p.distance(city)).fold(f64::INFINITY, f64::min);
+        assert!(off_m < 0.05, "{world}: {off_m}");
+    }
 }
 
 #[test]

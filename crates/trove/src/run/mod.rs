@@ -123,7 +123,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     };
     for ((scene, _), hints) in scenes.iter().zip(hints) {
         if let Err(stop) = run.scene(scene, &hints) {
-            let kept = run.record_rest();
+            let kept = run.record(0);
             run.progress.finish();
             return match stop {
                 Stop::Interrupted => {
@@ -426,9 +426,7 @@ impl Run<'_> {
 
     /// Lets one of the renderer's threads write a frame, once there is room for it.
     fn write(&mut self, threads: &Scope<'_>, job: Job) -> Result<(), Stop> {
-        while self.writing.len() >= WRITING {
-            self.record_next()?;
-        }
+        self.record(WRITING - 1)?;
         let (done, waiting) = mpsc::channel();
         let exporter = self.exporter.clone();
         threads.spawn(move |_| drop(done.send(write(&*exporter, job))));
@@ -436,18 +434,20 @@ impl Run<'_> {
         if interrupt::requested() { Err(Stop::Interrupted) } else { Ok(()) }
     }
 
-    /// Waits for the frame that has been under way for longest, and writes down that it is finished.
-    fn record_next(&mut self) -> Result<()> {
-        let Some(waiting) = self.writing.pop_front() else { return Ok(()) };
-        // Without an answer its thread has panicked, and the panic goes on where the threads were lent.
-        let (path, files) = waiting.recv().context("a frame could not be written")??;
-        self.output.record(&path, files)
-    }
-
-    /// Waits for all frames that are under way.
-    fn record_rest(&mut self) -> Result<()> {
-        while !self.writing.is_empty() {
-            self.record_next()?;
+    /// Writes down which frames are finished, and waits until no more than so many are not.
+    fn record(&mut self, under_way: usize) -> Result<()> {
+        while let Some(first) = self.writing.front() {
+            let written = if self.writing.len() > under_way {
+                // Without an answer its thread has panicked, and the panic goes on where the threads were lent.
+                first.recv().context("a frame could not be written")?
+            } else if let Ok(written) = first.try_recv() {
+                written
+            } else {
+                break;
+            };
+            self.writing.pop_front();
+            let (path, files) = written?;
+            self.output.record(&path, files)?;
         }
         Ok(())
     }
@@ -484,7 +484,7 @@ impl Run<'_> {
 
     /// Writes what sums the run up.
     fn finish(mut self, identity: RunIdentity) -> Result<Summary> {
-        self.record_rest()?;
+        self.record(0)?;
         self.progress.finish();
         let rows = self.rows()?;
         let given: BTreeSet<&str> = rows.iter().map(|row| row.path.as_str()).collect();

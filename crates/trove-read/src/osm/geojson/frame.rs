@@ -9,6 +9,6 @@ pub enum GeoJsonFrame {
     /// Longitude and latitude, degrees (RFC 7946).
     #[default]
     Wgs84,
-    /// Metres in the dataset's own plane, x east and y north, such as a city frame of Argoverse 2.
+    /// Metres in the dataset's own plane, such as a city frame of Argoverse 2; of a drive that has none, World's.
     Dataset,
 }

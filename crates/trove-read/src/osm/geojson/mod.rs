@@ -99,7 +99,7 @@ fn on_earth(raw: &Raw) -> Result<(), Fault> {
 fn project(raw: &mut Raw, projection: &MapProjection, report: &Report) {
     let on_earth = |node: &mut RawNode| {
         let plane_m = DVec2::new(node.lon_deg, node.lat_deg);
-        (node.lat_deg, node.lon_deg) = projection.geo_from_world(plane_m - projection.anchor_m);
+        (node.lat_deg, node.lon_deg) = projection.geo_from_world(projection.plane.world(plane_m));
         plane_m.abs().max_element() <= WIDEST_M && node.lat_deg.abs() <= 90.0
     };
     let before = raw.nodes.len();
