@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-planted chromium fuzz test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -56,6 +56,11 @@ SEED ?= 1
 fuzz:
 	cargo build --locked --workspace --exclude trove-py --bin fuzz
 	$${CARGO_TARGET_DIR:-target}/debug/fuzz --seconds $(SECONDS) --seed $(SEED)
+
+# The same for hours, optimised and with the same checks: several times as many inputs a second, after minutes of building.
+fuzz-long:
+	cargo build --locked --profile fuzz -p trove-fuzz --bin fuzz
+	$${CARGO_TARGET_DIR:-target}/fuzz/fuzz --seconds $(SECONDS) --seed $(SEED)
 
 # Plants faults in a copy of the sources, one after another, and shows that a test catches each.
 test-planted:
