@@ -117,6 +117,7 @@ mod tests {
             ("360", 1),
             ("argoverse2", 9),
             ("cityscapes", 2),
+            ("dashcam", 1),
             ("kitti", 4),
             ("nuscenes", 6),
             ("stereo", 2),
