@@ -209,6 +209,11 @@ impl Kind {
         matches!(self, Self::Tree | Self::TrafficSign | Self::TrafficSignal | Self::StreetLamp | Self::UtilityPole)
     }
 
+    /// Whether it drives on four wheels or more.
+    pub fn is_car(self) -> bool {
+        self.is_vehicle() && !matches!(self.class(), Class::CycleRider | Class::MotorcycleRider)
+    }
+
     /// Whether it drives, with a body that follows the ground's slope.
     pub fn is_vehicle(self) -> bool {
         matches!(

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    Bounds, Class, Cuboid, Drive, Keyframe, Kind, Land, LandKind, Locale, Outcome, Report, Road, RoadKind,
-    SidewalkSides, StreetMap,
+    Bounds, Class, Cuboid, Drive, Keyframe, Land, LandKind, Locale, Outcome, Report, Road, RoadKind, SidewalkSides,
+    StreetMap,
 };
 
 use super::walls::wall_pieces;
@@ -36,8 +36,7 @@ const MEDIAN_M: f64 = 4.0;
 const PAVED_M: f64 = 40.0;
 
 /// Where so many pieces of wall are seen a sweep, a street has houses (47 and 66 in two of KITTI's frames with houses, 12 in
-/// one without, from trunks and signs): so high above the wheels, where no fence and no
-/// car reaches, and so near, metres.
+/// one without, from trunks and signs): so high above the wheels, where no fence and no car reaches, and so near, metres.
 const LEAST_WALLS: usize = 25;
 const WALL_M: RangeInclusive<f64> = 1.8..=15.0;
 const WALL_REACH_M: f64 = 50.0;
@@ -102,13 +101,9 @@ fn driven_lines(drive: &Drive) -> Vec<Vec<DVec2>> {
         // Whoever stood still tells the direction all the same.
         path = vec![*only, *only + first.world_from_ego.vector(DVec3::X).truncate().normalize_or(DVec2::X) * STEP_M];
     }
-    let others = drive.tracks.iter().filter(|t| is_car(t.kind));
+    let others = drive.tracks.iter().filter(|t| t.kind.is_car());
     let others = others.map(|t| thinned(t.boxes.iter().map(|(_, c)| c.world_from_body.translation.truncate())));
     std::iter::once(path).chain(others).filter(|line| line.len() > 1).collect()
-}
-
-fn is_car(kind: Kind) -> bool {
-    kind.is_vehicle() && !matches!(kind.class(), Class::CycleRider | Class::MotorcycleRider)
 }
 
 fn thinned(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
@@ -157,7 +152,7 @@ fn along(line: &[DVec2], kind: RoadKind, drive: &Drive, locale: &Locale, id: i64
 
 /// How far to the left of a line the vehicles begin and end that stand or drive along it, the nearest first.
 fn beside(line: &[DVec2], drive: &Drive) -> Vec<[f64; 2]> {
-    let boxes = drive.keyframes.iter().flat_map(|k| &k.boxes).filter(|b| is_car(b.kind)).map(|b| &b.cuboid);
+    let boxes = drive.keyframes.iter().flat_map(|k| &k.boxes).filter(|b| b.kind.is_car()).map(|b| &b.cuboid);
     let lateral = |cuboid: &Cuboid| {
         let at = cuboid.world_from_body.translation.truncate();
         let (from, ahead) = line
@@ -234,6 +229,7 @@ fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<(f64, f64, DVec2)>
 mod tests {
     use super::*;
     use crate::testing;
+    use trove_model::Kind;
 
     fn found(drive: &Drive) -> StreetMap {
         assumed(drive, &testing::locale("DE"), &Report::default())

@@ -18,7 +18,7 @@ pub(super) struct Trace {
 pub(super) fn driven(drive: &Drive) -> Vec<Trace> {
     let path = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let ego = Trace { line: path, half_width_m: drive.ego_body.size_m.y / 2.0 };
-    std::iter::once(ego).chain(moving(drive, is_car)).collect()
+    std::iter::once(ego).chain(moving(drive, Kind::is_car)).collect()
 }
 
 /// Where people walked.
@@ -28,12 +28,8 @@ pub(super) fn walked(drive: &Drive) -> Vec<Trace> {
 
 /// Footprints of vehicles that never moved.
 pub(super) fn parked(drive: &Drive) -> Vec<Polygon> {
-    let standing = drive.tracks.iter().filter(|t| is_car(t.kind) && extent_m(&t.boxes) < STANDING_M);
+    let standing = drive.tracks.iter().filter(|t| t.kind.is_car() && extent_m(&t.boxes) < STANDING_M);
     standing.filter_map(|t| t.boxes.get(t.boxes.len() / 2)).map(|(_, cuboid)| footprint(cuboid)).collect()
-}
-
-fn is_car(kind: Kind) -> bool {
-    kind.is_vehicle() && !matches!(kind.class(), Class::CycleRider | Class::MotorcycleRider)
 }
 
 fn moving(drive: &Drive, wanted: impl Fn(Kind) -> bool) -> impl Iterator<Item = Trace> {
