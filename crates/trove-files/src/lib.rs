@@ -15,9 +15,11 @@
 //! ```
 
 mod component;
+mod lock;
 mod read;
 
 pub use component::{OutputRoot, PathComponent, UnsafeName};
+pub use lock::FolderLock;
 pub use read::{Folder, LARGEST_FILE, LARGEST_TEXT, open_regular, read_regular, read_text};
 
 use std::ffi::OsString;

@@ -44,6 +44,21 @@ pub enum WriteError {
     /// A name cannot be a folder's: the reader of the dataset should have refused it.
     #[error(transparent)]
     Name(#[from] trove_files::UnsafeName),
+    /// Something cannot be exported, or not to this place: the user does what the remedy says.
+    #[error("{}: expected {expected}, found {found}; {remedy}", path.display())]
+    Unfit {
+        /// The folder or file.
+        path: PathBuf,
+        /// What was looked for.
+        expected: String,
+        /// What was there.
+        found: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A JSON file of an output folder cannot be read back.
+    #[error(transparent)]
+    Format(#[from] trove_format::FormatError),
     /// A picture cannot be encoded.
     #[error("{name}: expected an image that can be encoded, found {found}")]
     Encoding {
@@ -70,6 +85,7 @@ fn remedy(source: &io::Error) -> &'static str {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "choose a writable folder, or change its permissions"
         }
+        io::ErrorKind::WouldBlock => "another process writes to it; wait for it, or choose another folder",
         io::ErrorKind::NotFound => "check the path and run again",
         io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists | io::ErrorKind::IsADirectory => {
             "a file is where a folder is needed, or the other way round; move it away"

@@ -1,13 +1,13 @@
 //! OpenEXR, as bytes: 32-bit float, scan lines, without loss.
 
-use std::io::{BufReader, Cursor};
+use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, MetaData,
     ReadChannels, ReadLayers, SmallVec, WritableImage, read,
 };
-use trove_files::open_regular;
+use trove_files::{LARGEST_FILE, read_regular};
 use trove_model::Raster;
 
 use crate::WriteError;
@@ -50,22 +50,35 @@ fn encode_channels(
     Ok(bytes.into_inner())
 }
 
-/// Reads back a file of [`encode_scalar`]'s.
-pub(crate) fn read_scalar(path: &Path) -> Result<Raster<f32>, WriteError> {
-    let (width, height, [values]) = read_planes(path, ["Y"])?;
-    Ok(Raster { width, height, data: values })
+/// Reads back a file of [`encode_scalar`]'s, of so many columns and rows.
+pub(crate) fn read_scalar(path: &Path, size: [u32; 2]) -> Result<Raster<f32>, WriteError> {
+    let [data] = read_planes(path, size, ["Y"])?;
+    Ok(Raster { width: size[0], height: size[1], data })
 }
 
 /// Reads back a file of [`encode`]'s with three channels R, G and B.
-pub(crate) fn read_rgb(path: &Path) -> Result<Raster<[f32; 3]>, WriteError> {
-    let (width, height, [r, g, b]) = read_planes(path, ["R", "G", "B"])?;
+pub(crate) fn read_rgb(path: &Path, size: [u32; 2]) -> Result<Raster<[f32; 3]>, WriteError> {
+    let [r, g, b] = read_planes(path, size, ["R", "G", "B"])?;
     let data = r.iter().zip(&g).zip(&b).map(|((&r, &g), &b)| [r, g, b]).collect();
-    Ok(Raster { width, height, data })
+    Ok(Raster { width: size[0], height: size[1], data })
 }
 
-fn read_planes<const N: usize>(path: &Path, names: [&str; N]) -> Result<(u32, u32, [Vec<f32>; N]), WriteError> {
+/// Reads back a file of [`encode`]'s with two channels R and G.
+pub(crate) fn read_rg(path: &Path, size: [u32; 2]) -> Result<Raster<[f32; 2]>, WriteError> {
+    let [r, g] = read_planes(path, size, ["R", "G"])?;
+    let data = r.iter().zip(&g).map(|(&r, &g)| [r, g]).collect();
+    Ok(Raster { width: size[0], height: size[1], data })
+}
+
+fn read_planes<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) -> Result<[Vec<f32>; N], WriteError> {
     let damaged = |found: String| WriteError::Damaged { path: path.to_owned(), found };
-    let file = open_regular(path).map_err(WriteError::storage(path, "read the file"))?;
+    let bytes = read_regular(path, LARGEST_FILE).map_err(WriteError::storage(path, "read the file"))?;
+    // Before anything is unpacked: a header of a few bytes may ask for any amount of memory.
+    let headers = MetaData::read_from_buffered(Cursor::new(&bytes), false).map_err(|e| damaged(e.to_string()))?.headers;
+    let found = headers.first().map_or([0; 2], |layer| [layer.layer_size.x() as u32, layer.layer_size.y() as u32]);
+    if found != size {
+        return Err(damaged(format!("{}×{} pixels instead of {}×{}", found[0], found[1], size[0], size[1])));
+    }
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -73,13 +86,13 @@ fn read_planes<const N: usize>(path: &Path, names: [&str; N]) -> Result<(u32, u3
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_buffered(BufReader::new(file))
+        .from_buffered(Cursor::new(&bytes))
         .map_err(|e| damaged(e.to_string()))?;
-    let (size, list) = (image.layer_data.size, image.layer_data.channel_data.list);
+    let list = image.layer_data.channel_data.list;
     let mut planes = [const { Vec::new() }; N];
     for (plane, name) in planes.iter_mut().zip(names) {
         let channel = list.iter().find(|c| c.name == *name).ok_or_else(|| damaged(format!("no channel {name}")))?;
         *plane = channel.sample_data.values_as_f32().collect();
     }
-    Ok((size.x() as u32, size.y() as u32, planes))
+    Ok(planes)
 }

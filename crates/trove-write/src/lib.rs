@@ -20,6 +20,7 @@
 
 pub mod contact_sheet;
 mod error;
+mod export;
 mod export_format;
 mod exporter;
 mod exr_file;
@@ -33,8 +34,10 @@ mod picture;
 mod plain_drive;
 mod png_file;
 mod sheet;
+mod stored_frame;
 
 pub use error::WriteError;
+pub use export::{DatasetFormat, Exported, Watch, export};
 pub use export_format::ExportFormat;
 pub use exporter::Exporter;
 pub use files::{sha256, sha256_file, write_atomically};
@@ -43,3 +46,4 @@ pub use frame_table::FrameMeta;
 pub use picture::write_picture;
 pub use plain_drive::{PlainFiles, write_plain_drive};
 pub use sheet::write_sheet;
+pub use stored_frame::StoredFrame;

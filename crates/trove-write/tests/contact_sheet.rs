@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use exr::prelude::{WritableImage, f16};
+use serde_json::json;
 use trove_write::WriteError;
 use trove_write::contact_sheet::{Frame, write};
 
@@ -15,6 +16,15 @@ const H: u32 = 36;
 fn frame(root: &Path, name: &str, class: u8, rgb: Option<[u8; 3]>) -> Frame {
     let dir = root.join(name);
     fs::create_dir_all(&dir).unwrap();
+    let table = json!({
+        "scene": "s", "dataset": "d", "keyframe": 0, "keyframe_time_ns": 0, "view": "ego.A", "time_ns": 0,
+        "width_px": W, "height_px": H, "intrinsics": [[50, 0, 32], [0, 50, 18], [0, 0, 1]], "lens_model": "pinhole",
+        "world_from_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+        "world_from_camera_rotation_wxyz": [1, 0, 0, 0], "world_from_camera_translation_m": [0, 0, 0],
+        "projection": { "origin_lat_deg": 0, "origin_lon_deg": 0, "anchor_m": [0, 0] },
+        "spp": 1, "denoised": false, "seed": 7, "objects": [],
+    });
+    fs::write(dir.join("frame.json"), table.to_string()).unwrap();
     if let Some(rgb) = rgb {
         image::RgbImage::from_pixel(W, H, image::Rgb(rgb)).save(dir.join("rgb.png")).unwrap();
     }
@@ -99,6 +109,8 @@ fn a_frame_shows_what_it_has() {
     let tile = |i: u32| picture.get_pixel(6 + i * 322 + 160, 6 + 14 + 80).0;
     assert_eq!((tile(0), tile(1)[1]), ([200, 100, 50], (128 + 118) / 3));
     let without = frame(root.path(), "b", 9, None);
-    fs::read_dir(&without.dir).unwrap().for_each(|file| fs::remove_file(file.unwrap().path()).unwrap());
+    for name in ["depth.exr", "instance.png", "normal.exr", "class.png"] {
+        fs::remove_file(without.dir.join(name)).unwrap();
+    }
     assert!(!sheet(root.path(), &[without]).is_empty());
 }

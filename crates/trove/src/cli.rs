@@ -63,9 +63,9 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Write the drives of a dataset in TRoVE's own plain form.
+    /// Write finished frames as another dataset (KITTI …), or the drives of a dataset in the plain form.
     #[command(
-        after_help = "Example:\n  trove export data/nuscenes --format trove --out out/plain --scene scene-0103 --lidar"
+        after_help = "Example:\n  trove export out/boston --format kitti --out out/kitti\n  trove export data/nuscenes --format trove --out out/plain --scene scene-0103 --lidar"
     )]
     Export(Export),
     /// Build the virtual scene only and write it as binary glTF 2.0, with a report.
@@ -196,7 +196,7 @@ fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
     match command {
         Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
         Command::Inspect { root, dataset, json } => inspect::run(&root, &dataset, json),
-        Command::Export(export) => export.run().map(|()| 0),
+        Command::Export(export) => export.run(),
         Command::Build { recipe, out, keyframe, environment, overview, json } => {
             let search = libraries::search(site_packages);
             let recipe = Recipe::read(&recipe)?;

@@ -1,76 +1,161 @@
-//! `trove export`: recorded drives of any dataset in another form.
+//! `trove export`: finished frames as another dataset, or recorded drives in the plain form.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use clap::{Args, ValueEnum};
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
 use serde_json::json;
-use trove_format::ReportTable;
+use trove_format::{Curated, ReportTable};
 use trove_model::Report;
-use trove_write::{PlainFiles, write_plain_drive};
+use trove_write::{DatasetFormat, PlainFiles, export, write_plain_drive};
 
 use crate::build::print_entries;
 use crate::drives::DatasetChoice;
+use crate::interrupt;
+use crate::progress::Steps;
 
 /// `trove export`
 #[derive(Args)]
 pub(crate) struct Export {
-    /// The dataset's root folder.
-    root: PathBuf,
-    /// The form to write.
-    #[arg(long, value_enum)]
-    format: Format,
-    /// Output folder; each drive gets a folder of its own in it.
+    /// A finished folder of trove generate; for --format trove the root folder of a dataset.
+    source: PathBuf,
+    /// The form to write (docs/export.md).
+    #[arg(long, value_parser = form)]
+    format: Form,
+    /// Output folder; running again goes on where an earlier export ended.
     #[arg(long)]
     out: PathBuf,
     #[command(flatten)]
-    dataset: DatasetChoice,
-    /// Names of drives; without it all.
-    #[arg(long = "scene", value_name = "NAME")]
-    scenes: Vec<String>,
-    /// Also write LiDAR sweeps.
-    #[arg(long)]
-    lidar: bool,
-    /// Also link or copy the recorded pictures.
-    #[arg(long)]
-    pictures: bool,
+    frames: Frames,
+    #[command(flatten)]
+    drives: Drives,
     /// Print a summary as JSON.
     #[arg(long)]
     json: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// TRoVE's own plain form: drive.jsonl (docs/plain-drive.md).
-    Trove,
+/// Of finished frames.
+#[derive(Args)]
+struct Frames {
+    /// A list of trove curate: its frames alone, in their splits; without it all frames are for training.
+    #[arg(long, value_name = "FILE.json")]
+    split: Option<PathBuf>,
+}
+
+/// Of drives.
+#[derive(Args)]
+struct Drives {
+    #[command(flatten)]
+    dataset: DatasetChoice,
+    /// With --format trove: names of drives; without it all.
+    #[arg(long = "scene", value_name = "NAME")]
+    scenes: Vec<String>,
+    /// With --format trove: also write LiDAR sweeps.
+    #[arg(long)]
+    lidar: bool,
+    /// With --format trove: also link or copy the recorded pictures.
+    #[arg(long)]
+    pictures: bool,
+}
+
+/// What to write.
+#[derive(Clone, Copy)]
+enum Form {
+    /// Drives in TRoVE's own plain form: drive.jsonl (docs/plain-drive.md).
+    Plain,
+    /// Frames.
+    Dataset(DatasetFormat),
+}
+
+/// The name of drives in the plain form.
+const PLAIN: &str = "trove";
+
+fn form(name: &str) -> Result<Form, String> {
+    if name == PLAIN {
+        return Ok(Form::Plain);
+    }
+    let known = DatasetFormat::ALL.into_iter().find(|format| format.name() == name);
+    known.map(Form::Dataset).ok_or_else(|| {
+        let names: Vec<&str> = DatasetFormat::ALL.into_iter().map(DatasetFormat::name).chain([PLAIN]).collect();
+        format!("expected one of {}", names.join(", "))
+    })
 }
 
 impl Export {
-    /// Writes the drives.
-    pub(crate) fn run(self) -> Result<()> {
-        let Format::Trove = self.format;
+    /// Writes what was asked for; the status is 130 or 143 where a signal ended it.
+    pub(crate) fn run(self) -> Result<i32> {
+        match self.format {
+            Form::Plain => {
+                ensure!(
+                    self.frames.split.is_none(),
+                    "--split is for finished frames; --format trove writes whole drives"
+                );
+                self.drives.write(&self.source, &self.out, self.json).map(|()| 0)
+            }
+            Form::Dataset(format) => {
+                let Drives { scenes, lidar, pictures, .. } = &self.drives;
+                ensure!(
+                    scenes.is_empty() && !lidar && !pictures,
+                    "--scene, --lidar and --pictures are for --format trove; choose frames with --split"
+                );
+                self.frames.write(&self.source, &self.out, format, self.json)
+            }
+        }
+    }
+}
+
+impl Frames {
+    fn write(&self, source: &Path, out: &Path, format: DatasetFormat, as_json: bool) -> Result<i32> {
+        let curated = self.split.as_deref().map(Curated::read).transpose()?;
+        interrupt::listen();
+        let progress = Steps::default();
+        let watch = |done, total| {
+            progress.done(done, total);
+            !interrupt::requested()
+        };
+        let exported = export(source, out, format, curated.as_ref(), &watch)?;
+        if exported.interrupted {
+            eprintln!("interrupted; run the same command to go on");
+            return Ok(interrupt::status());
+        }
+        if as_json {
+            println!("{}", serde_json::to_string_pretty(&exported)?);
+            return Ok(0);
+        }
+        for (split, frames) in &exported.frames {
+            println!("{split}: {frames} frames");
+        }
+        for (what, values) in &exported.clipped {
+            println!("{values} {what}");
+        }
+        println!("{} in {}", format.name(), out.display());
+        Ok(0)
+    }
+}
+
+impl Drives {
+    fn write(&self, root: &Path, out: &Path, as_json: bool) -> Result<()> {
         let report = Report::default();
-        let source = self.dataset.open(&self.root, &report)?;
+        let source = self.dataset.open(root, &report)?;
         let known: Vec<String> = source.drives().into_iter().map(|drive| drive.name).collect();
         if let Some(unknown) = self.scenes.iter().find(|name| !known.contains(name)) {
             let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(name, unknown));
             let hint = nearest.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default();
-            bail!("--scene: {} has no drive {unknown:?}{hint}", self.root.display());
+            bail!("--scene: {} has no drive {unknown:?}{hint}", root.display());
         }
         let chosen: Vec<&String> = known.iter().filter(|n| self.scenes.is_empty() || self.scenes.contains(n)).collect();
         let files = PlainFiles { lidar: self.lidar, pictures: self.pictures };
         for name in &chosen {
             let drive = source.read(name, &report)?;
-            let folder = self.out.join(name.as_str());
-            write_plain_drive(&drive, &self.root, &folder, files, &report)
-                .with_context(|| format!("{name}: not written"))?;
+            let folder = out.join(name.as_str());
+            write_plain_drive(&drive, root, &folder, files, &report).with_context(|| format!("{name}: not written"))?;
         }
         let report = ReportTable::from(&report);
-        if self.json {
-            let printed = json!({ "out": self.out, "drives": chosen, "report": report });
+        if as_json {
+            let printed = json!({ "out": out, "drives": chosen, "report": report });
             println!("{}", serde_json::to_string_pretty(&printed)?);
         } else {
-            println!("{} drives in {}", chosen.len(), self.out.display());
+            println!("{} drives in {}", chosen.len(), out.display());
             print_entries(&report, "");
         }
         Ok(())

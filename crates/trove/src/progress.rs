@@ -1,7 +1,7 @@
 //! How far a long command is: a bar on a terminal, plain lines elsewhere.
 
 use std::io::IsTerminal;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -97,6 +97,19 @@ pub(crate) fn duration(seconds: f64) -> String {
         s if s < 90.0 => format!("{s:.0} s"),
         s if s < 5400.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+/// How far a command is that does many like things; made with the first of them.
+#[derive(Default)]
+pub(crate) struct Steps(OnceLock<Progress>);
+
+impl Steps {
+    /// One more is done, of `total`.
+    pub(crate) fn done(&self, done: usize, total: usize) {
+        let progress = self.0.get_or_init(|| Progress::new(total));
+        progress.frame_done();
+        if done == total { progress.finish() } else { progress.within(0.0) }
     }
 }
 

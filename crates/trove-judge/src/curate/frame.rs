@@ -32,6 +32,8 @@ pub struct CandidateFrame {
     pub path: String,
     /// Which variation of its scene.
     pub variation: u32,
+    /// The recorded moment, which other views and variations show too: the drive, and the index of its keyframe.
+    pub moment: (String, u32),
     /// Where its camera is in the plane of its dataset's place, metres, with the place's name.
     pub place: String,
     /// East and north of the place's origin, metres.
@@ -69,12 +71,13 @@ impl CandidateFrame {
             image::GrayImage::from_raw(labels.width, labels.height, grey).map_or(0, |grey| difference_hash(&grey))
         };
         let [x, y, _] = frame.world_from_camera_translation_m;
-        let place = if frame.place.is_empty() { frame.scene } else { frame.place };
+        let place = if frame.place.is_empty() { frame.scene.clone() } else { frame.place };
+        let moment = (frame.scene, frame.keyframe);
         let path = folder.strip_prefix(root).unwrap_or(folder).to_string_lossy().replace('\\', "/");
         let position_m = DVec2::from_array(frame.projection.anchor_m) + DVec2::new(x, y);
         let seen = |o: &ObjectRow| SeenObject { class_id: o.class_id, visible_px: o.visible_px, range_m: o.range_m };
         let objects = frame.objects.iter().filter(|o| o.visible_px > 0).map(seen).collect();
-        Ok(Self { path, variation: frame.variation, place, position_m, pixels, objects, hash, has_picture })
+        Ok(Self { path, variation: frame.variation, moment, place, position_m, pixels, objects, hash, has_picture })
     }
 
     /// Share of its pixels by class.

@@ -118,6 +118,7 @@ mod tests {
         CandidateFrame {
             path: i.to_string(),
             variation: 0,
+            moment: ("s".into(), i as u32),
             place: String::new(),
             position_m: DVec2::ZERO,
             pixels: all,

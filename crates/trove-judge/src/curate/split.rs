@@ -18,7 +18,7 @@ pub enum Split {
     Train,
     /// Validation.
     Val,
-    /// Neither: too near to the other side.
+    /// Neither: too near to the other side, or of the same moment.
     Gap,
 }
 
@@ -49,7 +49,9 @@ pub fn split(frames: &[&CandidateFrame], val_share: f64, seed: Seed) -> Vec<Spli
     }
     let val: Vec<&CandidateFrame> = (0..frames.len()).filter(|i| splits[*i] == Split::Val).map(|i| frames[i]).collect();
     for (split, frame) in splits.iter_mut().zip(frames).filter(|(split, _)| **split == Split::Train) {
-        if val.iter().any(|v| v.place == frame.place && v.position_m.distance(frame.position_m) < GAP_M) {
+        let near = |v: &&CandidateFrame| v.place == frame.place && v.position_m.distance(frame.position_m) < GAP_M;
+        // Vehicles far apart may see the same things at one moment.
+        if val.iter().any(|v| near(v) || v.moment == frame.moment) {
             *split = Split::Gap;
         }
     }
@@ -66,6 +68,7 @@ mod tests {
         let frame = |i: usize| CandidateFrame {
             path: i.to_string(),
             variation: 0,
+            moment: ("s".into(), i as u32),
             place: if i < 300 { "a".into() } else { "b".into() },
             position_m: DVec2::new(i as f64 * 5.0, 0.0),
             pixels: [1; 20],
@@ -73,14 +76,18 @@ mod tests {
             hash: 0,
             has_picture: false,
         };
-        let frames: Vec<CandidateFrame> = (0..400).map(frame).collect();
+        let mut frames: Vec<CandidateFrame> = (0..400).map(frame).collect();
+        // Every tenth moment is seen by another vehicle too, 500 m ahead.
+        let ahead = |i: usize| CandidateFrame { moment: ("s".into(), i as u32), ..frame(i + 100) };
+        frames.extend((0..200).step_by(10).map(ahead));
         let frames: Vec<&CandidateFrame> = frames.iter().collect();
         let splits = split(&frames, 0.25, Seed(3));
         let count = |wanted: Split| splits.iter().filter(|s| **s == wanted).count();
         assert!((60..150).contains(&count(Split::Val)), "{}", count(Split::Val));
         assert!(count(Split::Gap) > 0 && count(Split::Train) > 150);
         for (i, a) in frames.iter().enumerate().filter(|(i, _)| splits[*i] == Split::Train) {
-            for b in (0..400).filter(|j| splits[*j] == Split::Val).map(|j| frames[j]) {
+            for b in (0..frames.len()).filter(|j| splits[*j] == Split::Val).map(|j| frames[j]) {
+                assert!(a.moment != b.moment, "{i}");
                 assert!(a.place != b.place || a.position_m.distance(b.position_m) >= GAP_M, "{i}");
             }
         }

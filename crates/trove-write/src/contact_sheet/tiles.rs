@@ -1,13 +1,10 @@
 //! One frame's small pictures, read from its folder.
 
-use std::io::BufReader;
 use std::path::Path;
 
-use image::{DynamicImage, ImageFormat, ImageReader};
-use trove_files::open_regular;
-use trove_model::{CLASSES, Class};
+use trove_format::FrameFile;
 
-use crate::{WriteError, exr_file};
+use crate::{StoredFrame, WriteError};
 
 /// Depth at which the colours end, metres; they fall off with the logarithm.
 const FAR_M: f32 = 120.0;
@@ -21,42 +18,27 @@ pub(super) struct Tiles {
 impl Tiles {
     /// Of what the frame has: the picture (else normals), classes over it, instances, depth.
     pub(super) fn read(dir: &Path, width: u32) -> Result<Self, WriteError> {
-        let png =
-            |name: &str| Some(dir.join(name)).filter(|path| path.exists()).map(|path| read_png(&path)).transpose();
-        let exr = |name: &str| Some(dir.join(name)).filter(|path| path.exists());
-        let class = png("class.png")?.map(DynamicImage::into_luma8);
-        let instance = png("instance.png")?.map(DynamicImage::into_luma16);
-        let depth_m = exr("depth.exr").map(|path| exr_file::read_scalar(&path)).transpose()?;
-        let rgb = png("rgb.png")?.map(DynamicImage::into_rgb8);
-        let normal = exr("normal.exr").filter(|_| rgb.is_none()).map(|path| exr_file::read_rgb(&path)).transpose()?;
-        let sizes = [
-            ("class.png", class.as_ref().map(|p| p.dimensions())),
-            ("instance.png", instance.as_ref().map(|p| p.dimensions())),
-            ("depth.exr", depth_m.as_ref().map(|p| (p.width, p.height))),
-            ("rgb.png", rgb.as_ref().map(|p| p.dimensions())),
-            ("normal.exr", normal.as_ref().map(|p| (p.width, p.height))),
-        ];
-        let mut found = sizes.into_iter().filter_map(|(name, size)| Some((name, size?)));
-        let Some((first, (full_width, full_height))) = found.next() else {
+        let frame = StoredFrame::open(dir)?;
+        let there = |file: FrameFile| frame.has(file).then_some(&frame);
+        let class = there(FrameFile::Class).map(StoredFrame::class).transpose()?;
+        let instance = there(FrameFile::Instance).map(StoredFrame::instance).transpose()?;
+        let depth_m = there(FrameFile::Depth).map(StoredFrame::depth_m).transpose()?;
+        let rgb = there(FrameFile::Rgb).map(StoredFrame::rgb).transpose()?;
+        let normal = there(FrameFile::Normal).filter(|_| rgb.is_none()).map(StoredFrame::normal).transpose()?;
+        let [full_width, full_height] = [frame.table.width_px, frame.table.height_px];
+        if full_width == 0 || full_height == 0 {
             return Ok(Self { height: 0, pictures: Vec::new() });
-        };
-        if let Some((name, size)) = found.find(|(_, size)| *size != (full_width, full_height)) {
-            let found = format!("{}×{} pixels beside {full_width}×{full_height} of {first}", size.0, size.1);
-            return Err(WriteError::Damaged { path: dir.join(name), found });
         }
         let height = ((u64::from(full_height) * u64::from(width) / u64::from(full_width)) as u32).max(1);
         let small = Grid { full: [full_width, full_height], small: [width, height] };
 
         let picture = match (&rgb, &normal) {
-            (Some(rgb), _) => Some(small.averaged(|x, y| rgb.get_pixel(x, y).0)),
+            (Some(rgb), _) => Some(small.averaged(|x, y| *rgb.at(x, y))),
             (None, Some(normal)) => Some(small.averaged(|x, y| normal_color(*normal.at(x, y)))),
             (None, None) => None,
         };
         let classes = class.map(|class| {
-            let class_color = |x, y| {
-                let class = Class::from_id(class.get_pixel(x, y).0[0]).unwrap_or(Class::Void);
-                CLASSES[usize::from(class.id())].rgb
-            };
+            let class_color = |x, y| class.at(x, y).row().rgb;
             let mut classes = small.averaged(class_color);
             for (color, seen) in classes.iter_mut().zip(picture.iter().flatten()) {
                 // Two thirds class, one third brightness of the picture.
@@ -65,7 +47,7 @@ impl Tiles {
             }
             classes
         });
-        let instances = instance.map(|ids| small.averaged(|x, y| instance_color(ids.get_pixel(x, y).0[0])));
+        let instances = instance.map(|ids| small.averaged(|x, y| instance_color(*ids.at(x, y))));
         let depths = depth_m.map(|depth_m| small.averaged(|x, y| depth_color(*depth_m.at(x, y))));
         Ok(Self { height, pictures: [picture, classes, instances, depths].into_iter().flatten().collect() })
     }
@@ -133,12 +115,6 @@ fn normal_color(normal: [f32; 3]) -> [u8; 3] {
         return [70, 130, 180];
     }
     [normal[0], -normal[1], -normal[2]].map(|n| (127.5 * (n + 1.0)).clamp(0.0, 255.0) as u8)
-}
-
-fn read_png(path: &Path) -> Result<DynamicImage, WriteError> {
-    let file = open_regular(path).map_err(WriteError::storage(path, "read the file"))?;
-    let reader = ImageReader::with_format(BufReader::new(file), ImageFormat::Png);
-    reader.decode().map_err(|e| WriteError::Damaged { path: path.to_owned(), found: e.to_string() })
 }
 
 #[cfg(test)]

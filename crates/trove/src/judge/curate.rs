@@ -12,7 +12,8 @@ use trove_judge::curate::{Curation, Rules, Split, curate, report};
 use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
-use super::{Pictures, label_set, share};
+use super::{label_set, share};
+use crate::progress::Steps;
 
 /// What to select from, and how.
 #[derive(Args)]
@@ -67,7 +68,7 @@ impl Curate {
         let classes = self.classes.of_ours();
         let rules =
             Rules { count: self.count, classes, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
-        let progress = Pictures::default();
+        let progress = Steps::default();
         let seed = Seed(self.seed);
         let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;
         let list = list_of(&curation);

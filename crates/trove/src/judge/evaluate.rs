@@ -9,7 +9,8 @@ use trove_judge::LabelSet;
 use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
 use trove_model::Seed;
 
-use super::{Pictures, label_set};
+use super::label_set;
+use crate::progress::Steps;
 
 /// What to compare.
 #[derive(Args)]
@@ -43,7 +44,7 @@ impl Evaluate {
             panoptic: self.panoptic,
             seed: Seed(self.seed),
         };
-        let progress = Pictures::default();
+        let progress = Steps::default();
         let found = evaluate(&self.predicted, &self.truth, &settings, &|done, total| progress.done(done, total))?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&as_json(&found))?);

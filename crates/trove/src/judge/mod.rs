@@ -4,24 +4,7 @@ pub(crate) mod curate;
 pub(crate) mod evaluate;
 pub(crate) mod recolor;
 
-use std::sync::OnceLock;
-
 use trove_judge::LabelSet;
-
-use crate::progress::Progress;
-
-/// How far the reading of pictures is; made with the first of them.
-#[derive(Default)]
-struct Pictures(OnceLock<Progress>);
-
-impl Pictures {
-    /// One more picture is done, of `total`.
-    fn done(&self, done: usize, total: usize) {
-        let progress = self.0.get_or_init(|| Progress::new(total));
-        progress.frame_done();
-        if done == total { progress.finish() } else { progress.within(0.0) }
-    }
-}
 
 fn label_set(name: &str) -> Result<LabelSet, String> {
     LabelSet::named(name).ok_or_else(|| format!("expected one of {}", LabelSet::NAMES.join(", ")))

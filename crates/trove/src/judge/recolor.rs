@@ -10,7 +10,8 @@ use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, reco
 use trove_model::Raster;
 use trove_write::write_sheet;
 
-use super::{Pictures, label_set, share};
+use super::{label_set, share};
+use crate::progress::Steps;
 
 /// Pairs that the page shows.
 const SHOWN: usize = 24;
@@ -87,7 +88,7 @@ impl Recolor {
             strength: self.strength,
             target_labels: self.to_labels.clone().map(|labels| (labels, self.to_classes.clone())),
         };
-        let progress = Pictures::default();
+        let progress = Steps::default();
         let done = recolor(&self.dir, &self.to, &out, &settings, &|done, total| progress.done(done, total))?;
         let page = out.join("before_after.png");
         write_sheet(&page, &self.pairs(&done)?)?;

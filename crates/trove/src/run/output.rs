@@ -1,12 +1,12 @@
 //! The folder that a run writes to: one recipe, one run at a time, and which frames are finished.
 
 use std::collections::BTreeSet;
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::Write;
+use std::fs::{File, OpenOptions};
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result, bail, ensure};
-use trove_files::OutputRoot;
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use trove_files::{FolderLock, OutputRoot};
 use trove_format::{FrameLine, Journal, RunIdentity, SiteFile, WrittenFile};
 use trove_write::{sha256_file, write_atomically};
 
@@ -22,7 +22,7 @@ pub(super) struct OutputFolder {
     finished: Journal,
     /// Finished frames whose files this run has read or written.
     verified: BTreeSet<String>,
-    _lock: File,
+    _lock: FolderLock,
 }
 
 impl OutputFolder {
@@ -83,7 +83,7 @@ impl OutputFolder {
                 tracing::warn!("{frame}/{name}: not as it was written; the frame is rendered again");
                 // Without it the frame is one that is not finished, which is replaced once it is.
                 if let Err(error) = std::fs::remove_file(folder.join(name))
-                    && error.kind() != std::io::ErrorKind::NotFound
+                    && error.kind() != ErrorKind::NotFound
                 {
                     bail!("{}: expected a file that can be replaced: {error}", folder.join(name).display());
                 }
@@ -140,24 +140,18 @@ pub(crate) fn refuse_foreign(root: &Path) -> Result<()> {
     Ok(())
 }
 
-fn lock(path: &Path) -> Result<File> {
-    let file = OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(path)
-        .with_context(|| format!("{}: expected a file that can be written", path.display()))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => {
-            bail!("{}: another run is writing to this folder; wait for it or choose another --out", path.display())
+fn lock(path: &Path) -> Result<FolderLock> {
+    let lock = FolderLock::take(path).map_err(|error| match error.kind() {
+        ErrorKind::WouldBlock => {
+            anyhow!("{}: another run is writing to this folder; wait for it or choose another --out", path.display())
         }
-        // Some network file systems have no locks; then it is on the user to run only one.
-        Err(TryLockError::Error(error)) => {
-            tracing::warn!("{}: cannot be locked ({error}); do not run twice on this folder", path.display());
-            Ok(file)
-        }
+        _ => anyhow!("{}: expected a file that can be written: {error}", path.display()),
+    })?;
+    if let Some(error) = &lock.unsupported {
+        // Then it is on the user to run only one.
+        tracing::warn!("{}: cannot be locked ({error}); do not run twice on this folder", path.display());
     }
+    Ok(lock)
 }
 
 fn check_identity(root: &Path, private: &Path, identity: &RunIdentity) -> Result<()> {

@@ -1,0 +1,154 @@
+//! A finished frame, read back from its folder.
+
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageFormat, ImageReader};
+use trove_files::open_regular;
+use trove_format::{FrameFile, FrameTable};
+use trove_model::{Class, Raster};
+
+use crate::{WriteError, exr_file};
+
+/// The folder of a finished frame; its files are read when they are asked for.
+#[derive(Clone, Debug)]
+pub struct StoredFrame {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Camera and objects; every picture is as large as it says.
+    pub table: FrameTable,
+}
+
+impl StoredFrame {
+    /// Opens a frame's folder.
+    ///
+    /// # Errors
+    /// A table that cannot be read or is damaged.
+    pub fn open(folder: &Path) -> Result<Self, WriteError> {
+        Ok(Self { folder: folder.to_owned(), table: FrameTable::read(folder)? })
+    }
+
+    /// Where a file of it lies, whether it is there or not.
+    pub fn path(&self, file: FrameFile) -> PathBuf {
+        self.folder.join(file.name())
+    }
+
+    /// Whether it has a file.
+    pub fn has(&self, file: FrameFile) -> bool {
+        self.path(file).is_file()
+    }
+
+    /// The picture, 8-bit sRGB.
+    ///
+    /// # Errors
+    /// As for all files: one that is not there, cannot be read, or has another size than the table says.
+    pub fn rgb(&self) -> Result<Raster<[u8; 3]>, WriteError> {
+        let picture = self.png(FrameFile::Rgb)?.into_rgb8();
+        let data = picture.as_raw().as_chunks().0.to_vec();
+        Ok(Raster { width: picture.width(), height: picture.height(), data })
+    }
+
+    /// What each pixel shows.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`], and a number that no class has.
+    pub fn class(&self) -> Result<Raster<Class>, WriteError> {
+        let picture = self.png(FrameFile::Class)?;
+        let DynamicImage::ImageLuma8(ids) = picture else {
+            return Err(self.damaged(FrameFile::Class, format!("{:?} instead of 8-bit greys", picture.color())));
+        };
+        let class = |id: &u8| {
+            Class::from_id(*id).ok_or_else(|| self.damaged(FrameFile::Class, format!("{id}, which no class has")))
+        };
+        let data = ids.as_raw().iter().map(class).collect::<Result<_, _>>()?;
+        Ok(Raster { width: ids.width(), height: ids.height(), data })
+    }
+
+    /// The id of the object that each pixel shows; 0: none.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn instance(&self) -> Result<Raster<u16>, WriteError> {
+        match self.png(FrameFile::Instance)? {
+            DynamicImage::ImageLuma16(ids) => {
+                Ok(Raster { width: ids.width(), height: ids.height(), data: ids.into_raw() })
+            }
+            other => Err(self.damaged(FrameFile::Instance, format!("{:?} instead of 16-bit greys", other.color()))),
+        }
+    }
+
+    /// Whether each pixel's surface differs from the compared frame's.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn change(&self) -> Result<Raster<bool>, WriteError> {
+        let picture = self.png(FrameFile::Change)?.into_luma8();
+        let data = picture.as_raw().iter().map(|value| *value > 0).collect();
+        Ok(Raster { width: picture.width(), height: picture.height(), data })
+    }
+
+    /// Metres along the camera's z axis; +inf: sky.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn depth_m(&self) -> Result<Raster<f32>, WriteError> {
+        exr_file::read_scalar(&self.path(FrameFile::Depth), self.size())
+    }
+
+    /// Unit normals in Camera; 0: sky.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn normal(&self) -> Result<Raster<[f32; 3]>, WriteError> {
+        exr_file::read_rgb(&self.path(FrameFile::Normal), self.size())
+    }
+
+    /// Linear Rec. 709 radiance before exposure.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn radiance(&self) -> Result<Raster<[f32; 3]>, WriteError> {
+        exr_file::read_rgb(&self.path(FrameFile::Radiance), self.size())
+    }
+
+    /// Pixels to the next keyframe, right and down; NaN: not defined.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn flow_forward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
+        exr_file::read_rg(&self.path(FrameFile::FlowForward), self.size())
+    }
+
+    /// Pixels to the previous keyframe, right and down; NaN: not defined.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn flow_backward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
+        exr_file::read_rg(&self.path(FrameFile::FlowBackward), self.size())
+    }
+
+    /// Columns and rows of every picture.
+    fn size(&self) -> [u32; 2] {
+        [self.table.width_px, self.table.height_px]
+    }
+
+    fn png(&self, file: FrameFile) -> Result<DynamicImage, WriteError> {
+        let path = self.path(file);
+        let open = || -> Result<_, WriteError> {
+            let bytes = open_regular(&path).map_err(WriteError::storage(&path, "read the file"))?;
+            Ok(ImageReader::with_format(BufReader::new(bytes), ImageFormat::Png))
+        };
+        let broken = |e: image::ImageError| self.damaged(file, e.to_string());
+        // Before anything is unpacked: a header of a few bytes may ask for any amount of memory.
+        let (width, height) = open()?.into_dimensions().map_err(broken)?;
+        if [width, height] != self.size() {
+            let [columns, rows] = self.size();
+            return Err(self.damaged(file, format!("{width}×{height} pixels instead of {columns}×{rows}")));
+        }
+        open()?.decode().map_err(broken)
+    }
+
+    fn damaged(&self, file: FrameFile, found: String) -> WriteError {
+        WriteError::Damaged { path: self.path(file), found }
+    }
+}
