@@ -37,7 +37,7 @@ mod sheet;
 mod stored_frame;
 
 pub use error::WriteError;
-pub use export::{DatasetFormat, Exported, Watch, export};
+pub use export::{Choice, DatasetFormat, Exported, Watch, export};
 pub use export_format::ExportFormat;
 pub use exporter::Exporter;
 pub use files::{sha256, sha256_file, write_atomically};

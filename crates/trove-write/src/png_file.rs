@@ -10,6 +10,17 @@ pub(crate) fn rgb(name: &str, width: u32, height: u32, pixels: &[[u8; 3]]) -> Re
     encode(name, width, height, pixels.as_flattened(), ExtendedColorType::Rgb8, FilterType::Adaptive)
 }
 
+/// 8-bit colours that are numbers or stand for classes.
+pub(crate) fn labels_rgb(name: &str, width: u32, height: u32, pixels: &[[u8; 3]]) -> Result<Vec<u8>, WriteError> {
+    encode(name, width, height, pixels.as_flattened(), ExtendedColorType::Rgb8, FilterType::Up)
+}
+
+/// 16-bit colours that are numbers.
+pub(crate) fn rgb16(name: &str, width: u32, height: u32, pixels: &[[u16; 3]]) -> Result<Vec<u8>, WriteError> {
+    let bytes: Vec<u8> = pixels.as_flattened().iter().flat_map(|p| p.to_ne_bytes()).collect();
+    encode(name, width, height, &bytes, ExtendedColorType::Rgb16, FilterType::Up)
+}
+
 /// 8-bit colours with coverage.
 pub(crate) fn rgba(name: &str, width: u32, height: u32, pixels: &[[u8; 4]]) -> Result<Vec<u8>, WriteError> {
     encode(name, width, height, pixels.as_flattened(), ExtendedColorType::Rgba8, FilterType::Adaptive)

@@ -7,9 +7,10 @@ use clap::Args;
 use serde_json::json;
 use trove_format::{Curated, ReportTable};
 use trove_model::Report;
-use trove_write::{DatasetFormat, PlainFiles, export, write_plain_drive};
+use trove_write::{Choice, DatasetFormat, PlainFiles, export, write_plain_drive};
 
 use crate::build::print_entries;
+use crate::class_maps::ClassMapChoice;
 use crate::drives::DatasetChoice;
 use crate::interrupt;
 use crate::progress::Steps;
@@ -40,6 +41,9 @@ struct Frames {
     /// A list of trove curate: its frames alone, in their splits; without it all frames are for training.
     #[arg(long, value_name = "FILE.json")]
     split: Option<PathBuf>,
+    /// Class map of the labels, as for trove evaluate [default: the form's own].
+    #[arg(long, value_name = "MAP")]
+    classes: Option<ClassMapChoice>,
 }
 
 /// Of drives.
@@ -107,13 +111,15 @@ impl Export {
 impl Frames {
     fn write(&self, source: &Path, out: &Path, format: DatasetFormat, as_json: bool) -> Result<i32> {
         let curated = self.split.as_deref().map(Curated::read).transpose()?;
+        let classes = self.classes.as_ref().map(ClassMapChoice::read).transpose()?;
+        let choice = Choice { curated, classes };
         interrupt::listen();
         let progress = Steps::default();
         let watch = |done, total| {
             progress.done(done, total);
             !interrupt::requested()
         };
-        let exported = export(source, out, format, curated.as_ref(), &watch)?;
+        let exported = export(source, out, format, &choice, &watch)?;
         if exported.interrupted {
             eprintln!("interrupted; run the same command to go on");
             return Ok(interrupt::status());

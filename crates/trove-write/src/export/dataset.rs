@@ -20,8 +20,10 @@ pub(crate) trait Dataset: Sync {
     /// Writes the frames of a step; several threads do so at once.
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError>;
 
-    /// Writes what sums all frames up, step by step in the plan's order.
-    fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError>;
+    /// Writes what sums all frames up, where the form has that.
+    fn finish(&self, _: &Finished<'_>, _: &mut Unit<'_>) -> Result<(), WriteError> {
+        Ok(())
+    }
 }
 
 /// All steps of an export, finished.

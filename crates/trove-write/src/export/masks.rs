@@ -12,15 +12,9 @@ pub(crate) struct Mask {
 }
 
 impl Mask {
-    /// Of an object whose pixels all lie in a box: first column, first row, last column, last row.
-    pub(crate) fn of(instance: &Raster<u16>, id: u16, [x0, y0, x1, y1]: [u32; 4]) -> Self {
-        let pixels = Raster::from_fn(x1 + 1 - x0, y1 + 1 - y0, |x, y| *instance.at(x0 + x, y0 + y) == id);
-        Self { min: [x0, y0], pixels }
-    }
-
-    /// How many pixels belong to it.
-    pub(crate) fn area(&self) -> u32 {
-        self.pixels.data.iter().map(|p| u32::from(*p)).sum()
+    /// Of pixels that all lie within bounds: first column, first row, last column, last row.
+    pub(crate) fn of([x0, y0, x1, y1]: [u32; 4], belongs: impl Fn(u32, u32) -> bool) -> Self {
+        Self { min: [x0, y0], pixels: Raster::from_fn(x1 + 1 - x0, y1 + 1 - y0, |x, y| belongs(x0 + x, y0 + y)) }
     }
 
     /// COCO's run lengths in an image of so many rows and columns: down the columns, first those outside.
@@ -73,13 +67,10 @@ mod tests {
     fn run_lengths_go_down_the_columns() {
         // .1.
         // 11.
-        let instance = Raster { width: 3, height: 2, data: vec![0, 5, 0, 5, 5, 0] };
-        let mask = Mask::of(&instance, 5, [0, 0, 1, 1]);
-        assert_eq!((mask.area(), mask.run_lengths(3, 2)), (3, vec![1, 3, 2]));
-        let last = Raster { width: 2, height: 3, data: vec![0, 0, 0, 0, 0, 9] };
-        assert_eq!(Mask::of(&last, 9, [1, 2, 1, 2]).run_lengths(2, 3), [5, 1, 0]);
-        let first = Raster { width: 2, height: 3, data: vec![9, 9, 0, 0, 0, 0] };
-        assert_eq!(Mask::of(&first, 9, [0, 0, 1, 0]).run_lengths(2, 3), [0, 1, 2, 1, 2]);
+        let mask = Mask::of([0, 0, 1, 1], |x, y| (x, y) != (0, 0));
+        assert_eq!(mask.run_lengths(3, 2), [1, 3, 2]);
+        assert_eq!(Mask::of([1, 2, 1, 2], |_, _| true).run_lengths(2, 3), [5, 1, 0]);
+        assert_eq!(Mask::of([0, 0, 1, 0], |_, _| true).run_lengths(2, 3), [0, 1, 2, 1, 2]);
     }
 
     #[test]

@@ -4,14 +4,26 @@
 //! rows, and at the end sums the rows up; what is finished is kept in a journal, so that an export goes on where it ended,
 //! in constant memory.
 
+mod cityscapes;
+mod coco;
+mod contours;
 mod dataset;
 mod folder;
 mod format;
 mod geometry;
+mod json_file;
 mod kinds;
 mod kitti;
+mod kitti_dense;
+mod kitti_step;
+mod label_pictures;
+mod labels;
+mod masks;
 mod plan;
+mod tables;
 mod unit;
+mod video;
+mod yolo;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -21,6 +33,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use trove_format::{Curated, Source};
+use trove_model::ClassMap;
 
 use crate::{WriteError, files};
 use dataset::Finished;
@@ -35,13 +48,22 @@ const SUMMARY: &str = "trove.json";
 /// How an export is watched: told how many steps of how many are done, it says whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
 
+/// What a user may choose.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// The frames and their splits; without it all frames are for training.
+    pub curated: Option<Curated>,
+    /// The class map of labels; without it the form's own.
+    pub classes: Option<ClassMap>,
+}
+
 /// What an export has written.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Exported {
     /// The form.
     pub format: String,
-    /// Name of the class map that labels are numbered by.
-    pub classes: String,
+    /// Name of the class map that labels are numbered by; `None` for a form without such labels.
+    pub classes: Option<String>,
     /// Version of the program.
     pub trove: String,
     /// Frames by split.
@@ -67,16 +89,29 @@ pub fn export(
     source: &Path,
     out: &Path,
     format: DatasetFormat,
-    curated: Option<&Curated>,
+    choice: &Choice,
     watch: Watch,
 ) -> Result<Exported, WriteError> {
-    let (plan, manifest) = Plan::new(source, curated)?;
-    let dataset = format.dataset();
+    let (plan, manifest) = Plan::new(source, choice.curated.as_ref())?;
+    let map = match (&choice.classes, format.class_map()) {
+        (Some(map), Some(_)) => Some(map.clone()),
+        (None, named) => named.and_then(ClassMap::named),
+        (Some(map), None) => {
+            return Err(WriteError::Unfit {
+                path: out.to_owned(),
+                expected: format!("no class map for {}, whose files have no such numbers", format.name()),
+                found: map.name.clone(),
+                remedy: "leave out --classes".into(),
+            });
+        }
+    };
+    let classes = map.as_ref().map(|map| map.name.clone());
     let identity = Identity {
         format: format.name().to_owned(),
         trove: env!("CARGO_PKG_VERSION").to_owned(),
-        classes: String::new(),
+        classes: files::sha256(format!("{map:?}").as_bytes()),
     };
+    let dataset = format.dataset(map).ok_or_else(|| WriteError::Mismatch(format!("{} without classes", identity.format)))?;
     let folder = ExportFolder::open(out, &identity)?;
     let units = dataset.units(&plan);
     let names: Vec<String> = units.iter().map(|frames| name(&plan, frames)).collect();
@@ -96,7 +131,7 @@ pub fn export(
     })?;
     let mut exported = Exported {
         format: identity.format,
-        classes: identity.classes,
+        classes,
         trove: identity.trove,
         licences: manifest.licences.clone(),
         written: missing.len(),

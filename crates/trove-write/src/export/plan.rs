@@ -45,6 +45,14 @@ pub(crate) struct PlannedFrame {
     pub content: [u8; 32],
 }
 
+impl PlannedFrame {
+    /// A name that no other frame has, for folders that hold all frames.
+    pub(crate) fn flat_name(&self) -> String {
+        let Self { scene, variation, keyframe, view, .. } = self;
+        format!("{scene}_v{variation:02}_k{keyframe:03}_{view}")
+    }
+}
+
 impl Plan {
     /// Of a finished output folder; with `curated` of the frames that it lists for training and validation alone.
     ///

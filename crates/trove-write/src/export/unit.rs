@@ -47,14 +47,26 @@ impl<'a> Unit<'a> {
         path: &str,
         fill: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
     ) -> Result<(), WriteError> {
+        self.external(path, |partial| {
+            let mut file = BufWriter::new(File::create(partial)?);
+            fill(&mut file)?;
+            file.flush()
+        })
+    }
+
+    /// Lets something else write a file, under a hidden name; it appears once that is done.
+    pub(crate) fn external(
+        &mut self,
+        path: &str,
+        fill: impl FnOnce(&Path) -> std::io::Result<()>,
+    ) -> Result<(), WriteError> {
         let place = self.place(path)?;
         let partial = hidden_beside(&place, "partial");
-        let written = File::create(&partial).and_then(|file| {
-            let mut file = BufWriter::new(file);
-            fill(&mut file)?;
-            let file = file.into_inner()?;
+        // What a killed run left may be a link to a file of the source's, which must not be written to.
+        let _ = fs::remove_file(&partial);
+        let written = fill(&partial).and_then(|()| {
             fs::rename(&partial, &place)?;
-            Ok(file.metadata()?.len())
+            Ok(fs::metadata(&place)?.len())
         });
         if written.is_err() {
             // The first error is the one to tell of.

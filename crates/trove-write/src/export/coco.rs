@@ -1,0 +1,143 @@
+//! COCO: objects with masks as run lengths, and the panoptic form of a picture and its segments.
+
+use serde_json::json;
+use trove_format::FrameFile;
+use trove_model::ClassMap;
+
+use super::dataset::{Dataset, Finished};
+use super::labels::{Extent, MappedLabels, Segment};
+use super::masks::{Mask, packed};
+use super::plan::Plan;
+use super::tables::write_tables;
+use super::unit::Unit;
+use crate::{WriteError, png_file};
+
+/// `<split>/*.png` and `annotations/instances_<split>.json`.
+pub(super) struct CocoInstances {
+    pub map: ClassMap,
+}
+
+/// `<split>/*.png`, `annotations/panoptic_<split>/*.png` and `annotations/panoptic_<split>.json`.
+pub(super) struct CocoPanoptic {
+    pub map: ClassMap,
+}
+
+const IMAGES: &str = "images";
+const ANNOTATIONS: &str = "annotations";
+
+impl Dataset for CocoInstances {
+    fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        for &number in frames {
+            let labels = image(plan, number, &self.map, unit)?;
+            for (segment, extent) in labels.segments(&self.map) {
+                if segment.object == 0 {
+                    continue;
+                }
+                let mask = mask(&labels, segment, extent.bounds);
+                let runs = mask.run_lengths(labels.ids.width, labels.ids.height);
+                unit.row(
+                    ANNOTATIONS,
+                    &json!({
+                        "id": number as u64 * 65536 + u64::from(segment.object),
+                        "image_id": number,
+                        "category_id": segment.id,
+                        "bbox": extent.xywh(),
+                        "area": extent.area,
+                        "segmentation": { "size": [labels.ids.height, labels.ids.width], "counts": packed(&runs) },
+                        "iscrowd": 0,
+                        "track_id": segment.object,
+                    }),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        let things = self.map.counted().filter(|class| class.thing);
+        let category = |class: &trove_model::MappedClass| json!({ "id": class.id, "name": class.name });
+        let categories: Vec<_> = things.map(category).collect();
+        for split in &finished.plan.splits {
+            let path = format!("annotations/instances_{split}.json");
+            let fields = [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+            write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
+        }
+        Ok(())
+    }
+}
+
+impl Dataset for CocoPanoptic {
+    fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        for &number in frames {
+            let labels = image(plan, number, &self.map, unit)?;
+            // Numbers of three bytes: the category's, and the object's above it.
+            let segment_id = |segment: Segment| u32::from(segment.id) + 256 * u32::from(segment.object);
+            let mut numbers = [None; 256];
+            self.map.counted().for_each(|class| numbers[usize::from(class.id)] = Some(class.thing));
+            let color = |(id, object): (&u8, &u16)| match numbers[usize::from(*id)] {
+                None => [0; 3],
+                Some(thing) => {
+                    let [r, g, b, _] =
+                        segment_id(Segment { id: *id, object: if thing { *object } else { 0 } }).to_le_bytes();
+                    [r, g, b]
+                }
+            };
+            let pixels: Vec<[u8; 3]> = labels.ids.data.iter().zip(&labels.instance.data).map(color).collect();
+            let name = format!("{number:012}.png");
+            let split = &plan.frames[number].split;
+            let png = png_file::labels_rgb(&name, labels.ids.width, labels.ids.height, &pixels)?;
+            unit.write(&format!("annotations/panoptic_{split}/{name}"), &png)?;
+            let info = |(segment, extent): (Segment, Extent)| {
+                let is_thing = numbers[usize::from(segment.id)] == Some(true);
+                json!({
+                    "id": segment_id(segment),
+                    "category_id": segment.id,
+                    "area": extent.area,
+                    "bbox": extent.xywh(),
+                    "iscrowd": u8::from(is_thing && segment.object == 0),
+                })
+            };
+            let segments: Vec<_> = labels.segments(&self.map).into_iter().map(info).collect();
+            unit.row(ANNOTATIONS, &json!({ "image_id": number, "file_name": name, "segments_info": segments }))?;
+        }
+        Ok(())
+    }
+
+    fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        let category = |class: &trove_model::MappedClass| {
+            json!({ "id": class.id, "name": class.name, "isthing": u8::from(class.thing), "color": class.rgb })
+        };
+        let categories: Vec<_> = self.map.counted().map(category).collect();
+        for split in &finished.plan.splits {
+            let path = format!("annotations/panoptic_{split}.json");
+            let fields = [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+            write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
+        }
+        Ok(())
+    }
+}
+
+/// Puts the picture in its place, adds its row and reads its labels.
+fn image(plan: &Plan, number: usize, map: &ClassMap, unit: &mut Unit<'_>) -> Result<MappedLabels, WriteError> {
+    let planned = &plan.frames[number];
+    let frame = plan.open(planned)?;
+    let name = format!("{number:012}.png");
+    unit.link(&format!("{}/{name}", planned.split), &frame.path(FrameFile::Rgb))?;
+    let (width, height) = (frame.table.width_px, frame.table.height_px);
+    let row = json!({ "id": number, "file_name": name, "width": width, "height": height, "trove_path": planned.path });
+    unit.row(IMAGES, &row)?;
+    MappedLabels::read(&frame, map)
+}
+
+fn mask(labels: &MappedLabels, segment: Segment, bounds: [u32; 4]) -> Mask {
+    Mask::of(bounds, |x, y| *labels.instance.at(x, y) == segment.object && *labels.ids.at(x, y) == segment.id)
+}
+
+fn info(finished: &Finished<'_>) -> serde_json::Value {
+    json!({ "description": "made by trove export", "version": finished.manifest.versions.trove })
+}
+
+fn licenses(finished: &Finished<'_>) -> serde_json::Value {
+    let license = |(id, source): (usize, &trove_format::Source)| json!({ "id": id, "name": source.licence, "url": source.source });
+    json!(finished.manifest.licences.iter().enumerate().map(license).collect::<Vec<_>>())
+}

@@ -1,0 +1,90 @@
+//! A frame's labels in the numbers of a class map.
+
+use std::collections::BTreeMap;
+
+use trove_format::ObjectRow;
+use trove_model::{ClassMap, Raster};
+
+use crate::{StoredFrame, WriteError};
+
+/// What each pixel shows, in a class map's numbers.
+pub(crate) struct MappedLabels {
+    /// The class's number.
+    pub ids: Raster<u8>,
+    /// The id of the object that the pixel shows; 0: none.
+    pub instance: Raster<u16>,
+}
+
+/// Pixels of one class, and of one object where there is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Segment {
+    /// The class's number.
+    pub id: u8,
+    /// The object; 0 for all that is not countable.
+    pub object: u16,
+}
+
+/// How large a segment is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Extent {
+    /// Pixels.
+    pub area: u32,
+    /// First column, first row, last column, last row.
+    pub bounds: [u32; 4],
+}
+
+impl Extent {
+    /// First column, first row, width and height, as COCO writes boxes.
+    pub(crate) fn xywh(&self) -> [u32; 4] {
+        let [x0, y0, x1, y1] = self.bounds;
+        [x0, y0, x1 + 1 - x0, y1 + 1 - y0]
+    }
+}
+
+impl MappedLabels {
+    /// Of a frame; an object's kind may say more than its class.
+    pub(crate) fn read(frame: &StoredFrame, map: &ClassMap) -> Result<Self, WriteError> {
+        let (class, instance) = (frame.class()?, frame.instance()?);
+        let last = instance.data.iter().copied().max().unwrap_or(0);
+        let mut kinds = vec![None; usize::from(last) + 1];
+        for ObjectRow { id, kind, .. } in &frame.table.objects {
+            if let Some(place) = kinds.get_mut(*id as usize) {
+                *place = Some(*kind);
+            }
+        }
+        let id = |(class, object): (&_, &u16)| match kinds[usize::from(*object)] {
+            Some(kind) => map.object_id(*class, kind),
+            None => map.id(*class),
+        };
+        let data = class.data.iter().zip(&instance.data).map(id).collect();
+        Ok(Self { ids: Raster { data, ..class.map(|_| 0) }, instance })
+    }
+
+    /// The segments of the picture, without what is not labelled or does not count.
+    pub(crate) fn segments(&self, map: &ClassMap) -> Vec<(Segment, Extent)> {
+        let mut counts = [None; 256];
+        map.counted().for_each(|class| counts[usize::from(class.id)] = Some(class.thing));
+        let mut found: BTreeMap<Segment, Extent> = BTreeMap::new();
+        let (width, height) = (self.ids.width, self.ids.height);
+        for y in 0..height {
+            let row = (y * width) as usize..((y + 1) * width) as usize;
+            let (ids, objects) = (&self.ids.data[row.clone()], &self.instance.data[row]);
+            let mut x = 0;
+            // Runs of one segment are long: one look into the table each.
+            while x < width as usize {
+                let (id, object, first) = (ids[x], objects[x], x);
+                while x < width as usize && (ids[x], objects[x]) == (id, object) {
+                    x += 1;
+                }
+                let Some(thing) = counts[usize::from(id)] else { continue };
+                let segment = Segment { id, object: if thing { object } else { 0 } };
+                let (x0, x1) = (first as u32, x as u32 - 1);
+                let extent = found.entry(segment).or_insert(Extent { area: 0, bounds: [x0, y, x1, y] });
+                extent.area += (x - first) as u32;
+                let [left, top, right, bottom] = extent.bounds;
+                extent.bounds = [left.min(x0), top, right.max(x1), bottom.max(y)];
+            }
+        }
+        found.into_iter().collect()
+    }
+}
