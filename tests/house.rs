@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // all of this is tests
 use std::path::{Path, PathBuf};
 
-use trove_model::{CLASSES, label_rows};
+use trove_model::{CLASSES, ClassMap};
 
 const STAGES: [&str; 6] = ["trove-read", "trove-assets", "trove-build", "trove-render", "trove-write", "trove-judge"];
 /// Those that write to the disk.
@@ -150,11 +150,7 @@ fn no_module_is_a_drawer_for_everything() {
 
 #[test]
 fn the_documentation_has_the_table_of_classes() {
-    let label = |set: &str, id: u8| {
-        let rows = label_rows(set).unwrap();
-        let row = rows.iter().find(|row| row.id == id).unwrap();
-        format!("{} {}", row.id, row.name)
-    };
+    let label = |set: &str, id: u8| format!("{id} {}", ClassMap::named(set).unwrap().class(id).unwrap().name);
     let text = std::fs::read_to_string(root().join("docs/output.md")).unwrap();
     for row in CLASSES.iter() {
         let fields = [

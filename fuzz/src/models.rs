@@ -9,9 +9,8 @@ use base64::prelude::BASE64_STANDARD;
 use glam::Vec3;
 use image::{DynamicImage, ImageFormat};
 use serde_json::json;
-use trove_judge::LabelSet;
 use trove_judge::evaluate::{Settings, evaluate};
-use trove_model::{Report, Seed};
+use trove_model::{ClassMap, Report, Seed};
 use trove_read::{asset_files, environment};
 
 #[allow(clippy::unwrap_used, dead_code, unreachable_pub)] // the reader's tests use the rest
@@ -176,8 +175,8 @@ fn instances() -> Vec<u8> {
 /// As classes and as numbers of objects.
 pub(crate) fn feed_labels(folder: &Path, data: &[u8]) {
     let (predicted, truth) = (folder.join("predicted"), folder.join("truth"));
-    let Some(set) = LabelSet::named("trove20") else { return };
-    let settings = Settings { set, boundary: true, panoptic: true, seed: Seed(1) };
+    let classes = ClassMap::named("trove20");
+    let settings = Settings { classes, predicted: None, truth: None, boundary: true, panoptic: true, seed: Seed(1) };
     for (name, whole) in [("class.png", label_seeds().remove(0)), ("instance.png", instances())] {
         let _ = fs::write(predicted.join(name), data);
         let _ = evaluate(&predicted, &truth, &settings, &|_, _| ());

@@ -32,6 +32,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod class_map_file;
 mod curated;
 mod error;
 mod file;
@@ -48,6 +49,7 @@ mod site;
 #[cfg(test)]
 mod tests;
 
+pub use class_map_file::ClassMapFile;
 pub use curated::Curated;
 pub use error::FormatError;
 pub use file::FORMAT;

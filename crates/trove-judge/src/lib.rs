@@ -5,8 +5,8 @@
 //!
 //! ```
 //! use image::GrayImage;
-//! use trove_judge::{LabelSet, evaluate};
-//! use trove_model::Seed;
+//! use trove_judge::evaluate;
+//! use trove_model::{ClassMap, Seed};
 //!
 //! // Ids of Cityscapes: 7 is the road, 26 a car. The prediction takes one of the car's two pixels for road.
 //! let folder = tempfile::tempdir()?;
@@ -14,8 +14,15 @@
 //! GrayImage::from_raw(4, 1, vec![7, 7, 7, 26]).expect("four pixels").save(&predicted)?;
 //! GrayImage::from_raw(4, 1, vec![7, 7, 26, 26]).expect("four pixels").save(&truth)?;
 //!
-//! let set = LabelSet::named("cityscapes").expect("a known set");
-//! let settings = evaluate::Settings { set, boundary: false, panoptic: false, seed: Seed(0) };
+//! let classes = ClassMap::named("cityscapes");
+//! let settings = evaluate::Settings {
+//!     classes,
+//!     predicted: None,
+//!     truth: None,
+//!     boundary: false,
+//!     panoptic: false,
+//!     seed: Seed(0),
+//! };
 //! let result = evaluate::evaluate(&predicted, &truth, &settings, &|_, _| {})?;
 //! let miou = result.miou.expect("classes that are there").value;
 //! assert!((miou - (2.0 / 3.0 + 1.0 / 2.0) / 2.0).abs() < 1e-12);
@@ -26,10 +33,10 @@
 pub mod curate;
 mod error;
 pub mod evaluate;
-mod label_set;
+mod numbering;
 mod pictures;
 pub mod recolor;
 
 pub use error::JudgeError;
-pub use label_set::{LabelSet, NamedId};
+pub use numbering::Numbering;
 pub use pictures::{OnProgress, thumbnail};

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use image::imageops::{FilterType, resize};
-use image::{DynamicImage, ImageDecoder, ImageReader};
+use image::{DynamicImage, ImageReader};
 use png::{BitDepth, ColorType};
 use rayon::prelude::*;
 use trove_files::{LARGEST_FILE, open_regular, read_regular};
-use trove_model::Raster;
+use trove_model::{ClassMap, Raster};
 
-use crate::{JudgeError, LabelSet};
+use crate::JudgeError;
 
 /// 8192 × 8192: larger than any road camera's.
 const MOST_PIXELS: u64 = 1 << 26;
@@ -76,11 +76,18 @@ pub(crate) fn by_key(root: &Path, files: Vec<PathBuf>) -> Result<BTreeMap<String
     Ok(found)
 }
 
-/// Pictures of labels below a folder: of our own and of Cityscapes' files those with classes, else every PNG.
-pub(crate) fn label_files(root: &Path, set: &LabelSet) -> Result<Vec<PathBuf>, JudgeError> {
+/// Ends of the names of files with labels: our own, and Cityscapes' in ids and in training ids.
+pub(crate) const OURS: &str = "class.png";
+pub(crate) const BY_ID: &str = "_labelIds.png";
+pub(crate) const BY_TRAIN_ID: &str = "_labelTrainIds.png";
+
+/// Pictures of labels below a folder: of our own and of Cityscapes' files those with classes, else every PNG. Where
+/// Cityscapes' files are there in both numberings, those of the wanted one are taken.
+pub(crate) fn label_files(root: &Path, wanted: Option<&ClassMap>) -> Result<Vec<PathBuf>, JudgeError> {
     let all = files(root, &["png"])?;
-    let cityscapes = if set.name == "cityscapes-train" { "_labelTrainIds.png" } else { "_labelIds.png" };
-    for ending in ["class.png", cityscapes] {
+    let by_train_id = wanted.is_some_and(|map| map.name == "cityscapes-train");
+    let endings = if by_train_id { [OURS, BY_TRAIN_ID, BY_ID] } else { [OURS, BY_ID, BY_TRAIN_ID] };
+    for ending in endings {
         let named: Vec<PathBuf> = all.iter().filter(|path| name(path).ends_with(ending)).cloned().collect();
         if !named.is_empty() {
             return Ok(named);
@@ -105,7 +112,7 @@ pub(crate) fn photographs(root: &Path) -> Result<Vec<PathBuf>, JudgeError> {
     }
 }
 
-fn name(path: &Path) -> String {
+pub(crate) fn name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
@@ -193,21 +200,16 @@ pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
     Ok(Labels { width, height, ids })
 }
 
-/// A panoptic map of KITTI-STEP: Cityscapes' train ids in red, and the number of each pixel's object in green (high byte)
-/// and blue; `None` for a picture that is not in colours.
-pub(crate) fn read_step(path: &Path) -> Result<Option<(Labels, Vec<u16>)>, JudgeError> {
+/// What a PNG's header says of its pixels.
+pub(crate) fn color_type(path: &Path) -> Result<(ColorType, BitDepth), JudgeError> {
     let file = BufReader::new(open_regular(path).map_err(JudgeError::io(path))?);
-    let broken =
-        |e: image::ImageError| JudgeError::unexpected(path, "a PNG image", e.to_string(), "write the file again");
-    let reader = ImageReader::new(file).with_guessed_format().map_err(JudgeError::io(path))?;
-    if reader.into_decoder().map_err(broken)?.color_type() != image::ColorType::Rgb8 {
-        return Ok(None);
-    }
-    let map = read(path)?.into_rgb8();
-    let (width, height) = map.dimensions();
-    let ids = map.pixels().map(|pixel| pixel.0[0]).collect();
-    let objects = map.pixels().map(|pixel| u16::from_be_bytes([pixel.0[1], pixel.0[2]])).collect();
-    Ok(Some((Labels { width, height, ids }, objects)))
+    let mut decoder = png::Decoder::new(file);
+    decoder.set_transformations(png::Transformations::IDENTITY);
+    let reader = decoder.read_info();
+    let broken = |e: png::DecodingError| {
+        JudgeError::unexpected(path, "labels as a PNG image", e.to_string(), "write the file again, as PNG")
+    };
+    Ok(reader.map_err(broken)?.output_color_type())
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@
 mod asset;
 mod capture;
 mod class;
+mod class_map;
 mod cuboid;
 mod drive;
 mod facade;
@@ -67,7 +68,8 @@ mod variation;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
 pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, PixelBox};
-pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, LabelRow, label_rows, label_table};
+pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, label_table};
+pub use class_map::{ClassMap, ClassMapEntry, ClassMapFault, InstanceCoding, MappedClass};
 pub use cuboid::Cuboid;
 pub use drive::{
     Drive, DriveOrigin, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Sweep, Track,

@@ -1,4 +1,4 @@
-//! Files → `Drive`, `StreetMap`, `EnvironmentMap`, `AssetLibrary`, `HumanBody`, `Locale`.
+//! Files → `Drive`, `StreetMap`, `EnvironmentMap`, `AssetLibrary`, `HumanBody`, `Locale`, `ClassMap`.
 //!
 //! What goes in: paths. What comes out: the model's nouns. A dataset's peculiarities (axis order, quaternion order,
 //! class names, time units) end here; this crate must not know how scenes are built, rendered or written.
@@ -33,6 +33,7 @@
 pub mod argoverse2;
 pub mod asset_files;
 mod budget;
+mod class_map_file;
 mod clock_time;
 mod datasets;
 pub mod drive_source;
@@ -53,8 +54,10 @@ mod plain;
 mod protobuf;
 pub mod relief;
 pub mod rig;
+mod toml_fault;
 pub mod waymo;
 
+pub use class_map_file::read_class_map;
 pub use clock_time::ClockTime;
 pub use datasets::DATASETS;
 pub use error::ReadError;

@@ -18,6 +18,7 @@
 mod assets;
 mod build;
 mod cache;
+mod class_maps;
 mod cli;
 mod contents;
 mod demo;

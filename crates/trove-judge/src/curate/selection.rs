@@ -109,8 +109,8 @@ pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::LabelSet;
     use glam::DVec2;
+    use trove_model::ClassMap;
 
     fn frame(i: u64, pixels: &[(usize, u64)]) -> CandidateFrame {
         let mut all = [0; 20];
@@ -134,14 +134,14 @@ mod tests {
         frames.push(frame(40, &[(1, 450), (9, 450), (16, 100)]));
         frames.push(frame(41, &[(1, 1000)]));
         frames.push(CandidateFrame { hash: frames[29].hash ^ 3, ..frame(42, &[(1, 460), (9, 450), (16, 90)]) });
-        let classes = LabelSet::named("trove20").unwrap().of_ours();
+        let classes = ClassMap::named("trove20").unwrap().train_ids_of_ours();
         let rules = Rules { count: 31, classes, min_classes: 2, duplicate_bits: 3 };
         let found = select(&frames, &rules);
         assert_eq!(found.kept[0], 29);
         assert_eq!((found.kept.len(), found.poor, found.duplicates), (30, 1, 1));
         assert_eq!(select(&frames, &Rules { count: 5, ..rules }).kept, found.kept[..5]);
         // CamVid does not know motorcyclists.
-        let classes = LabelSet::named("camvid").unwrap().of_ours();
+        let classes = ClassMap::named("camvid").unwrap().train_ids_of_ours();
         let camvid = select(&frames, &Rules { classes, ..rules });
         assert_ne!(camvid.kept[0], 29);
         // Labels alone of another variation are no duplicate.

@@ -1,11 +1,10 @@
 use super::*;
-use crate::LabelSet;
 use image::GrayImage;
 use trove_format::{FrameTable, LensModel, ObjectOrigin, ObjectRow, Projection};
-use trove_model::{Class, Kind};
+use trove_model::{Class, ClassMap, Kind};
 
 fn classes() -> [Option<u8>; 20] {
-    LabelSet::named("trove20").unwrap().of_ours()
+    ClassMap::named("trove20").unwrap().train_ids_of_ours()
 }
 
 /// A frame 60 m further on than the last, with a car in sight and a person behind something.

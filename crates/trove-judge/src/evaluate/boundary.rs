@@ -1,7 +1,8 @@
 //! Boundary IoU (Cheng et al. 2021, Boundary IoU: Improving Object-Centric Image Segmentation Evaluation).
 
+use trove_model::ClassMap;
+
 use super::mean::mean;
-use crate::LabelSet;
 
 /// Width of the band along outlines as a share of the picture's diagonal, as in the paper.
 const BAND: f64 = 0.02;
@@ -20,8 +21,8 @@ impl Boundary {
     }
 
     /// Compares the bands inside the outlines of every class; pixels whose truth is ignored belong to no prediction.
-    pub fn of(set: &LabelSet, predicted: &[u8], truth: &[u8], width: usize) -> Self {
-        let index = set.index();
+    pub fn of(map: &ClassMap, predicted: &[u8], truth: &[u8], width: usize) -> Self {
+        let index = map.train_ids();
         let height = truth.len().checked_div(width).unwrap_or(0);
         let diagonal_px = (width as f64).hypot(height as f64);
         let reach = ((BAND * diagonal_px).round() as usize).max(1);
@@ -29,7 +30,7 @@ impl Boundary {
         let seen = |(p, t): (&u8, &Option<u8>)| t.and(index[usize::from(*p)]);
         let predicted: Vec<Option<u8>> = predicted.iter().zip(&truth).map(seen).collect();
         let bands = [&predicted, &truth].map(|labels| band(labels, width, reach));
-        let mut counts = vec![[0; 2]; set.classes.len()];
+        let mut counts = vec![[0; 2]; map.counted().count()];
         for (p, t) in bands[0].iter().zip(&bands[1]) {
             for class in [p, t].into_iter().flatten() {
                 counts[usize::from(*class)][1] += 1;
@@ -130,11 +131,11 @@ mod tests {
 
     #[test]
     fn the_same_outlines_give_one_and_others_less() {
-        let set = LabelSet::named("camvid").unwrap();
+        let map = ClassMap::named("camvid").unwrap();
         let half = |edge: usize| -> Vec<u8> { (0..200 * 100).map(|i| if i % 200 < edge { 0 } else { 3 }).collect() };
-        let same = Boundary::of(&set, &half(100), &half(100), 200);
+        let same = Boundary::of(&map, &half(100), &half(100), 200);
         assert_eq!((same.iou(0), same.iou(3), same.iou(1)), (Some(1.0), Some(1.0), None));
-        let moved = Boundary::of(&set, &half(102), &half(100), 200);
+        let moved = Boundary::of(&map, &half(102), &half(100), 200);
         assert!(moved.iou(0).unwrap() < 0.98);
     }
 }

@@ -1,7 +1,8 @@
 //! Which classes were taken for which.
 
+use trove_model::ClassMap;
+
 use super::mean::mean;
-use crate::LabelSet;
 
 /// Counts of pixels by what they are (rows) and what they were taken for (columns); the last column holds predictions
 /// that are ignored numbers.
@@ -20,13 +21,13 @@ impl Confusion {
     }
 
     /// Counts pixel by pixel; pixels whose truth is ignored are left out, as cityscapesScripts does.
-    pub fn of(set: &LabelSet, predicted: &[u8], truth: &[u8]) -> Self {
+    pub fn of(map: &ClassMap, predicted: &[u8], truth: &[u8]) -> Self {
         // A table of all pairs of numbers first: a pixel then costs one look-up.
         let mut pairs = vec![0u32; 256 * 256];
         for (&p, &t) in predicted.iter().zip(truth) {
             pairs[usize::from(t) << 8 | usize::from(p)] += 1;
         }
-        let (index, mut confusion) = (set.index(), Self::new(set.classes.len()));
+        let (index, mut confusion) = (map.train_ids(), Self::new(map.counted().count()));
         for (pair, count) in pairs.into_iter().enumerate().filter(|(_, count)| *count > 0) {
             if let Some(t) = index[pair >> 8] {
                 let p = index[pair & 255].map_or(confusion.classes, usize::from);
@@ -78,11 +79,11 @@ mod tests {
 
     #[test]
     fn ious_are_those_of_a_picture_counted_by_hand() {
-        let set = LabelSet::named("camvid").unwrap();
+        let map = ClassMap::named("camvid").unwrap();
         // Of four sky pixels (0) one is called road (3), one is called unlabelled (11); of two road pixels one sky.
         let truth = [0, 0, 0, 0, 3, 3, 11, 200];
         let predicted = [0, 0, 3, 11, 3, 0, 0, 0];
-        let confusion = Confusion::of(&set, &predicted, &truth);
+        let confusion = Confusion::of(&map, &predicted, &truth);
         assert_eq!(
             (confusion.count(0, 0), confusion.count(0, 3), confusion.count(0, 11), confusion.count(3, 0)),
             (2, 1, 1, 1)

@@ -4,38 +4,43 @@ mod boundary;
 mod confusion;
 mod mean;
 mod panoptic;
+mod sides;
 
 use std::path::{Path, PathBuf};
 
-use image::DynamicImage;
 use rayon::prelude::*;
-use trove_model::Seed;
+use trove_model::{ClassMap, Seed};
 
-use crate::pictures::{Labels, OnProgress, by_key, each, label_files, read, read_labels, read_step};
-use crate::{JudgeError, LabelSet};
+use crate::numbering::{INSTANCES, Judged, read_as, read_objects};
+use crate::pictures::{BY_ID, BY_TRAIN_ID, OnProgress, by_key, each, label_files, name};
+use crate::{JudgeError, Numbering};
 pub use boundary::Boundary;
 pub use confusion::Confusion;
 use panoptic::Segment;
 pub use panoptic::{Panoptic, Quality};
+use sides::{Side, Sides};
 
 /// Draws of pictures with replacement.
 const DRAWS: u64 = 1000;
 /// In Cityscapes' `…_instanceIds.png` smaller numbers are classes, of a crowd where the class is countable.
 const CITYSCAPES_OBJECTS_FROM: u16 = 1000;
-/// The numbering of KITTI-STEP's panoptic maps.
-const STEP_SET: &str = "cityscapes-train";
 /// Share of the draws within the interval.
 const WITHIN: f64 = 0.95;
 
 /// What to compare.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The numbering of both sides.
-    pub set: LabelSet,
+    /// The classes to judge in, and the numbers of a side that does not tell its own; without it, those that both sides
+    /// are in, or the paper's 13 where they differ, are our own, or do not tell.
+    pub classes: Option<ClassMap>,
+    /// The numbers of the predictions, where their files are not to decide.
+    pub predicted: Option<Numbering>,
+    /// The same of the truth.
+    pub truth: Option<Numbering>,
     /// Boundary IoU too.
     pub boundary: bool,
     /// Panoptic quality too: beside each `class.png` lies an `instance.png` (16-bit, 0 none), and beside Cityscapes'
-    /// `…_labelIds.png` its `…_instanceIds.png`; a panoptic map of KITTI-STEP has both itself.
+    /// `…_labelIds.png` its `…_instanceIds.png`; panoptic maps of KITTI-STEP and Waymo have both themselves.
     pub panoptic: bool,
     /// Draws the bootstrap's pictures.
     pub seed: Seed,
@@ -77,8 +82,12 @@ impl Counts {
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
-    /// The numbering.
-    pub set: LabelSet,
+    /// The classes that were judged in.
+    pub classes: ClassMap,
+    /// The numbers of the predictions' pictures.
+    pub predicted: Numbering,
+    /// The numbers of the truth's.
+    pub truth: Numbering,
     /// Pictures compared.
     pub pictures: usize,
     /// Predictions without a truth, which were left out.
@@ -104,17 +113,19 @@ pub struct Evaluation {
 /// Compares the label pictures below two folders, or two files; every picture of the truth has to be predicted.
 ///
 /// # Errors
-/// A picture that is missing, cannot be read, is in colours, has another size than its counterpart, or holds a number
-/// that the set does not know.
+/// A side of which it is not known in what numbers it is, or how they become those of the classes to judge in; a picture
+/// that is missing, cannot be read, has another size than its counterpart, or holds a number that its map does not have.
 pub fn evaluate(
     predicted: &Path,
     truth: &Path,
     settings: &Settings,
     progress: OnProgress,
 ) -> Result<Evaluation, JudgeError> {
-    let (pairs, unused) = pairs(predicted, truth, &settings.set)?;
-    let judged = each(&pairs, progress, |(p, t)| judge(p, t, settings))?;
-    let classes = settings.set.classes.len();
+    let (pairs, unused) = pairs(predicted, truth, settings.classes.as_ref())?;
+    let given = [settings.predicted.as_ref(), settings.truth.as_ref()];
+    let sides = sides::of(&pairs, [predicted, truth], settings.classes.as_ref(), given)?;
+    let judged = each(&pairs, progress, |(p, t)| judge(p, t, &sides, settings))?;
+    let classes = sides.classes.counted().count();
     let mut counts = Counts::none(classes);
     judged.iter().for_each(|picture| counts.add(picture));
     let draws = draws(&judged, classes, settings.seed);
@@ -135,13 +146,19 @@ pub fn evaluate(
         boundary_iou: by_class(|c, class| c.boundary.iou(class)),
         pq: estimate(&|c| c.panoptic.mean()),
         class_pq: by_class(|c, class| Some(c.panoptic.quality(class)?.pq)),
-        set: settings.set.clone(),
+        classes: sides.classes,
+        predicted: sides.predicted.numbering,
+        truth: sides.truth.numbering,
         counts,
     })
 }
 
 /// Pictures of both sides that belong together, in the order of their names, and how many predictions are left over.
-fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf, PathBuf)>, usize), JudgeError> {
+fn pairs(
+    predicted: &Path,
+    truth: &Path,
+    wanted: Option<&ClassMap>,
+) -> Result<(Vec<(PathBuf, PathBuf)>, usize), JudgeError> {
     match (predicted.is_file(), truth.is_file()) {
         (true, true) => return Ok((vec![(predicted.to_owned(), truth.to_owned())], 0)),
         (true, false) if truth.is_dir() => {
@@ -154,8 +171,8 @@ fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf
         }
         _ => {}
     }
-    let truths = by_key(truth, label_files(truth, set)?)?;
-    let mut predictions = by_key(predicted, label_files(predicted, set)?)?;
+    let truths = by_key(truth, label_files(truth, wanted)?)?;
+    let mut predictions = by_key(predicted, label_files(predicted, wanted)?)?;
     let pair = |(key, t): (String, PathBuf)| match predictions.remove(&key) {
         Some(p) => Ok((p, t)),
         None => Err(JudgeError::unexpected(
@@ -169,92 +186,56 @@ fn pairs(predicted: &Path, truth: &Path, set: &LabelSet) -> Result<(Vec<(PathBuf
     Ok((pairs, predictions.len()))
 }
 
-fn judge(predicted: &Path, truth: &Path, settings: &Settings) -> Result<Counts, JudgeError> {
-    let set = &settings.set;
-    let ((p, p_objects), (t, t_objects)) = (read_known(predicted, set)?, read_known(truth, set)?);
-    if (p.width, p.height) != (t.width, t.height) {
+fn judge(predicted: &Path, truth: &Path, sides: &Sides, settings: &Settings) -> Result<Counts, JudgeError> {
+    let map = &sides.classes;
+    let read = |path: &Path, side: &Side| read_as(path, &side.numbering.map, map, &side.numbers);
+    let (p, t) = (read(predicted, &sides.predicted)?, read(truth, &sides.truth)?);
+    if (p.labels.width, p.labels.height) != (t.labels.width, t.labels.height) {
         return Err(JudgeError::unexpected(
             predicted,
-            format!("{}×{} pixels as {}", t.width, t.height, truth.display()),
-            format!("{}×{}", p.width, p.height),
+            format!("{}×{} pixels as {}", t.labels.width, t.labels.height, truth.display()),
+            format!("{}×{}", p.labels.width, p.labels.height),
             "scale it with nearest-neighbour sampling",
         ));
     }
-    let mut counts = Counts { confusion: Confusion::of(set, &p.ids, &t.ids), ..Counts::none(set.classes.len()) };
+    let (p_ids, t_ids) = (&p.labels.ids, &t.labels.ids);
+    let mut counts = Counts { confusion: Confusion::of(map, p_ids, t_ids), ..Counts::none(map.counted().count()) };
     if settings.boundary {
-        counts.boundary = Boundary::of(set, &p.ids, &t.ids, t.width as usize);
+        counts.boundary = Boundary::of(map, p_ids, t_ids, t.labels.width as usize);
     }
     if settings.panoptic {
-        let segments = |path: &Path, labels: &Labels, objects: Option<Vec<u16>>| match objects {
-            Some(objects) => Ok(step_segments(&labels.ids, &objects, set)),
-            None => segments(path, &labels.ids, set),
-        };
-        counts.panoptic = Panoptic::of(set, &segments(predicted, &p, p_objects)?, &segments(truth, &t, t_objects)?);
+        counts.panoptic = Panoptic::of(map, &segments(predicted, &p, map)?, &segments(truth, &t, map)?);
     }
     Ok(counts)
 }
 
-/// Labels whose numbers the set knows, with the objects' numbers where the picture has them itself.
-fn read_known(path: &Path, set: &LabelSet) -> Result<(Labels, Option<Vec<u16>>), JudgeError> {
-    let step = if set.name == STEP_SET { read_step(path)? } else { None };
-    let (labels, objects) = match step {
-        Some((labels, objects)) => (labels, Some(objects)),
-        None => (read_labels(path)?, None),
-    };
-    match set.unknown(&labels.ids) {
-        None => Ok((labels, objects)),
-        Some(i) => {
-            let known: Vec<String> = set.classes.iter().map(|class| class.id.to_string()).collect();
-            let ignored: Vec<String> = set.ignored.iter().map(u8::to_string).collect();
-            let expected = format!("{}'s ids ({}, ignored {})", set.name, known.join(" "), ignored.join(" "));
-            let (x, y) = (i as u32 % labels.width, i as u32 / labels.width);
-            let found = format!("{} at x {x}, y {y}", labels.ids[i]);
-            Err(JudgeError::unexpected(path, expected, found, "choose the label set with --classes"))
+/// The segments of a picture, from its classes and the numbers of objects in it or beside it. Countable things without a
+/// number are a crowd.
+fn segments(path: &Path, picture: &Judged, map: &ClassMap) -> Result<Vec<Segment>, JudgeError> {
+    let file = name(path);
+    let cityscapes = file.ends_with(BY_ID) || file.ends_with(BY_TRAIN_ID);
+    let beside;
+    let objects = match &picture.objects {
+        Some(objects) => objects,
+        None => {
+            beside = read_objects(
+                &path.with_file_name(match cityscapes {
+                    true => file.replace("_labelIds", "_instanceIds").replace("_labelTrainIds", "_instanceIds"),
+                    false => INSTANCES.into(),
+                }),
+                &picture.labels,
+                path,
+            )?;
+            &beside
         }
-    }
-}
-
-/// The segments of a picture, from its classes and the numbers of objects beside it.
-fn segments(classes: &Path, ids: &[u8], set: &LabelSet) -> Result<Vec<Segment>, JudgeError> {
-    let name = classes.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let cityscapes = name.contains("_labelIds") || name.contains("_labelTrainIds");
-    let beside = classes.with_file_name(match cityscapes {
-        true => name.replace("_labelIds", "_instanceIds").replace("_labelTrainIds", "_instanceIds"),
-        false => "instance.png".into(),
-    });
-    let bad = |expected: String, found: String| {
-        JudgeError::unexpected(&beside, expected, found, "write the file again, or omit --panoptic")
     };
-    let wanted = || format!("16-bit greyscale ids of the objects in {name}");
-    if !beside.is_file() {
-        return Err(bad(wanted(), "no file".into()));
-    }
-    let objects: Vec<u16> = match read(&beside)? {
-        DynamicImage::ImageLuma16(numbers) => numbers.into_raw(),
-        DynamicImage::ImageLuma8(numbers) => numbers.into_raw().into_iter().map(u16::from).collect(),
-        other => return Err(bad(wanted(), format!("{:?}", other.color()))),
-    };
-    if objects.len() != ids.len() {
-        return Err(bad(format!("{} pixels, like {name}", ids.len()), objects.len().to_string()));
-    }
-    let index = set.index();
-    let segment = |(id, object): (&u8, u16)| {
-        let class = index[usize::from(*id)]?;
-        let countable = set.classes[usize::from(class)].thing && (!cityscapes || object >= CITYSCAPES_OBJECTS_FROM);
-        Some(u32::from(class) << 16 | if countable { u32::from(object) } else { 0 })
-    };
-    Ok(ids.iter().zip(objects).map(segment).collect())
-}
-
-/// The segments of a panoptic map of KITTI-STEP; countable things without a number are a crowd.
-fn step_segments(ids: &[u8], objects: &[u16], set: &LabelSet) -> Vec<Segment> {
-    let index = set.index();
+    let (train_ids, things): (_, Vec<bool>) = (map.train_ids(), map.counted().map(|class| class.thing).collect());
     let segment = |(id, object): (&u8, &u16)| {
-        let class = index[usize::from(*id)]?;
-        let countable = set.classes[usize::from(class)].thing;
+        let class = train_ids[usize::from(*id)]?;
+        let countable = things[usize::from(class)] && (!cityscapes || *object >= CITYSCAPES_OBJECTS_FROM);
         Some(u32::from(class) << 16 | if countable { u32::from(*object) } else { 0 })
     };
-    ids.iter().zip(objects).map(segment).collect()
+    Ok(picture.labels.ids.iter().zip(objects).map(segment).collect())
 }
 
 /// Counts of sets of as many pictures, drawn with replacement.
@@ -276,5 +257,7 @@ fn interval(mut values: Vec<f64>) -> Option<[f64; 2]> {
     Some([at((1.0 - WITHIN) / 2.0), at((1.0 + WITHIN) / 2.0)])
 }
 
+#[cfg(test)]
+mod numbering_tests;
 #[cfg(test)]
 mod tests;

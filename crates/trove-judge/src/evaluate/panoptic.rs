@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use trove_model::ClassMap;
+
 use super::mean::mean;
-use crate::LabelSet;
 
 /// A segment's number: class in the upper half, object in the lower; `None` for ignored pixels.
 pub(super) type Segment = Option<u32>;
@@ -43,7 +44,7 @@ impl Panoptic {
     /// Matches the segments of one picture: two of a class match where they overlap by more than half of their union,
     /// ignored pixels left out. True objects without a number are a crowd, which need not be found. Predictions that
     /// lie for more than half on ignored pixels or a crowd of their class are not counted.
-    pub(super) fn of(set: &LabelSet, predicted: &[Segment], truth: &[Segment]) -> Self {
+    pub(super) fn of(map: &ClassMap, predicted: &[Segment], truth: &[Segment]) -> Self {
         let mut shared: BTreeMap<(Segment, Segment), u64> = BTreeMap::new();
         let (mut of_predicted, mut of_truth) = (BTreeMap::<u32, u64>::new(), BTreeMap::<u32, u64>::new());
         // Neighbouring pixels mostly are of the same pair: runs are counted at once.
@@ -59,8 +60,9 @@ impl Panoptic {
         }
         let overlap = |t: Segment, p: u32| shared.get(&(t, Some(p))).copied().unwrap_or(0);
         let class = |segment: u32| (segment >> 16) as usize;
-        let crowd = |segment: u32| set.classes[class(segment)].thing && segment & 0xffff == 0;
-        let mut found = Self::new(set.classes.len());
+        let things: Vec<bool> = map.counted().map(|class| class.thing).collect();
+        let crowd = |segment: u32| things[class(segment)] && segment & 0xffff == 0;
+        let mut found = Self::new(map.counted().count());
         for (&pair, &both) in &shared {
             let (Some(t), Some(p)) = pair else { continue };
             if class(t) != class(p) || crowd(t) {
@@ -77,7 +79,7 @@ impl Panoptic {
         // What is left has no match.
         of_truth.keys().filter(|t| !crowd(**t)).for_each(|t| found.classes[class(*t)].missed += 1);
         for (p, area) in of_predicted {
-            let crowded = if set.classes[class(p)].thing { overlap(Some(p >> 16 << 16), p) } else { 0 };
+            let crowded = if things[class(p)] { overlap(Some(p >> 16 << 16), p) } else { 0 };
             if 2 * (overlap(None, p) + crowded) <= area {
                 found.classes[class(p)].invented += 1;
             }
@@ -118,8 +120,8 @@ mod tests {
     }
 
     fn quality(predicted: &[Segment], truth: &[Segment], class: usize) -> Option<[f64; 3]> {
-        let set = LabelSet::named("camvid").unwrap();
-        Panoptic::of(&set, predicted, truth).quality(class).map(|q| [q.pq, q.sq, q.rq])
+        let map = ClassMap::named("camvid").unwrap();
+        Panoptic::of(&map, predicted, truth).quality(class).map(|q| [q.pq, q.sq, q.rq])
     }
 
     #[test]

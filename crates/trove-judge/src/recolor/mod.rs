@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
-use trove_model::{CLASSES, Seed};
+use trove_model::{Class, ClassMap, Seed};
 
+use crate::JudgeError;
 use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
-use crate::{JudgeError, LabelSet};
 pub use histogram::{Histograms, Matching};
 use output::{Identity, OutputFolder};
 pub use space::Space;
@@ -43,7 +43,7 @@ pub struct Settings {
     /// How far towards the target, 0 (not at all) to 1 (as in Reinhard et al.).
     pub strength: f32,
     /// Label pictures of the target, for histograms, and their numbering.
-    pub target_labels: Option<(PathBuf, LabelSet)>,
+    pub target_labels: Option<(PathBuf, ClassMap)>,
 }
 
 /// What was done.
@@ -150,7 +150,7 @@ enum Towards<'a> {
     /// Those of one of its pictures.
     Drawn(Vec<Statistics>),
     /// Histograms by class, in the numbers of a set.
-    Classes(Matching, &'a LabelSet),
+    Classes(Matching, &'a ClassMap),
 }
 
 impl Towards<'_> {
@@ -226,7 +226,7 @@ fn joined<'a>(all: impl Iterator<Item = &'a Statistics>) -> Statistics {
 }
 
 /// Histograms by class: of labels in our own classes as numbers of a set, of others as they are.
-fn histograms(pairs: &[(PathBuf, PathBuf)], ours_in: Option<&LabelSet>) -> Result<Histograms, JudgeError> {
+fn histograms(pairs: &[(PathBuf, PathBuf)], ours_in: Option<&ClassMap>) -> Result<Histograms, JudgeError> {
     let of = |(path, labels): &(PathBuf, PathBuf)| {
         let picture = read(path)?.into_rgb8();
         let classes = match ours_in {
@@ -262,13 +262,13 @@ fn own_labels(picture: &Path) -> PathBuf {
 }
 
 /// The classes of one of our own pictures, in the numbers of a set, and [`Histograms::NONE`] where it has none.
-fn own_classes(path: &Path, picture: &RgbImage, set: &LabelSet) -> Result<Vec<u8>, JudgeError> {
+fn own_classes(path: &Path, picture: &RgbImage, set: &ClassMap) -> Result<Vec<u8>, JudgeError> {
     let labels = own_labels(path);
-    let index = set.index();
+    let counts = set.train_ids();
     let number = |id: u8| {
         let found = || JudgeError::unexpected(&labels, "ids of the 20 classes", id.to_string(), "write the file again");
-        let number = set.number(CLASSES.get(usize::from(id)).ok_or_else(found)?);
-        Ok(index[usize::from(number)].map_or(Histograms::NONE, |_| number))
+        let number = set.id(Class::from_id(id).ok_or_else(found)?);
+        Ok(counts[usize::from(number)].map_or(Histograms::NONE, |_| number))
     };
     ids(&labels, picture)?.into_iter().map(number).collect()
 }
@@ -291,9 +291,9 @@ fn with_labels(
     target: &Path,
     photographs: &[PathBuf],
     folder: &Path,
-    set: &LabelSet,
+    set: &ClassMap,
 ) -> Result<Vec<(PathBuf, PathBuf)>, JudgeError> {
-    let mut labels = by_key(folder, label_files(folder, set)?)?;
+    let mut labels = by_key(folder, label_files(folder, Some(set))?)?;
     let pair = |(key, path): (String, PathBuf)| match labels.remove(&key) {
         Some(labels) => Ok((path, labels)),
         None => {

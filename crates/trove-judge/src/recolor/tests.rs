@@ -146,7 +146,7 @@ fn classes_take_the_colours_of_their_own_class() {
     std::fs::create_dir_all(t.join("labels")).unwrap();
     // All of the target is CamVid's road: the sky has nothing to be matched with.
     image::GrayImage::from_pixel(64, 48, image::Luma([3])).save(t.join("labels/x.png")).unwrap();
-    let labels = Some((t.join("labels"), LabelSet::named("camvid").unwrap()));
+    let labels = Some((t.join("labels"), ClassMap::named("camvid").unwrap()));
     let histograms = Settings { target_labels: labels, ..settings(Method::HistogramPerClass, 1.0) };
     run(&s, &t.join("pictures"), &out, &histograms).unwrap();
     let mean = |x: std::ops::Range<u32>| {

@@ -6,8 +6,8 @@ mod table;
 
 use std::sync::LazyLock;
 
-use table::Table;
-pub use table::{LABEL_TABLES, LabelRow, label_rows, label_table};
+pub(crate) use table::{IGNORED, Table};
+pub use table::{LABEL_TABLES, label_table};
 
 /// The paper's 20 classes; the discriminant is the id in `class.png`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -83,25 +83,22 @@ pub struct ClassRow {
 pub static CLASSES: LazyLock<[ClassRow; 20]> = LazyLock::new(|| {
     let table = |set| Table::new(label_table(set).expect("a known set"));
     let ours = table("trove20");
-    let labels = ours.label_rows();
-    let [of_13, cityscapes, camvid] = ["trove13", "cityscapes", "camvid"].map(|set| {
-        let known = table(set).label_rows();
-        let named = |i| known.iter().find(|label| label.name == ours.text(i, set)).copied();
-        (0..Class::ALL.len()).map(|i| named(i).expect("a name that the other set knows")).collect::<Vec<_>>()
-    });
-    std::array::from_fn(|i| {
-        let mut channels = ours.text(i, "rgb").split(',').map(|channel| channel.parse().expect("0 to 255"));
-        ClassRow {
-            class: Class::ALL[i],
-            name: labels[i].name,
-            thing: labels[i].thing,
-            rgb: [(); 3].map(|()| channels.next().expect("three channels")),
-            class13: of_13[i].id,
-            cityscapes_id: cityscapes[i].id,
-            train_id: cityscapes[i].train_id.unwrap_or(table::IGNORED),
-            coco_id: ours.number(i, "coco"),
-            camvid_id: camvid[i].id,
-        }
+    // The number in another set of the class that a column names.
+    let number = |i: usize, set, number| {
+        let known = table(set);
+        let row = (0..known.len()).find(|row| known.text(*row, "name") == ours.text(i, set));
+        known.number(row.expect("a name that the other set knows"), number)
+    };
+    std::array::from_fn(|i| ClassRow {
+        class: Class::ALL[i],
+        name: ours.text(i, "name"),
+        thing: ours.text(i, "thing") == "yes",
+        rgb: ours.rgb(i),
+        class13: number(i, "trove13", "id"),
+        cityscapes_id: number(i, "cityscapes", "id"),
+        train_id: number(i, "cityscapes", "train_id"),
+        coco_id: number(i, "coco", "id"),
+        camvid_id: number(i, "camvid", "id"),
     })
 });
 

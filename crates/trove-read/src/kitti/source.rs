@@ -62,7 +62,7 @@ impl Kitti {
         }
         Err(if layout::has_step(root) {
             let remedy = "unpack data_tracking_calib.zip, data_tracking_oxts.zip and data_tracking_label_2.zip here (its \
-                          sequences are the same); the panoptic maps are for trove evaluate --classes cityscapes-train";
+                          sequences are the same); the panoptic maps are for trove evaluate";
             missing("calibrations and poses beside KITTI-STEP's pictures", "only pictures and labels", remedy)
         } else {
             let remedy = "give the folder that contains 2011_09_26, training or testing as the root";

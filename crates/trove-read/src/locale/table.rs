@@ -9,6 +9,7 @@ use trove_model::Locale;
 
 use super::borders;
 use crate::ReadError;
+use crate::toml_fault::{self, nearest};
 
 const BUILT_IN: &str = include_str!("locales.toml");
 /// The key that names what a row or a section is like.
@@ -67,9 +68,7 @@ impl Table {
 
     fn with(mut self, text: &str) -> Result<Self, Fault> {
         let read: Keys = toml::from_str(text).map_err(|error: toml::de::Error| {
-            let start = error.span().map_or(0, |span| span.start);
-            let line = 1 + text.get(..start).map_or(0, |before| before.matches('\n').count());
-            Fault::new(format!("line {line}"), "a table of locales (TOML)", error.message())
+            Fault::new(toml_fault::place(text, &error), "a table of locales (TOML)", error.message())
         })?;
         let mut rows = Vec::new();
         let mut listed = BTreeSet::new();
@@ -110,11 +109,7 @@ impl Table {
         }
         Locale::deserialize(Value::Table(keys)).map_err(|error| {
             let message = error.message();
-            let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-            let hint = match names.split_first() {
-                Some((unknown, known)) if message.starts_with("unknown") => nearest(unknown, known.iter().copied()),
-                _ => String::new(),
-            };
+            let hint = toml_fault::hint(message);
             Fault::new(format!("[{name}]"), "known customs", format!("{message}{hint}"))
         })
     }
@@ -193,10 +188,4 @@ fn merge(keys: &mut Keys, over: Keys) {
 fn words(list: Value, place: &str) -> Result<Vec<String>, Fault> {
     let found = list.to_string();
     Vec::deserialize(list).map_err(|_| Fault::new(place, "a list of ISO 3166 codes", found))
-}
-
-/// `; did you mean …?` with the nearest of some names.
-fn nearest<'n>(wrong: &str, names: impl Iterator<Item = &'n str>) -> String {
-    let nearest = names.min_by_key(|name| strsim::damerau_levenshtein(wrong, name));
-    nearest.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
 }

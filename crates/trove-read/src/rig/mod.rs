@@ -9,6 +9,7 @@ use trove_files::{LARGEST_TEXT, read_text};
 use trove_model::RigCamera;
 
 use crate::ReadError;
+use crate::toml_fault;
 use camera::CameraRow;
 
 /// Rigs that need no file, by name.
@@ -75,8 +76,8 @@ struct Fault {
 
 fn parse(text: &str) -> Result<Vec<RigCamera>, Fault> {
     let file: RigFile = toml::from_str(text).map_err(|error| {
-        let line = error.span().map_or(0, |span| text.get(..span.start).unwrap_or_default().matches('\n').count() + 1);
-        Fault { place: format!("line {line}"), expected: "a rig in TOML".into(), found: error.message().to_owned() }
+        let place = toml_fault::place(text, &error);
+        Fault { place, expected: "a rig in TOML".into(), found: error.message().to_owned() }
     })?;
     let whole = |expected: &str, found: String| Fault { place: "[[camera]]".into(), expected: expected.into(), found };
     if file.camera.is_empty() || file.camera.len() > MOST_CAMERAS {

@@ -7,13 +7,13 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::json;
 use trove_format::Curated;
-use trove_judge::LabelSet;
 use trove_judge::curate::{Curation, Rules, Split, curate, report};
 use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
-use super::{label_set, share};
+use super::share;
 use crate::progress::Steps;
+use crate::class_maps::ClassMapChoice;
 
 /// What to select from, and how.
 #[derive(Args)]
@@ -23,9 +23,9 @@ pub(crate) struct Curate {
     /// Number of frames to keep.
     #[arg(long, default_value_t = 5000)]
     count: usize,
-    /// Label set whose classes count; classes that it ignores add nothing.
-    #[arg(long, default_value = "trove20", value_parser = label_set)]
-    classes: LabelSet,
+    /// Class map whose classes count, a name or a FILE.toml (docs/judge.md); classes that it ignores add nothing.
+    #[arg(long, default_value = "trove20", value_name = "MAP")]
+    classes: ClassMapChoice,
     /// Minimum number of classes in a frame.
     #[arg(long, default_value_t = 6)]
     min_classes: usize,
@@ -65,7 +65,7 @@ fn list_of(curation: &Curation) -> Curated {
 
 impl Curate {
     pub(crate) fn run(&self) -> Result<()> {
-        let classes = self.classes.of_ours();
+        let classes = self.classes.read()?.train_ids_of_ours();
         let rules =
             Rules { count: self.count, classes, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
         let progress = Steps::default();

@@ -1,16 +1,18 @@
 //! `trove evaluate`: what predictions are worth.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Map, Value, json};
-use trove_judge::LabelSet;
+use trove_format::ClassMapFile;
+use trove_judge::Numbering;
 use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
 use trove_model::Seed;
+use trove_read::read_class_map;
 
-use super::label_set;
 use crate::progress::Steps;
+use crate::class_maps::ClassMapChoice;
 
 /// What to compare.
 #[derive(Args)]
@@ -19,9 +21,17 @@ pub(crate) struct Evaluate {
     predicted: PathBuf,
     /// Ground-truth labels.
     truth: PathBuf,
-    /// Label set of both sides; ids that it does not count (void) are ignored.
-    #[arg(long, default_value = "trove13", value_parser = label_set)]
-    classes: LabelSet,
+    /// Class map to judge in, and of a side whose files do not tell their own: paper13, trove20, cityscapes,
+    /// cityscapes-train, kitti-step, coco, camvid, waymo or a FILE.toml (docs/judge.md). Without it, that of the files,
+    /// or paper13.
+    #[arg(long, value_name = "MAP")]
+    classes: Option<ClassMapChoice>,
+    /// Class map of the predicted ids, where the files are not to decide.
+    #[arg(long, value_name = "MAP")]
+    predicted_classes: Option<ClassMapChoice>,
+    /// Class map of the ground truth's ids, where the files are not to decide.
+    #[arg(long, value_name = "MAP")]
+    truth_classes: Option<ClassMapChoice>,
     /// Also compute boundary IoU.
     #[arg(long)]
     boundary: bool,
@@ -39,7 +49,9 @@ pub(crate) struct Evaluate {
 impl Evaluate {
     pub(crate) fn run(&self) -> Result<()> {
         let settings = Settings {
-            set: self.classes.clone(),
+            classes: self.classes.as_ref().map(ClassMapChoice::read).transpose()?,
+            predicted: numbering(self.predicted_classes.as_ref(), "--predicted-classes", &self.predicted)?,
+            truth: numbering(self.truth_classes.as_ref(), "--truth-classes", &self.truth)?,
             boundary: self.boundary,
             panoptic: self.panoptic,
             seed: Seed(self.seed),
@@ -55,10 +67,26 @@ impl Evaluate {
     }
 }
 
+/// The numbers of a side, where an option or a file in its folder names them.
+fn numbering(chosen: Option<&ClassMapChoice>, option: &str, side: &Path) -> Result<Option<Numbering>> {
+    if let Some(chosen) = chosen {
+        return Ok(Some(Numbering { map: chosen.read()?, why: option.to_owned() }));
+    }
+    let folder = if side.is_file() { side.parent() } else { Some(side) };
+    let file = folder.map(|folder| folder.join(ClassMapFile::NAME)).filter(|file| file.is_file());
+    Ok(match file {
+        Some(file) => {
+            Some(Numbering { map: read_class_map(&file)?, why: format!("{} in its folder", ClassMapFile::NAME) })
+        }
+        None => None,
+    })
+}
+
 fn as_json(found: &Evaluation) -> Value {
     let value = |e: &Option<Estimate>| e.map(|e| e.value);
     let interval = |e: &Option<Estimate>| e.map(|e| e.interval);
-    let classes = || found.set.classes.iter().enumerate();
+    let side = |side: &Numbering| json!({ "classes": side.map.name, "known_by": side.why });
+    let classes = || found.classes.counted().enumerate();
     // Classes that are neither there nor predicted have no IoU.
     let by_class = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
         classes().filter_map(|(i, class)| Some((class.name.to_owned(), of(i)?))).collect()
@@ -66,7 +94,9 @@ fn as_json(found: &Evaluation) -> Value {
     let mut printed = json!({
         "pictures": found.pictures,
         "unused_predictions": found.unused,
-        "classes": found.set.name,
+        "classes": found.classes.name,
+        "predicted": side(&found.predicted),
+        "truth": side(&found.truth),
         "miou": value(&found.miou),
         "miou_interval95": interval(&found.miou),
         "accuracy": value(&found.accuracy),
@@ -75,11 +105,11 @@ fn as_json(found: &Evaluation) -> Value {
         "iou_interval95": by_class(&|i| found.iou[i].map(|e| json!(e.interval))),
     });
     let confusion: Vec<Vec<u64>> = classes()
-        .map(|(t, _)| (0..=found.set.classes.len()).map(|p| found.counts.confusion.count(t, p)).collect())
+        .map(|(t, _)| (0..=found.classes.counted().count()).map(|p| found.counts.confusion.count(t, p)).collect())
         .collect();
     printed["confusion"] = json!({
         "rows": "truth, columns: prediction, the last one ignored ids",
-        "names": classes().map(|(_, class)| class.name).collect::<Vec<_>>(),
+        "names": classes().map(|(_, class)| &class.name).collect::<Vec<_>>(),
         "pixels": confusion,
     });
     if found.boundary_miou.is_some() {
@@ -116,12 +146,14 @@ fn print(found: &Evaluation) {
     let asked = |e: &Option<Estimate>, name| if e.is_some() { name } else { "" };
     let (boundary, panoptic) = (asked(&found.boundary_miou, "boundary IoU"), asked(&found.pq, "panoptic quality"));
     println!("{} images; percent, with 95 % intervals over images", found.pictures);
+    let side = |side: &Numbering| format!("{} ({})", side.map.name, side.why);
+    println!("classes: {}; predicted: {}; truth: {}", found.classes.name, side(&found.predicted), side(&found.truth));
     if found.unused > 0 {
         println!("{} predictions have no ground truth and were left out", found.unused);
     }
     println!("{}", format!("{:16} {:22}   {boundary:22}   {panoptic}", "", "IoU").trim_end());
-    for (i, class) in found.set.classes.iter().enumerate() {
-        row(class.name, [&found.iou[i], &found.boundary_iou[i], &found.class_pq[i]]);
+    for (i, class) in found.classes.counted().enumerate() {
+        row(&class.name, [&found.iou[i], &found.boundary_iou[i], &found.class_pq[i]]);
     }
     row("mean", [&found.miou, &found.boundary_miou, &found.pq]);
     row("pixel accuracy", [&found.accuracy, &None, &None]);

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use trove_judge::LabelSet;
 use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor};
 use trove_model::Raster;
 use trove_write::write_sheet;
 
-use super::{label_set, share};
+use super::share;
 use crate::progress::Steps;
+use crate::class_maps::ClassMapChoice;
 
 /// Pairs that the page shows.
 const SHOWN: usize = 24;
@@ -42,9 +42,9 @@ pub(crate) struct Recolor {
     /// Labels of IMAGES under the same names, for `--method classes`.
     #[arg(long, value_name = "LABELS", required_if_eq("method", "classes"))]
     to_labels: Option<PathBuf>,
-    /// Label set of LABELS; our own classes are mapped to it.
-    #[arg(long, default_value = "trove20", value_parser = label_set)]
-    to_classes: LabelSet,
+    /// Class map of LABELS, a name or a FILE.toml (docs/judge.md); our own classes are mapped to it.
+    #[arg(long, default_value = "trove20", value_name = "MAP")]
+    to_classes: ClassMapChoice,
     /// Print a summary as JSON.
     #[arg(long)]
     json: bool,
@@ -86,7 +86,10 @@ impl Recolor {
                 SpaceName::LAlphaBeta => Space::LAlphaBeta,
             },
             strength: self.strength,
-            target_labels: self.to_labels.clone().map(|labels| (labels, self.to_classes.clone())),
+            target_labels: match &self.to_labels {
+                Some(labels) => Some((labels.clone(), self.to_classes.read()?)),
+                None => None,
+            },
         };
         let progress = Steps::default();
         let done = recolor(&self.dir, &self.to, &out, &settings, &|done, total| progress.done(done, total))?;
