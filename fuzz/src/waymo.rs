@@ -22,6 +22,7 @@ fn read(folder: &Path) {
     if let Ok(waymo) = Waymo::open(folder, 1, &report) {
         for listing in waymo.segments() {
             let _ = waymo.drive(&listing.name, &report);
+            let _ = waymo.labels(&listing.name, &report, &mut |_| ());
         }
     }
 }

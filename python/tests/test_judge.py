@@ -135,6 +135,109 @@ def test_the_thirteen_classes_are_the_default_and_void_is_left_out(tmp_path):
     assert found["miou"] == pytest.approx(2 / 3) and found["accuracy"] == 4 / 6
 
 
+def test_our_own_frames_are_judged_in_the_thirteen_classes_without_options(finished):
+    found = evaluated(finished, finished)
+    assert found["classes"] == "paper13" and found["miou"] == found["accuracy"] == 1
+    assert {side: found[side]["classes"] for side in ("predicted", "truth")} == {
+        "predicted": "trove20",
+        "truth": "trove20",
+    }
+    paper = {"car", "bus", "truck", "person", "rider", "road", "sidewalk", "building"}
+    assert {"road", "sky"} <= found["iou"].keys() <= paper | {"traffic_pole", "vegetation", "terrain", "sky"}
+    told = trove("evaluate", finished, finished).stdout
+    assert "classes: paper13; predicted: trove20 (class.png beside frame.json); truth: trove20" in told
+
+
+def test_a_class_map_of_ones_own_judges_our_frames_against_ids_of_its_own(finished, tmp_path):
+    ours = {"drivable": [9], "green": [14, 15], "vehicle": [2, 3, 4, 5, 6, 13]}
+    rows = {"drivable": 'id = 4\ntrove = ["road"]', "green": 'id = 7\ntrove = ["bush", "tree"]'}
+    rows["vehicle"] = 'id = 9\ntrove = ["car", "bus", "jeep", "truck", "van", "construction"]'
+    file = tmp_path / "mine.toml"
+    file.write_text("".join(f'[[class]]\nname = "{name}"\n{row}\n' for name, row in rows.items()))
+    numbers = np.full(20, 255, np.uint8)
+    for name, row in rows.items():
+        numbers[ours[name]] = int(row[5])
+    for path in finished.rglob("class.png"):
+        save(
+            tmp_path / "p" / path.parent.relative_to(finished).with_suffix(f"{path.parent.suffix}.png"),
+            numbers[np.array(Image.open(path))],
+        )
+    found = evaluated(tmp_path / "p", finished, "--classes", file)
+    assert found["classes"] == "mine" and found["miou"] == 1 and found["iou"].keys() <= rows.keys()
+    file.write_text(file.read_text().replace("bush", "bsh"))
+    done = trove("evaluate", tmp_path / "p", finished, "--classes", file)
+    assert done.returncode == 1 and "mine.toml: class" in done.stderr and 'did you mean "bush"?' in done.stderr
+
+
+def crc32c(data):
+    """Masked as in a TFRecord."""
+    crc = 0xFFFFFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0x82F63B78 if crc & 1 else 0)
+    crc ^= 0xFFFFFFFF
+    return ((crc >> 15 | crc << 17) + 0xA282EAD8 & 0xFFFFFFFF).to_bytes(4, "little")
+
+
+def varint(value):
+    return bytes([value & 127 | 128]) + varint(value >> 7) if value > 127 else bytes([value])
+
+
+def field(number, value):
+    """A field of a protobuf message."""
+    if isinstance(value, int):
+        return varint(number << 3) + varint(value)
+    return varint(number << 3 | 2) + varint(len(value)) + value
+
+
+def test_waymos_panoptic_labels_are_ground_truth(tmp_path):
+    random = np.random.default_rng(2)
+    # Road, lane marker, sky, pedestrians 1 and 2; a frame without labels is between two with.
+    truths = {k: random.choice(np.array([20000, 21000, 25000, 9001, 9002], np.uint16), (8, 12)) for k in (0, 2)}
+    records = b""
+    for k in range(3):
+        pose = field(1, np.eye(4).tobytes())
+        calibration = field(1, 1) + field(2, np.array([9, 9, 6, 4, 0, 0, 0, 0, 0], float).tobytes())
+        calibration += field(3, pose) + field(4, 12) + field(5, 8)
+        picture = field(1, 1) + field(3, pose)
+        if k in truths:
+            png = save(tmp_path / "label.png", truths[k]).read_bytes()
+            picture += field(10, field(1, 1000) + field(2, png))
+        frame = field(1, field(1, b"made") + field(2, calibration)) + field(2, 1_600_000_000_000_000 + k * 100_000)
+        frame += field(3, pose) + field(4, picture)
+        length = len(frame).to_bytes(8, "little")
+        records += length + crc32c(length) + frame + crc32c(frame)
+    (tmp_path / "waymo").mkdir()
+    (tmp_path / "waymo/segment-made.tfrecord").write_bytes(records)
+    out = tmp_path / "drives"
+    done = trove(
+        "export", tmp_path / "waymo", "--dataset", "waymo", "--format", "trove", "--pictures", "--out", out, "--json"
+    )
+    assert done.returncode == 0 and json.loads(done.stdout)["labels"] == 2, done.stderr
+    labels = out / "made/labels"
+    assert sorted(path.name for path in labels.rglob("*.*")) == ["000000.png", "000002.png", "class_map.toml"]
+    found = evaluated(labels, labels, "--panoptic")
+    assert (found["miou"], found["pq"], found["classes"]) == (1, 1, "waymo")
+    # In Waymo's own ids: a prediction of road wherever there is a lane marker.
+    pixels = np.stack(list(truths.values()))
+    for k, truth in truths.items():
+        ids = (truth // 1000).astype(np.uint8)
+        save(tmp_path / f"p/FRONT/{k:06}.png", np.where(ids == 21, 20, ids).astype(np.uint8))
+        save(
+            tmp_path / f"p13/FRONT/{k:06}.png",
+            np.array([6, 12, 4, 6], np.uint8)[[[20, 25, 9, 21].index(i) for i in ids.flat]].reshape(8, 12),
+        )
+    found = evaluated(tmp_path / "p", labels, "--classes", "waymo")
+    road, markers = (pixels == 20000).sum(), (pixels == 21000).sum()
+    assert found["iou"] == {"road": road / (road + markers), "lane marker": 0, "sky": 1, "pedestrian": 1}
+    # In the paper's classes lane markers are road.
+    found = evaluated(tmp_path / "p13", labels, "--classes", "paper13")
+    assert found["iou"] == {"road": 1, "sky": 1, "person": 1}
+    unnamed = trove("evaluate", tmp_path / "p", labels)
+    assert unnamed.returncode == 1 and "(waymo)" in unnamed.stderr and "--classes" in unnamed.stderr
+
+
 @pytest.mark.parametrize(
     ("spoil", "expected"),
     [
@@ -198,7 +301,8 @@ def test_recoloured_pictures_lie_under_the_same_paths_and_a_second_run_keeps_the
         (["curate", "empty"], 1, ["frames of trove generate", "none"]),
         (["curate", "text"], 1, ["frames of trove generate", "none"]),
         (["curate", "text/a.png"], 1, ["a.png", "check its path"]),
-        (["evaluate", "t", "t", "--classes", "pascal"], 2, ["expected one of trove13"]),
+        (["evaluate", "t", "t", "--classes", "pascal"], 2, ["expected one of paper13", "FILE.toml"]),
+        (["evaluate", "t", "t", "--classes", "none.toml"], 1, ["none.toml", "check the path"]),
     ],
 )
 def test_wrong_folders_are_named_with_a_remedy(tmp_path, args, status, expected):

@@ -1,6 +1,7 @@
 //! Datasets of recorded drives behind one seam: which there are, and what a program asks of each.
 
 use std::collections::BTreeMap;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -47,6 +48,15 @@ pub trait DriveSource: Send + Sync {
     /// As [`DriveSource::read`].
     fn recording(&self, name: &str) -> Result<Vec<PathBuf>, ReadError>;
 
+    /// Hands out what the dataset's labels of a drive's pictures are, one by one, where they lie inside its files.
+    ///
+    /// # Errors
+    /// As [`DriveSource::read`].
+    fn labels(&self, name: &str, report: &Report, each: &mut dyn FnMut(LabelPicture)) -> Result<(), ReadError> {
+        let _ = (name, report, each);
+        Ok(())
+    }
+
     /// What a drive holds.
     ///
     /// # Errors
@@ -54,6 +64,21 @@ pub trait DriveSource: Send + Sync {
     fn describe(&self, name: &str, report: &Report) -> Result<DriveDescription, ReadError> {
         Ok(DriveDescription::of(&self.read(name, report)?))
     }
+}
+
+/// A picture of a dataset's own labels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LabelPicture {
+    /// Time of its keyframe, nanoseconds since 1970 UTC.
+    pub time_ns: i64,
+    /// The rig's name of the camera.
+    pub camera: String,
+    /// The name of the class map that its numbers are of.
+    pub classes: &'static str,
+    /// A pixel is the class's number times this, plus the object's.
+    pub instance_divisor: NonZero<u16>,
+    /// The picture as the dataset has it, a PNG of 16 bits.
+    pub png: Vec<u8>,
 }
 
 /// A drive in a dataset's list.

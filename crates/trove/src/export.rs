@@ -6,8 +6,9 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
 use trove_format::{Curated, ReportTable};
-use trove_model::Report;
-use trove_write::{Choice, DatasetFormat, PlainFiles, export, write_plain_drive};
+use trove_model::{Drive, Outcome, Report};
+use trove_read::drive_source::DriveSource;
+use trove_write::{Choice, DatasetFormat, LabelPictures, PlainFiles, WriteError, export, write_plain_drive};
 
 use crate::build::print_entries;
 use crate::class_maps::ClassMapChoice;
@@ -57,7 +58,8 @@ struct Drives {
     /// With --format trove: also write LiDAR sweeps.
     #[arg(long)]
     lidar: bool,
-    /// With --format trove: also link or copy the recorded pictures.
+    /// With --format trove: also link or copy the recorded pictures, and write the dataset's own labels of them where
+    /// those lie inside its files (Waymo), in folders that `trove evaluate` reads.
     #[arg(long)]
     pictures: bool,
 }
@@ -151,19 +153,47 @@ impl Drives {
         }
         let chosen: Vec<&String> = known.iter().filter(|n| self.scenes.is_empty() || self.scenes.contains(n)).collect();
         let files = PlainFiles { lidar: self.lidar, pictures: self.pictures };
+        let mut labels = 0;
         for name in &chosen {
             let drive = source.read(name, &report)?;
             let folder = out.join(name.as_str());
             write_plain_drive(&drive, root, &folder, files, &report).with_context(|| format!("{name}: not written"))?;
+            if self.pictures {
+                labels += write_labels(&*source, &drive, name, &folder.join("labels"), &report)
+                    .with_context(|| format!("{name}: labels not written"))?;
+            }
         }
         let report = ReportTable::from(&report);
         if as_json {
-            let printed = json!({ "out": out, "drives": chosen, "report": report });
+            let printed = json!({ "out": out, "drives": chosen, "labels": labels, "report": report });
             println!("{}", serde_json::to_string_pretty(&printed)?);
         } else {
             println!("{} drives in {}", chosen.len(), out.display());
+            if labels > 0 {
+                println!("{labels} label images in folders labels; trove evaluate PREDICTED DRIVE/labels reads them");
+            }
             print_entries(&report, "");
         }
         Ok(())
     }
+}
+
+/// Writes the dataset's own labels of a drive's pictures; how many there are.
+fn write_labels(source: &dyn DriveSource, drive: &Drive, name: &str, folder: &Path, report: &Report) -> Result<usize> {
+    let (mut pictures, mut failed) = (LabelPictures::new(folder), None::<WriteError>);
+    source.labels(name, report, &mut |picture| {
+        let example = || format!("{name}: {} at {} ns", picture.camera, picture.time_ns);
+        let Some(k) = drive.keyframes.iter().position(|keyframe| keyframe.time_ns == picture.time_ns) else {
+            return report.note(Outcome::Dropped, "labels of no keyframe", example());
+        };
+        if failed.is_some() {
+            return;
+        }
+        match pictures.write(&picture.camera, k, (picture.classes, picture.instance_divisor), &picture.png) {
+            Ok(true) => {}
+            Ok(false) => report.note(Outcome::Dropped, "labels with another divisor than the drive's first", example()),
+            Err(error) => failed = Some(error),
+        }
+    })?;
+    failed.map_or(Ok(pictures.written()), |error| Err(error.into()))
 }

@@ -137,7 +137,7 @@ fn read_cameras(table: &Table) -> Result<BTreeMap<i64, CameraRecord>, ReadError>
 }
 
 /// Cameras' numbers; older files have their names. One that is neither is 0, which no camera has.
-fn camera_numbers(table: &Table) -> Result<Vec<i64>, ReadError> {
+pub(super) fn camera_numbers(table: &Table) -> Result<Vec<i64>, ReadError> {
     if table.kind(CAMERA) == Some(Physical::Bytes) {
         let names = table.texts(CAMERA)?;
         return Ok(names

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use trove_model::{Drive, Outcome, Report};
 
-use super::{components, drive, v1};
+use super::{components, drive, panoptic, v1};
 use crate::ReadError;
-use crate::drive_source::DriveListing;
+use crate::drive_source::{DriveListing, LabelPicture};
 
 /// An opened folder of segments.
 pub struct Waymo {
@@ -101,6 +101,19 @@ impl Waymo {
             Form::V1 => vec![listed.file.clone()],
             Form::V2 => components::files(&self.root, name),
         })
+    }
+
+    /// Hands out the panoptic labels of a segment's pictures, where it has any.
+    ///
+    /// # Errors
+    /// As [`Waymo::drive`].
+    pub fn labels(&self, name: &str, report: &Report, each: &mut dyn FnMut(LabelPicture)) -> Result<(), ReadError> {
+        let listed = self.find(name)?;
+        if self.form == Form::V1 {
+            return panoptic::of_records(&listed.file, report, each);
+        }
+        let file = components::path(&self.root, panoptic::COMPONENT, name);
+        if file.is_file() { panoptic::of_component(&file, report, each) } else { Ok(()) }
     }
 
     fn find(&self, name: &str) -> Result<&Listed, ReadError> {

@@ -21,6 +21,7 @@ mod lane_map;
 mod list_column;
 mod map_message;
 mod matrix;
+mod panoptic;
 mod poses;
 mod range_image;
 mod records;

@@ -8,7 +8,7 @@ use trove_model::{Drive, Report};
 
 use super::dataset::Waymo;
 use crate::ReadError;
-use crate::drive_source::{Dataset, DriveListing, DriveSource, Opener};
+use crate::drive_source::{Dataset, DriveListing, DriveSource, LabelPicture, Opener};
 
 pub(crate) const DATASET: Dataset = Dataset { name: "waymo", is_at: Waymo::is_at, configure };
 
@@ -37,6 +37,10 @@ impl DriveSource for Waymo {
 
     fn read(&self, name: &str, report: &Report) -> Result<Drive, ReadError> {
         self.drive(name, report)
+    }
+
+    fn labels(&self, name: &str, report: &Report, each: &mut dyn FnMut(LabelPicture)) -> Result<(), ReadError> {
+        self.labels(name, report, each)
     }
 
     /// Segments share no files.

@@ -84,6 +84,7 @@ fn sayable() -> (Drive, writer::Segment) {
                 velocity: [0.0; 3],
                 turning: [0.0; 3],
                 jpeg: vec![0; 1000],
+                panoptic: None,
             }
         };
         let label = |object: &trove_model::ObjectBox| {

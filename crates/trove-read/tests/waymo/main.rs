@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod forms;
+mod panoptic;
 mod parquet_writer;
 mod real;
 #[path = "writer.rs"]

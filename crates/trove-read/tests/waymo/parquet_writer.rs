@@ -11,6 +11,7 @@ pub(crate) enum Column {
     Int(Vec<i64>),
     Double(Vec<f64>),
     Text(Vec<String>),
+    Bytes(Vec<Vec<u8>>),
     Doubles(Vec<Option<Vec<f64>>>),
     Floats(Vec<Option<Vec<f32>>>),
     Ints(Vec<Option<Vec<i64>>>),
@@ -40,6 +41,7 @@ impl Column {
             Self::Long(rows) | Self::Int(rows) => rows.len(),
             Self::Double(rows) => rows.len(),
             Self::Text(rows) => rows.len(),
+            Self::Bytes(rows) => rows.len(),
             Self::Doubles(rows) => rows.len(),
             Self::Floats(rows) => rows.len(),
             Self::Ints(rows) => rows.len(),
@@ -58,15 +60,17 @@ impl Column {
             Self::Long(rows) => flat(2, rows.iter().flat_map(|v| v.to_le_bytes()).collect()),
             Self::Int(rows) => flat(1, rows.iter().flat_map(|v| (*v as i32).to_le_bytes()).collect()),
             Self::Double(rows) => flat(5, rows.iter().flat_map(|v| v.to_le_bytes()).collect()),
-            Self::Text(rows) => {
-                let text = |text: &String| [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
-                flat(6, rows.iter().flat_map(text).collect())
-            }
+            Self::Text(rows) => flat(6, rows.iter().flat_map(|text| after_its_length(text.as_bytes())).collect()),
+            Self::Bytes(rows) => flat(6, rows.iter().flat_map(|bytes| after_its_length(bytes)).collect()),
             Self::Doubles(rows) => lists(5, rows, |v| v.to_le_bytes().to_vec()),
             Self::Floats(rows) => lists(4, rows, |v| v.to_le_bytes().to_vec()),
             Self::Ints(rows) => lists(1, rows, |v| (*v as i32).to_le_bytes().to_vec()),
         }
     }
+}
+
+fn after_its_length(bytes: &[u8]) -> Vec<u8> {
+    [&(bytes.len() as u32).to_le_bytes()[..], bytes].concat()
 }
 
 fn lists<T>(kind: i64, rows: &[Option<Vec<T>>], bytes: impl Fn(&T) -> Vec<u8>) -> Written {

@@ -51,6 +51,8 @@ pub(crate) struct Picture {
     pub(crate) velocity: [f64; 3],
     pub(crate) turning: [f64; 3],
     pub(crate) jpeg: Vec<u8>,
+    /// Divisor and PNG of its panoptic labels.
+    pub(crate) panoptic: Option<(i64, Vec<u8>)>,
 }
 
 #[derive(Clone)]
@@ -96,6 +98,7 @@ impl Segment {
                 velocity: [10.0, 0.0, 0.0],
                 turning: [0.0; 3],
                 jpeg: vec![0xff, 0xd8, 0xff],
+                panoptic: None,
             }],
             labels: vec![Label {
                 id: "car".into(),
@@ -143,6 +146,10 @@ impl Segment {
         };
         let labels: Vec<&Label> = frames().flat_map(|frame| &frame.labels).collect();
         let pictures: Vec<&Picture> = frames().flat_map(|frame| &frame.pictures).collect();
+        let labelled: Vec<(i64, &Picture, &(i64, Vec<u8>))> = frames()
+            .flat_map(|frame| frame.pictures.iter().map(|picture| (frame.time_us, picture)))
+            .filter_map(|(time_us, picture)| Some((time_us, picture, picture.panoptic.as_ref()?)))
+            .collect();
         let scans: Vec<&Scan> = frames().flat_map(|frame| &frame.scans).collect();
         let label = |of: &dyn Fn(&Label) -> f64| Column::Double(labels.iter().map(|label| of(label)).collect());
         let picture = |of: &dyn Fn(&Picture) -> f64| Column::Double(pictures.iter().map(|p| of(p)).collect());
@@ -205,6 +212,24 @@ impl Segment {
                     (
                         "[CameraImageComponent].rolling_shutter_params.camera_readout_done_time",
                         picture(&|p| p.readout_done_s),
+                    ),
+                ]),
+            ),
+            (
+                "camera_segmentation",
+                file(vec![
+                    (
+                        "key.frame_timestamp_micros",
+                        Column::Long(labelled.iter().map(|(time_us, ..)| *time_us).collect()),
+                    ),
+                    ("key.camera_name", Column::Int(labelled.iter().map(|(_, p, _)| p.camera).collect())),
+                    (
+                        "[CameraSegmentationLabelComponent].panoptic_label_divisor",
+                        Column::Int(labelled.iter().map(|(.., (divisor, _))| *divisor).collect()),
+                    ),
+                    (
+                        "[CameraSegmentationLabelComponent].panoptic_label",
+                        Column::Bytes(labelled.iter().map(|(.., (_, png))| png.clone()).collect()),
                     ),
                 ]),
             ),
@@ -324,6 +349,10 @@ impl Segment {
                 .double(5, picture.pose_s)
                 .double(7, picture.trigger_s)
                 .double(8, picture.readout_done_s);
+            let image = match &picture.panoptic {
+                Some((divisor, png)) => image.message(10, Message::default().varint(1, *divisor).bytes(2, png)),
+                None => image,
+            };
             message = message.message(4, image);
         }
         for scan in &frame.scans {
