@@ -32,7 +32,6 @@ pub(crate) struct Identity {
 struct Line {
     /// Name of the step: a hash of its frames and their numbers.
     unit: String,
-    #[serde(flatten)]
     written: Written,
 }
 

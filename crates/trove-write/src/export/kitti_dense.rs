@@ -14,10 +14,10 @@ pub(super) struct KittiFlow;
 pub(super) struct KittiDepth;
 
 /// A flow of nothing; one step is a 64th of a pixel.
-const ZERO: f32 = 32768.0;
-const STEPS_PER_PX: f32 = 64.0;
+const ZERO: f64 = 32768.0;
+const STEPS_PER_PX: f64 = 64.0;
 /// Steps in a metre of depth.
-const STEPS_PER_M: f32 = 256.0;
+const STEPS_PER_M: f64 = 256.0;
 
 impl Dataset for KittiFlow {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
@@ -39,7 +39,7 @@ impl Dataset for KittiFlow {
                 if u.is_nan() || v.is_nan() {
                     return [0; 3];
                 }
-                let [u, v] = [u, v].map(|px| (px * STEPS_PER_PX + ZERO).round());
+                let [u, v] = [u, v].map(|px| (f64::from(*px) * STEPS_PER_PX + ZERO).round());
                 if [u, v].iter().any(|step| !(0.0..=65535.0).contains(step)) {
                     beyond += 1;
                     return [0; 3];
@@ -65,7 +65,7 @@ impl Dataset for KittiDepth {
             let depth = frame.depth_m()?;
             let mut beyond = 0;
             let step = |depth_m: &f32| {
-                let steps = (depth_m * STEPS_PER_M).round();
+                let steps = (f64::from(*depth_m) * STEPS_PER_M).round();
                 if !steps.is_finite() || steps < 1.0 {
                     return 0; // sky, or beside a fisheye
                 }
