@@ -14,7 +14,7 @@ CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
 
-.PHONY: demo install test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -69,6 +69,10 @@ test-planted:
 # Holds a run's output OUT to the recording in NUSCENES with the official devkit, which has an environment of its own.
 test-devkit: .venv-devkit/.installed
 	.venv-devkit/bin/python tests/devkit/check_boxes.py $(OUT) --root $(NUSCENES)
+
+# Opens what `trove export OUT --format nuscenes` wrote to EXPORTED with the official devkit.
+test-devkit-export: .venv-devkit/.installed
+	.venv-devkit/bin/python tests/devkit/check_export.py $(EXPORTED) --frames $(OUT)
 
 .venv-devkit/.installed: tests/devkit/requirements.txt
 	$(PYTHON) -m venv .venv-devkit

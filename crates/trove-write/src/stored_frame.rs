@@ -33,6 +33,25 @@ impl StoredFrame {
         self.folder.join(file.name())
     }
 
+    /// Where a file of it lies that something cannot do without.
+    ///
+    /// # Errors
+    /// A file that the run was told to leave out.
+    pub fn needed(&self, file: FrameFile) -> Result<PathBuf, WriteError> {
+        let path = self.path(file);
+        if path.is_file() {
+            return Ok(path);
+        }
+        let entry = file.name().split('.').next().unwrap_or_default();
+        let light = if file.shows_light() { ", with render.light," } else { "" };
+        Err(WriteError::Unfit {
+            path,
+            expected: "a file that this form needs".into(),
+            found: "none".into(),
+            remedy: format!("name {entry} in the recipe's output.files{light} and run trove generate again"),
+        })
+    }
+
     /// Whether it has a file.
     pub fn has(&self, file: FrameFile) -> bool {
         self.path(file).is_file()
@@ -92,7 +111,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn depth_m(&self) -> Result<Raster<f32>, WriteError> {
-        exr_file::read_scalar(&self.path(FrameFile::Depth), self.size())
+        exr_file::read_scalar(&self.needed(FrameFile::Depth)?, self.size())
     }
 
     /// Unit normals in Camera; 0: sky.
@@ -100,7 +119,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn normal(&self) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.path(FrameFile::Normal), self.size())
+        exr_file::read_rgb(&self.needed(FrameFile::Normal)?, self.size())
     }
 
     /// Linear Rec. 709 radiance before exposure.
@@ -108,7 +127,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn radiance(&self) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.path(FrameFile::Radiance), self.size())
+        exr_file::read_rgb(&self.needed(FrameFile::Radiance)?, self.size())
     }
 
     /// Pixels to the next keyframe, right and down; NaN: not defined.
@@ -116,7 +135,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_forward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.path(FrameFile::FlowForward), self.size())
+        exr_file::read_rg(&self.needed(FrameFile::FlowForward)?, self.size())
     }
 
     /// Pixels to the previous keyframe, right and down; NaN: not defined.
@@ -124,7 +143,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_backward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.path(FrameFile::FlowBackward), self.size())
+        exr_file::read_rg(&self.needed(FrameFile::FlowBackward)?, self.size())
     }
 
     /// Columns and rows of every picture.
@@ -133,7 +152,7 @@ impl StoredFrame {
     }
 
     fn png(&self, file: FrameFile) -> Result<DynamicImage, WriteError> {
-        let path = self.path(file);
+        let path = self.needed(file)?;
         let open = || -> Result<_, WriteError> {
             let bytes = open_regular(&path).map_err(WriteError::storage(&path, "read the file"))?;
             Ok(ImageReader::with_format(BufReader::new(bytes), ImageFormat::Png))

@@ -15,6 +15,7 @@ use crate::class_maps::ClassMapChoice;
 use crate::drives::DatasetChoice;
 use crate::interrupt;
 use crate::progress::Steps;
+use crate::recipe::nearest;
 
 /// `trove export`
 #[derive(Args)]
@@ -80,10 +81,9 @@ fn form(name: &str) -> Result<Form, String> {
     if name == PLAIN {
         return Ok(Form::Plain);
     }
-    let known = DatasetFormat::ALL.into_iter().find(|format| format.name() == name);
-    known.map(Form::Dataset).ok_or_else(|| {
-        let names: Vec<&str> = DatasetFormat::ALL.into_iter().map(DatasetFormat::name).chain([PLAIN]).collect();
-        format!("expected one of {}", names.join(", "))
+    DatasetFormat::named(name).map(Form::Dataset).ok_or_else(|| {
+        let names: Vec<&str> = DatasetFormat::all().map(DatasetFormat::name).chain([PLAIN]).collect();
+        format!("expected one of {}{}", names.join(", "), nearest(name, &names))
     })
 }
 

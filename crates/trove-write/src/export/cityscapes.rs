@@ -272,9 +272,7 @@ impl Cityscapes {
 fn camera(table: &FrameTable) -> Value {
     let k = &table.intrinsics;
     let ego_from_iso = match &table.world_from_ego {
-        Some(world_from_ego) => {
-            affine(world_from_ego).inverse() * affine(&table.world_from_camera) * camera_from_iso()
-        }
+        Some(world_from_ego) => affine(world_from_ego).inverse() * affine(&table.world_from_camera) * camera_from_iso(),
         None => DAffine3::IDENTITY,
     };
     let (_, rotation, place) = ego_from_iso.to_scale_rotation_translation();

@@ -59,7 +59,8 @@ impl Dataset for CocoInstances {
         let categories: Vec<_> = things.map(category).collect();
         for split in &finished.plan.splits {
             let path = format!("annotations/instances_{split}.json");
-            let fields = [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+            let fields =
+                [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
             write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
         }
         Ok(())
@@ -104,13 +105,12 @@ impl Dataset for CocoPanoptic {
     }
 
     fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
-        let category = |class: &trove_model::MappedClass| {
-            json!({ "id": class.id, "name": class.name, "isthing": u8::from(class.thing), "color": class.rgb })
-        };
+        let category = |class: &trove_model::MappedClass| json!({ "id": class.id, "name": class.name, "isthing": u8::from(class.thing), "color": class.rgb });
         let categories: Vec<_> = self.map.counted().map(category).collect();
         for split in &finished.plan.splits {
             let path = format!("annotations/panoptic_{split}.json");
-            let fields = [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+            let fields =
+                [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
             write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
         }
         Ok(())

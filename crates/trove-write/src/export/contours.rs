@@ -180,9 +180,8 @@ mod tests {
                 let within = |v: f64, i: usize| v >= a[i].min(b[i]) && v <= a[i].max(b[i]);
                 cross == 0.0 && within(x, 0) && within(y, 1)
             });
-            let crossings = edges().filter(|(a, b)| {
-                (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
-            });
+            let crossings = edges()
+                .filter(|(a, b)| (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]));
             on || crossings.count() % 2 == 1
         };
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x.into(), y.into())).collect()

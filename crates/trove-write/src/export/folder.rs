@@ -32,6 +32,7 @@ pub(crate) struct Identity {
 struct Line {
     /// Name of the step: a hash of its frames and their numbers.
     unit: String,
+    // Not flattened: serde would look at the rows, which are raw.
     written: Written,
 }
 

@@ -9,92 +9,79 @@ use super::kitti::{KittiObject, KittiTracking};
 use super::kitti_dense::{KittiDepth, KittiFlow};
 use super::kitti_step::KittiStep;
 use super::label_pictures::{LabelPictures, MmSegmentation};
+use super::nuscenes::NuScenes;
 use super::video::Video;
 use super::yolo::Yolo;
 
 /// A form in which finished frames are written for other tools; docs/export.md says what each holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // docs/export.md says what they hold
-pub enum DatasetFormat {
-    Cityscapes,
-    Coco,
-    CocoPanoptic,
-    Kitti,
-    KittiTracking,
-    KittiStep,
-    KittiFlow,
-    KittiDepth,
-    MmSegmentation,
-    Paper13,
-    Yolo,
-    YoloSegmentation,
-    Video,
+#[derive(Clone, Copy, Debug)]
+pub struct DatasetFormat(&'static Form);
+
+#[derive(Debug)]
+struct Form {
+    name: &'static str,
+    kind: Kind,
 }
 
+/// What writes a form.
+#[derive(Debug)]
+enum Kind {
+    /// One without numbers of classes, or with its own names alone.
+    Plain(fn() -> Box<dyn Dataset>),
+    /// One whose labels are numbered by a class map, and the map where none is asked for.
+    Classes(&'static str, fn(ClassMap) -> Box<dyn Dataset>),
+}
+
+use Kind::{Classes, Plain};
+
+static FORMS: [Form; 14] = [
+    Form { name: "cityscapes", kind: Classes("cityscapes", |map| Box::new(Cityscapes { map })) },
+    Form { name: "coco", kind: Classes("coco", |map| Box::new(CocoInstances { map })) },
+    Form { name: "coco-panoptic", kind: Classes("coco", |map| Box::new(CocoPanoptic { map })) },
+    Form { name: "kitti", kind: Plain(|| Box::new(KittiObject)) },
+    Form { name: "kitti-tracking", kind: Plain(|| Box::new(KittiTracking)) },
+    Form { name: "kitti-step", kind: Classes("kitti-step", |map| Box::new(KittiStep { map })) },
+    Form { name: "kitti-flow", kind: Plain(|| Box::new(KittiFlow)) },
+    Form { name: "kitti-depth", kind: Plain(|| Box::new(KittiDepth)) },
+    Form { name: "mmseg", kind: Classes("cityscapes", |map| Box::new(MmSegmentation { map })) },
+    Form { name: "nuscenes", kind: Plain(|| Box::new(NuScenes)) },
+    Form { name: "paper13", kind: Classes("paper13", |map| Box::new(LabelPictures { map })) },
+    Form { name: "video", kind: Plain(|| Box::new(Video)) },
+    Form { name: "yolo", kind: Classes("cityscapes", |map| Box::new(Yolo { map, outlines: false })) },
+    Form { name: "yolo-seg", kind: Classes("cityscapes", |map| Box::new(Yolo { map, outlines: true })) },
+];
+
 impl DatasetFormat {
-    /// All that there are.
-    pub const ALL: [Self; 13] = [
-        Self::Cityscapes,
-        Self::Coco,
-        Self::CocoPanoptic,
-        Self::Kitti,
-        Self::KittiTracking,
-        Self::KittiStep,
-        Self::KittiFlow,
-        Self::KittiDepth,
-        Self::MmSegmentation,
-        Self::Paper13,
-        Self::Yolo,
-        Self::YoloSegmentation,
-        Self::Video,
-    ];
+    /// All that there are, by their names.
+    pub fn all() -> impl Iterator<Item = Self> {
+        FORMS.iter().map(Self)
+    }
+
+    /// The form of a name; `None` where none is called that.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|format| format.name() == name)
+    }
 
     /// The name that it is asked for by.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Cityscapes => "cityscapes",
-            Self::Coco => "coco",
-            Self::CocoPanoptic => "coco-panoptic",
-            Self::Kitti => "kitti",
-            Self::KittiTracking => "kitti-tracking",
-            Self::KittiStep => "kitti-step",
-            Self::KittiFlow => "kitti-flow",
-            Self::KittiDepth => "kitti-depth",
-            Self::MmSegmentation => "mmseg",
-            Self::Paper13 => "paper13",
-            Self::Yolo => "yolo",
-            Self::YoloSegmentation => "yolo-seg",
-            Self::Video => "video",
+        self.0.name
+    }
+
+    /// The class map that its labels are numbered by where none is asked for; `None` for a form without such labels.
+    pub(super) fn class_map(self) -> Option<ClassMap> {
+        match self.0.kind {
+            Plain(_) => None,
+            Classes(name, _) => ClassMap::named(name),
         }
     }
 
-    /// The class map that its labels are numbered by where none is asked for; `None` for a form that has no such labels.
-    pub fn class_map(self) -> Option<&'static str> {
-        match self {
-            Self::Cityscapes | Self::MmSegmentation | Self::Yolo | Self::YoloSegmentation => Some("cityscapes"),
-            Self::Coco | Self::CocoPanoptic => Some("coco"),
-            Self::KittiStep => Some("kitti-step"),
-            Self::Paper13 => Some("paper13"),
-            Self::Kitti | Self::KittiTracking | Self::KittiFlow | Self::KittiDepth | Self::Video => None,
-        }
-    }
-
-    /// What writes it, with labels numbered by a map; `None` where the form needs one and there is none.
+    /// What writes it with labels numbered by a map; `None` where there is a map that it does not know what to do with, or
+    /// none that it needs.
     pub(super) fn dataset(self, map: Option<ClassMap>) -> Option<Box<dyn Dataset>> {
-        Some(match self {
-            Self::Cityscapes => Box::new(Cityscapes { map: map? }),
-            Self::Coco => Box::new(CocoInstances { map: map? }),
-            Self::CocoPanoptic => Box::new(CocoPanoptic { map: map? }),
-            Self::Kitti => Box::new(KittiObject),
-            Self::KittiTracking => Box::new(KittiTracking),
-            Self::KittiStep => Box::new(KittiStep { map: map? }),
-            Self::KittiFlow => Box::new(KittiFlow),
-            Self::KittiDepth => Box::new(KittiDepth),
-            Self::MmSegmentation => Box::new(MmSegmentation { map: map? }),
-            Self::Paper13 => Box::new(LabelPictures { map: map? }),
-            Self::Yolo => Box::new(Yolo { map: map?, outlines: false }),
-            Self::YoloSegmentation => Box::new(Yolo { map: map?, outlines: true }),
-            Self::Video => Box::new(Video),
-        })
+        match (&self.0.kind, map) {
+            (Plain(make), None) => Some(make()),
+            (Classes(_, make), Some(map)) => Some(make(map)),
+            _ => None,
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Matrices of frame tables as transforms.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 use trove_format::{FrameTable, Matrix4, ObjectRow};
 
 /// A table's matrix as a transform.
@@ -18,4 +18,11 @@ pub(crate) fn camera_from_world(table: &FrameTable) -> DAffine3 {
 /// From an object's Body to a frame's Camera.
 pub(crate) fn camera_from_body(table: &FrameTable, object: &ObjectRow) -> DAffine3 {
     camera_from_world(table) * affine(&object.world_from_body)
+}
+
+/// The rotation of a transform as a unit quaternion, w first and not negative.
+pub(crate) fn quaternion_wxyz(transform: &DAffine3) -> [f64; 4] {
+    let q = DQuat::from_mat3(&transform.matrix3).normalize();
+    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+    [q.w, q.x, q.y, q.z].map(|part| sign * part)
 }

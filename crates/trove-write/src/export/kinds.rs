@@ -1,6 +1,6 @@
 //! What datasets call the kinds of road users: `kinds.tsv`, a line a kind; what is not in it has no name anywhere.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::LazyLock;
 
 use trove_format::ObjectRow;
@@ -30,6 +30,11 @@ pub(crate) fn kitti(object: &ObjectRow) -> Option<&'static str> {
 /// nuScenes' category of an object; `None` for what nuScenes does not annotate.
 pub(crate) fn nuscenes(object: &ObjectRow) -> Option<&'static str> {
     named(object.kind, 1)
+}
+
+/// nuScenes' categories, each once.
+pub(crate) fn nuscenes_categories() -> BTreeSet<&'static str> {
+    KINDS.values().map(|names| names[1]).filter(|name| !name.is_empty()).collect()
 }
 
 fn named(kind: Kind, column: usize) -> Option<&'static str> {

@@ -23,7 +23,7 @@ impl Dataset for KittiObject {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for &i in frames {
             let frame = plan.open(&plan.frames[i])?;
-            unit.link(&format!("training/image_2/{i:06}.png"), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("training/image_2/{i:06}.png"), &frame.needed(FrameFile::Rgb)?)?;
             note_distortion(&frame.table, unit);
             let mut labels = String::new();
             for object in frame.table.objects.iter().filter_map(|object| label(&frame.table, object)) {
@@ -58,7 +58,7 @@ impl Dataset for KittiTracking {
             let planned = &plan.frames[i];
             let frame = plan.open(planned)?;
             let index = planned.index;
-            unit.link(&format!("training/image_02/{sequence:04}/{index:06}.png"), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("training/image_02/{sequence:04}/{index:06}.png"), &frame.needed(FrameFile::Rgb)?)?;
             note_distortion(&frame.table, unit);
             if index == 0 {
                 let calibration = calibration(&frame.table, &TRACKING_NAMES);

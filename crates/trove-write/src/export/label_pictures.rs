@@ -62,9 +62,7 @@ impl Dataset for LabelPictures {
     }
 
     fn finish(&self, _: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
-        let class = |class: &trove_model::MappedClass| {
-            json!({ "id": class.id, "name": class.name, "rgb": class.rgb, "counts": class.train_id.is_some() })
-        };
+        let class = |class: &trove_model::MappedClass| json!({ "id": class.id, "name": class.name, "rgb": class.rgb, "counts": class.train_id.is_some() });
         let classes: Vec<_> = self.map.classes.iter().map(class).collect();
         unit.write("classes.json", json!(classes).to_string().as_bytes())
     }

@@ -18,7 +18,9 @@ mod kitti_dense;
 mod kitti_step;
 mod label_pictures;
 mod labels;
+mod lists;
 mod masks;
+mod nuscenes;
 mod plan;
 mod tables;
 mod unit;
@@ -93,25 +95,19 @@ pub fn export(
     watch: Watch,
 ) -> Result<Exported, WriteError> {
     let (plan, manifest) = Plan::new(source, choice.curated.as_ref())?;
-    let map = match (&choice.classes, format.class_map()) {
-        (Some(map), Some(_)) => Some(map.clone()),
-        (None, named) => named.and_then(ClassMap::named),
-        (Some(map), None) => {
-            return Err(WriteError::Unfit {
-                path: out.to_owned(),
-                expected: format!("no class map for {}, whose files have no such numbers", format.name()),
-                found: map.name.clone(),
-                remedy: "leave out --classes".into(),
-            });
-        }
-    };
+    let map = choice.classes.clone().or_else(|| format.class_map());
     let classes = map.as_ref().map(|map| map.name.clone());
     let identity = Identity {
         format: format.name().to_owned(),
         trove: env!("CARGO_PKG_VERSION").to_owned(),
         classes: files::sha256(format!("{map:?}").as_bytes()),
     };
-    let dataset = format.dataset(map).ok_or_else(|| WriteError::Mismatch(format!("{} without classes", identity.format)))?;
+    let dataset = format.dataset(map).ok_or_else(|| WriteError::Unfit {
+        path: out.to_owned(),
+        expected: format!("no class map for {}, whose files have no such numbers", format.name()),
+        found: classes.clone().unwrap_or_default(),
+        remedy: "leave out --classes".into(),
+    })?;
     let folder = ExportFolder::open(out, &identity)?;
     let units = dataset.units(&plan);
     let names: Vec<String> = units.iter().map(|frames| name(&plan, frames)).collect();

@@ -55,7 +55,9 @@ fn encode(
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(|e| io::Error::new(e.kind(), format!("{shown} cannot be run ({e}); install ffmpeg, or set TROVE_FFMPEG")))?;
+        .map_err(|e| {
+            io::Error::new(e.kind(), format!("{shown} cannot be run ({e}); install ffmpeg, or set TROVE_FFMPEG"))
+        })?;
     let mut fed = Ok(());
     if let Some(mut input) = ffmpeg.stdin.take() {
         for picture in pictures {

@@ -12,8 +12,8 @@ use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
 use super::share;
-use crate::progress::Steps;
 use crate::class_maps::ClassMapChoice;
+use crate::progress::Steps;
 
 /// What to select from, and how.
 #[derive(Args)]

@@ -11,8 +11,8 @@ use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
 use trove_model::Seed;
 use trove_read::read_class_map;
 
-use crate::progress::Steps;
 use crate::class_maps::ClassMapChoice;
+use crate::progress::Steps;
 
 /// What to compare.
 #[derive(Args)]

@@ -10,8 +10,8 @@ use trove_model::Raster;
 use trove_write::write_sheet;
 
 use super::share;
-use crate::progress::Steps;
 use crate::class_maps::ClassMapChoice;
+use crate::progress::Steps;
 
 /// Pairs that the page shows.
 const SHOWN: usize = 24;

@@ -1,0 +1,459 @@
+//! nuScenes: thirteen tables of rows that name each other by tokens, and pictures below `samples`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DAffine3;
+use serde_json::{Value, json};
+use trove_format::{FrameFile, FrameTable, ObjectOrigin, ObjectRow};
+use trove_model::Kind;
+
+use super::dataset::{Dataset, Finished};
+use super::geometry::{affine, quaternion_wxyz};
+use super::kinds;
+use super::kitti::note_distortion;
+use super::lists::write_list;
+use super::plan::{Plan, PlannedFrame};
+use super::unit::Unit;
+use crate::{WriteError, files, png_file};
+
+/// `v1.0-trove/*.json`, `samples/<camera>/*.png` and `maps/*.png`; a variation seen from one vehicle is a scene.
+pub(super) struct NuScenes;
+
+/// Folder of the tables, and the version that the devkit is asked for.
+const VERSION: &str = "v1.0-trove";
+/// The sensor whose pose and time are a sample's own, for every tool of nuScenes.
+const LIDAR: &str = "LIDAR_TOP";
+/// Slower than this, a road user stands.
+const STANDS_MPS: f64 = 0.2;
+
+const LEVELS: [&str; 4] = ["v0-40", "v40-60", "v60-80", "v80-100"];
+const ATTRIBUTES: [&str; 8] = [
+    "vehicle.moving",
+    "vehicle.stopped",
+    "vehicle.parked",
+    "cycle.with_rider",
+    "cycle.without_rider",
+    "pedestrian.sitting_lying_down",
+    "pedestrian.standing",
+    "pedestrian.moving",
+];
+
+impl Dataset for NuScenes {
+    fn units(&self, plan: &Plan) -> Vec<Vec<usize>> {
+        plan.grouped(scene_name)
+    }
+
+    fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        let scene = scene_name(&plan.frames[frames[0]]);
+        let mut moments: BTreeMap<u32, Moment> = BTreeMap::new();
+        let mut tracks = Tracks::default();
+        let mut calibrations = BTreeSet::new();
+        let mut cameras: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
+        for &i in frames {
+            let planned = &plan.frames[i];
+            let frame = plan.open(planned)?;
+            let table = &frame.table;
+            let Some(world_from_ego) = table.world_from_ego.as_ref().map(affine) else {
+                unit.clip("frames left out, whose camera has no vehicle with a known pose", 1);
+                continue;
+            };
+            note_distortion(table, unit);
+            let channel = channel(&planned.view);
+            let path = format!("samples/{channel}/{scene}__{channel}__{:06}.png", planned.keyframe);
+            unit.link(&path, &frame.needed(FrameFile::Rgb)?)?;
+            let name = format!("{scene}/{}/{channel}", planned.keyframe);
+            let ego_from_camera = world_from_ego.inverse() * affine(&table.world_from_camera);
+            let calibrated = calibrated_sensor(&scene, channel, Some((ego_from_camera, &table.intrinsics)));
+            let data = json!({
+                "token": token("sample_data", &name),
+                "sample_token": sample_token(&scene, planned.keyframe),
+                "ego_pose_token": token("ego_pose", &name),
+                "calibrated_sensor_token": calibrated["token"],
+                "timestamp": table.time_ns / 1000,
+                "fileformat": "png",
+                "is_key_frame": true,
+                "height": table.height_px,
+                "width": table.width_px,
+                "filename": path,
+            });
+            unit.row("ego_pose", &ego_pose(&name, table.time_ns, in_plane(table, &world_from_ego)))?;
+            if calibrations.insert(calibrated["token"].to_string()) {
+                unit.row("calibrated_sensor", &calibrated)?;
+            }
+            cameras.entry(channel).or_default().push(data);
+            let moment = moments.entry(planned.keyframe).or_insert_with(|| Moment::new(table, world_from_ego));
+            moment.look(table, world_from_ego);
+            tracks.look(planned.keyframe, table);
+        }
+        for mut pictures in cameras.into_values() {
+            link(&mut pictures);
+            pictures.iter().try_for_each(|row| unit.row("sample_data", row))?;
+        }
+        scene_rows(&scene, &moments, unit)?;
+        tracks.rows(&scene, unit)
+    }
+
+    fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        let mut splits: BTreeMap<String, Vec<Value>> = BTreeMap::new();
+        let mut logs = Vec::new();
+        for rows in finished.rows(None) {
+            let (frames, rows) = rows?;
+            for row in rows.get("scene").into_iter().flatten() {
+                let row: Value = serde_json::from_str(row.get()).map_err(|e| WriteError::Mismatch(e.to_string()))?;
+                // The devkit keeps the plain names for its own lists.
+                let split = format!("trove_{}", finished.plan.frames[frames[0]].split);
+                splits.entry(split).or_default().push(row["name"].clone());
+                logs.push(row["log_token"].clone());
+            }
+        }
+        if logs.is_empty() {
+            return Err(WriteError::Unfit {
+                path: finished.plan.source.clone(),
+                expected: "a camera carried by a vehicle whose pose is known (world_from_ego)".into(),
+                found: "none".into(),
+                remedy: "export it in a form without vehicles, such as kitti or coco".into(),
+            });
+        }
+        let names = |table: &str, names: &[&str]| -> Vec<Value> {
+            let row = |name: &&str| json!({ "token": token(table, name), "name": name, "description": "" });
+            names.iter().map(row).collect()
+        };
+        let categories: Vec<&str> = kinds::nuscenes_categories().into_iter().collect();
+        let channels: BTreeSet<&str> = finished.plan.frames.iter().map(|frame| channel(&frame.view)).collect();
+        let cameras = channels.into_iter().map(|channel| sensor(channel, "camera"));
+        let levels = LEVELS
+            .iter()
+            .zip(1..)
+            .map(|(level, number): (_, u8)| json!({ "token": number.to_string(), "level": level, "description": "" }));
+        let map = format!("maps/{}.png", token("map", "none"));
+        let map_row = json!({
+            "token": token("map", "none"),
+            "category": "semantic_prior",
+            "filename": map,
+            "log_tokens": logs,
+        });
+        // The devkit asks for a raster of the drivable area, which frames do not have: nothing is marked in this one.
+        unit.write(&map, &png_file::grey(&map, 1, 1, &[0])?)?;
+        let fixed = [
+            ("category", names("category", &categories)),
+            ("attribute", names("attribute", &ATTRIBUTES)),
+            ("visibility", levels.collect()),
+            ("sensor", cameras.chain([sensor(LIDAR, "lidar")]).collect()),
+            ("map", vec![map_row]),
+        ];
+        for (table, rows) in fixed {
+            write_list(finished, &format!("{VERSION}/{table}.json"), &rows, "", unit)?;
+        }
+        let of_steps = ["log", "scene", "sample", "sample_data", "ego_pose", "calibrated_sensor"];
+        for table in of_steps.into_iter().chain(["instance", "sample_annotation"]) {
+            write_list(finished, &format!("{VERSION}/{table}.json"), &[], table, unit)?;
+        }
+        let splits = serde_json::to_vec_pretty(&splits).map_err(|e| WriteError::Mismatch(e.to_string()))?;
+        unit.write(&format!("{VERSION}/splits.json"), &splits)
+    }
+}
+
+/// One vehicle's view of a variation of a drive, one side of a split.
+fn scene_name(frame: &PlannedFrame) -> String {
+    let carrier = frame.view.split('.').next().filter(|carrier| *carrier != "ego");
+    let parts = carrier.into_iter().chain((frame.split != "train").then_some(frame.split.as_str()));
+    parts.fold(format!("{}-v{:02}", frame.scene, frame.variation), |name, part| format!("{name}-{part}"))
+}
+
+/// The camera's name without its vehicle's.
+pub(super) fn channel(view: &str) -> &str {
+    view.split_once('.').map_or(view, |(_, channel)| channel)
+}
+
+/// A row's name: the same for the same thing in every export.
+pub(super) fn token(table: &str, name: &str) -> String {
+    files::sha256(format!("{table}/{name}").as_bytes())[..32].to_owned()
+}
+
+/// Lets every row name the one before it and the one after it.
+fn link(rows: &mut [Value]) {
+    let tokens: Vec<Value> = rows.iter().map(|row| row["token"].clone()).collect();
+    let at = |i: Option<usize>| i.and_then(|i| tokens.get(i)).cloned().unwrap_or_else(|| json!(""));
+    for (i, row) in rows.iter_mut().enumerate() {
+        (row["prev"], row["next"]) = (at(i.checked_sub(1)), at(Some(i + 1)));
+    }
+}
+
+fn sample_token(scene: &str, keyframe: u32) -> String {
+    token("sample", &format!("{scene}/{keyframe}"))
+}
+
+/// From World to the dataset's own plane, where nuScenes' maps lie.
+pub(super) fn in_plane(table: &FrameTable, world_from_any: &DAffine3) -> DAffine3 {
+    let [x, y] = table.projection.anchor_m;
+    DAffine3::from_translation(glam::DVec3::new(x, y, 0.0)) * *world_from_any
+}
+
+/// The row of a sensor.
+pub(super) fn sensor(channel: &str, modality: &str) -> Value {
+    json!({ "token": token("sensor", channel), "channel": channel, "modality": modality })
+}
+
+/// The row of a sensor's place on a vehicle: at its origin where none is given. Its token tells rows of other contents
+/// apart.
+pub(super) fn calibrated_sensor(scene: &str, channel: &str, camera: Option<(DAffine3, &[[f64; 3]; 3])>) -> Value {
+    let ego_from_sensor = camera.map_or(DAffine3::IDENTITY, |(pose, _)| pose);
+    let intrinsic = camera.map_or_else(|| json!([]), |(_, intrinsic)| json!(intrinsic));
+    // Nanometres: what is left of the arithmetic is no other calibration.
+    let rounded = |values: &[f64]| values.iter().map(|v| (v * 1e9).round() / 1e9).collect::<Vec<_>>();
+    let translation = rounded(&ego_from_sensor.translation.to_array());
+    let rotation = rounded(&quaternion_wxyz(&ego_from_sensor));
+    let name = format!("{scene}/{channel}/{translation:?}/{rotation:?}/{intrinsic}");
+    json!({
+        "token": token("calibrated_sensor", &name),
+        "sensor_token": token("sensor", channel),
+        "translation": translation,
+        "rotation": rotation,
+        "camera_intrinsic": intrinsic,
+    })
+}
+
+/// The row of a vehicle's pose.
+pub(super) fn ego_pose(name: &str, time_ns: i64, plane_from_ego: DAffine3) -> Value {
+    json!({
+        "token": token("ego_pose", name),
+        "timestamp": time_ns / 1000,
+        "translation": plane_from_ego.translation.to_array(),
+        "rotation": quaternion_wxyz(&plane_from_ego),
+    })
+}
+
+/// The rows of a log: what was recorded when and where.
+pub(super) fn log(scene: &str, table: &FrameTable) -> Value {
+    json!({
+        "token": token("log", scene),
+        "logfile": table.scene,
+        "vehicle": table.dataset,
+        "date_captured": date(table.time_ns),
+        "location": table.place,
+    })
+}
+
+/// The attribute of an object, as far as its motion and kind tell it.
+pub(super) fn attribute(kind: Kind, speed_mps: Option<f64>, ever_moves: bool) -> Option<&'static str> {
+    match kind {
+        Kind::BicycleWithRider | Kind::MotorcycleWithRider => return Some("cycle.with_rider"),
+        Kind::Bicycle | Kind::Motorcycle => return Some("cycle.without_rider"),
+        _ => {}
+    }
+    let moves = speed_mps? > STANDS_MPS;
+    match kind {
+        Kind::Adult | Kind::Child | Kind::ConstructionWorker | Kind::PoliceOfficer if moves => {
+            Some("pedestrian.moving")
+        }
+        Kind::Adult | Kind::Child | Kind::ConstructionWorker | Kind::PoliceOfficer => Some("pedestrian.standing"),
+        kind if !kind.is_car() => None,
+        _ if moves => Some("vehicle.moving"),
+        _ if ever_moves => Some("vehicle.stopped"),
+        _ => Some("vehicle.parked"),
+    }
+}
+
+/// Speed over the ground.
+pub(super) fn speed_mps(object: &ObjectRow) -> Option<f64> {
+    object.velocity_mps.map(|[x, y, _]| x.hypot(y))
+}
+
+/// What a scene's frames say of one moment.
+struct Moment {
+    table: FrameTable,
+    world_from_ego: DAffine3,
+}
+
+impl Moment {
+    fn new(table: &FrameTable, world_from_ego: DAffine3) -> Self {
+        Self { table: FrameTable { objects: Vec::new(), ..table.clone() }, world_from_ego }
+    }
+
+    /// Keeps the pose of the camera whose picture is nearest to the moment.
+    fn look(&mut self, table: &FrameTable, world_from_ego: DAffine3) {
+        let apart = |table: &FrameTable| table.time_ns.abs_diff(table.keyframe_time_ns);
+        if apart(table) < apart(&self.table) {
+            *self = Self::new(table, world_from_ego);
+        }
+    }
+}
+
+fn scene_rows(scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+    let Some(Moment { table, .. }) = moments.values().next() else { return Ok(()) };
+    let lidar = calibrated_sensor(scene, LIDAR, None);
+    unit.row("calibrated_sensor", &lidar)?;
+    let (mut samples, mut sweeps) = (Vec::new(), Vec::new());
+    for (keyframe, moment) in moments {
+        samples.push(json!({
+            "token": sample_token(scene, *keyframe),
+            "timestamp": moment.table.keyframe_time_ns / 1000,
+            "scene_token": token("scene", scene),
+        }));
+        // The devkit takes a sample's own pose from its sweep, and so do others: there is one, without points.
+        let path = format!("samples/{LIDAR}/{scene}__{LIDAR}__{keyframe:06}.pcd.bin");
+        unit.write(&path, &[])?;
+        let name = format!("{scene}/{keyframe}/{LIDAR}");
+        sweeps.push(json!({
+            "token": token("sample_data", &name),
+            "sample_token": sample_token(scene, *keyframe),
+            "ego_pose_token": token("ego_pose", &name),
+            "calibrated_sensor_token": lidar["token"],
+            "timestamp": moment.table.time_ns / 1000,
+            "fileformat": "pcd",
+            "is_key_frame": true,
+            "height": 0,
+            "width": 0,
+            "filename": path,
+        }));
+        let plane_from_ego = in_plane(&moment.table, &moment.world_from_ego);
+        unit.row("ego_pose", &ego_pose(&name, moment.table.time_ns, plane_from_ego))?;
+    }
+    for (table, rows) in [("sample", &mut samples), ("sample_data", &mut sweeps)] {
+        link(rows);
+        rows.iter().try_for_each(|row| unit.row(table, row))?;
+    }
+    let log = log(scene, table);
+    let row = json!({
+        "token": token("scene", scene),
+        "log_token": log["token"],
+        "nbr_samples": samples.len(),
+        "first_sample_token": samples.first().map(|row| &row["token"]),
+        "last_sample_token": samples.last().map(|row| &row["token"]),
+        "name": scene,
+        "description": format!("{}, variation {}", table.scene, table.variation),
+    });
+    unit.row("log", &log)?;
+    unit.row("scene", &row)
+}
+
+/// A scene's road users, each through all moments.
+#[derive(Default)]
+struct Tracks(BTreeMap<u32, Track>);
+
+struct Track {
+    kind: Kind,
+    category: &'static str,
+    sightings: BTreeMap<u32, Sighting>,
+}
+
+/// An object at one moment, in all views.
+struct Sighting {
+    plane_from_body: DAffine3,
+    size_m: [f64; 3],
+    speed_mps: Option<f64>,
+    visible_px: u64,
+    amodal_px: u64,
+}
+
+impl Tracks {
+    fn look(&mut self, keyframe: u32, table: &FrameTable) {
+        for object in table.objects.iter().filter(|object| object.origin != ObjectOrigin::Scenery) {
+            let Some(category) = kinds::nuscenes(object) else { continue };
+            let new = || Track { kind: object.kind, category, sightings: BTreeMap::new() };
+            let sightings = &mut self.0.entry(object.id).or_insert_with(new).sightings;
+            let sighting = sightings.entry(keyframe).or_insert_with(|| Sighting {
+                plane_from_body: in_plane(table, &affine(&object.world_from_body)),
+                size_m: object.size_m,
+                speed_mps: speed_mps(object),
+                visible_px: 0,
+                amodal_px: 0,
+            });
+            sighting.visible_px += u64::from(object.visible_px);
+            sighting.amodal_px += u64::from(object.amodal_px);
+        }
+    }
+
+    fn rows(&self, scene: &str, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        for (id, Track { kind, category, sightings }) in &self.0 {
+            let instance = token("instance", &format!("{scene}/{id}"));
+            let ever_moves = sightings.values().any(|s| s.speed_mps.is_some_and(|speed| speed > STANDS_MPS));
+            let mut annotations = Vec::new();
+            for (keyframe, sighting) in sightings {
+                let attribute = attribute(*kind, sighting.speed_mps, ever_moves);
+                let [length, width, height] = sighting.size_m;
+                annotations.push(json!({
+                    "token": token("sample_annotation", &format!("{scene}/{id}/{keyframe}")),
+                    "sample_token": sample_token(scene, *keyframe),
+                    "instance_token": instance,
+                    "visibility_token": level(sighting.visible_px, sighting.amodal_px).to_string(),
+                    "attribute_tokens": attribute.map(|name| token("attribute", name)).into_iter().collect::<Vec<_>>(),
+                    "translation": sighting.plane_from_body.translation.to_array(),
+                    "size": [width, length, height],
+                    "rotation": quaternion_wxyz(&sighting.plane_from_body),
+                    // Boxes without points are neither trained nor judged on: what is seen by a camera has one.
+                    "num_lidar_pts": u8::from(sighting.visible_px > 0),
+                    "num_radar_pts": 0,
+                }));
+            }
+            link(&mut annotations);
+            let row = json!({
+                "token": instance,
+                "category_token": token("category", category),
+                "nbr_annotations": annotations.len(),
+                "first_annotation_token": annotations.first().map(|row| &row["token"]),
+                "last_annotation_token": annotations.last().map(|row| &row["token"]),
+            });
+            unit.row("instance", &row)?;
+            annotations.iter().try_for_each(|row| unit.row("sample_annotation", row))?;
+        }
+        Ok(())
+    }
+}
+
+/// The number of nuScenes' level of visibility: the share of an object that all views together show.
+fn level(visible_px: u64, amodal_px: u64) -> u8 {
+    let percent = 100 * visible_px / amodal_px.max(1);
+    match percent {
+        ..40 => 1,
+        40..60 => 2,
+        60..80 => 3,
+        _ => 4,
+    }
+}
+
+/// The day of a time, in UTC, by the civil calendar.
+fn date(time_ns: i64) -> String {
+    let days = time_ns.div_euclid(86_400_000_000_000);
+    // Years begin in March, so that the day that a leap year adds is the last one; eras have 400 years.
+    let (era, day) = ((days + 719_468).div_euclid(146_097), (days + 719_468).rem_euclid(146_097));
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let (day, month) = (day - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
+    format!("{:04}-{month:02}-{day:02}", era * 400 + year + i64::from(month <= 2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        let day = 86_400_000_000_000;
+        assert_eq!(date(0), "1970-01-01");
+        assert_eq!(date(-1), "1969-12-31");
+        assert_eq!(date(1_532_402_927_647_951_000), "2018-07-24");
+        assert_eq!([date(951_782_400_000_000_000), date(951_782_400_000_000_000 + day)], ["2000-02-29", "2000-03-01"]);
+    }
+
+    #[test]
+    fn motion_and_kind_decide_the_attribute() {
+        assert_eq!(attribute(Kind::Car, Some(3.0), true), Some("vehicle.moving"));
+        assert_eq!(attribute(Kind::Car, Some(0.0), true), Some("vehicle.stopped"));
+        assert_eq!(attribute(Kind::Bus, Some(0.1), false), Some("vehicle.parked"));
+        assert_eq!(attribute(Kind::Car, None, true), None);
+        assert_eq!(attribute(Kind::Adult, Some(1.3), true), Some("pedestrian.moving"));
+        assert_eq!(attribute(Kind::BicycleWithRider, None, false), Some("cycle.with_rider"));
+        assert_eq!(attribute(Kind::TrafficCone, Some(0.0), false), None);
+        for kind in Kind::ALL {
+            let of = |speed| attribute(kind, Some(speed), false);
+            assert!([0.0, 1.0].into_iter().filter_map(of).all(|name| ATTRIBUTES.contains(&name)), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn levels_are_shares_of_all_views_together() {
+        assert_eq!([level(0, 0), level(39, 100), level(40, 100), level(79, 100), level(100, 100)], [1, 1, 2, 3, 4]);
+    }
+}
