@@ -105,6 +105,24 @@ pub enum LensModel {
     Equirectangular,
 }
 
+impl LensModel {
+    /// The lens with coefficients, those left out being 0.
+    ///
+    /// # Errors
+    /// More coefficients than the model has, or ones that are not finite, as a line that begins with `distortion`.
+    pub fn distortion(self, coefficients: &[f64]) -> Result<Distortion, String> {
+        let (distortion, most) = match self {
+            Self::Pinhole => (coefficients.is_empty().then_some(Distortion::None), 0),
+            Self::BrownConrady => (Distortion::brown_conrady(coefficients), 8),
+            Self::KannalaBrandt => (Distortion::kannala_brandt(coefficients), 4),
+            Self::Equirectangular => (coefficients.is_empty().then_some(Distortion::Equirectangular), 0),
+        };
+        distortion.ok_or_else(|| {
+            format!("distortion: expected at most {most} finite numbers for this lens, found {coefficients:?}")
+        })
+    }
+}
+
 /// World = (Δlon, Δlat) · `metres_per_rad` − `anchor_m`, angles in radians from the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

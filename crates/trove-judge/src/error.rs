@@ -25,6 +25,9 @@ pub enum JudgeError {
         /// What the user can do.
         remedy: String,
     },
+    /// The caller asked for an end ([`OnProgress`](crate::OnProgress)).
+    #[error("ended before all images were read")]
+    Ended,
     /// A file of an output folder is damaged, or of another version.
     #[error(transparent)]
     Format(#[from] trove_format::FormatError),

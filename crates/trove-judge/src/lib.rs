@@ -23,7 +23,7 @@
 //!     panoptic: false,
 //!     seed: Seed(0),
 //! };
-//! let result = evaluate::evaluate(&predicted, &truth, &settings, &|_, _| {})?;
+//! let result = evaluate::evaluate(&predicted, &truth, &settings, &|_, _| true)?;
 //! let miou = result.miou.expect("classes that are there").value;
 //! assert!((miou - (2.0 / 3.0 + 1.0 / 2.0) / 2.0).abs() < 1e-12);
 //! assert_eq!(result.accuracy.map(|share| share.value), Some(0.75));

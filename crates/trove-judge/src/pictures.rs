@@ -18,8 +18,8 @@ use crate::JudgeError;
 /// 8192 × 8192: larger than any road camera's.
 const MOST_PIXELS: u64 = 1 << 26;
 
-/// Told how many pictures are done, and of how many.
-pub type OnProgress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+/// Told how many pictures are done, and of how many; answers whether to go on.
+pub type OnProgress<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
 
 /// Does something with each of many pictures, in parallel; the answers are in their order.
 pub(crate) fn each<T: Sync, R: Send>(
@@ -30,8 +30,8 @@ pub(crate) fn each<T: Sync, R: Send>(
     let done = AtomicUsize::new(0);
     let one = |item: &T| {
         let answer = of(item)?;
-        progress(done.fetch_add(1, Ordering::Relaxed) + 1, items.len());
-        Ok(answer)
+        let goes_on = progress(done.fetch_add(1, Ordering::Relaxed) + 1, items.len());
+        if goes_on { Ok(answer) } else { Err(JudgeError::Ended) }
     };
     items.par_iter().map(one).collect()
 }

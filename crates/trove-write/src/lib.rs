@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod colors;
 pub mod contact_sheet;
 mod error;
 mod export;
@@ -45,7 +46,7 @@ pub use files::{sha256, sha256_file, write_atomically};
 pub use frame::Frame;
 pub use frame_table::FrameMeta;
 pub use label_pictures::LabelPictures;
-pub use picture::write_picture;
+pub use picture::{encode_picture, write_picture};
 pub use plain_drive::{PlainFiles, write_plain_drive};
 pub use sheet::write_sheet;
 pub use stored_frame::StoredFrame;

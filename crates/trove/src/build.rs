@@ -1,22 +1,18 @@
 //! `trove build`: the virtual scene alone.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use serde_json::json;
 use trove_format::{EntryRow, ReportTable};
 use trove_model::{Environment, Report};
 use trove_render::{SUN_RADIUS_RAD, bake_sky};
-use trove_write::gltf::{SunLight, write_environment, write_glb};
+use trove_write::gltf::{GlbStats, SunLight, write_environment, write_glb};
 
-use crate::contents::Contents;
-use crate::library;
+use crate::answer::Answer;
+use crate::built_scene::BuiltScene;
 use crate::overview::Overview;
 use crate::recipe::Recipe;
-use crate::run::fit_rows;
-use crate::sources::Sources;
-use crate::virtual_scene::VirtualScene;
 
 /// Builds the recipe's first scene at one keyframe and writes it, with the recipe's cameras and the sun, as GLB; and
 /// where they are asked for, its sky as OpenEXR and a picture from above; `search` is where Embree and the denoiser are
@@ -29,29 +25,45 @@ pub(crate) fn run(
     overview: &Overview,
     search: Vec<PathBuf>,
     as_json: bool,
-) -> Result<()> {
+) -> Result<Answer> {
     let report = Report::default();
-    let sources = Sources::open(recipe, &report)?;
-    let scenes = sources.scenes()?;
-    let (name, _) = scenes.first().context("the recipe has no scene")?;
-    let started = std::time::Instant::now();
-    let (drive, map) = sources.drive(name, &report)?;
-    report.measure("read.seconds", started.elapsed().as_secs_f64());
-    let first = match &recipe.drive {
-        Some(section) => section.keyframes.of(drive.keyframes.len())?[0],
-        None => 0,
-    };
-    let keyframe = keyframe.unwrap_or(first);
-    let count = drive.keyframes.len();
-    ensure!(keyframe < count, "--keyframe: {name} has keyframes 0 to {}, found {keyframe}", count.saturating_sub(1));
-    let started = Instant::now();
-    let library = library::gather(recipe, &search, &mut Contents::open(), &report)?;
-    report.measure("library.seconds", started.elapsed().as_secs_f64());
-    let started = Instant::now();
-    let built = VirtualScene::build(&sources, (&drive, map.as_ref()), &library, 0, &report)?;
-    let scene = built.at(keyframe);
-    report.measure("build.seconds", started.elapsed().as_secs_f64());
-    let shots = built.shots(keyframe, &report);
+    let built = BuiltScene::build(recipe, keyframe, &search, &report)?;
+    let stats = write_scene(&built, out, environment)?;
+    let BuiltScene { name, keyframe, drive, scene, fits, .. } = built;
+    let area = trove_build::area(&drive).with_context(|| format!("{name}: nothing was recorded"))?;
+    overview.write(&scene, area, search)?;
+    let report = ReportTable::from(&report);
+    let json = json!({
+        "out": out,
+        "scene": name,
+        "keyframe": keyframe,
+        "bytes": stats.bytes,
+        "meshes": stats.meshes,
+        "instances": stats.instances,
+        "triangles": stats.triangles,
+        "report": report,
+        "fits": fits,
+    });
+    let out = out.to_owned();
+    Ok(Answer::new(as_json, json, move || {
+        println!(
+            "{}: {name} at keyframe {keyframe}, {} meshes, {} instances, {} triangles, {:.1} MB",
+            out.display(),
+            stats.meshes,
+            stats.instances,
+            stats.triangles,
+            stats.bytes as f64 * 1e-6
+        );
+        for (measured, value) in &report.measurements {
+            println!("  {measured} = {}", value.map_or("not a number".into(), |value| value.to_string()));
+        }
+        print_entries(&report, "  ");
+    }))
+}
+
+/// Writes a scene with the recipe's cameras and the sun as GLB, and where it is asked for its sky as OpenEXR.
+pub(crate) fn write_scene(built: &BuiltScene, out: &Path, environment: Option<&Path>) -> Result<GlbStats> {
+    let BuiltScene { scene, shots, .. } = built;
     let sun = match &scene.light.environment {
         Environment::Sky(sky) => {
             let sky = bake_sky(sky);
@@ -65,38 +77,7 @@ pub(crate) fn run(
             None
         }
     };
-    let stats = write_glb(out, &scene, &shots, sun.as_ref())?;
-    let area = trove_build::area(&drive).with_context(|| format!("{name}: nothing was recorded"))?;
-    overview.write(&scene, area, search)?;
-    let report = ReportTable::from(&report);
-    if as_json {
-        let printed = json!({
-            "out": out,
-            "scene": name,
-            "keyframe": keyframe,
-            "bytes": stats.bytes,
-            "meshes": stats.meshes,
-            "instances": stats.instances,
-            "triangles": stats.triangles,
-            "report": report,
-            "fits": fit_rows(built.site.fits()),
-        });
-        println!("{}", serde_json::to_string_pretty(&printed)?);
-        return Ok(());
-    }
-    println!(
-        "{}: {name} at keyframe {keyframe}, {} meshes, {} instances, {} triangles, {:.1} MB",
-        out.display(),
-        stats.meshes,
-        stats.instances,
-        stats.triangles,
-        stats.bytes as f64 * 1e-6
-    );
-    for (measured, value) in &report.measurements {
-        println!("  {measured} = {}", value.map_or("not a number".into(), |value| value.to_string()));
-    }
-    print_entries(&report, "  ");
-    Ok(())
+    Ok(write_glb(out, scene, shots, sun.as_ref())?)
 }
 
 /// Prints what was dropped, substituted or guessed, a line a kind, behind an indentation.

@@ -10,6 +10,7 @@ use serde_json::json;
 use trove_render::KernelChoice;
 use trove_write::ExportFormat;
 
+use crate::answer::Answer;
 use crate::assets::{self, AssetsCommand};
 use crate::drives::DatasetChoice;
 use crate::export::Export;
@@ -21,6 +22,7 @@ use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{MOST_THREADS, Recipe};
 use crate::run::{RenderedFrame, RunOptions, Summary, generate};
+use crate::watch::Watch;
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message, verify};
 
 /// Turn recordings of real roads into photorealistic virtual scenes with perfect labels.
@@ -160,13 +162,19 @@ enum Kernel {
 }
 
 impl Machine {
-    fn options(&self, site_packages: &[PathBuf]) -> RunOptions {
+    fn options(&self, site_packages: &[PathBuf], watch: &Watch) -> RunOptions {
         let kernel = match self.kernel {
             Kernel::Auto => KernelChoice::Auto,
             Kernel::Embree => KernelChoice::Embree,
             Kernel::Obvhs => KernelChoice::Obvhs,
         };
-        RunOptions { kernel, search: libraries::search(site_packages), frames: None, format: ExportFormat::default() }
+        RunOptions {
+            kernel,
+            search: libraries::search(site_packages),
+            frames: None,
+            format: ExportFormat::default(),
+            watch: watch.clone(),
+        }
     }
 }
 
@@ -183,7 +191,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
     interrupt::install();
     // A second call in one process (from Python) keeps the first one's subscriber.
     let _ = tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).without_time().try_init();
-    match run(cli.command, site_packages) {
+    match run(cli.command, site_packages, &Watch::default()).and_then(Answer::print) {
         Ok(status) => status,
         Err(error) => {
             eprintln!("error: {}", message::of(&error));
@@ -192,67 +200,86 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
     }
 }
 
-fn run(command: Command, site_packages: &[PathBuf]) -> Result<i32> {
+/// Runs a command line for another program and returns what it prints with `--json`; `null` of a command that prints by
+/// itself. Signals stay the caller's own.
+///
+/// # Errors
+/// The line that the command would end with, of wrong usage and of failure alike.
+pub fn call(
+    args: impl IntoIterator<Item = OsString>,
+    site_packages: &[PathBuf],
+    watch: &Watch,
+) -> Result<String, String> {
+    let cli = Cli::try_parse_from(args).map_err(|error| {
+        let text = error.to_string();
+        let said = text.split("\n\n").next().unwrap_or_default();
+        said.strip_prefix("error: ").unwrap_or(said).to_owned()
+    })?;
+    let answer = run(cli.command, site_packages, watch).map_err(|error| message::of(&error))?;
+    Ok(answer.json.to_string())
+}
+
+fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Answer> {
     match command {
-        Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| 0),
-        Command::Inspect { root, dataset, json } => inspect::run(&root, &dataset, json),
-        Command::Export(export) => export.run(),
+        Command::Doctor { json } => doctor::run(libraries::search(site_packages), json).map(|()| Answer::printed(0)),
+        Command::Inspect { root, dataset, json } => inspect::run(&root, &dataset, json).map(Answer::printed),
+        Command::Export(export) => export.run(watch),
         Command::Build { recipe, out, keyframe, environment, overview, json } => {
             let search = libraries::search(site_packages);
             let recipe = Recipe::read(&recipe)?;
-            build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json).map(|()| 0)
+            build::run(&recipe, &out, keyframe, environment.as_deref(), &overview, search, json)
         }
-        Command::Map(map) => map.run().map(|()| 0),
-        Command::Assets { command } => assets::run(command, libraries::search(site_packages)),
+        Command::Map(map) => map.run().map(|()| Answer::printed(0)),
+        Command::Assets { command } => assets::run(command, libraries::search(site_packages)).map(Answer::printed),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
-            produce(recipe, &out, &machine, machine.options(site_packages), json)
+            produce(recipe, &out, &machine, machine.options(site_packages, watch), json)
         }
         Command::Generate { recipe, out, frames, labels_only, machine, json } => {
             let frames = frames.as_deref().map(frames_of).transpose()?;
-            let options = RunOptions { frames, ..machine.options(site_packages) };
+            let options = RunOptions { frames, ..machine.options(site_packages, watch) };
             let mut recipe = Recipe::read(&recipe)?;
             if labels_only {
                 (recipe.render.light, recipe.render.radiance) = (false, false);
             }
             produce(recipe, &out, &machine, options, json)
         }
-        Command::Verify { folder, json } => verify::run(&folder, json),
-        Command::Curate(curate) => curate.run().map(|()| 0),
-        Command::Recolor(recolor) => recolor.run().map(|()| 0),
-        Command::Evaluate(evaluate) => evaluate.run().map(|()| 0),
+        Command::Verify { folder, json } => verify::run(&folder, json, watch),
+        Command::Curate(curate) => curate.run(watch),
+        Command::Recolor(recolor) => recolor.run(watch),
+        Command::Evaluate(evaluate) => evaluate.run(watch),
     }
 }
 
-fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<i32> {
-    interrupt::listen();
+fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<Answer> {
+    options.watch.listen();
     if let Some(threads) = machine.threads {
         recipe.render.threads = threads.into();
     }
     let started = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(recipe.render.threads).build()?;
     let summary = pool.install(|| generate(&recipe, out, &options))?;
-    print(&summary, out, started.elapsed().as_secs_f64(), json)?;
-    Ok(if summary.interrupted { interrupt::status() } else { 0 })
+    let seconds = started.elapsed().as_secs_f64();
+    let status = if summary.interrupted { interrupt::status() } else { 0 };
+    let timing = |frame: &RenderedFrame| {
+        let RenderedFrame { path, prepare_s, render_s } = frame;
+        json!({ "path": path, "prepare_seconds": prepare_s, "render_seconds": render_s })
+    };
+    let timings: Vec<_> = summary.rendered.iter().map(timing).collect();
+    let printed = json!({
+        "out": out,
+        "frames": summary.frames,
+        "rendered": summary.rendered.len(),
+        "timings": timings,
+        "interrupted": summary.interrupted,
+        "seconds": seconds,
+    });
+    let out = out.to_owned();
+    Ok(Answer::new(json, printed, move || tell(&summary, &out, seconds)).with_status(status))
 }
 
-fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<()> {
-    if as_json {
-        let timing = |frame: &RenderedFrame| {
-            let RenderedFrame { path, prepare_s, render_s } = frame;
-            json!({ "path": path, "prepare_seconds": prepare_s, "render_seconds": render_s })
-        };
-        let timings: Vec<_> = summary.rendered.iter().map(timing).collect();
-        let printed = json!({
-            "out": out,
-            "frames": summary.frames,
-            "rendered": summary.rendered.len(),
-            "timings": timings,
-            "interrupted": summary.interrupted,
-            "seconds": seconds,
-        });
-        println!("{}", serde_json::to_string_pretty(&printed)?);
-    } else if summary.interrupted {
+fn tell(summary: &Summary, out: &Path, seconds: f64) {
+    if summary.interrupted {
         eprintln!(
             "interrupted after {} of {} frames; run the same command to resume",
             summary.rendered.len(),
@@ -267,7 +294,6 @@ fn print(summary: &Summary, out: &Path, seconds: f64, as_json: bool) -> Result<(
         println!("{} frames, {} of them new, in {}{rate}", summary.frames, summary.rendered.len(), duration(seconds));
         println!("see {}", out.join("contact_sheet.png").display());
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -10,12 +10,14 @@ use trove_model::{Drive, Outcome, Report};
 use trove_read::drive_source::DriveSource;
 use trove_write::{Choice, DatasetFormat, LabelPictures, PlainFiles, WriteError, export, write_plain_drive};
 
+use crate::answer::Answer;
 use crate::build::print_entries;
 use crate::class_maps::ClassMapChoice;
 use crate::drives::DatasetChoice;
 use crate::interrupt;
 use crate::progress::Steps;
 use crate::recipe::nearest;
+use crate::watch::Watch;
 
 /// `trove export`
 #[derive(Args)]
@@ -89,14 +91,14 @@ fn form(name: &str) -> Result<Form, String> {
 
 impl Export {
     /// Writes what was asked for; the status is 130 or 143 where a signal ended it.
-    pub(crate) fn run(self) -> Result<i32> {
+    pub(crate) fn run(self, watch: &Watch) -> Result<Answer> {
         match self.format {
             Form::Plain => {
                 ensure!(
                     self.frames.split.is_none(),
                     "--split is for finished frames; --format trove writes whole drives"
                 );
-                self.drives.write(&self.source, &self.out, self.json).map(|()| 0)
+                self.drives.write(&self.source, &self.out, self.json)
             }
             Form::Dataset(format) => {
                 let Drives { scenes, lidar, pictures, .. } = &self.drives;
@@ -104,45 +106,40 @@ impl Export {
                     scenes.is_empty() && !lidar && !pictures,
                     "--scene, --lidar and --pictures are for --format trove; choose frames with --split"
                 );
-                self.frames.write(&self.source, &self.out, format, self.json)
+                self.frames.write(&self.source, &self.out, format, self.json, watch)
             }
         }
     }
 }
 
 impl Frames {
-    fn write(&self, source: &Path, out: &Path, format: DatasetFormat, as_json: bool) -> Result<i32> {
+    fn write(&self, source: &Path, out: &Path, format: DatasetFormat, as_json: bool, watch: &Watch) -> Result<Answer> {
         let curated = self.split.as_deref().map(Curated::read).transpose()?;
         let classes = self.classes.as_ref().map(ClassMapChoice::read).transpose()?;
         let choice = Choice { curated, classes };
-        interrupt::listen();
-        let progress = Steps::default();
-        let watch = |done, total| {
-            progress.done(done, total);
-            !interrupt::requested()
-        };
-        let exported = export(source, out, format, &choice, &watch)?;
+        watch.listen();
+        let progress = Steps::new(watch);
+        let exported = export(source, out, format, &choice, &|done, total| progress.done(done, total))?;
         if exported.interrupted {
             eprintln!("interrupted; run the same command to go on");
-            return Ok(interrupt::status());
+            return Ok(Answer::printed(interrupt::status()));
         }
-        if as_json {
-            println!("{}", serde_json::to_string_pretty(&exported)?);
-            return Ok(0);
-        }
-        for (split, frames) in &exported.frames {
-            println!("{split}: {frames} frames");
-        }
-        for (what, values) in &exported.clipped {
-            println!("{values} {what}");
-        }
-        println!("{} in {}", format.name(), out.display());
-        Ok(0)
+        let json = serde_json::to_value(&exported)?;
+        let out = out.to_owned();
+        Ok(Answer::new(as_json, json, move || {
+            for (split, frames) in &exported.frames {
+                println!("{split}: {frames} frames");
+            }
+            for (what, values) in &exported.clipped {
+                println!("{values} {what}");
+            }
+            println!("{} in {}", format.name(), out.display());
+        }))
     }
 }
 
 impl Drives {
-    fn write(&self, root: &Path, out: &Path, as_json: bool) -> Result<()> {
+    fn write(&self, root: &Path, out: &Path, as_json: bool) -> Result<Answer> {
         let report = Report::default();
         let source = self.dataset.open(root, &report)?;
         let known: Vec<String> = source.drives().into_iter().map(|drive| drive.name).collect();
@@ -164,17 +161,15 @@ impl Drives {
             }
         }
         let report = ReportTable::from(&report);
-        if as_json {
-            let printed = json!({ "out": out, "drives": chosen, "labels": labels, "report": report });
-            println!("{}", serde_json::to_string_pretty(&printed)?);
-        } else {
-            println!("{} drives in {}", chosen.len(), out.display());
+        let json = json!({ "out": out, "drives": chosen, "labels": labels, "report": report });
+        let (drives, out) = (chosen.len(), out.to_owned());
+        Ok(Answer::new(as_json, json, move || {
+            println!("{drives} drives in {}", out.display());
             if labels > 0 {
                 println!("{labels} label images in folders labels; trove evaluate PREDICTED DRIVE/labels reads them");
             }
             print_entries(&report, "");
-        }
-        Ok(())
+        }))
     }
 }
 

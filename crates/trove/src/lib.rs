@@ -15,8 +15,10 @@
 //! assert!(error.to_string().contains("did you mean `spp`?"));
 //! ```
 
+mod answer;
 mod assets;
 mod build;
+mod built_scene;
 mod cache;
 mod class_maps;
 mod cli;
@@ -37,6 +39,7 @@ mod message;
 mod overview;
 mod place;
 mod progress;
+mod ready_scene;
 pub mod recipe;
 mod rigs;
 pub mod run;
@@ -45,9 +48,14 @@ mod street_map;
 mod variation;
 mod verify;
 mod virtual_scene;
+mod watch;
 
-pub use cli::main;
-pub use trove_model::label_table;
+pub use cli::{call, main};
+pub use ready_scene::{FreeCamera, PictureRequest, ReadyScene};
+pub use trove_format::FrameFile;
+pub use trove_model::{Raster, label_table};
+pub use trove_write::{StoredFrame, colors, encode_picture};
+pub use watch::{Follower, Watch};
 
 /// Name of the built-in asset library in recipes.
 pub const PROCEDURAL: &str = "procedural";

@@ -1,10 +1,12 @@
-//! How far a long command is: a bar on a terminal, plain lines elsewhere.
+//! How far a long command is: a bar on a terminal, plain lines elsewhere; told to the program that called it.
 
 use std::io::IsTerminal;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::watch::{Follower, Watch};
 
 /// Steps of a bar for one frame, so that it moves within a frame too.
 const STEPS: u64 = 1000;
@@ -13,33 +15,51 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 
 /// Frames done out of frames to do.
 pub(crate) struct Progress {
-    bar: Option<ProgressBar>,
+    shown: Shown,
     state: Mutex<State>,
+}
+
+/// Where it is shown.
+enum Shown {
+    Bar(ProgressBar),
+    Lines,
+    Follower(Arc<dyn Follower>),
 }
 
 struct State {
     done: u64,
     total: u64,
+    doing: String,
     started: Instant,
     last_line: Instant,
 }
 
 impl Progress {
     /// For `total` frames of which none is done.
-    pub(crate) fn new(total: usize) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+    pub(crate) fn new(total: usize, watch: &Watch) -> Self {
+        let bar = || {
             let style = ProgressStyle::with_template("{bar:30} {percent:>3} % · {msg} · {eta} left");
             ProgressBar::new(total as u64 * STEPS).with_style(style.expect("the template is a constant that is tested"))
-        });
-        let now = Instant::now();
-        Self { bar, state: Mutex::new(State { done: 0, total: total as u64, started: now, last_line: now }) }
+        };
+        let shown = match watch.follower() {
+            Some(follower) => Shown::Follower(follower),
+            None if std::io::stderr().is_terminal() => Shown::Bar(bar()),
+            None => Shown::Lines,
+        };
+        let (total, now) = (total as u64, Instant::now());
+        Self { shown, state: Mutex::new(State { done: 0, total, doing: String::new(), started: now, last_line: now }) }
     }
 
     /// What is being done now.
     pub(crate) fn say(&self, text: &str) {
-        match &self.bar {
-            Some(bar) => bar.set_message(text.to_owned()),
-            None => eprintln!("{text}"),
+        match &self.shown {
+            Shown::Bar(bar) => bar.set_message(text.to_owned()),
+            Shown::Lines => eprintln!("{text}"),
+            Shown::Follower(follower) => {
+                let Ok(mut state) = self.state.lock() else { return };
+                state.doing = text.to_owned();
+                follower.progress(state.done as f64, state.total, text);
+            }
         }
     }
 
@@ -47,19 +67,22 @@ impl Progress {
     pub(crate) fn within(&self, share: f32) {
         let Ok(mut state) = self.state.lock() else { return };
         let share = f64::from(share.clamp(0.0, 1.0));
-        if let Some(bar) = &self.bar {
-            bar.set_position(state.done * STEPS + (share * STEPS as f64) as u64);
-        } else if state.last_line.elapsed() > LINE_EVERY {
-            state.last_line = Instant::now();
-            let done = state.done as f64 + share;
-            let left_s = state.started.elapsed().as_secs_f64() * (state.total as f64 - done) / done.max(1e-3);
-            eprintln!(
-                "  frame {} of {}, {:.0} %, about {} left",
-                state.done + 1,
-                state.total,
-                100.0 * done / state.total.max(1) as f64,
-                duration(left_s)
-            );
+        let done = state.done as f64 + share;
+        match &self.shown {
+            Shown::Bar(bar) => bar.set_position((done * STEPS as f64) as u64),
+            Shown::Follower(follower) => follower.progress(done, state.total, &state.doing),
+            Shown::Lines if state.last_line.elapsed() > LINE_EVERY => {
+                state.last_line = Instant::now();
+                let left_s = state.started.elapsed().as_secs_f64() * (state.total as f64 - done) / done.max(1e-3);
+                eprintln!(
+                    "  frame {} of {}, {:.0} %, about {} left",
+                    state.done + 1,
+                    state.total,
+                    100.0 * done / state.total.max(1) as f64,
+                    duration(left_s)
+                );
+            }
+            Shown::Lines => {}
         }
     }
 
@@ -67,8 +90,10 @@ impl Progress {
     pub(crate) fn frame_done(&self) {
         if let Ok(mut state) = self.state.lock() {
             state.done += 1;
-            if let Some(bar) = &self.bar {
-                bar.set_position(state.done * STEPS);
+            match &self.shown {
+                Shown::Bar(bar) => bar.set_position(state.done * STEPS),
+                Shown::Follower(follower) => follower.progress(state.done as f64, state.total, &state.doing),
+                Shown::Lines => {}
             }
         }
     }
@@ -77,15 +102,17 @@ impl Progress {
     pub(crate) fn correct(&self, hint: usize, count: usize) {
         if let Ok(mut state) = self.state.lock() {
             state.total = (state.total + count as u64).saturating_sub(hint as u64);
-            if let Some(bar) = &self.bar {
-                bar.set_length(state.total * STEPS);
+            match &self.shown {
+                Shown::Bar(bar) => bar.set_length(state.total * STEPS),
+                Shown::Follower(follower) => follower.progress(state.done as f64, state.total, &state.doing),
+                Shown::Lines => {}
             }
         }
     }
 
     /// Takes the bar away.
     pub(crate) fn finish(&self) {
-        if let Some(bar) = &self.bar {
+        if let Shown::Bar(bar) = &self.shown {
             bar.finish_and_clear();
         }
     }
@@ -100,16 +127,27 @@ pub(crate) fn duration(seconds: f64) -> String {
     }
 }
 
-/// How far a command is that does many like things; made with the first of them.
-#[derive(Default)]
-pub(crate) struct Steps(OnceLock<Progress>);
+/// How far a command is that does many like things; shown from the first of them.
+pub(crate) struct Steps<'a> {
+    progress: OnceLock<Progress>,
+    watch: &'a Watch,
+}
 
-impl Steps {
-    /// One more is done, of `total`.
-    pub(crate) fn done(&self, done: usize, total: usize) {
-        let progress = self.0.get_or_init(|| Progress::new(total));
+impl<'a> Steps<'a> {
+    pub(crate) fn new(watch: &'a Watch) -> Self {
+        Self { progress: OnceLock::new(), watch }
+    }
+
+    /// One more is done, of `total`; the answer is whether to go on.
+    pub(crate) fn done(&self, done: usize, total: usize) -> bool {
+        let progress = self.progress.get_or_init(|| Progress::new(total, self.watch));
         progress.frame_done();
-        if done == total { progress.finish() } else { progress.within(0.0) }
+        if done == total {
+            progress.finish()
+        } else {
+            progress.within(0.0)
+        }
+        !self.watch.stops()
     }
 }
 

@@ -3,12 +3,15 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use rayon::prelude::*;
 use serde::Serialize;
 use trove_format::{FrameLine, Manifest, WrittenFile};
 
+use crate::answer::Answer;
+use crate::progress::Progress;
 use crate::run::{PRIVATE, is_whole};
+use crate::watch::Watch;
 
 /// What was found.
 #[derive(Debug, Default, PartialEq, Serialize)]
@@ -27,34 +30,38 @@ struct Findings {
 ///
 /// # Errors
 /// A folder that no run has written, or whose manifest or journal cannot be read.
-pub(crate) fn run(folder: &Path, as_json: bool) -> Result<i32> {
-    let findings = look(folder)?;
+pub(crate) fn run(folder: &Path, as_json: bool, watch: &Watch) -> Result<Answer> {
+    let findings = look(folder, watch)?;
     let is_sound = findings.damaged.is_empty() && findings.unlisted.is_empty();
-    if as_json {
-        println!("{}", serde_json::to_string_pretty(&findings)?);
-        return Ok(i32::from(!is_sound));
-    }
-    findings.damaged.iter().for_each(|file| println!("damaged: {file}"));
-    findings.unlisted.iter().for_each(|frame| println!("not told alike by the manifest and the journal: {frame}"));
-    if is_sound {
-        println!("{} frames, {} files, all as they were written", findings.frames, findings.files);
-    } else {
-        println!("run trove generate on this folder again: it renders what is damaged");
-    }
-    Ok(i32::from(!is_sound))
+    let tell = move |findings: &Findings| {
+        findings.damaged.iter().for_each(|file| println!("damaged: {file}"));
+        findings.unlisted.iter().for_each(|frame| println!("not told alike by the manifest and the journal: {frame}"));
+        if is_sound {
+            println!("{} frames, {} files, all as they were written", findings.frames, findings.files);
+        } else {
+            println!("run trove generate on this folder again: it renders what is damaged");
+        }
+    };
+    let json = serde_json::to_value(&findings)?;
+    Ok(Answer::new(as_json, json, move || tell(&findings)).with_status(i32::from(!is_sound)))
 }
 
-fn look(folder: &Path) -> Result<Findings> {
+fn look(folder: &Path, watch: &Watch) -> Result<Findings> {
     let private = folder.join(PRIVATE);
     if !private.is_dir() {
         bail!("{}: expected an output folder of trove generate, found no {PRIVATE} in it", folder.display());
     }
     let journal = FrameLine::journal(&private)?;
-    let damaged = |(frame, files): (&String, &Vec<WrittenFile>)| -> Vec<String> {
+    let progress = Progress::new(journal.len(), watch);
+    let damaged = |(frame, files): (&String, &Vec<WrittenFile>)| -> Result<Vec<String>> {
+        ensure!(!watch.stops(), "ended before every file was read");
         let wrong = files.iter().filter(|file| !is_whole(&folder.join(frame), file));
-        wrong.map(|file| format!("{frame}/{}", file.name)).collect()
+        let wrong = wrong.map(|file| format!("{frame}/{}", file.name)).collect();
+        progress.frame_done();
+        Ok(wrong)
     };
-    let damaged = journal.par_iter().flat_map_iter(damaged).collect();
+    let damaged: Vec<Vec<String>> = journal.par_iter().map(damaged).collect::<Result<_>>()?;
+    progress.finish();
     // An unfinished run has no manifest yet.
     let rows = Manifest::read(folder)?.map(|manifest| manifest.frames).unwrap_or_default();
     let told_alike = |row: &trove_format::FrameRow| {
@@ -65,7 +72,7 @@ fn look(folder: &Path) -> Result<Findings> {
     Ok(Findings {
         frames: journal.len(),
         files: journal.values().map(Vec::len).sum(),
-        damaged,
+        damaged: damaged.concat(),
         unlisted: unlisted.into_iter().collect(),
     })
 }
@@ -80,6 +87,7 @@ mod tests {
     fn a_file_that_is_missing_shorter_or_other_is_found() {
         let dir = tempfile::tempdir().unwrap();
         let root = dir.path();
+        let look = |root: &Path| super::look(root, &Watch::default());
         assert!(look(root).unwrap_err().to_string().contains("expected an output folder"));
         fs::create_dir_all(root.join(PRIVATE)).unwrap();
         let frame = root.join("s/v00/k000/ego.A");

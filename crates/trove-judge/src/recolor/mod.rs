@@ -238,7 +238,7 @@ fn histograms(pairs: &[(PathBuf, PathBuf)], ours_in: Option<&ClassMap>) -> Resul
         Ok(counted)
     };
     let mut all = Histograms::default();
-    each(pairs, &|_, _| (), of)?.iter().for_each(|one| all.join(one));
+    each(pairs, &|_, _| true, of)?.iter().for_each(|one| all.join(one));
     Ok(all)
 }
 

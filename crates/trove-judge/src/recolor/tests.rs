@@ -10,12 +10,12 @@ fn settings(method: Method, strength: f32) -> Settings {
 }
 
 fn run(source: &Path, target: &Path, out: &Path, settings: &Settings) -> Result<Recoloring, JudgeError> {
-    recolor(source, target, out, settings, &|_, _| ())
+    recolor(source, target, out, settings, &|_, _| true)
 }
 
 /// Statistics of what lies in a folder.
 fn statistics(folder: &Path, space: Space) -> Statistics {
-    set_statistics(&photographs(folder).unwrap(), space, &|_, _| ()).unwrap()
+    set_statistics(&photographs(folder).unwrap(), space, &|_, _| true).unwrap()
 }
 
 /// A picture whose three channels in a space are independent Gaussians, up to 8-bit codes.

@@ -1,7 +1,7 @@
 //! Cameras.
 
 use trove_format::{LensModel, PlainCamera};
-use trove_model::{Camera, Distortion, Ego, Lens, Pose};
+use trove_model::{Camera, Ego, Lens, Pose};
 
 use super::poses;
 
@@ -23,7 +23,7 @@ pub(crate) fn camera(camera: &PlainCamera) -> Result<(Lens, Pose<Ego, Camera>), 
         fy_px: fy_px.unwrap_or(*fx_px),
         cx_px: cx_px.unwrap_or(0.5 * f64::from(*width_px)),
         cy_px: cy_px.unwrap_or(0.5 * f64::from(*height_px)),
-        distortion: lens_distortion(lens_model.unwrap_or(LensModel::Pinhole), distortion)?,
+        distortion: lens_model.unwrap_or(LensModel::Pinhole).distortion(distortion)?,
     };
     let is_focal = |f: f64| f > 0.0 && f < 1e6;
     if !(is_focal(lens.fx_px) && is_focal(lens.fy_px) && lens.cx_px.abs() < 1e6 && lens.cy_px.abs() < 1e6) {
@@ -31,16 +31,4 @@ pub(crate) fn camera(camera: &PlainCamera) -> Result<(Lens, Pose<Ego, Camera>), 
         return Err(format!("expected focal lengths above 0 and a principal point, in pixels, found {found:?}"));
     }
     Ok((lens, poses::mounting("ego_from_camera", ego_from_camera)?))
-}
-
-fn lens_distortion(model: LensModel, coefficients: &[f64]) -> Result<Distortion, String> {
-    let (distortion, most) = match model {
-        LensModel::Pinhole => (coefficients.is_empty().then_some(Distortion::None), 0),
-        LensModel::BrownConrady => (Distortion::brown_conrady(coefficients), 8),
-        LensModel::KannalaBrandt => (Distortion::kannala_brandt(coefficients), 4),
-        LensModel::Equirectangular => (coefficients.is_empty().then_some(Distortion::Equirectangular), 0),
-    };
-    let found = coefficients.len();
-    distortion
-        .ok_or_else(|| format!("distortion: expected at most {most} coefficients for this lens_model, found {found}"))
 }

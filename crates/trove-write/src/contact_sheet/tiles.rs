@@ -4,10 +4,7 @@ use std::path::Path;
 
 use trove_format::FrameFile;
 
-use crate::{StoredFrame, WriteError};
-
-/// Depth at which the colours end, metres; they fall off with the logarithm.
-const FAR_M: f32 = 120.0;
+use crate::{StoredFrame, WriteError, colors};
 
 /// A frame's pictures, all as large.
 pub(super) struct Tiles {
@@ -34,7 +31,7 @@ impl Tiles {
 
         let picture = match (&rgb, &normal) {
             (Some(rgb), _) => Some(small.averaged(|x, y| *rgb.at(x, y))),
-            (None, Some(normal)) => Some(small.averaged(|x, y| normal_color(*normal.at(x, y)))),
+            (None, Some(normal)) => Some(small.averaged(|x, y| colors::of_normal(*normal.at(x, y)))),
             (None, None) => None,
         };
         let classes = class.map(|class| {
@@ -47,8 +44,8 @@ impl Tiles {
             }
             classes
         });
-        let instances = instance.map(|ids| small.averaged(|x, y| instance_color(*ids.at(x, y))));
-        let depths = depth_m.map(|depth_m| small.averaged(|x, y| depth_color(*depth_m.at(x, y))));
+        let instances = instance.map(|ids| small.averaged(|x, y| colors::of_instance(*ids.at(x, y))));
+        let depths = depth_m.map(|depth_m| small.averaged(|x, y| colors::of_depth(*depth_m.at(x, y))));
         Ok(Self { height, pictures: [picture, classes, instances, depths].into_iter().flatten().collect() })
     }
 }
@@ -82,53 +79,9 @@ impl Grid {
     }
 }
 
-/// Bright colours that differ between neighbouring ids: the hue goes round by the golden angle.
-fn instance_color(id: u16) -> [u8; 3] {
-    if id == 0 {
-        return [18, 18, 20];
-    }
-    let hue = (f32::from(id) * 0.618_034).fract() * 6.0;
-    let value = [1.0, 0.8, 0.62][usize::from(id % 3)];
-    // Three tents, a third of the circle apart.
-    [0.0, 2.0, 4.0].map(|offset: f32| {
-        let distance = ((hue - offset + 9.0) % 6.0 - 3.0).abs();
-        (255.0 * value * (0.2 + 0.8 * (2.0 - distance).clamp(0.0, 1.0))) as u8
-    })
-}
-
-/// Yellow near, violet far, black sky.
-fn depth_color(depth_m: f32) -> [u8; 3] {
-    const STOPS: [[f32; 3]; 5] =
-        [[252.0, 230.0, 100.0], [250.0, 150.0, 60.0], [200.0, 70.0, 90.0], [110.0, 30.0, 130.0], [25.0, 15.0, 60.0]];
-    if !depth_m.is_finite() {
-        return [0; 3];
-    }
-    let t = ((1.0 + depth_m.max(0.0)).ln() / (1.0 + FAR_M).ln()).clamp(0.0, 1.0) * 4.0;
-    let i = (t as usize).min(3);
-    let f = t - i as f32;
-    [0, 1, 2].map(|c| (STOPS[i][c] * (1.0 - f) + STOPS[i + 1][c] * f) as u8)
-}
-
-/// The usual colours of normals: x red, up green, towards the camera blue.
-fn normal_color(normal: [f32; 3]) -> [u8; 3] {
-    if normal == [0.0; 3] {
-        return [70, 130, 180];
-    }
-    [normal[0], -normal[1], -normal[2]].map(|n| (127.5 * (n + 1.0)).clamp(0.0, 255.0) as u8)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn neighbouring_instances_have_colours_that_can_be_told_apart() {
-        for id in 1..2000u16 {
-            let distance = |a: [u8; 3], b: [u8; 3]| (0..3).map(|i| a[i].abs_diff(b[i]) as u32).sum::<u32>();
-            assert!(distance(instance_color(id), instance_color(id + 1)) > 120, "{id}");
-            assert!(distance(instance_color(id), [0; 3]) > 150, "{id}");
-        }
-    }
 
     #[test]
     fn small_pictures_are_enlarged_and_large_ones_averaged() {

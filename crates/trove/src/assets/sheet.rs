@@ -14,6 +14,7 @@ use trove_write::{write_picture, write_sheet};
 
 use super::studio::Studio;
 use crate::progress::Progress;
+use crate::watch::Watch;
 
 /// What to draw, and how.
 #[derive(Args)]
@@ -73,7 +74,7 @@ impl Sheet {
             "--only: no model or material has an id that begins with {}",
             self.only.join(" or ")
         );
-        let progress = Progress::new(subjects.len());
+        let progress = Progress::new(subjects.len(), &Watch::default());
         let mut pictures = Vec::new();
         for subject in subjects {
             let (id, scene, shot) = studio.set(library, subject);

@@ -12,8 +12,10 @@ use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
 use super::share;
+use crate::answer::Answer;
 use crate::class_maps::ClassMapChoice;
 use crate::progress::Steps;
+use crate::watch::Watch;
 
 /// What to select from, and how.
 #[derive(Args)]
@@ -64,11 +66,11 @@ fn list_of(curation: &Curation) -> Curated {
 }
 
 impl Curate {
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self, watch: &Watch) -> Result<Answer> {
         let classes = self.classes.read()?.train_ids_of_ours();
         let rules =
             Rules { count: self.count, classes, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
-        let progress = Steps::default();
+        let progress = Steps::new(watch);
         let seed = Seed(self.seed);
         let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;
         let list = list_of(&curation);
@@ -77,44 +79,43 @@ impl Curate {
         write_atomically(&out, &list.to_json())?;
         write_atomically(&page, report(&self.dir, &curation)?.as_bytes())?;
         let selection = &curation.selection;
-        if self.json {
-            let shares = |kept: bool| -> serde_json::Map<String, serde_json::Value> {
-                let shares = curation.shares(kept);
-                CLASSES.iter().zip(shares).map(|(row, share)| (row.name.to_owned(), json!(share))).collect()
-            };
-            let printed = json!({
-                "frames": curation.frames.len(),
-                "kept": selection.kept.len(),
-                "train": list.train.len(),
-                "val": list.val.len(),
-                "gap": list.gap.len(),
-                "too_few_classes": selection.poor,
-                "near_duplicates": selection.duplicates,
-                "shares_before": shares(false),
-                "shares_after": shares(true),
-                "list": out,
-                "page": page,
-            });
-            println!("{}", serde_json::to_string_pretty(&printed)?);
-            return Ok(());
-        }
-        println!(
-            "{} of {} frames kept: {} for training, {} for validation, {} between both; {} have fewer than {} classes, {} \
-             are near-duplicates",
-            selection.kept.len(),
-            curation.frames.len(),
-            list.train.len(),
-            list.val.len(),
-            list.gap.len(),
-            selection.poor,
-            self.min_classes,
-            selection.duplicates,
-        );
-        println!(
-            "see {}; trove generate RECIPE --out DIR --frames {} renders only these",
-            page.display(),
-            out.display()
-        );
-        Ok(())
+        let shares = |kept: bool| -> serde_json::Map<String, serde_json::Value> {
+            let shares = curation.shares(kept);
+            CLASSES.iter().zip(shares).map(|(row, share)| (row.name.to_owned(), json!(share))).collect()
+        };
+        let json = json!({
+            "frames": curation.frames.len(),
+            "kept": selection.kept.len(),
+            "train": list.train.len(),
+            "val": list.val.len(),
+            "gap": list.gap.len(),
+            "too_few_classes": selection.poor,
+            "near_duplicates": selection.duplicates,
+            "shares_before": shares(false),
+            "shares_after": shares(true),
+            "list": out,
+            "page": page,
+        });
+        let min_classes = self.min_classes;
+        Ok(Answer::new(self.json, json, move || {
+            let selection = &curation.selection;
+            println!(
+                "{} of {} frames kept: {} for training, {} for validation, {} between both; {} have fewer than {} classes, \
+                 {} are near-duplicates",
+                selection.kept.len(),
+                curation.frames.len(),
+                list.train.len(),
+                list.val.len(),
+                list.gap.len(),
+                selection.poor,
+                min_classes,
+                selection.duplicates,
+            );
+            println!(
+                "see {}; trove generate RECIPE --out DIR --frames {} renders only these",
+                page.display(),
+                out.display()
+            );
+        }))
     }
 }

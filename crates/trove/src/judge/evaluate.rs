@@ -11,8 +11,10 @@ use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
 use trove_model::Seed;
 use trove_read::read_class_map;
 
+use crate::answer::Answer;
 use crate::class_maps::ClassMapChoice;
 use crate::progress::Steps;
+use crate::watch::Watch;
 
 /// What to compare.
 #[derive(Args)]
@@ -47,7 +49,7 @@ pub(crate) struct Evaluate {
 }
 
 impl Evaluate {
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self, watch: &Watch) -> Result<Answer> {
         let settings = Settings {
             classes: self.classes.as_ref().map(ClassMapChoice::read).transpose()?,
             predicted: numbering(self.predicted_classes.as_ref(), "--predicted-classes", &self.predicted)?,
@@ -56,14 +58,9 @@ impl Evaluate {
             panoptic: self.panoptic,
             seed: Seed(self.seed),
         };
-        let progress = Steps::default();
+        let progress = Steps::new(watch);
         let found = evaluate(&self.predicted, &self.truth, &settings, &|done, total| progress.done(done, total))?;
-        if self.json {
-            println!("{}", serde_json::to_string_pretty(&as_json(&found))?);
-        } else {
-            print(&found);
-        }
-        Ok(())
+        Ok(Answer::new(self.json, as_json(&found), move || print(&found)))
     }
 }
 

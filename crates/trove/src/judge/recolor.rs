@@ -10,8 +10,10 @@ use trove_model::Raster;
 use trove_write::write_sheet;
 
 use super::share;
+use crate::answer::Answer;
 use crate::class_maps::ClassMapChoice;
 use crate::progress::Steps;
+use crate::watch::Watch;
 
 /// Pairs that the page shows.
 const SHOWN: usize = 24;
@@ -65,7 +67,7 @@ enum SpaceName {
 }
 
 impl Recolor {
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self, watch: &Watch) -> Result<Answer> {
         let out = match &self.out {
             Some(out) => out.clone(),
             None => {
@@ -91,32 +93,29 @@ impl Recolor {
                 None => None,
             },
         };
-        let progress = Steps::default();
+        let progress = Steps::new(watch);
         let done = recolor(&self.dir, &self.to, &out, &settings, &|done, total| progress.done(done, total))?;
         let page = out.join("before_after.png");
         write_sheet(&page, &self.pairs(&done)?)?;
         let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
         let [before, target, after] = &done.statistics;
-        if self.json {
-            let printed = json!({
-                "out": out,
-                "pictures": done.pictures.len(),
-                "kept": done.kept,
-                "before": statistics(before),
-                "target": statistics(target),
-                "after": statistics(after),
-                "page": page,
-            });
-            println!("{}", serde_json::to_string_pretty(&printed)?);
-            return Ok(());
-        }
-        let new = done.pictures.len() - done.kept;
-        println!("{} images, {new} of them new; means and deviations of the three channels:", done.pictures.len());
-        for (name, s) in [("before", before), ("target", target), ("after", after)] {
-            println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
-        }
-        println!("see {}", page.display());
-        Ok(())
+        let json = json!({
+            "out": out,
+            "pictures": done.pictures.len(),
+            "kept": done.kept,
+            "before": statistics(before),
+            "target": statistics(target),
+            "after": statistics(after),
+            "page": page,
+        });
+        Ok(Answer::new(self.json, json, move || {
+            let new = done.pictures.len() - done.kept;
+            println!("{} images, {new} of them new; means and deviations of the three channels:", done.pictures.len());
+            for (name, s) in ["before", "target", "after"].iter().zip(&done.statistics) {
+                println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
+            }
+            println!("see {}", page.display());
+        }))
     }
 
     /// Some pictures before and after, side by side.

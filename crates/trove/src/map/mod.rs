@@ -22,6 +22,7 @@ use crate::message::shown;
 use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
+use crate::watch::Watch;
 
 /// The public server with the most machines behind it; `--endpoint` names another one.
 const ENDPOINT: &str = "https://overpass-api.de/api/interpreter";
@@ -69,7 +70,7 @@ impl MapCommand {
         };
         let server = Server::new(&self.endpoint, Patience::default())?;
         let cache = cache.map(|folder| folder.join("maps"));
-        let progress = Progress::new(boxes.len());
+        let progress = Progress::new(boxes.len(), &Watch::default());
         let mut fetched = Vec::new();
         for (map_box, file) in boxes.iter().zip(names(out, boxes.len())) {
             progress.say(&format!("fetching {}", map_box.extent));
@@ -118,7 +119,7 @@ fn boxes_of(recipe: &Recipe) -> Result<Vec<MapBox>> {
     let report = Report::default();
     let sources = Sources::open(recipe, &report)?;
     let scenes = sources.scenes()?;
-    let progress = Progress::new(scenes.len());
+    let progress = Progress::new(scenes.len(), &Watch::default());
     progress.say("reading where the scenes are");
     let mut boxes = Vec::new();
     for (scene, _) in &scenes {

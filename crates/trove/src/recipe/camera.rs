@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use anyhow::{Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::LensChange;
-use trove_model::{Distortion, ExposureRule, Film, SensorModel, WhiteBalance};
+use trove_format::LensModel;
+use trove_model::{ExposureRule, Film, SensorModel, WhiteBalance};
 
 use super::check::check;
 
@@ -68,20 +69,6 @@ pub struct LensSection {
     pub distortion: Vec<f64>,
     /// Focal length in pixels of the recording; without it the recorded one.
     pub focal_px: Option<f64>,
-}
-
-/// A model of distortion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LensModel {
-    /// No distortion.
-    Pinhole,
-    /// k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆.
-    BrownConrady,
-    /// A fisheye: k₁ k₂ k₃ k₄.
-    KannalaBrandt,
-    /// A panorama.
-    Equirectangular,
 }
 
 /// `[camera.sensor]`: a car's camera, unless told otherwise.
@@ -185,15 +172,7 @@ impl CameraSection {
 
 impl LensSection {
     fn change(&self) -> Result<LensChange> {
-        let given = &self.distortion;
-        let (distortion, most) = match self.model {
-            LensModel::Pinhole => (given.is_empty().then_some(Distortion::None), 0),
-            LensModel::BrownConrady => (Distortion::brown_conrady(given), 8),
-            LensModel::KannalaBrandt => (Distortion::kannala_brandt(given), 4),
-            LensModel::Equirectangular => (given.is_empty().then_some(Distortion::Equirectangular), 0),
-        };
-        let distortion =
-            distortion.ok_or_else(|| anyhow!("distortion: expected at most {most} finite numbers, found {given:?}"))?;
+        let distortion = self.model.distortion(&self.distortion).map_err(anyhow::Error::msg)?;
         let focal_px = self.focal_px;
         ensure!(
             focal_px.is_none_or(|f| f.is_finite() && f >= 1.0),

@@ -24,7 +24,8 @@ use crate::progress::Progress;
 use crate::recipe::Recipe;
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
-use crate::{interrupt, library, message};
+use crate::watch::Watch;
+use crate::{library, message};
 pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, SiteSummary, variation_folder};
 use output::OutputFolder;
@@ -46,6 +47,8 @@ pub struct RunOptions {
     pub frames: Option<BTreeSet<String>>,
     /// The form in which frames are written.
     pub format: ExportFormat,
+    /// Whom the run tells how far it is, and who may end it.
+    pub watch: Watch,
 }
 
 /// What a run did.
@@ -115,7 +118,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         exporter: options.format.exporter(out).into(),
         writing: VecDeque::new(),
         format: options.format,
-        progress: Progress::new(planned),
+        progress: Progress::new(planned, &options.watch),
+        watch: &options.watch,
         report,
         frames,
         sites: Vec::new(),
@@ -180,6 +184,7 @@ struct Run<'a> {
     writing: VecDeque<Receiver<Written>>,
     format: ExportFormat,
     progress: Progress,
+    watch: &'a Watch,
     report: Report,
     frames: Option<&'a BTreeSet<String>>,
     sites: Vec<SiteSummary>,
@@ -391,7 +396,7 @@ impl Run<'_> {
         self.progress.say(&key.path());
         let within = |share: f32| {
             self.progress.within(share);
-            interrupt::requested()
+            self.watch.stops()
         };
         let started = Instant::now();
         let Photographed { scene, prepared } = photographed;
@@ -431,7 +436,7 @@ impl Run<'_> {
         let exporter = self.exporter.clone();
         threads.spawn(move |_| drop(done.send(write(&*exporter, job))));
         self.writing.push_back(waiting);
-        if interrupt::requested() { Err(Stop::Interrupted) } else { Ok(()) }
+        if self.watch.stops() { Err(Stop::Interrupted) } else { Ok(()) }
     }
 
     /// Writes down which frames are finished, and waits until no more than so many are not.
