@@ -1,5 +1,57 @@
-"""TRoVE: recordings of real roads turned into photorealistic virtual scenes with perfect labels."""
+"""TRoVE: recordings of real roads turned into photorealistic virtual scenes with perfect labels.
 
-from trove._trove import __version__
+Example:
 
-__all__ = ["__version__"]
+    import trove
+
+    trove.demo("demo-out")
+    for frame in trove.open("demo-out"):
+        print(frame.name, [(thing.class_, thing.range_m) for thing in frame.objects[:3]])
+
+docs/python.md describes every function. `trove.torch`, which needs PyTorch, is loaded when it is used.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from trove._trove import TroveError, __version__
+from trove.camera import Camera, look_at
+from trove.commands import curate, demo, evaluate, export, generate, recolor, verify
+from trove.frames import Frame, Frames, open
+from trove.objects import Object
+from trove.overlay import Overlay
+from trove.scene import Scene, build, render
+
+if TYPE_CHECKING:
+    from trove import torch
+
+__all__ = [
+    "Camera",
+    "Frame",
+    "Frames",
+    "Object",
+    "Overlay",
+    "Scene",
+    "TroveError",
+    "__version__",
+    "build",
+    "curate",
+    "demo",
+    "evaluate",
+    "export",
+    "generate",
+    "look_at",
+    "open",
+    "recolor",
+    "render",
+    "torch",
+    "verify",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # PyTorch takes seconds to load, and not everyone has it.
+    if name == "torch":
+        import importlib
+
+        return importlib.import_module("trove.torch")
+    raise AttributeError(f"module 'trove' has no attribute {name!r}")

@@ -4,6 +4,8 @@ import json
 from pathlib import Path
 from typing import Any, TypedDict
 
+from trove._trove import TroveError
+
 FORMAT = 2
 """Version of the format that this module reads."""
 
@@ -107,7 +109,7 @@ def read_manifest(root: Path) -> Manifest:
     found = manifest.get("format", "none")
     if found != FORMAT:
         remedy = "generate the folder again, or use that version of trove"
-        raise ValueError(f"{path}: expected format {FORMAT}, found {found}; {remedy}")
+        raise TroveError(f"{path}: expected format {FORMAT}, found {found}; {remedy}")
     return manifest
 
 
@@ -126,5 +128,7 @@ def read_curated(path: Path) -> dict[str, list[str]]:
 def _read(path: Path) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as fault:
+        raise TroveError(f"{path}: expected a file that can be read: {fault.strerror}") from fault
     except ValueError as fault:
-        raise ValueError(f"{path}: expected JSON that trove wrote, found an error ({fault})") from fault
+        raise TroveError(f"{path}: expected JSON that trove wrote, found an error ({fault})") from fault

@@ -1,20 +1,55 @@
 //! The Python module `trove._trove`: conversions only.
 
+mod arrays;
+mod attended;
+mod frames;
+mod scene;
+
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+pyo3::create_exception!(trove, TroveError, PyValueError, "What went wrong, in the words of the command line.");
+
+/// An error of ours as Python raises it.
+pub(crate) fn trove_error(error: impl ToString) -> PyErr {
+    TroveError::new_err(error.to_string())
+}
 
 /// Functions that `trove`, the Python package, is made of.
 #[pymodule]
 mod _trove {
     use super::*;
 
+    #[pymodule_export]
+    use super::TroveError;
+    #[pymodule_export]
+    use super::arrays::{encode_png, label_colors};
+    #[pymodule_export]
+    use super::frames::{PyStoredFrame, image_names};
+    #[pymodule_export]
+    use super::scene::PyReadyScene;
+
     /// Runs the command line `args` (the program's name first) and returns its exit status; `site_packages` are the
     /// folders to look for Embree and Open Image Denoise in.
     #[pyfunction]
     fn main(py: Python<'_>, args: Vec<OsString>, site_packages: Vec<PathBuf>) -> i32 {
         py.detach(|| trove::main(args, &site_packages))
+    }
+
+    /// Runs the command line `args` and returns what it prints with `--json`; `null` of a command that prints by itself.
+    /// `progress(done, total, doing)` is called on this thread.
+    #[pyfunction]
+    fn call(
+        py: Python<'_>,
+        args: Vec<OsString>,
+        site_packages: Vec<PathBuf>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
+        let run = move |watch: &_| trove::call(args, &site_packages, watch);
+        attended::attended(py, progress.as_ref(), run)?.map_err(trove_error)
     }
 
     /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `camvid`): a line a class, fields apart by tabs, the

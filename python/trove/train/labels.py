@@ -16,7 +16,8 @@ _MERGED = {"sign": "pole"}
 
 
 def _rows(label_set: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(label_table(label_set).splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE))
+    table = label_table(label_set) or ""
+    return list(csv.DictReader(table.splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE))
 
 
 def _counted(label_set: str) -> list[str]:

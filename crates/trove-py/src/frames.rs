@@ -1,0 +1,62 @@
+//! Finished frames, read back.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use trove::{FrameFile, StoredFrame};
+
+use crate::arrays::{channels, values};
+use crate::trove_error;
+
+/// A finished frame's folder; its images are read, without Python's lock, when they are asked for.
+#[pyclass(frozen, name = "StoredFrame")]
+pub(crate) struct PyStoredFrame(StoredFrame);
+
+#[pymethods]
+impl PyStoredFrame {
+    #[new]
+    fn new(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        py.detach(|| StoredFrame::open(&folder)).map(Self).map_err(trove_error)
+    }
+
+    /// `frame.json`, as text.
+    fn table(&self) -> PyResult<String> {
+        String::from_utf8(self.0.table.to_json()).map_err(trove_error)
+    }
+
+    /// The image of a name, such as `flow_forward`, as an array.
+    fn read<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let frame = &self.0;
+        match file_named(name)? {
+            FrameFile::Rgb => channels(py, py.detach(|| frame.rgb()).map_err(trove_error)?),
+            FrameFile::Radiance => channels(py, py.detach(|| frame.radiance()).map_err(trove_error)?),
+            FrameFile::Class => {
+                values(py, py.detach(|| frame.class().map(|c| c.map(|class| class.id()))).map_err(trove_error)?)
+            }
+            FrameFile::Instance => values(py, py.detach(|| frame.instance()).map_err(trove_error)?),
+            FrameFile::Depth => values(py, py.detach(|| frame.depth_m()).map_err(trove_error)?),
+            FrameFile::Normal => channels(py, py.detach(|| frame.normal()).map_err(trove_error)?),
+            FrameFile::FlowForward => channels(py, py.detach(|| frame.flow_forward()).map_err(trove_error)?),
+            FrameFile::FlowBackward => channels(py, py.detach(|| frame.flow_backward()).map_err(trove_error)?),
+            FrameFile::Change => values(py, py.detach(|| frame.change()).map_err(trove_error)?),
+        }
+    }
+}
+
+/// The names of the images that a frame may have.
+#[pyfunction]
+pub(crate) fn image_names() -> Vec<&'static str> {
+    FrameFile::ALL.map(stem).to_vec()
+}
+
+/// A file's name without its ending.
+fn stem(file: FrameFile) -> &'static str {
+    file.name().split('.').next().unwrap_or_default()
+}
+
+fn file_named(name: &str) -> PyResult<FrameFile> {
+    FrameFile::ALL
+        .into_iter()
+        .find(|file| stem(*file) == name)
+        .ok_or_else(|| trove_error(format!("expected one of {}, found {name:?}", image_names().join(", "))))
+}

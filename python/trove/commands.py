@@ -1,0 +1,171 @@
+"""The program's commands as functions.
+
+Each runs like its command, with the same defaults and messages, and returns what the command prints with `--json`.
+`progress(done, total, doing)` is called on the calling thread: `done` of `total` pictures are finished, counting the
+share of the one in work. What it raises, and Ctrl-C, end the command early; what is finished is kept. A second Ctrl-C
+does not wait. Other threads run meanwhile.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+from trove._trove import call
+from trove.packages import search
+
+if TYPE_CHECKING:
+    from trove.results import Curation, Evaluation, Findings, Recoloring, Summary
+
+Progress = Callable[[float, int, str], object]
+AnyPath = str | PathLike[str]
+
+
+def demo(
+    out: AnyPath = "demo-out", *, threads: int | None = None, kernel: str = "auto", progress: Progress | None = None
+) -> Summary:
+    """Runs the whole pipeline on a built-in drive; its recipe is then `OUT/.trove/demo/recipe.toml`."""
+    summary: Summary = _run("demo", [], progress, out=out, threads=threads, kernel=kernel)
+    return summary
+
+
+def generate(
+    recipe: AnyPath,
+    out: AnyPath,
+    progress: Progress | None = None,
+    *,
+    frames: AnyPath | None = None,
+    labels_only: bool = False,
+    threads: int | None = None,
+    kernel: str = "auto",
+) -> Summary:
+    """Generates the dataset of a recipe in `out`; finished frames are kept, so a second call resumes.
+
+    `frames` is a list of `curate`, which alone are rendered; `labels_only` leaves images out.
+    """
+    summary: Summary = _run(
+        "generate",
+        [recipe],
+        progress,
+        out=out,
+        frames=frames,
+        labels_only=labels_only,
+        threads=threads,
+        kernel=kernel,
+    )
+    return summary
+
+
+def verify(folder: AnyPath, *, progress: Progress | None = None) -> Findings:
+    """Checks every file of an output folder against its hash; nothing is changed."""
+    findings: Findings = _run("verify", [folder], progress)
+    return findings
+
+
+def curate(
+    folder: AnyPath,
+    *,
+    count: int = 5000,
+    classes: AnyPath = "trove20",
+    min_classes: int = 6,
+    duplicate_bits: int = 2,
+    val_share: float = 0.1,
+    seed: int = 7,
+    out: AnyPath | None = None,
+    page: AnyPath | None = None,
+    progress: Progress | None = None,
+) -> Curation:
+    """Selects the frames of `folder` most worth training on and writes their list, `out`, and a page about them."""
+    curation: Curation = _run(
+        "curate",
+        [folder],
+        progress,
+        count=count,
+        classes=classes,
+        min_classes=min_classes,
+        duplicate_bits=duplicate_bits,
+        val_share=val_share,
+        seed=seed,
+        out=out,
+        page=page,
+    )
+    return curation
+
+
+def recolor(
+    folder: AnyPath,
+    to: AnyPath,
+    *,
+    out: AnyPath | None = None,
+    method: str = "set",
+    space: str = "lab",
+    strength: float = 0.75,
+    to_labels: AnyPath | None = None,
+    to_classes: AnyPath = "trove20",
+    progress: Progress | None = None,
+) -> Recoloring:
+    """Matches the colours of the images below `folder` to those below `to` and writes them below `out`."""
+    recoloring: Recoloring = _run(
+        "recolor",
+        [folder],
+        progress,
+        to=to,
+        out=out,
+        method=method,
+        space=space,
+        strength=strength,
+        to_labels=to_labels,
+        to_classes=to_classes,
+    )
+    return recoloring
+
+
+def evaluate(
+    predicted: AnyPath,
+    truth: AnyPath,
+    *,
+    classes: AnyPath = "trove13",
+    boundary: bool = False,
+    panoptic: bool = False,
+    seed: int = 7,
+    progress: Progress | None = None,
+) -> Evaluation:
+    """Scores predicted labels, one PNG or a folder of them, against ground truth."""
+    evaluation: Evaluation = _run(
+        "evaluate",
+        [predicted, truth],
+        progress,
+        classes=classes,
+        boundary=boundary,
+        panoptic=panoptic,
+        seed=seed,
+    )
+    return evaluation
+
+
+def export(source: AnyPath, out: AnyPath, format: str, *, progress: Progress | None = None, **options: Any) -> None:
+    """Writes `source` in another form below `out` and prints what the command prints.
+
+    `options` are those of `trove export`, such as `scene=["scene-0103"], lidar=True`.
+    """
+    _run("export", [source], progress, as_json=False, out=out, format=format, **options)
+
+
+def _run(
+    command: str, arguments: list[AnyPath], progress: Progress | None, *, as_json: bool = True, **options: Any
+) -> Any:
+    """Runs a command; an option that is `None` or `False` is left out, a list is given once an item."""
+    args = ["trove", command]
+    if as_json:
+        args.append("--json")
+    for name, value in options.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            args.append(option)
+        elif value is not None and value is not False:
+            # A path's text is the path itself.
+            args += [f"{option}={item}" for item in (value if isinstance(value, list | tuple) else [value])]
+    args += ["--", *(fspath(path) for path in arguments)]
+    return json.loads(call(args, search(), progress))

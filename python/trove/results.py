@@ -1,0 +1,94 @@
+"""What commands answer: the JSON of their `--json`, typed."""
+
+from typing import Any, TypedDict
+
+
+class FrameTime(TypedDict):
+    """How long a frame took, seconds, without writing it."""
+
+    path: str
+    prepare_seconds: float
+    render_seconds: float
+
+
+class Summary(TypedDict):
+    """What a run did: `frames` that the recipe asks for, of which `rendered` are new."""
+
+    out: str
+    frames: int
+    rendered: int
+    timings: list[FrameTime]
+    interrupted: bool
+    seconds: float
+
+
+class Findings(TypedDict):
+    """What was read, and what is not as it was written; the lists are empty where all is well."""
+
+    frames: int
+    files: int
+    damaged: list[str]
+    unlisted: list[str]
+
+
+class Curation(TypedDict):
+    """How many frames were kept and why others were not, and where the list and its page lie."""
+
+    frames: int
+    kept: int
+    train: int
+    val: int
+    gap: int
+    too_few_classes: int
+    near_duplicates: int
+    shares_before: dict[str, float]
+    shares_after: dict[str, float]
+    list: str
+    page: str
+
+
+class ColorStatistics(TypedDict):
+    """Mean and standard deviation of the three channels."""
+
+    mean: list[float]
+    deviation: list[float]
+
+
+class Recoloring(TypedDict):
+    """How many pictures there are now, of which `kept` were there before, and how colours changed."""
+
+    out: str
+    pictures: int
+    kept: int
+    before: ColorStatistics
+    target: ColorStatistics
+    after: ColorStatistics
+    page: str
+
+
+class _Scores(TypedDict):
+    pictures: int
+    unused_predictions: int
+    classes: str
+    miou: float | None
+    miou_interval95: list[float] | None
+    accuracy: float | None
+    accuracy_interval95: list[float] | None
+    iou: dict[str, float]
+    iou_interval95: dict[str, list[float]]
+    confusion: dict[str, Any]
+
+
+class Evaluation(_Scores, total=False):
+    """Scores as shares of 1, with 95 % intervals over images; docs/judge.md has every field.
+
+    What is below is there where it was asked for.
+    """
+
+    boundary_miou: float | None
+    boundary_miou_interval95: list[float] | None
+    boundary_iou: dict[str, float]
+    boundary_iou_interval95: dict[str, list[float]]
+    pq: float | None
+    pq_interval95: list[float] | None
+    panoptic: dict[str, Any]
