@@ -9,35 +9,42 @@ use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
 use trove_model::{InstanceId, Labels};
 
 use crate::files::FolderInTheMaking;
-use crate::{Exporter, Frame, WriteError, contact_sheet, exr_file, png_file, write_atomically};
+use crate::{Frame, WriteError, contact_sheet, exr_file, png_file, write_atomically};
 
 const CONTACT_SHEET: &str = "contact_sheet.png";
 
-/// Writes frames as docs/output.md tells.
-pub(crate) struct FrameFolders {
+/// Writes the frames of a run as docs/output.md tells; several threads may write frames at once, in any order.
+pub struct FrameFolders {
     root: OutputRoot,
 }
 
 impl FrameFolders {
+    /// The folder below the output folder that holds the datasets of `output.formats`.
+    pub const EXPORTS: &str = "exports";
+
+    /// Names below the output folder that no scene can have, because what sums the run up has them.
+    pub const RESERVED: [&str; 4] = [CONTACT_SHEET, RunReport::NAME, Manifest::NAME, Self::EXPORTS];
+
     /// Writes below `root`.
-    pub(crate) fn new(root: &Path) -> Self {
+    pub fn new(root: &Path) -> Self {
         Self { root: OutputRoot::new(root) }
     }
-}
 
-/// Names of the files that lie beside the folders of scenes.
-pub(crate) const SUMMARIES: [&str; 3] = [CONTACT_SHEET, RunReport::NAME, Manifest::NAME];
+    /// Names of the files in a finished frame's folder that holds these pictures.
+    pub fn files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
+        pictures.iter().map(|file| file.name()).chain([FrameTable::NAME]).collect()
+    }
 
-/// Names of the files in a finished frame's folder that holds these pictures.
-pub(crate) fn frame_files(pictures: &BTreeSet<FrameFile>) -> Vec<&'static str> {
-    pictures.iter().map(|file| file.name()).chain([FrameTable::NAME]).collect()
-}
-
-impl Exporter for FrameFolders {
+    /// Writes a frame and says which files it has now. `pictures` are those that are wanted; a frame without light has none
+    /// that show it, and one that was compared with none shows no change.
+    ///
     /// Writes the folder under a hidden name beside it first, then renames it, so that it is never there in part. What an
     /// interrupted run left under the hidden name, and a folder without all its files, is replaced; a finished frame is
     /// not.
-    fn frame(&self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
+    ///
+    /// # Errors
+    /// A file system that refuses, or a frame that is there already or does not fit the form.
+    pub fn frame(&self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
         let dir = self.root.at(&frame.path)?;
         narrowed(&frame.labels)?;
         let there = |file: &FrameFile| match file {
@@ -45,7 +52,7 @@ impl Exporter for FrameFolders {
             _ => frame.color.is_some() || !file.shows_light(),
         };
         let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
-        let replaces = lies_unfinished(&dir, &frame_files(&pictures))?;
+        let replaces = lies_unfinished(&dir, &Self::files(&pictures))?;
 
         let mut folder = FolderInTheMaking::start(&dir)?;
         for file in pictures {
@@ -58,7 +65,11 @@ impl Exporter for FrameFolders {
         folder.finish()
     }
 
-    fn finish(&self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
+    /// Writes what sums all frames up, those of earlier runs too.
+    ///
+    /// # Errors
+    /// A file system that refuses, or a finished frame that cannot be read back.
+    pub fn finish(&self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
         let frame = |row: &trove_format::FrameRow| -> Result<_, WriteError> {
             Ok(contact_sheet::Frame { name: row.path.clone(), dir: self.root.at(&row.path)? })
         };

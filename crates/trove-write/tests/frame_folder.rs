@@ -12,7 +12,7 @@ use trove_model::{
     Lens, Light, MapProjection, Mesh, ObjectLabel, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject,
     Seed, Shot,
 };
-use trove_write::{ExportFormat, Frame, FrameMeta, WriteError, sha256_file, write_atomically};
+use trove_write::{Frame, FrameFolders, FrameMeta, WriteError, sha256_file, write_atomically};
 
 const W: u32 = 48;
 const H: u32 = 20;
@@ -123,7 +123,7 @@ fn write(dir: &Path, capture: &Capture) -> Result<Vec<WrittenFile>, WriteError> 
 fn write_only(dir: &Path, capture: &Capture, wanted: &[FrameFile]) -> Result<Vec<WrittenFile>, WriteError> {
     let name = dir.file_name().unwrap().to_string_lossy().into_owned();
     let frame = Frame::of(name, &scene(), &shot(), capture.clone(), &meta())?;
-    ExportFormat::Trove.exporter(dir.parent().unwrap()).frame(&frame, &wanted.iter().copied().collect())
+    FrameFolders::new(dir.parent().unwrap()).frame(&frame, &wanted.iter().copied().collect())
 }
 
 fn names(dir: &Path) -> Vec<String> {

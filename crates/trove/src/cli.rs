@@ -8,7 +8,6 @@ use anyhow::Result;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
 use trove_render::KernelChoice;
-use trove_write::ExportFormat;
 
 use crate::answer::Answer;
 use crate::assets::{self, AssetsCommand};
@@ -168,13 +167,7 @@ impl Machine {
             Kernel::Embree => KernelChoice::Embree,
             Kernel::Obvhs => KernelChoice::Obvhs,
         };
-        RunOptions {
-            kernel,
-            search: libraries::search(site_packages),
-            frames: None,
-            format: ExportFormat::default(),
-            watch: watch.clone(),
-        }
+        RunOptions { kernel, search: libraries::search(site_packages), frames: None, watch: watch.clone() }
     }
 }
 

@@ -20,6 +20,7 @@ use trove_read::drive_source::Opener;
 use trove_read::osm::GeoJsonFrame;
 use trove_read::rig;
 use trove_render::Denoising;
+use trove_write::DatasetFormat;
 
 use self::check::check;
 pub use camera::CameraSection;
@@ -364,6 +365,9 @@ pub enum Quickly {
 pub struct OutputSection {
     /// The pictures in a frame's folder; `None`: all but the radiance, which `render.radiance` adds.
     pub files: Option<BTreeSet<FrameFile>>,
+    /// Datasets for other tools that the finished run is exported as, by the names of their forms.
+    #[serde(default)]
+    pub formats: Vec<String>,
 }
 
 impl Default for AssetsSection {
@@ -493,6 +497,15 @@ impl Recipe {
             render.light || !render.radiance,
             "render.radiance: without light there is no radiance; remove it or render.light = false"
         );
+        for name in &self.output.formats {
+            let known: Vec<&str> = DatasetFormat::all().map(DatasetFormat::name).collect();
+            ensure!(
+                known.contains(&name.as_str()),
+                "output.formats: expected some of {}, found {name}{}",
+                known.join(", "),
+                nearest(name, &known)
+            );
+        }
         let files = self.output.files.iter().flatten();
         ensure!(
             render.light || files.clone().all(|file| !file.shows_light()),
@@ -743,6 +756,7 @@ mod tests {
             ("[render]\nlight = false\nradiance = true\n", "render.radiance"),
             ("[render]\nlight = false\n[output]\nfiles = [\"rgb\"]\n", "output.files"),
             ("[output]\nfiles = [\"rbg\"]\n", "rbg"),
+            ("[output]\nformats = [\"citiscapes\"]\n", "did you mean `cityscapes`?"),
             ("[weather]\nwetness = 1.5\n", "weather.wetness: expected 0 to 1, found 1.5"),
         ] {
             let message = error(&format!("{DRIVE}{text}"));

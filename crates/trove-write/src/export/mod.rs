@@ -18,7 +18,6 @@ mod kitti_dense;
 mod kitti_step;
 mod label_pictures;
 mod labels;
-mod lists;
 mod masks;
 mod nuscenes;
 mod plan;

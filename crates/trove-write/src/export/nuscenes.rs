@@ -11,8 +11,8 @@ use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, quaternion_wxyz};
 use super::kinds;
 use super::kitti::note_distortion;
-use super::lists::write_list;
 use super::plan::{Plan, PlannedFrame};
+use super::tables::write_list;
 use super::unit::Unit;
 use crate::{WriteError, files, png_file};
 

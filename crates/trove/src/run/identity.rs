@@ -16,8 +16,14 @@ use crate::recipe::Recipe;
 use crate::sources::Sources;
 
 /// Keys of the recipe that say how many frames and files there are, not what is in them: a run may go on with others.
-const EXTENT: [[&str; 2]; 5] =
-    [["drive", "scenes"], ["drive", "keyframes"], ["variations", "count"], ["views", "rig"], ["output", "files"]];
+const EXTENT: [[&str; 2]; 6] = [
+    ["drive", "scenes"],
+    ["drive", "keyframes"],
+    ["variations", "count"],
+    ["views", "rig"],
+    ["output", "files"],
+    ["output", "formats"],
+];
 /// Those among them that decide which frames a scene has.
 const PLANNED: [[&str; 2]; 2] = [["drive", "keyframes"], ["views", "rig"]];
 /// Differences that are told of.

@@ -1,5 +1,6 @@
 //! `trove generate`: from a recipe to a folder of labelled pictures, and on from where an earlier run ended.
 
+mod exports;
 mod identity;
 mod inputs;
 mod manifest;
@@ -17,7 +18,7 @@ use rayon::Scope;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
 use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
-use trove_write::{ExportFormat, Exporter, Frame, FrameMeta, WriteError};
+use trove_write::{Frame, FrameFolders, FrameMeta, WriteError};
 
 use crate::contents::Contents;
 use crate::progress::Progress;
@@ -45,8 +46,6 @@ pub struct RunOptions {
     pub search: Vec<PathBuf>,
     /// Paths of the only frames to render (`scene-0103/v00/k005/ego.CAM_FRONT`); `None`: all that the recipe asks for.
     pub frames: Option<BTreeSet<String>>,
-    /// The form in which frames are written.
-    pub format: ExportFormat,
     /// Whom the run tells how far it is, and who may end it.
     pub watch: Watch,
 }
@@ -93,7 +92,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let sources = Sources::open(recipe, &report)?;
     let mut scenes = sources.scenes()?;
     scenes.retain(|(scene, _)| {
-        let possible = !options.format.reserved_names().contains(&scene.as_str());
+        let possible = !FrameFolders::RESERVED.contains(&scene.as_str());
         if !possible {
             report.note(Outcome::Dropped, "scene with the name of a file of the output folder", scene);
         }
@@ -115,9 +114,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         contents,
         planned: keyframes_and_cameras,
         output,
-        exporter: options.format.exporter(out).into(),
+        folders: Arc::new(FrameFolders::new(out)),
         writing: VecDeque::new(),
-        format: options.format,
         progress: Progress::new(planned, &options.watch),
         watch: &options.watch,
         report,
@@ -139,7 +137,9 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
             };
         }
     }
-    run.finish(identity)
+    let summary = run.finish(identity)?;
+    let interrupted = !exports::write(recipe, out, &options.watch)?;
+    Ok(Summary { interrupted, ..summary })
 }
 
 /// Frames of each variation of a scene with so many keyframes, before its drive has been read.
@@ -179,10 +179,9 @@ struct Run<'a> {
     /// Which keyframes and cameras the recipe asks for.
     planned: serde_json::Value,
     output: OutputFolder,
-    exporter: Arc<dyn Exporter>,
+    folders: Arc<FrameFolders>,
     /// Frames that are encoded and written while the next ones are rendered, in the order of rendering.
     writing: VecDeque<Receiver<Written>>,
-    format: ExportFormat,
     progress: Progress,
     watch: &'a Watch,
     report: Report,
@@ -205,9 +204,9 @@ struct Job {
 /// A frame's path and files.
 type Written = Result<(String, Vec<WrittenFile>), WriteError>;
 
-fn write(exporter: &dyn Exporter, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
+fn write(folders: &FrameFolders, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
     let frame = Frame::of(path, &scene, &shot, capture, &meta)?;
-    let files = exporter.frame(&frame, &pictures)?;
+    let files = folders.frame(&frame, &pictures)?;
     Ok((frame.path, files))
 }
 
@@ -296,7 +295,7 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), &self.format.files(&self.recipe.pictures(key.variation)))
+        self.output.finished(&key.path(), &FrameFolders::files(&self.recipe.pictures(key.variation)))
     }
 
     fn build<'r>(&mut self, read: &'r Read<'_>, variation: u32) -> Result<(SiteFile, Built<'r>)> {
@@ -433,8 +432,8 @@ impl Run<'_> {
     fn write(&mut self, threads: &Scope<'_>, job: Job) -> Result<(), Stop> {
         self.record(WRITING - 1)?;
         let (done, waiting) = mpsc::channel();
-        let exporter = self.exporter.clone();
-        threads.spawn(move |_| drop(done.send(write(&*exporter, job))));
+        let folders = self.folders.clone();
+        threads.spawn(move |_| drop(done.send(write(&folders, job))));
         self.writing.push_back(waiting);
         if self.watch.stops() { Err(Stop::Interrupted) } else { Ok(()) }
     }
@@ -500,7 +499,7 @@ impl Run<'_> {
         let frames = rows.len();
         let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
         let report = manifest::report(&self.report, &self.sites);
-        self.exporter.finish(&manifest, &report)?;
+        self.folders.finish(&manifest, &report)?;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false })
     }
 
