@@ -257,8 +257,18 @@ def test_every_option_of_a_command_is_one_of_its_function():
 
 def test_export_writes_drives_in_the_plain_form(recipe, tmp_path):
     root = recipe.parent / "demo" / ".trove" / "demo" / "nuscenes"
-    library.export(root, tmp_path / "plain", "trove", scene=["demo-0001"])
-    assert (tmp_path / "plain" / "demo-0001").is_dir()
+    done = library.export_drives(root, tmp_path / "plain", scenes=["demo-0001"])
+    assert done["drives"] == ["demo-0001"] and (tmp_path / "plain" / "demo-0001").is_dir()
+
+
+def test_export_says_what_it_wrote(finished, tmp_path):
+    told = []
+    done = library.export(finished, tmp_path / "coco", "coco", progress=lambda *step: told.append(step[:2]))
+    count = len(library.open(finished))
+    assert done["frames"] == {"train": count} and done["classes"] == "coco" and done["licences"]
+    assert told[-1] == (count, count) and (tmp_path / "coco/annotations/instances_train.json").is_file()
+    with pytest.raises(library.TroveError, match="did you mean `coco`"):
+        library.export(finished, tmp_path / "other", "cocoo")
 
 
 def test_a_built_scene_gives_the_pictures_of_the_run(scene, finished):

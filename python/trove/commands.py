@@ -9,7 +9,7 @@ does not wait. Other threads run meanwhile.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,7 @@ from trove._trove import call
 from trove.packages import search
 
 if TYPE_CHECKING:
-    from trove.results import Curation, Evaluation, Findings, Recoloring, Summary
+    from trove.results import Curation, Evaluation, Exported, ExportedDrives, Findings, Recoloring, Summary
 
 Progress = Callable[[float, int, str], object]
 AnyPath = str | PathLike[str]
@@ -126,18 +126,25 @@ def evaluate(
     predicted: AnyPath,
     truth: AnyPath,
     *,
-    classes: AnyPath = "trove13",
+    classes: AnyPath | None = None,
+    predicted_classes: AnyPath | None = None,
+    truth_classes: AnyPath | None = None,
     boundary: bool = False,
     panoptic: bool = False,
     seed: int = 7,
     progress: Progress | None = None,
 ) -> Evaluation:
-    """Scores predicted labels, one PNG or a folder of them, against ground truth."""
+    """Scores predicted labels, one PNG or a folder of them, against ground truth.
+
+    Without `classes`, and those of either side, class maps are found out from the files; the answer names them.
+    """
     evaluation: Evaluation = _run(
         "evaluate",
         [predicted, truth],
         progress,
         classes=classes,
+        predicted_classes=predicted_classes,
+        truth_classes=truth_classes,
         boundary=boundary,
         panoptic=panoptic,
         seed=seed,
@@ -145,21 +152,39 @@ def evaluate(
     return evaluation
 
 
-def export(source: AnyPath, out: AnyPath, format: str, *, progress: Progress | None = None, **options: Any) -> None:
-    """Writes `source` in another form below `out` and prints what the command prints.
+def export(
+    source: AnyPath,
+    out: AnyPath,
+    format: str,
+    *,
+    split: AnyPath | None = None,
+    classes: AnyPath | None = None,
+    progress: Progress | None = None,
+) -> Exported:
+    """Writes the finished frames in `source` for other tools, in the splits of a list of `curate`; goes on where it ended."""
+    exported: Exported = _run("export", [source], progress, out=out, format=format, split=split, classes=classes)
+    return exported
 
-    `options` are those of `trove export`, such as `scene=["scene-0103"], lidar=True`.
-    """
-    _run("export", [source], progress, as_json=False, out=out, format=format, **options)
+
+def export_drives(
+    source: AnyPath,
+    out: AnyPath,
+    *,
+    scenes: Sequence[str] = (),
+    lidar: bool = False,
+    pictures: bool = False,
+    progress: Progress | None = None,
+) -> ExportedDrives:
+    """Writes the drives of the dataset at `source` in the plain form, all or those of some names."""
+    exported: ExportedDrives = _run(
+        "export", [source], progress, out=out, format="trove", scene=list(scenes), lidar=lidar, pictures=pictures
+    )
+    return exported
 
 
-def _run(
-    command: str, arguments: list[AnyPath], progress: Progress | None, *, as_json: bool = True, **options: Any
-) -> Any:
+def _run(command: str, arguments: list[AnyPath], progress: Progress | None, **options: Any) -> Any:
     """Runs a command; an option that is `None` or `False` is left out, a list is given once an item."""
-    args = ["trove", command]
-    if as_json:
-        args.append("--json")
+    args = ["trove", command, "--json"]
     for name, value in options.items():
         option = f"--{name.replace('_', '-')}"
         if value is True:

@@ -66,10 +66,19 @@ class Recoloring(TypedDict):
     page: str
 
 
+class Numbering(TypedDict):
+    """The class map of a side's pictures, and how it is known."""
+
+    classes: str
+    known_by: str
+
+
 class _Scores(TypedDict):
     pictures: int
     unused_predictions: int
     classes: str
+    predicted: Numbering
+    truth: Numbering
     miou: float | None
     miou_interval95: list[float] | None
     accuracy: float | None
@@ -92,3 +101,30 @@ class Evaluation(_Scores, total=False):
     pq: float | None
     pq_interval95: list[float] | None
     panoptic: dict[str, Any]
+
+
+class Licence(TypedDict):
+    """Where something came from, and its licence."""
+
+    source: str
+    licence: str
+
+
+class Exported(TypedDict):
+    """A dataset: frames by split, values that its form cannot hold by what happened to them, and every source."""
+
+    format: str
+    classes: str | None
+    trove: str
+    frames: dict[str, int]
+    clipped: dict[str, int]
+    licences: list[Licence]
+
+
+class ExportedDrives(TypedDict):
+    """Drives in the plain form: their names, label pictures written, and what was dropped or guessed."""
+
+    out: str
+    drives: list[str]
+    labels: int
+    report: list[dict[str, Any]]
