@@ -68,7 +68,9 @@ impl Panoptic {
             if class(t) != class(p) || crowd(t) {
                 continue;
             }
-            let union = of_predicted[&p] + of_truth[&t] - both - overlap(None, p);
+            // A segment that has a match overlaps no other by so much.
+            let (Some(predicted), Some(truth)) = (of_predicted.get(&p), of_truth.get(&t)) else { continue };
+            let union = predicted + truth - both - overlap(None, p);
             if 2 * both > union {
                 found.classes[class(t)].iou += both as f64 / union as f64;
                 found.classes[class(t)].matched += 1;
@@ -134,6 +136,14 @@ mod tests {
         assert_eq!(quality(&predicted, &truth, 8), Some([0.75 * 0.5, 0.75, 0.5]));
         assert_eq!(quality(&predicted, &truth, 0), Some([0.6, 0.6, 1.0]));
         assert_eq!(quality(&predicted, &truth, 3), None);
+    }
+
+    #[test]
+    fn a_segment_that_covers_two_matches_one_of_them() {
+        // A prediction of both cars, and one car that is predicted as two.
+        let [first, second] = [1, 2].map(|object| segment(8, object));
+        assert_eq!(quality(&[first; 4], &[first, first, first, second], 8), Some([0.75 / 1.5, 0.75, 1.0 / 1.5]));
+        assert_eq!(quality(&[first, first, first, second], &[first; 4], 8), Some([0.75 / 1.5, 0.75, 1.0 / 1.5]));
     }
 
     #[test]
