@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use serde::Deserialize;
 use serde_json::value::RawValue;
 use trove_format::{PlainBox, PlainCamera, PlainDrive, PlainKeyframe, PlainPicture};
 
@@ -53,9 +54,8 @@ pub(super) fn read<'a>(text: &'a str, is_lines: bool, faults: &mut Faults<'a>) -
     }
     let mut read_cameras = BTreeMap::new();
     for (name, text) in cameras {
-        let part = Part { text: text.get(), path: format!("cameras.{name}") };
-        if let Some(value) = faults.read(&part) {
-            read_cameras.insert(name, Located { part, value });
+        if let Some(camera) = located(text, format!("cameras.{name}"), faults) {
+            read_cameras.insert(name, camera);
         }
     }
     let texts: Vec<&str> = if is_lines { lines.collect() } else { keyframes.iter().map(|text| text.get()).collect() };
@@ -84,21 +84,27 @@ fn moment<'a>(text: &'a str, path: String, faults: &mut Faults<'a>) -> Option<Lo
     let part = Part { text, path };
     let moment: PlainKeyframe<&RawValue, &RawValue> = faults.read(&part)?;
     let PlainKeyframe { time_ns, token, world_from_ego, geo_from_ego, boxes, pictures, lidar } = moment;
-    let boxes = boxes.into_iter().enumerate().filter_map(|(i, text)| {
-        let part = Part { text: text.get(), path: format!("{}.boxes[{i}]", part.path) };
-        let value = faults.read(&part)?;
-        Some(Located { part, value })
-    });
-    let boxes = boxes.collect();
+    let boxes = boxes.into_iter().enumerate();
+    let boxes = boxes.filter_map(|(i, text)| located(text, format!("{}.boxes[{i}]", part.path), faults)).collect();
     let pictures = pictures.map(|pictures| {
         let read = |(name, text): (String, &'a RawValue)| {
-            let part = Part { text: text.get(), path: format!("{}.pictures.{name}", part.path) };
-            let value = faults.read(&part)?;
-            Some((name, Located { part, value }))
+            let picture = located(text, format!("{}.pictures.{name}", part.path), faults)?;
+            Some((name, picture))
         };
         pictures.into_iter().filter_map(read).collect()
     });
     let value = PlainKeyframe { time_ns, token, world_from_ego, geo_from_ego, boxes, pictures, lidar };
+    Some(Located { part, value })
+}
+
+/// A part of a text that is read by itself; `None` where it cannot be.
+fn located<'a, T: Deserialize<'a>>(
+    text: &'a RawValue,
+    path: String,
+    faults: &mut Faults<'a>,
+) -> Option<Located<'a, T>> {
+    let part = Part { text: text.get(), path };
+    let value = faults.read(&part)?;
     Some(Located { part, value })
 }
 
