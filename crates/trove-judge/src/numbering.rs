@@ -6,7 +6,7 @@ use std::path::Path;
 use image::DynamicImage;
 use png::{BitDepth, ColorType};
 use trove_format::FrameTable;
-use trove_model::{Class, ClassMap, InstanceCoding};
+use trove_model::{Class, ClassMap, InstanceCoding, Kind};
 
 use crate::JudgeError;
 use crate::pictures::{BY_ID, BY_TRAIN_ID, Labels, OURS, color_type, name, read, read_labels};
@@ -115,7 +115,9 @@ fn read_coded(path: &Path, map: &ClassMap) -> Result<(Labels, Option<Vec<u16>>),
 /// `None` where none is, or where there is no `instance.png`.
 fn finer(path: &Path, labels: &Labels, wanted: &ClassMap) -> Result<Option<Vec<(usize, u8)>>, JudgeError> {
     let (Some(folder), instances) = (path.parent(), path.with_file_name(INSTANCES)) else { return Ok(None) };
-    if !(folder.join(FrameTable::NAME).is_file() && instances.is_file()) {
+    let says_more = |kind: &Kind| Class::ALL.iter().any(|class| wanted.object_id(*class, *kind) != wanted.id(*class));
+    let is_there = || folder.join(FrameTable::NAME).is_file() && instances.is_file();
+    if !(Kind::ALL.iter().any(says_more) && is_there()) {
         return Ok(None);
     }
     let table = FrameTable::read(folder)?;

@@ -118,7 +118,9 @@ enum Command {
     #[command(after_help = "Example:\n  trove recolor out/boston --to camvid/images/train --out out/boston-recolored")]
     Recolor(Recolor),
     /// Score predicted labels against ground truth: IoU, accuracy, boundary IoU, panoptic quality, with intervals.
-    #[command(after_help = "Example:\n  trove evaluate predictions labels --classes cityscapes --boundary --json")]
+    #[command(
+        after_help = "Examples:\n  trove evaluate predictions out\n  trove evaluate predictions labels --classes cityscapes --boundary --json"
+    )]
     Evaluate(Evaluate),
     /// Generate a dataset. Rerun to resume; finished frames are kept.
     #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
