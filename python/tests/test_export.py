@@ -384,3 +384,27 @@ def test_a_film_shows_the_frames(finished, tmp_path, monkeypatch):
     monkeypatch.setenv("TROVE_FFMPEG", "no-such-program")
     done = trove("export", finished, "--format", "video", "--out", tmp_path / "none")
     assert done.returncode == 1 and "install ffmpeg" in done.stderr
+
+
+def test_disparity_leads_to_the_same_thing_in_the_right_eye(recipe, tmp_path):
+    pair = recipe.parent / "pair.toml"
+    text = recipe.read_text().replace('rig = ["CAM_FRONT", "CAM_BACK"]\nother_vehicles = 1', 'rig = "stereo"')
+    pair.write_text(text.replace("keyframes = [1, 2]", "keyframes = [1]"))
+    done = trove("generate", pair, "--out", tmp_path / "run")
+    assert done.returncode == 0, done.stderr
+    out, _ = exported(tmp_path / "run", tmp_path / "out", "cityscapes")
+    (path,) = out.glob("disparity/train/*/*_disparity.png")
+    steps = picture(path).astype(float)
+    camera = json.loads(next((out / "camera").rglob(path.name.replace("disparity.png", "camera.json"))).read_text())
+    eyes = sorted((table["world_from_camera_translation_m"], folder) for folder, table in frames(tmp_path / "run").values())
+    assert camera["extrinsic"]["baseline"] == pytest.approx(np.linalg.norm(np.subtract(eyes[0][0], eyes[1][0])), abs=1e-6)
+    name = path.name.replace("disparity.png", "rightImg8bit.png")
+    right = picture(next((out / "rightImg8bit").rglob(name)))
+    left = picture(next((out / "leftImg8bit").rglob(name.replace("right", "left"))))
+    folders = {tuple(picture(folder / "rgb.png").ravel()[:999]): folder for _, folder in eyes}
+    ids = [picture(folders[tuple(eye.ravel()[:999])] / "class.png") for eye in (left, right)]
+    rows, columns = np.nonzero(steps)
+    moved = np.round(columns - (steps[rows, columns] - 1) / 256).astype(int)
+    seen = moved >= 0
+    same = ids[0][rows, columns][seen] == ids[1][rows[seen], moved[seen]]
+    assert (steps > 0).mean() > 0.3 and same.mean() > 0.95

@@ -10,9 +10,10 @@ use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, camera_from_body};
 use super::labels::{Extent, MappedLabels, Segment};
 use super::plan::{Plan, PlannedFrame};
+use super::stereo::{RightEye, right_eye};
 use super::tables::write_tables;
 use super::unit::Unit;
-use crate::{WriteError, png_file};
+use crate::{StoredFrame, WriteError, png_file};
 
 /// `leftImg8bit`, `gtFine`, `gtBbox3d`, `camera` and `timestamp`.
 pub(super) struct Cityscapes {
@@ -28,7 +29,8 @@ const IGNORED: u8 = 255;
 
 impl Dataset for Cityscapes {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
-        for planned in frames.iter().map(|i| &plan.frames[*i]) {
+        for &number in frames {
+            let planned = &plan.frames[number];
             let frame = plan.open(planned)?;
             let labels = MappedLabels::read(&frame, &self.map)?;
             let name = Name::of(planned, &frame.table);
@@ -64,8 +66,13 @@ impl Dataset for Cityscapes {
             unit.write(&name.path("gtFine", "gtFine_polygons.json"), &text(&polygons))?;
             self.panoptic(&name, &instances, unit)?;
 
-            unit.write(&name.path("camera", "camera.json"), &text(&camera(&frame.table)))?;
-            let boxes = self.boxes(&frame.table, &numbers);
+            let eye = right_eye(plan, number, &frame.table)?;
+            let baseline_m = eye.as_ref().map_or(0.0, |eye| eye.baseline_m);
+            if let Some(eye) = &eye {
+                disparity(&name, &frame, eye, unit)?;
+            }
+            unit.write(&name.path("camera", "camera.json"), &text(&camera(&frame.table, baseline_m)))?;
+            let boxes = self.boxes(&frame.table, baseline_m, &numbers);
             unit.write(&name.path("gtBbox3d", "gtBbox3d.json"), &text(&boxes))?;
             unit.write(&name.path("timestamp", "timestamp.txt"), frame.table.time_ns.to_string().as_bytes())?;
         }
@@ -229,7 +236,7 @@ impl Cityscapes {
     }
 
     /// 3D boxes of what is countable and seen, in ISO 8855's axes at the camera (x forward, y left, z up).
-    fn boxes(&self, table: &FrameTable, numbers: &Numbers) -> Value {
+    fn boxes(&self, table: &FrameTable, baseline_m: f64, numbers: &Numbers) -> Value {
         let iso = camera_from_iso().inverse();
         let object = |object: &ObjectRow| {
             let number = numbers.of_object(object.id)?;
@@ -260,7 +267,7 @@ impl Cityscapes {
             "imgHeight": table.height_px,
             "sensor": {
                 "sensor_T_ISO_8855": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
-                "fx": k[0][0], "fy": k[1][1], "u0": k[0][2], "v0": k[1][2], "baseline": 0,
+                "fx": k[0][0], "fy": k[1][1], "u0": k[0][2], "v0": k[1][2], "baseline": baseline_m,
             },
             "objects": objects,
             "ignore": [],
@@ -268,8 +275,26 @@ impl Cityscapes {
     }
 }
 
+/// The right picture, and how far the left one's pixels are from where they are in it: 256 steps a pixel, from 1; 0 for
+/// the sky.
+fn disparity(name: &Name, left: &StoredFrame, eye: &RightEye, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+    unit.link(&name.path("rightImg8bit", "rightImg8bit.png"), &eye.picture())?;
+    let mut beyond = 0;
+    let step = |px: &f64| match (px * 256.0).round() + 1.0 {
+        step if *px > 0.0 && step <= 65535.0 => step as u16,
+        step => {
+            beyond += u64::from(step > 65535.0);
+            0
+        }
+    };
+    let steps = eye.disparity_px(left)?.map(step);
+    unit.clip("pixels whose disparity is beyond 255.99 pixels, which are invalid", beyond);
+    let png = png_file::grey16("disparity.png", steps.width, steps.height, &steps.data)?;
+    unit.write(&name.path("disparity", "disparity.png"), &png)
+}
+
 /// Intrinsics, and the camera's place on the vehicle where one carries it.
-fn camera(table: &FrameTable) -> Value {
+fn camera(table: &FrameTable, baseline_m: f64) -> Value {
     let k = &table.intrinsics;
     let ego_from_iso = match &table.world_from_ego {
         Some(world_from_ego) => affine(world_from_ego).inverse() * affine(&table.world_from_camera) * camera_from_iso(),
@@ -279,7 +304,7 @@ fn camera(table: &FrameTable) -> Value {
     let (yaw, pitch, roll) = rotation.to_euler(EulerRot::ZYX);
     json!({
         "extrinsic": {
-            "baseline": 0, "pitch": pitch, "roll": roll, "x": place.x, "y": place.y, "yaw": yaw, "z": place.z,
+            "baseline": baseline_m, "pitch": pitch, "roll": roll, "x": place.x, "y": place.y, "yaw": yaw, "z": place.z,
         },
         "intrinsic": { "fx": k[0][0], "fy": k[1][1], "u0": k[0][2], "v0": k[1][2] },
     })

@@ -21,6 +21,7 @@ mod labels;
 mod masks;
 mod nuscenes;
 mod plan;
+mod stereo;
 mod tables;
 mod unit;
 mod video;

@@ -1,6 +1,7 @@
 //! Which frames go into a dataset, on which side, under which numbers.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -20,6 +21,8 @@ pub(crate) struct Plan {
     pub splits: Vec<String>,
     /// The frames.
     pub frames: Vec<PlannedFrame>,
+    /// Places in `frames` by what [`moment`] makes of them.
+    moments: HashMap<u64, Vec<usize>>,
 }
 
 /// A frame and its numbers.
@@ -88,7 +91,8 @@ impl Plan {
             let remedy = "give the list that trove curate wrote for this folder";
             return Err(unfit("every frame of the split's list", format!("no {path}"), remedy));
         }
-        let mut plan = Self { source: source.to_owned(), splits: Vec::new(), frames: Vec::new() };
+        let mut plan =
+            Self { source: source.to_owned(), splits: Vec::new(), frames: Vec::new(), moments: HashMap::new() };
         for (sequence, ((split, ..), mut members)) in (0..).zip(rows) {
             if plan.splits.last() != Some(&split) {
                 plan.splits.push(split.clone());
@@ -115,6 +119,9 @@ impl Plan {
             return Err(unfit("at least one frame", "none".into(), "run trove generate on it"));
         }
         plan.check_moments()?;
+        for (i, frame) in plan.frames.iter().enumerate() {
+            plan.moments.entry(moment(frame)).or_default().push(i);
+        }
         Ok((plan, manifest))
     }
 
@@ -124,6 +131,16 @@ impl Plan {
     /// A table that cannot be read.
     pub(crate) fn open(&self, frame: &PlannedFrame) -> Result<StoredFrame, WriteError> {
         StoredFrame::open(&self.source.join(&frame.path))
+    }
+
+    /// Other frames of a frame's moment, variation and split.
+    pub(crate) fn same_moment(&self, frame: usize) -> impl Iterator<Item = usize> + '_ {
+        let of = move |i: usize| {
+            let PlannedFrame { split, scene, variation, keyframe, .. } = &self.frames[i];
+            (split, scene, *variation, *keyframe)
+        };
+        let all = self.moments.get(&moment(&self.frames[frame]));
+        all.into_iter().flatten().copied().filter(move |other| *other != frame && of(*other) == of(frame))
     }
 
     /// Runs of frames for which something is the same, in their order.
@@ -153,6 +170,13 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// A hash of a frame's drive, variation and keyframe.
+fn moment(frame: &PlannedFrame) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (&frame.scene, frame.variation, frame.keyframe).hash(&mut hasher);
+    hasher.finish()
 }
 
 /// The split of each frame of a list.
