@@ -43,7 +43,7 @@ impl PyReadyScene {
     }
 
     /// What was dropped, guessed or substituted, as JSON.
-    fn report(&self) -> String {
+    fn report(&self) -> &str {
         self.0.report()
     }
 

@@ -88,11 +88,15 @@ fn read_planes<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) ->
         .non_parallel()
         .from_buffered(Cursor::new(&bytes))
         .map_err(|e| damaged(e.to_string()))?;
-    let list = image.layer_data.channel_data.list;
+    let mut list = image.layer_data.channel_data.list;
     let mut planes = [const { Vec::new() }; N];
     for (plane, name) in planes.iter_mut().zip(names) {
-        let channel = list.iter().find(|c| c.name == *name).ok_or_else(|| damaged(format!("no channel {name}")))?;
-        *plane = channel.sample_data.values_as_f32().collect();
+        let channel = list.iter_mut().find(|c| c.name == *name).ok_or_else(|| damaged(format!("no channel {name}")))?;
+        *plane = match &mut channel.sample_data {
+            // As we write them: the values are taken as they are.
+            FlatSamples::F32(values) => std::mem::take(values),
+            other => other.values_as_f32().collect(),
+        };
     }
     Ok(planes)
 }

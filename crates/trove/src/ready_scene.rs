@@ -53,7 +53,8 @@ pub struct ReadyScene {
     built: BuiltScene,
     renderer: Renderer,
     prepared: PreparedScene,
-    report: ReportTable,
+    /// What was dropped, guessed or substituted, as JSON.
+    report: String,
 }
 
 impl ReadyScene {
@@ -81,7 +82,8 @@ impl ReadyScene {
                 search,
             })?;
             let prepared = renderer.prepare(&built.scene)?;
-            Ok(Self { built, renderer, prepared, report: (&report).into() })
+            let report = serde_json::to_string(&ReportTable::from(&report))?;
+            Ok(Self { built, renderer, prepared, report })
         };
         build().map_err(|error| message::of(&error))
     }
@@ -103,8 +105,8 @@ impl ReadyScene {
     }
 
     /// What was dropped, guessed or substituted, as `report.json` has it.
-    pub fn report(&self) -> String {
-        serde_json::to_string(&self.report).expect("types of trove-format have keys that are strings")
+    pub fn report(&self) -> &str {
+        &self.report
     }
 
     /// Writes the scene as binary glTF 2.0, with the recipe's cameras and the sun, as `trove build` does.
