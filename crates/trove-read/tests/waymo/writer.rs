@@ -51,9 +51,11 @@ pub(crate) struct Picture {
     pub(crate) velocity: [f64; 3],
     pub(crate) turning: [f64; 3],
     pub(crate) jpeg: Vec<u8>,
-    /// Divisor and PNG of its panoptic labels.
-    pub(crate) panoptic: Option<(i64, Vec<u8>)>,
+    pub(crate) panoptic: Option<Panoptic>,
 }
+
+/// Divisor and PNG of a picture's panoptic labels.
+pub(crate) type Panoptic = (i64, Vec<u8>);
 
 #[derive(Clone)]
 pub(crate) struct Label {
@@ -146,7 +148,7 @@ impl Segment {
         };
         let labels: Vec<&Label> = frames().flat_map(|frame| &frame.labels).collect();
         let pictures: Vec<&Picture> = frames().flat_map(|frame| &frame.pictures).collect();
-        let labelled: Vec<(i64, &Picture, &(i64, Vec<u8>))> = frames()
+        let labelled: Vec<(i64, &Picture, &Panoptic)> = frames()
             .flat_map(|frame| frame.pictures.iter().map(|picture| (frame.time_us, picture)))
             .filter_map(|(time_us, picture)| Some((time_us, picture, picture.panoptic.as_ref()?)))
             .collect();
