@@ -27,6 +27,11 @@ def frames(finished):
     return {row["path"]: (finished / row["path"], read_frame(finished / row["path"])) for row in rows}
 
 
+def ordered(rows):
+    """Rows of panoptic tables in the order of their images."""
+    return sorted(rows, key=lambda row: row.get("image_id") or row["id"])
+
+
 def picture(path):
     """A picture's values."""
     return np.array(Image.open(path))
@@ -54,9 +59,8 @@ def test_cityscapes_scripts_make_the_same_panoptic_files(cityscapes, tmp_path):
         theirs.convert2panoptic(str(cityscapes / "gtFine"), str(tmp_path), by_train_id, ["train"])
         name = f"cityscapes_panoptic_train{ending}"
         ours, expected = (json.loads((root / f"{name}.json").read_text()) for root in (cityscapes / "gtFine", tmp_path))
-        order = lambda rows: sorted(rows, key=lambda row: row.get("image_id") or row["id"])  # noqa: E731
         for table in ("images", "annotations"):
-            assert order(ours[table]) == order(expected[table])
+            assert ordered(ours[table]) == ordered(expected[table])
         assert ours["categories"] == [row | {"color": list(row["color"])} for row in expected["categories"]]
         for path in (tmp_path / name).glob("*.png"):
             assert (picture(path) == picture(cityscapes / "gtFine" / name / path.name)).all()
@@ -176,20 +180,22 @@ def test_kitti_s_boxes_are_where_the_objects_are(finished, tmp_path):
     assert printed["frames"] == {"train": len(tables)} and len(numbers) == len(tables)
     seen = 0
     for number in numbers:
-        calibration = dict(line.split(":", 1) for line in (out / f"training/calib/{number}.txt").read_text().splitlines())
+        calibration = dict(
+            line.split(":", 1) for line in (out / f"training/calib/{number}.txt").read_text().splitlines()
+        )
         projection = np.array(calibration["P2"].split(), float).reshape(3, 4)
         height, width = picture(out / f"training/image_2/{number}.png").shape[:2]
         for line in (out / f"training/label_2/{number}.txt").read_text().splitlines():
             kind, *values = line.split()
             values = np.array(values, float)
             assert kind in {"Car", "Van", "Truck", "Pedestrian", "Person_sitting", "Cyclist", "Tram", "Misc"}
-            truncated, occluded, alpha, left, top, right, bottom, h, w, l, x, y, z, rotation = values
+            truncated, occluded, alpha, left, top, right, bottom, h, w, length, x, y, z, rotation = values
             assert 0 <= truncated <= 1 and occluded in (0, 1, 2) and abs(alpha) <= np.pi + 0.01
             assert np.cos(alpha - rotation + np.arctan2(x, z)) == pytest.approx(1, abs=1e-3)
             # The devkit's own way from a line to corners.
             c, s = np.cos(rotation), np.sin(rotation)
             turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
-            corners = np.array([(i * l / 2, j * h, k * w / 2) for i in (1, -1) for j in (0, -1) for k in (1, -1)])
+            corners = np.array([(i * length / 2, j * h, k * w / 2) for i in (1, -1) for j in (0, -1) for k in (1, -1)])
             corners = corners @ turn.T + (x, y, z)
             if corners[:, 2].min() < 1 or left <= 0 or top <= 0 or right >= width - 1 or bottom >= height - 1:
                 continue
@@ -276,7 +282,9 @@ def test_mmsegmentation_and_the_paper_s_pictures_hold_what_class_png_says(finish
 def test_yolo_s_lines_are_the_boxes_and_outlines_of_the_masks(finished, tmp_path):
     boxes, _ = exported(finished, tmp_path / "boxes", "yolo")
     outlines, _ = exported(finished, tmp_path / "outlines", "yolo-seg")
-    names = [line.split(": ")[1].strip('"') for line in (boxes / "data.yaml").read_text().splitlines() if line[:1] == " "]
+    names = [
+        line.split(": ")[1].strip('"') for line in (boxes / "data.yaml").read_text().splitlines() if line[:1] == " "
+    ]
     assert names[:3] == ["person", "rider", "car"]
     shares = []
     for folder, t in frames(finished).values():
@@ -396,8 +404,12 @@ def test_disparity_leads_to_the_same_thing_in_the_right_eye(recipe, tmp_path):
     (path,) = out.glob("disparity/train/*/*_disparity.png")
     steps = picture(path).astype(float)
     camera = json.loads(next((out / "camera").rglob(path.name.replace("disparity.png", "camera.json"))).read_text())
-    eyes = sorted((table["world_from_camera_translation_m"], folder) for folder, table in frames(tmp_path / "run").values())
-    assert camera["extrinsic"]["baseline"] == pytest.approx(np.linalg.norm(np.subtract(eyes[0][0], eyes[1][0])), abs=1e-6)
+    eyes = sorted(
+        (table["world_from_camera_translation_m"], folder) for folder, table in frames(tmp_path / "run").values()
+    )
+    assert camera["extrinsic"]["baseline"] == pytest.approx(
+        np.linalg.norm(np.subtract(eyes[0][0], eyes[1][0])), abs=1e-6
+    )
     name = path.name.replace("disparity.png", "rightImg8bit.png")
     right = picture(next((out / "rightImg8bit").rglob(name)))
     left = picture(next((out / "leftImg8bit").rglob(name.replace("right", "left"))))
