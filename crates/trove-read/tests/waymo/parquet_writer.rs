@@ -17,6 +17,9 @@ pub(crate) enum Column {
     Ints(Vec<Option<Vec<i64>>>),
 }
 
+/// Rows of a page at most: pages of range images stay as small as a reader expects.
+const PAGE_ROWS: usize = 16;
+
 /// How pages are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Packing {
@@ -45,6 +48,23 @@ impl Column {
             Self::Doubles(rows) => rows.len(),
             Self::Floats(rows) => rows.len(),
             Self::Ints(rows) => rows.len(),
+        }
+    }
+
+    /// The rows of the page that begins with one.
+    fn page(&self, row: usize) -> Self {
+        fn some<T: Clone>(rows: &[T], row: usize) -> Vec<T> {
+            rows.iter().skip(row).take(PAGE_ROWS).cloned().collect()
+        }
+        match self {
+            Self::Long(rows) => Self::Long(some(rows, row)),
+            Self::Int(rows) => Self::Int(some(rows, row)),
+            Self::Double(rows) => Self::Double(some(rows, row)),
+            Self::Text(rows) => Self::Text(some(rows, row)),
+            Self::Bytes(rows) => Self::Bytes(some(rows, row)),
+            Self::Doubles(rows) => Self::Doubles(some(rows, row)),
+            Self::Floats(rows) => Self::Floats(some(rows, row)),
+            Self::Ints(rows) => Self::Ints(some(rows, row)),
         }
     }
 
@@ -91,7 +111,7 @@ fn lists<T>(kind: i64, rows: &[Option<Vec<T>>], bytes: impl Fn(&T) -> Vec<u8>) -
     Written { kind, is_list: true, repeated, defined, values }
 }
 
-/// A file of one row group, a page a column.
+/// A file of one row group.
 pub(crate) fn parquet(columns: &[(&str, Column)], packing: Packing) -> Vec<u8> {
     let mut file = b"PAR1".to_vec();
     let rows = columns.first().map_or(0, |(_, column)| column.rows());
@@ -106,34 +126,42 @@ pub(crate) fn parquet(columns: &[(&str, Column)], packing: Packing) -> Vec<u8> {
     let mut schema = vec![element("schema", None, 0, columns.len() as i64)];
     let mut chunks = Vec::new();
     for (name, column) in columns {
-        let written = column.written();
-        if written.is_list {
+        let pages: Vec<Written> =
+            (0..column.rows().max(1)).step_by(PAGE_ROWS).map(|row| column.page(row).written()).collect();
+        let (is_list, kind) = (pages[0].is_list, pages[0].kind);
+        if is_list {
             schema.push(element(name, None, 1, 1));
             schema.push(element("list", None, 2, 1));
-            schema.push(element("element", Some(written.kind), 1, 0));
+            schema.push(element("element", Some(kind), 1, 0));
         } else {
-            schema.push(element(name, Some(written.kind), 1, 0));
+            schema.push(element(name, Some(kind), 1, 0));
         }
-        let mut page = Vec::new();
-        if written.is_list {
-            page.extend(levels(&written.repeated));
+        let from = file.len() as i64;
+        let (mut count, mut unpacked) = (0, 0);
+        for written in pages {
+            let mut page = Vec::new();
+            if is_list {
+                page.extend(levels(&written.repeated));
+            }
+            page.extend(levels(&written.defined));
+            page.extend(&written.values);
+            let (size, packed) = (page.len(), pack(&page, packing));
+            let values = written.defined.len() as i64;
+            let data = Thrift::default().int(1, values).int(2, 0).int(3, 3).int(4, 3);
+            let head = Thrift::default().int(1, 0).int(2, size as i64).int(3, packed.len() as i64).structure(5, data);
+            let head = head.end();
+            file.extend(&head);
+            file.extend(&packed);
+            count += values;
+            unpacked += (head.len() + size) as i64;
         }
-        page.extend(levels(&written.defined));
-        page.extend(&written.values);
-        let (size, packed) = (page.len(), pack(&page, packing));
-        let count = written.defined.len() as i64;
-        let data = Thrift::default().int(1, count).int(2, 0).int(3, 3).int(4, 3);
-        let head = Thrift::default().int(1, 0).int(2, size as i64).int(3, packed.len() as i64).structure(5, data);
-        let (from, head) = (file.len() as i64, head.end());
-        file.extend(&head);
-        file.extend(&packed);
         let codec = [Packing::None, Packing::Snappy, Packing::Gzip].iter().position(|p| *p == packing).unwrap_or(6);
         let about = Thrift::default()
-            .int(1, written.kind)
+            .int(1, kind)
             .int(4, codec as i64)
             .int(5, count)
-            .int(6, (head.len() + size) as i64)
-            .int(7, (head.len() + packed.len()) as i64)
+            .int(6, unpacked)
+            .int(7, file.len() as i64 - from)
             .int(9, from);
         chunks.push(Thrift::default().int(2, from).structure(3, about));
     }
