@@ -52,7 +52,7 @@ mod _trove {
         attended::attended(py, progress.as_ref(), run)?.map_err(trove_error)
     }
 
-    /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `camvid`): a line a class, fields apart by tabs, the
+    /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `coco`, …): a line a class, fields apart by tabs, the
     /// first line names the columns; `None` for another name.
     #[pyfunction]
     fn label_table(label_set: &str) -> Option<&'static str> {
