@@ -31,8 +31,8 @@ impl Mask {
             for y in 0..self.pixels.height {
                 turn(at(x, y), *self.pixels.at(x, y));
             }
-            // Below the box nothing belongs to it.
-            if self.min[1] + self.pixels.height < height {
+            // Below the box, above it in the next column, and behind its last column nothing belongs to it.
+            if self.pixels.height < height || x + 1 == self.pixels.width {
                 turn(at(x, self.pixels.height), false);
             }
         }
@@ -69,6 +69,8 @@ mod tests {
         // 11.
         let mask = Mask::of([0, 0, 1, 1], |x, y| (x, y) != (0, 0));
         assert_eq!(mask.run_lengths(3, 2), [1, 3, 2]);
+        assert_eq!(Mask::of([0, 1, 1, 1], |_, _| true).run_lengths(2, 2), [1, 1, 1, 1, 0], "down to the last row");
+        assert_eq!(Mask::of([0, 0, 1, 1], |_, _| true).run_lengths(3, 2), [0, 4, 2], "whole columns");
         assert_eq!(Mask::of([1, 2, 1, 2], |_, _| true).run_lengths(2, 3), [5, 1, 0]);
         assert_eq!(Mask::of([0, 0, 1, 0], |_, _| true).run_lengths(2, 3), [0, 1, 2, 1, 2]);
     }
