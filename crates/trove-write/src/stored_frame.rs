@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, ImageReader};
 use trove_files::open_regular;
-use trove_format::{FrameFile, FrameTable};
+use trove_format::{FrameFile, FrameTable, ObjectRow};
 use trove_model::{Class, Raster};
 
 use crate::{WriteError, exr_file};
@@ -25,7 +25,15 @@ impl StoredFrame {
     /// # Errors
     /// A table that cannot be read or is damaged.
     pub fn open(folder: &Path) -> Result<Self, WriteError> {
-        Ok(Self { folder: folder.to_owned(), table: FrameTable::read(folder)? })
+        let table = FrameTable::read(folder)?;
+        let fits = |[x0, y0, x1, y1]: [u32; 4]| x0 <= x1 && y0 <= y1 && x1 < table.width_px && y1 < table.height_px;
+        let strays =
+            |object: &&ObjectRow| [object.visible_box, object.amodal_box].into_iter().flatten().any(|b| !fits(b));
+        if let Some(object) = table.objects.iter().find(strays) {
+            let found = format!("object {} with a box that is not in the picture", object.id);
+            return Err(WriteError::Damaged { path: folder.join(FrameTable::NAME), found });
+        }
+        Ok(Self { folder: folder.to_owned(), table })
     }
 
     /// Where a file of it lies, whether it is there or not.

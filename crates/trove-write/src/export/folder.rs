@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
-use trove_files::{FolderLock, OutputRoot, write_atomically};
+use trove_files::{FolderLock, LARGEST_FILE, OutputRoot, read_regular, write_atomically};
 
 use super::unit::Written;
 use crate::WriteError;
@@ -196,7 +196,7 @@ fn check_identity(root: &Path, path: &Path, identity: &Identity) -> Result<(), W
         let Identity { format, trove, classes } = identity;
         format!("{format} by trove {trove} with the classes {classes}")
     };
-    match fs::read(path) {
+    match read_regular(path, LARGEST_FILE) {
         Ok(bytes) => match serde_json::from_slice::<Identity>(&bytes) {
             Ok(found) if found == *identity => Ok(()),
             found => Err(WriteError::Unfit {
