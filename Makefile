@@ -88,9 +88,10 @@ test-planted:
 test-devkit: .venv-devkit/.installed
 	.venv-devkit/bin/python tests/devkit/check_boxes.py $(OUT) --root $(NUSCENES)
 
-# Opens what `trove export OUT --format nuscenes` wrote to EXPORTED with the official devkit.
+# Opens what `trove export OUT` wrote to NUSCENES and NUIMAGES in these forms, with the official devkit.
 test-devkit-export: .venv-devkit/.installed
-	.venv-devkit/bin/python tests/devkit/check_export.py $(EXPORTED) --frames $(OUT)
+	.venv-devkit/bin/python tests/devkit/check_nuscenes.py $(NUSCENES) --frames $(OUT)
+	.venv-devkit/bin/python tests/devkit/check_nuimages.py $(NUIMAGES) --frames $(OUT)
 
 .venv-devkit/.installed: tests/devkit/requirements.txt
 	$(PYTHON) -m venv .venv-devkit

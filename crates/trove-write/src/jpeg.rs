@@ -1,4 +1,4 @@
-//! What JPEG leaves of a picture.
+//! JPEG, as bytes, and what it leaves of a picture.
 
 use image::ImageDecoder;
 use image::codecs::jpeg::{JpegDecoder, JpegEncoder};
@@ -13,12 +13,27 @@ pub(crate) fn worn(
     pixels: &[[u8; 3]],
     quality: u8,
 ) -> Result<Vec<[u8; 3]>, WriteError> {
-    let (mut packed, mut worn) = (Vec::new(), vec![[0; 3]; pixels.len()]);
-    JpegEncoder::new_with_quality(&mut packed, quality)
-        .encode(pixels.as_flattened(), width, height, image::ExtendedColorType::Rgb8)
-        .and_then(|()| JpegDecoder::new(std::io::Cursor::new(&packed))?.read_image(worn.as_flattened_mut()))
+    let packed = packed(name, width, height, pixels, quality)?;
+    let mut worn = vec![[0; 3]; pixels.len()];
+    JpegDecoder::new(std::io::Cursor::new(&packed))
+        .and_then(|decoder| decoder.read_image(worn.as_flattened_mut()))
         .map_err(|e| WriteError::Encoding { name: name.to_owned(), found: e.to_string() })?;
     Ok(worn)
+}
+
+/// A picture, 8-bit sRGB, encoded with `quality` (1 to 100).
+pub(crate) fn packed(
+    name: &str,
+    width: u32,
+    height: u32,
+    pixels: &[[u8; 3]],
+    quality: u8,
+) -> Result<Vec<u8>, WriteError> {
+    let mut packed = Vec::new();
+    JpegEncoder::new_with_quality(&mut packed, quality)
+        .encode(pixels.as_flattened(), width, height, image::ExtendedColorType::Rgb8)
+        .map_err(|e| WriteError::Encoding { name: name.to_owned(), found: e.to_string() })?;
+    Ok(packed)
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl Dataset for Cityscapes {
             let name = Name::of(planned, &frame.table);
             let (width, height) = (labels.ids.width, labels.ids.height);
             super::kitti::note_distortion(&frame.table, unit);
-            unit.link(&name.path("leftImg8bit", "leftImg8bit.png"), &frame.path(FrameFile::Rgb))?;
+            unit.link(&name.path("leftImg8bit", "leftImg8bit.png"), &frame.needed(FrameFile::Rgb)?)?;
 
             let mut train_ids = [IGNORED; 256];
             let mut colors = [[0; 3]; 256];
@@ -278,7 +278,7 @@ impl Cityscapes {
 /// The right picture, and how far the left one's pixels are from where they are in it: 256 steps a pixel, from 1; 0 for
 /// the sky.
 fn disparity(name: &Name, left: &StoredFrame, eye: &RightEye, unit: &mut Unit<'_>) -> Result<(), WriteError> {
-    unit.link(&name.path("rightImg8bit", "rightImg8bit.png"), &eye.picture())?;
+    unit.link(&name.path("rightImg8bit", "rightImg8bit.png"), &eye.frame.needed(FrameFile::Rgb)?)?;
     let mut beyond = 0;
     let step = |px: &f64| match (px * 256.0).round() + 1.0 {
         step if *px > 0.0 && step <= 65535.0 => step as u16,

@@ -60,7 +60,7 @@ impl Dataset for CocoInstances {
         for split in &finished.plan.splits {
             let path = format!("annotations/instances_{split}.json");
             let fields =
-                [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+                [("info", info(finished)), ("licenses", finished.licenses()), ("categories", json!(categories))];
             write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
         }
         Ok(())
@@ -110,7 +110,7 @@ impl Dataset for CocoPanoptic {
         for split in &finished.plan.splits {
             let path = format!("annotations/panoptic_{split}.json");
             let fields =
-                [("info", info(finished)), ("licenses", licenses(finished)), ("categories", json!(categories))];
+                [("info", info(finished)), ("licenses", finished.licenses()), ("categories", json!(categories))];
             write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
         }
         Ok(())
@@ -122,7 +122,7 @@ fn image(plan: &Plan, number: usize, map: &ClassMap, unit: &mut Unit<'_>) -> Res
     let planned = &plan.frames[number];
     let frame = plan.open(planned)?;
     let name = format!("{number:012}.png");
-    unit.link(&format!("{}/{name}", planned.split), &frame.path(FrameFile::Rgb))?;
+    unit.link(&format!("{}/{name}", planned.split), &frame.needed(FrameFile::Rgb)?)?;
     let (width, height) = (frame.table.width_px, frame.table.height_px);
     let row = json!({ "id": number, "file_name": name, "width": width, "height": height, "trove_path": planned.path });
     unit.row(IMAGES, &row)?;
@@ -135,9 +135,4 @@ fn mask(labels: &MappedLabels, segment: Segment, bounds: [u32; 4]) -> Mask {
 
 fn info(finished: &Finished<'_>) -> serde_json::Value {
     json!({ "description": "made by trove export", "version": finished.manifest.versions.trove })
-}
-
-fn licenses(finished: &Finished<'_>) -> serde_json::Value {
-    let license = |(id, source): (usize, &trove_format::Source)| json!({ "id": id, "name": source.licence, "url": source.source });
-    json!(finished.manifest.licences.iter().enumerate().map(license).collect::<Vec<_>>())
 }

@@ -147,7 +147,7 @@ mod tests {
         let mut values = Raster::filled(80, 60, 0u32);
         for _ in 0..60 {
             let (x, y, r, value) = (random() % 80, random() % 60, 2 + random() % 9, 1 + random() % 3);
-            for (px, py) in (0..60).flat_map(|py| (0..80).map(move |px| (px, py))) {
+            for (px, py) in (0..60_u32).flat_map(|py| (0..80_u32).map(move |px| (px, py))) {
                 if px.abs_diff(x).pow(2) + py.abs_diff(y).pow(2) < r * r {
                     *values.at_mut(px, py) = value;
                 }

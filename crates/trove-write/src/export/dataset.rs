@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde_json::value::RawValue;
+use serde_json::{Value, json};
 use trove_format::Manifest;
 
 use super::folder::ExportFolder;
@@ -44,6 +45,12 @@ pub(crate) struct Finished<'a> {
 pub(crate) type Rows = BTreeMap<String, Vec<Box<RawValue>>>;
 
 impl Finished<'_> {
+    /// Every source of what the frames show, as COCO lists licences.
+    pub(crate) fn licenses(&self) -> Value {
+        let sources = self.manifest.licences.iter().enumerate();
+        json!(sources.map(|(id, s)| json!({ "id": id, "name": s.licence, "url": s.source })).collect::<Vec<_>>())
+    }
+
     /// The rows of each step of a split, or of all where none is given, one step in memory at once.
     pub(crate) fn rows<'s>(
         &'s self,

@@ -2,15 +2,22 @@
 
 use trove_model::ClassMap;
 
+use super::bop::Bop;
 use super::cityscapes::Cityscapes;
 use super::coco::{CocoInstances, CocoPanoptic};
 use super::dataset::Dataset;
+use super::hdf5::Hdf5;
 use super::kitti::{KittiObject, KittiTracking};
 use super::kitti_dense::{KittiDepth, KittiFlow};
 use super::kitti_step::KittiStep;
 use super::label_pictures::{LabelPictures, MmSegmentation};
+use super::mcap::Mcap;
+use super::nuimages::NuImages;
 use super::nuscenes::NuScenes;
+use super::openlabel::OpenLabel;
 use super::video::Video;
+use super::virtual_kitti::VirtualKitti2;
+use super::web_dataset::WebDataset;
 use super::yolo::Yolo;
 
 /// A form in which finished frames are written for other tools; docs/export.md says what each holds.
@@ -34,19 +41,26 @@ enum Kind {
 
 use Kind::{Classes, Plain};
 
-static FORMS: [Form; 14] = [
+static FORMS: [Form; 21] = [
+    Form { name: "bop", kind: Plain(|| Box::new(Bop)) },
     Form { name: "cityscapes", kind: Classes("cityscapes", |map| Box::new(Cityscapes { map })) },
     Form { name: "coco", kind: Classes("coco", |map| Box::new(CocoInstances { map })) },
     Form { name: "coco-panoptic", kind: Classes("coco", |map| Box::new(CocoPanoptic { map })) },
+    Form { name: "hdf5", kind: Plain(|| Box::new(Hdf5)) },
     Form { name: "kitti", kind: Plain(|| Box::new(KittiObject)) },
-    Form { name: "kitti-tracking", kind: Plain(|| Box::new(KittiTracking)) },
-    Form { name: "kitti-step", kind: Classes("kitti-step", |map| Box::new(KittiStep { map })) },
-    Form { name: "kitti-flow", kind: Plain(|| Box::new(KittiFlow)) },
     Form { name: "kitti-depth", kind: Plain(|| Box::new(KittiDepth)) },
+    Form { name: "kitti-flow", kind: Plain(|| Box::new(KittiFlow)) },
+    Form { name: "kitti-step", kind: Classes("kitti-step", |map| Box::new(KittiStep { map })) },
+    Form { name: "kitti-tracking", kind: Plain(|| Box::new(KittiTracking)) },
+    Form { name: "mcap", kind: Plain(|| Box::new(Mcap)) },
     Form { name: "mmseg", kind: Classes("cityscapes", |map| Box::new(MmSegmentation { map })) },
+    Form { name: "nuimages", kind: Plain(|| Box::new(NuImages)) },
     Form { name: "nuscenes", kind: Plain(|| Box::new(NuScenes)) },
+    Form { name: "openlabel", kind: Plain(|| Box::new(OpenLabel)) },
     Form { name: "paper13", kind: Classes("paper13", |map| Box::new(LabelPictures { map })) },
     Form { name: "video", kind: Plain(|| Box::new(Video)) },
+    Form { name: "vkitti2", kind: Plain(|| Box::new(VirtualKitti2)) },
+    Form { name: "webdataset", kind: Plain(|| Box::new(WebDataset)) },
     Form { name: "yolo", kind: Classes("cityscapes", |map| Box::new(Yolo { map, outlines: false })) },
     Form { name: "yolo-seg", kind: Classes("cityscapes", |map| Box::new(Yolo { map, outlines: true })) },
 ];

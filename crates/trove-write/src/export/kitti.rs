@@ -123,7 +123,7 @@ fn occlusion(share: f32) -> u8 {
     }
 }
 
-fn wrapped(angle: f64) -> f64 {
+pub(super) fn wrapped(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     (angle + turn / 2.0).rem_euclid(turn) - turn / 2.0
 }

@@ -31,8 +31,8 @@ impl Dataset for KittiFlow {
                 continue;
             };
             let frame = plan.open(first)?;
-            unit.link(&format!("training/image_2/{i:06}_10.png"), &frame.path(FrameFile::Rgb))?;
-            unit.link(&format!("training/image_2/{i:06}_11.png"), &plan.open(next)?.path(FrameFile::Rgb))?;
+            unit.link(&format!("training/image_2/{i:06}_10.png"), &frame.needed(FrameFile::Rgb)?)?;
+            unit.link(&format!("training/image_2/{i:06}_11.png"), &plan.open(next)?.needed(FrameFile::Rgb)?)?;
             let flow = frame.flow_forward()?;
             let mut beyond = 0;
             let pixel = |[u, v]: &[f32; 2]| {
@@ -61,7 +61,7 @@ impl Dataset for KittiDepth {
             let frame = plan.open(planned)?;
             let sequence = format!("{}/{:04}", planned.split, planned.sequence);
             let name = format!("{:010}.png", planned.index);
-            unit.link(&format!("{sequence}/image_02/data/{name}"), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("{sequence}/image_02/data/{name}"), &frame.needed(FrameFile::Rgb)?)?;
             let depth = frame.depth_m()?;
             let mut beyond = 0;
             let step = |depth_m: &f32| {

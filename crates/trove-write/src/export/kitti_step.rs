@@ -21,7 +21,7 @@ impl Dataset for KittiStep {
         for planned in frames.iter().map(|i| &plan.frames[*i]) {
             let frame = plan.open(planned)?;
             let name = format!("{}/{:04}/{:06}.png", planned.split, planned.sequence, planned.index);
-            unit.link(&format!("images/{name}"), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("images/{name}"), &frame.needed(FrameFile::Rgb)?)?;
             let labels = MappedLabels::read(&frame, &self.map)?;
             let pixel = |(id, object): (&u8, &u16)| {
                 let [high, low] = if things[usize::from(*id)] { object.to_be_bytes() } else { [0; 2] };

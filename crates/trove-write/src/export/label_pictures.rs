@@ -28,7 +28,7 @@ impl Dataset for MmSegmentation {
         let train_ids = self.map.train_ids().map(|id| id.unwrap_or(IGNORED));
         for planned in frames.iter().map(|i| &plan.frames[*i]) {
             let (frame, name) = (plan.open(planned)?, planned.flat_name());
-            unit.link(&format!("img_dir/{}/{name}.png", planned.split), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("img_dir/{}/{name}.png", planned.split), &frame.needed(FrameFile::Rgb)?)?;
             let labels = MappedLabels::read(&frame, &self.map)?.ids.map(|id| train_ids[usize::from(*id)]);
             let png = png_file::grey("labels", labels.width, labels.height, &labels.data)?;
             unit.write(&format!("ann_dir/{}/{name}.png", planned.split), &png)?;
@@ -50,7 +50,7 @@ impl Dataset for LabelPictures {
         self.map.classes.iter().for_each(|class| colors[usize::from(class.id)] = class.rgb);
         for planned in frames.iter().map(|i| &plan.frames[*i]) {
             let (frame, name) = (plan.open(planned)?, planned.flat_name());
-            unit.link(&format!("images/{}/{name}.png", planned.split), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("images/{}/{name}.png", planned.split), &frame.needed(FrameFile::Rgb)?)?;
             let labels = MappedLabels::read(&frame, &self.map)?.ids;
             let png = png_file::grey("labels", labels.width, labels.height, &labels.data)?;
             unit.write(&format!("labels/{}/{name}.png", planned.split), &png)?;

@@ -4,6 +4,7 @@
 //! rows, and at the end sums the rows up; what is finished is kept in a journal, so that an export goes on where it ended,
 //! in constant memory.
 
+mod bop;
 mod cityscapes;
 mod coco;
 mod contours;
@@ -11,6 +12,7 @@ mod dataset;
 mod folder;
 mod format;
 mod geometry;
+mod hdf5;
 mod json_file;
 mod kinds;
 mod kitti;
@@ -19,12 +21,20 @@ mod kitti_step;
 mod label_pictures;
 mod labels;
 mod masks;
+mod mcap;
+mod mcap_file;
+mod nuimages;
 mod nuscenes;
+mod nuscenes_rows;
+mod openlabel;
 mod plan;
+mod protobuf;
 mod stereo;
 mod tables;
 mod unit;
 mod video;
+mod virtual_kitti;
+mod web_dataset;
 mod yolo;
 
 use std::collections::{BTreeMap, BTreeSet};

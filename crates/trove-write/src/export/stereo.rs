@@ -1,7 +1,7 @@
 //! Pairs of cameras that see as two eyes do.
 
 use glam::DVec3;
-use trove_format::{FrameFile, FrameTable, LensModel};
+use trove_format::{FrameTable, LensModel};
 use trove_model::Raster;
 
 use super::geometry::{affine, camera_from_world};
@@ -58,10 +58,5 @@ impl RightEye {
     pub(crate) fn disparity_px(&self, left: &StoredFrame) -> Result<Raster<f64>, WriteError> {
         let scale = left.table.intrinsics[0][0] * self.baseline_m;
         Ok(left.depth_m()?.map(|depth_m| scale / f64::from(*depth_m)))
-    }
-
-    /// Where its picture lies.
-    pub(crate) fn picture(&self) -> std::path::PathBuf {
-        self.frame.path(FrameFile::Rgb)
     }
 }

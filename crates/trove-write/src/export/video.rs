@@ -2,9 +2,10 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use trove_files::{LARGEST_FILE, read_regular};
 use trove_format::FrameFile;
 
 use super::dataset::Dataset;
@@ -25,6 +26,7 @@ impl Dataset for Video {
 
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
         let opened = frames.iter().map(|i| plan.open(&plan.frames[*i])).collect::<Result<Vec<_>, _>>()?;
+        let pictures = opened.iter().map(|frame| frame.needed(FrameFile::Rgb)).collect::<Result<Vec<_>, _>>()?;
         let first = &plan.frames[frames[0]];
         let name = format!("{}/{}_v{:02}_{}.mp4", first.split, first.scene, first.variation, first.view);
         let times: Vec<i64> = opened.iter().map(|frame| frame.table.keyframe_time_ns).collect();
@@ -32,8 +34,8 @@ impl Dataset for Video {
         let rate_hz = if seconds > 0.0 { (times.len() - 1) as f64 / seconds } else { ALONE_HZ };
         let program = std::env::var_os("TROVE_FFMPEG").unwrap_or_else(|| OsString::from("ffmpeg"));
         unit.external(&name, |file| {
-            let picture = |frame: &crate::StoredFrame| std::fs::read(frame.path(FrameFile::Rgb));
-            encode(&program, rate_hz, opened.iter().map(picture), file)
+            let picture = |path: &PathBuf| read_regular(path, LARGEST_FILE);
+            encode(&program, rate_hz, pictures.iter().map(picture), file)
         })
     }
 }

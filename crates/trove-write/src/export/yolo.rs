@@ -26,7 +26,7 @@ impl Dataset for Yolo {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for planned in frames.iter().map(|i| &plan.frames[*i]) {
             let (frame, name) = (plan.open(planned)?, planned.flat_name());
-            unit.link(&format!("images/{}/{name}.png", planned.split), &frame.path(FrameFile::Rgb))?;
+            unit.link(&format!("images/{}/{name}.png", planned.split), &frame.needed(FrameFile::Rgb)?)?;
             let labels = MappedLabels::read(&frame, &self.map)?;
             let [width, height] = [labels.ids.width, labels.ids.height].map(f64::from);
             let mut text = String::new();

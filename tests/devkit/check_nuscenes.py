@@ -1,7 +1,7 @@
 """Opens what `trove export --format nuscenes` wrote, with the code of nuscenes-devkit.
 
     python -m venv .venv-devkit && .venv-devkit/bin/pip install -r tests/devkit/requirements.txt
-    .venv-devkit/bin/python tests/devkit/check_export.py EXPORTED --frames OUT
+    .venv-devkit/bin/python tests/devkit/check_nuscenes.py EXPORTED --frames OUT
 
 OUT is the folder that was exported. All tables load and all tokens lead somewhere; every camera's boxes, as the devkit
 projects them, are those that frame.json tells, and lie around the pixels that show their objects; and nuScenes' own
