@@ -8,9 +8,9 @@ from conftest import trove
 from PIL import Image
 
 
-def exported(finished, out, form):
+def exported(finished, out, form, *args):
     """The folder of an export and what the program printed of it."""
-    done = trove("export", finished, "--format", form, "--out", out, "--json")
+    done = trove("export", finished, "--format", form, "--out", out, "--json", *args)
     assert done.returncode == 0, done.stderr
     return out, json.loads(done.stdout)
 

@@ -10,15 +10,9 @@ import time
 import numpy as np
 import pytest
 from conftest import files, trove
+from exports import exported
 from PIL import Image, ImageDraw
 from trove.format import read_frame
-
-
-def exported(finished, out, form, *args):
-    """The folder of an export and what the program printed of it."""
-    done = trove("export", finished, "--format", form, "--out", out, "--json", *args)
-    assert done.returncode == 0, done.stderr
-    return out, json.loads(done.stdout)
 
 
 def frames(finished):

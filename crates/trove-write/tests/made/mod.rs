@@ -8,7 +8,7 @@ use trove_format::{
     ObjectRow, Projection, Source, Versions,
 };
 use trove_model::{Class, Color, Kind, Labels, Raster, Season};
-use trove_write::{ExportFormat, Frame};
+use trove_write::{Frame, FrameFolders};
 
 pub(crate) const WIDTH: u32 = 64;
 pub(crate) const HEIGHT: u32 = 48;
@@ -171,10 +171,10 @@ fn frame(made: &Made, path: String) -> Frame {
 
 /// Writes the frames and the manifest of a finished run.
 pub(crate) fn finished(root: &Path, frames: &[Made]) {
-    let exporter = ExportFormat::Trove.exporter(root);
+    let folders = FrameFolders::new(root);
     let rows = frames.iter().map(|made| {
         let path = format!("scene-0001/v00/k{:03}/{}", made.keyframe, made.view);
-        let files = exporter.frame(&frame(made, path.clone()), &made.files.iter().copied().collect()).unwrap();
+        let files = folders.frame(&frame(made, path.clone()), &made.files.iter().copied().collect()).unwrap();
         FrameRow {
             path,
             scene: "scene-0001".into(),
