@@ -123,7 +123,7 @@ def test_what_is_missing_or_damaged_is_told_as_the_command_line_does(finished, t
     shutil.copytree(finished, copy)
     frame = library.open(copy)[0]
     (frame.path / "rgb.png").unlink()
-    with pytest.raises(library.TroveError, match=r"rgb\.png: expected to read the file"):
+    with pytest.raises(library.TroveError, match=r"rgb\.png: expected a file that is needed, found none; name rgb"):
         _ = frame.rgb
     (frame.path / "depth.exr").write_bytes(b"no picture")
     with pytest.raises(library.TroveError, match=r"depth\.exr: expected a file that was written here"):

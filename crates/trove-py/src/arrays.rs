@@ -75,5 +75,5 @@ pub(crate) fn encode_png(picture: PyReadonlyArray3<'_, u8>) -> PyResult<Vec<u8>>
     };
     let data = picture.as_slice()?.as_chunks().0.to_vec();
     let picture = Raster { width: width as u32, height: height as u32, data };
-    trove::encode_picture("picture", &picture).map_err(crate::trove_error)
+    trove::encode_picture("picture", &picture).map_err(crate::error::trove_error)
 }

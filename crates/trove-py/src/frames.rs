@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use trove::{FrameFile, StoredFrame};
 
 use crate::arrays::{channels, values};
-use crate::trove_error;
+use crate::error::trove_error;
 
 /// A finished frame's folder; its images are read, without Python's lock, when they are asked for.
 #[pyclass(frozen, name = "StoredFrame")]

@@ -2,21 +2,14 @@
 
 mod arrays;
 mod attended;
+mod error;
 mod frames;
 mod scene;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-
-pyo3::create_exception!(trove, TroveError, PyValueError, "What went wrong, in the words of the command line.");
-
-/// An error of ours as Python raises it.
-pub(crate) fn trove_error(error: impl ToString) -> PyErr {
-    TroveError::new_err(error.to_string())
-}
 
 /// Functions that `trove`, the Python package, is made of.
 #[pymodule]
@@ -24,9 +17,9 @@ mod _trove {
     use super::*;
 
     #[pymodule_export]
-    use super::TroveError;
-    #[pymodule_export]
     use super::arrays::{encode_png, label_colors};
+    #[pymodule_export]
+    use super::error::TroveError;
     #[pymodule_export]
     use super::frames::{PyStoredFrame, image_names};
     #[pymodule_export]
@@ -49,7 +42,7 @@ mod _trove {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
         let run = move |watch: &_| trove::call(args, &site_packages, watch);
-        attended::attended(py, progress.as_ref(), run)?.map_err(trove_error)
+        attended::attended(py, progress.as_ref(), run)?.map_err(error::trove_error)
     }
 
     /// The table of a label set (`trove20`, `trove13`, `cityscapes`, `coco`, …): a line a class, fields apart by tabs, the

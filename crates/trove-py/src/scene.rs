@@ -9,7 +9,7 @@ use trove::{FreeCamera, PictureRequest, ReadyScene};
 
 use crate::arrays::{channels, values};
 use crate::attended::attended;
-use crate::trove_error;
+use crate::error::trove_error;
 
 /// Size (width, height), K, the lens's name and its coefficients.
 type CameraRow = ([u32; 2], [[f64; 3]; 3], String, Vec<f64>);

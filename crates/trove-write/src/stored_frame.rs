@@ -54,7 +54,7 @@ impl StoredFrame {
         let light = if file.shows_light() { ", with render.light," } else { "" };
         Err(WriteError::Unfit {
             path,
-            expected: "a file that this form needs".into(),
+            expected: "a file that is needed".into(),
             found: "none".into(),
             remedy: format!("name {entry} in the recipe's output.files{light} and run trove generate again"),
         })

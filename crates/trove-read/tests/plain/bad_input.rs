@@ -151,7 +151,7 @@ fn what_cannot_be_is_told() {
     check(|d| d["keyframes"][0]["pictures"]["front"] = json!({"file": "../secret.jpg"}), "to a file below it");
     check(|d| d["keyframes"][0]["lidar"] = json!({"file": "/dev/zero"}), "to a file below it");
     check(|d| d["cameras"]["front"]["fx_px"] = json!(-1.0), "expected focal lengths above 0");
-    check(|d| d["cameras"]["front"]["distortion"] = json!([0.1]), "at most 0 coefficients");
+    check(|d| d["cameras"]["front"]["distortion"] = json!([0.1]), "at most 0 finite numbers");
     check(|d| d["cameras"]["../front"] = d["cameras"]["front"].clone(), "the name \"../front\"");
     check(|d| d["georeference"] = json!({"local": {"origin_lat_deg": 91, "origin_lon_deg": 0}}), "expected a latitude");
     check(|d| d["georeference"] = json!({"utm": {"zone": 61}}), "zone: expected 1 to 60, found 61");
