@@ -165,7 +165,8 @@ experiment-camvid: install .venv-train/.installed
 # PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
 test-train: install .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
-	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_torch.py
+	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_torch.py \
+	    python/tests/test_export_torchvision.py
 
 TORCH := torch==2.15.0 torchvision==0.29.2
 TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-toolkit[cudart]==13.2.2; platform_system == 'Linux'"

@@ -414,3 +414,22 @@ def test_disparity_leads_to_the_same_thing_in_the_right_eye(recipe, tmp_path):
     seen = moved >= 0
     same = ids[0][rows, columns][seen] == ids[1][rows[seen], moved[seen]]
     assert (steps > 0).mean() > 0.3 and same.mean() > 0.95
+
+
+def test_a_recipe_names_what_a_run_is_exported_as(recipe, finished, tmp_path):
+    text = recipe.read_text()
+    named = recipe.parent / "named.toml"
+    named.write_text(text + '[output]\nformats = ["coco", "kitti-step"]\n')
+    # The finished run goes on: formats do not make it another one.
+    run = tmp_path / "run"
+    shutil.copytree(finished, run)
+    done = trove("generate", named, "--out", run, "--json")
+    assert done.returncode == 0 and '"rendered": 0' in done.stdout, done.stderr
+    expected = files(exported(finished, tmp_path / "coco", "coco")[0])
+    assert files(run / "exports/coco") == expected
+    assert (run / "exports/kitti-step/panoptic_maps").is_dir()
+    assert trove("verify", run).returncode == 0
+    assert {name: data for name, data in files(run).items() if not name.startswith("exports/")} == files(finished)
+    named.write_text(text + '[output]\nformats = ["cocoo"]\n')
+    done = trove("generate", named, "--out", run)
+    assert done.returncode == 1 and "did you mean `coco`?" in done.stderr

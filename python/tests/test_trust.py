@@ -223,6 +223,9 @@ def test_paths_need_not_be_utf_8(labels, tmp_path):
     done = subprocess.run(command, capture_output=True, timeout=600, check=False)
     assert done.returncode == 0, done.stderr
     assert (folder / "out" / "manifest.json").exists()
+    for more in (["verify", folder / "out"], ["curate", folder / "out", "--json"]):
+        done = subprocess.run([sys.executable, "-m", "trove", *more], capture_output=True, timeout=600, check=False)
+        assert done.returncode == 0, done.stderr
 
 
 def test_names_do_not_command_the_terminal(labels, tmp_path):

@@ -34,7 +34,7 @@ pub(crate) fn run(
     overview.write(&scene, area, search)?;
     let report = ReportTable::from(&report);
     let json = json!({
-        "out": out,
+        "out": out.to_string_lossy(),
         "scene": name,
         "keyframe": keyframe,
         "bytes": stats.bytes,

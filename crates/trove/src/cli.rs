@@ -262,7 +262,7 @@ fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOption
     };
     let timings: Vec<_> = summary.rendered.iter().map(timing).collect();
     let printed = json!({
-        "out": out,
+        "out": out.to_string_lossy(),
         "frames": summary.frames,
         "rendered": summary.rendered.len(),
         "timings": timings,

@@ -161,7 +161,7 @@ impl Drives {
             }
         }
         let report = ReportTable::from(&report);
-        let json = json!({ "out": out, "drives": chosen, "labels": labels, "report": report });
+        let json = json!({ "out": out.to_string_lossy(), "drives": chosen, "labels": labels, "report": report });
         let (drives, out) = (chosen.len(), out.to_owned());
         Ok(Answer::new(as_json, json, move || {
             println!("{drives} drives in {}", out.display());

@@ -16,59 +16,79 @@ pub(crate) struct Component {
 /// The eight neighbours, clockwise from the left one.
 const NEIGHBOURS: [[i64; 2]; 8] = [[-1, 0], [-1, -1], [0, -1], [1, -1], [1, 0], [1, 1], [0, 1], [-1, 1]];
 
+/// Pixels of one value beside each other in a row.
+struct Run {
+    value: u32,
+    y: u32,
+    /// First column, and the one after the last.
+    x: [u32; 2],
+    /// An earlier run of the same component, or itself.
+    parent: usize,
+}
+
 /// The components of an image in the order of their first pixels; values of 0 have none, nor have components of fewer than
 /// `least_px` pixels.
 pub(crate) fn components(values: &Raster<u32>, least_px: u32) -> Vec<Component> {
-    let (width, height) = (values.width as usize, values.height as usize);
-    let parents = labelled(values);
-    let mut pixels = vec![0u32; parents.len()];
-    for i in 0..parents.len() {
-        pixels[parents[i] as usize] += 1;
+    let mut runs = runs(values);
+    let mut pixels = vec![0; runs.len()];
+    for i in 0..runs.len() {
+        // Parents come before their children.
+        runs[i].parent = runs[runs[i].parent].parent;
+        pixels[runs[i].parent] += runs[i].x[1] - runs[i].x[0];
     }
-    let mut found = Vec::new();
-    for first in 0..width * height {
-        let value = values.data[first];
-        // A component's root is its first pixel in reading order.
-        if value != 0 && parents[first] as usize == first && pixels[first] >= least_px {
-            let outline = outline(values, [(first % width) as i64, (first / width) as i64]);
-            found.push(Component { value, pixels: pixels[first], outline });
-        }
-    }
-    found
+    let firsts = runs.iter().enumerate().filter(|(i, run)| run.parent == *i && pixels[*i] >= least_px);
+    let component = |(i, run): (usize, &Run)| {
+        let outline = outline(values, [run.x[0].into(), run.y.into()]);
+        Component { value: run.value, pixels: pixels[i], outline }
+    };
+    firsts.map(component).collect()
 }
 
-/// For every pixel the first pixel of its component.
-fn labelled(values: &Raster<u32>) -> Vec<u32> {
-    let width = values.width as usize;
-    let data = &values.data;
-    let mut parents: Vec<u32> = (0..data.len() as u32).collect();
-    let root = |parents: &mut Vec<u32>, mut i: u32| {
-        while parents[i as usize] != i {
-            parents[i as usize] = parents[parents[i as usize] as usize];
-            i = parents[i as usize];
-        }
-        i
-    };
-    for i in 0..data.len() {
-        let x = i % width;
-        let above = [
-            (x > 0).then(|| i.wrapping_sub(1)),
-            (x > 0).then(|| i.wrapping_sub(width + 1)),
-            Some(i.wrapping_sub(width)),
-            (x + 1 < width).then(|| i.wrapping_sub(width - 1)),
-        ];
-        for other in above.into_iter().flatten().filter(|other| *other < i) {
-            if data[other] == data[i] {
-                let (a, b) = (root(&mut parents, other as u32), root(&mut parents, i as u32));
-                parents[a.max(b) as usize] = a.min(b);
+/// The runs of an image in reading order, joined with those above that they touch.
+fn runs(values: &Raster<u32>) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    let mut above = 0..0;
+    for (y, row) in (0..).zip(values.data.chunks(values.width.max(1) as usize)) {
+        let begin = runs.len();
+        let mut x = 0;
+        while x < row.len() {
+            let (value, first) = (row[x], x);
+            while x < row.len() && row[x] == value {
+                x += 1;
+            }
+            if value != 0 {
+                let parent = runs.len();
+                runs.push(Run { value, y, x: [first as u32, x as u32], parent });
             }
         }
+        let mut first = above.start;
+        for i in begin..runs.len() {
+            let [x0, x1] = runs[i].x;
+            // Corners touch too.
+            while first < above.end && runs[first].x[1] < x0 {
+                first += 1;
+            }
+            let mut other = first;
+            while other < above.end && runs[other].x[0] <= x1 {
+                if runs[other].value == runs[i].value {
+                    let (a, b) = (root(&mut runs, other), root(&mut runs, i));
+                    runs[a.max(b)].parent = a.min(b);
+                }
+                other += 1;
+            }
+        }
+        above = begin..runs.len();
     }
-    for i in 0..data.len() {
-        // Parents come before their children.
-        parents[i] = parents[parents[i] as usize];
+    runs
+}
+
+/// The first run of a component; the way there becomes shorter.
+fn root(runs: &mut [Run], mut i: usize) -> usize {
+    while runs[i].parent != i {
+        runs[i].parent = runs[runs[i].parent].parent;
+        i = runs[i].parent;
     }
-    parents
+    i
 }
 
 /// Follows the outer edge from a component's first pixel by Moore's neighbourhood, until the first step would be repeated

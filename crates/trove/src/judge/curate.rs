@@ -93,8 +93,8 @@ impl Curate {
             "near_duplicates": selection.duplicates,
             "shares_before": shares(false),
             "shares_after": shares(true),
-            "list": out,
-            "page": page,
+            "list": out.to_string_lossy(),
+            "page": page.to_string_lossy(),
         });
         let min_classes = self.min_classes;
         Ok(Answer::new(self.json, json, move || {

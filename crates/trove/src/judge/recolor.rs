@@ -100,13 +100,13 @@ impl Recolor {
         let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
         let [before, target, after] = &done.statistics;
         let json = json!({
-            "out": out,
+            "out": out.to_string_lossy(),
             "pictures": done.pictures.len(),
             "kept": done.kept,
             "before": statistics(before),
             "target": statistics(target),
             "after": statistics(after),
-            "page": page,
+            "page": page.to_string_lossy(),
         });
         Ok(Answer::new(self.json, json, move || {
             let new = done.pictures.len() - done.kept;

@@ -89,7 +89,8 @@ impl MapCommand {
                 let GeoExtent { min_lat_deg, max_lat_deg, min_lon_deg, max_lon_deg } = map_box.extent;
                 json!({
                     "scenes": map_box.scenes, "min_lat_deg": min_lat_deg, "min_lon_deg": min_lon_deg,
-                    "max_lat_deg": max_lat_deg, "max_lon_deg": max_lon_deg, "km2": map_box.km2(), "file": file,
+                    "max_lat_deg": max_lat_deg, "max_lon_deg": max_lon_deg, "km2": map_box.km2(),
+                    "file": file.as_deref().map(std::path::Path::to_string_lossy),
                 })
             };
             let rows: Vec<_> = fetched.iter().map(row).collect();
