@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge bench-torch experiment-camvid test-train clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge bench-torch bench-export experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -184,6 +184,10 @@ bench-torch: install .torch/.installed
 # Evaluation and colour transfer on made-up pictures; needs no data.
 bench-judge: install
 	$(BIN)/python benches/judge.py --trove $(BIN)/trove
+
+# Finished frames as other datasets, on the demo's.
+bench-export: install
+	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:
 	rm -rf target dist .tools .torch python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
