@@ -1,13 +1,13 @@
 //! Cityscapes' tree: pictures, ids, training ids, objects, polygons, cameras, 3D boxes and panoptic files.
 
-use glam::{DAffine3, DMat3, DQuat, EulerRot};
+use glam::{DAffine3, DMat3, EulerRot};
 use serde_json::{Value, json};
 use trove_format::{FrameFile, FrameTable, ObjectRow};
 use trove_model::{ClassMap, Raster};
 
 use super::contours::components;
 use super::dataset::{Dataset, Finished};
-use super::geometry::{affine, camera_from_body};
+use super::geometry::{affine, camera_from_body, quaternion_wxyz};
 use super::labels::{Extent, MappedLabels, Segment};
 use super::plan::{Plan, PlannedFrame};
 use super::stereo::{RightEye, right_eye};
@@ -242,14 +242,13 @@ impl Cityscapes {
             let number = numbers.of_object(object.id)?;
             let (label, [modal, amodal]) = (&self.class_of(number)?.name, [object.visible_box?, object.amodal_box?]);
             let iso_from_body = iso * camera_from_body(table, object);
-            let (_, rotation, center) = iso_from_body.to_scale_rotation_translation();
             let xywh = |bounds| Extent { area: 0, bounds }.xywh();
             Some(json!({
                 "2d": { "modal": xywh(modal), "amodal": xywh(amodal) },
                 "3d": {
-                    "center": center.to_array(),
+                    "center": iso_from_body.translation.to_array(),
                     "dimensions": object.size_m,
-                    "rotation": wxyz(rotation),
+                    "rotation": quaternion_wxyz(&iso_from_body),
                     "type": object.kind.name(),
                     "format": "CRS_ISO8855",
                 },
@@ -313,10 +312,6 @@ fn camera(table: &FrameTable, baseline_m: f64) -> Value {
 /// From x forward, y left, z up to Camera.
 fn camera_from_iso() -> DAffine3 {
     DAffine3::from_mat3(DMat3::from_cols(glam::DVec3::Z, -glam::DVec3::X, -glam::DVec3::Y))
-}
-
-fn wxyz(rotation: DQuat) -> [f64; 4] {
-    [rotation.w, rotation.x, rotation.y, rotation.z]
 }
 
 fn twice_area(outline: &[[u32; 2]]) -> i64 {

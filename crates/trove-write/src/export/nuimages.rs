@@ -13,7 +13,7 @@ use super::kinds;
 use super::masks::{Mask, packed};
 use super::nuscenes_rows::{
     ATTRIBUTES, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows, sensor, speed_mps,
-    token,
+    token, world_from_ego,
 };
 use super::plan::Plan;
 use super::tables::write_list;
@@ -32,10 +32,7 @@ impl Dataset for NuImages {
             let planned = &plan.frames[number];
             let frame = plan.open(planned)?;
             let table = &frame.table;
-            let Some(world_from_ego) = table.world_from_ego.as_ref().map(affine) else {
-                unit.clip("frames left out, whose camera has no vehicle with a known pose", 1);
-                continue;
-            };
+            let Some(world_from_ego) = world_from_ego(table, unit) else { continue };
             let channel = channel(&planned.view);
             let path = format!("samples/{channel}/{}.png", planned.path.replace('/', "__"));
             unit.link(&path, &frame.needed(FrameFile::Rgb)?)?;

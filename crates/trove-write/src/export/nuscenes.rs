@@ -13,7 +13,7 @@ use super::kinds;
 use super::kitti::note_distortion;
 use super::nuscenes_rows::{
     ATTRIBUTES, STANDS_MPS, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows,
-    sensor, speed_mps, token,
+    sensor, speed_mps, token, world_from_ego,
 };
 use super::plan::{Plan, PlannedFrame};
 use super::tables::write_list;
@@ -42,10 +42,7 @@ impl Dataset for NuScenes {
             let planned = &plan.frames[i];
             let frame = plan.open(planned)?;
             let table = &frame.table;
-            let Some(world_from_ego) = table.world_from_ego.as_ref().map(affine) else {
-                unit.clip("frames left out, whose camera has no vehicle with a known pose", 1);
-                continue;
-            };
+            let Some(world_from_ego) = world_from_ego(table, unit) else { continue };
             note_distortion(table, unit);
             let channel = channel(&planned.view);
             let path = format!("samples/{channel}/{scene}__{channel}__{:06}.png", planned.keyframe);

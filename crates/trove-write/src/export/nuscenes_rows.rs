@@ -5,7 +5,8 @@ use serde_json::{Value, json};
 use trove_format::{FrameTable, ObjectRow};
 use trove_model::Kind;
 
-use super::geometry::quaternion_wxyz;
+use super::geometry::{affine, quaternion_wxyz};
+use super::unit::Unit;
 use crate::files;
 
 /// Folder of the tables, and the version that the devkit is asked for.
@@ -28,6 +29,14 @@ pub(crate) const ATTRIBUTES: [&str; 8] = [
 /// The camera's name without its vehicle's.
 pub(crate) fn channel(view: &str) -> &str {
     view.split_once('.').map_or(view, |(_, channel)| channel)
+}
+
+/// The pose of the vehicle that carries a frame's camera; without one the frame is left out, and counted.
+pub(crate) fn world_from_ego(table: &FrameTable, unit: &mut Unit<'_>) -> Option<DAffine3> {
+    if table.world_from_ego.is_none() {
+        unit.clip("frames left out, whose camera has no vehicle with a known pose", 1);
+    }
+    table.world_from_ego.as_ref().map(affine)
 }
 
 /// A row's name: the same for the same thing in every export.
