@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge bench-torch bench-export experiment-camvid test-train clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -130,6 +130,11 @@ $(VENV)/.lint-installed: pyproject.toml
 # Benchmarks on the real data in TROVE_TEST_DATA; see benches/README.md.
 bench-build bench-frame bench-frames bench-memory bench-city: bench-%: install
 	$(BIN)/python benches/bench.py $*
+
+# A simulated LiDAR sweep beside the recorded one: LIDAR is nuscenes or kitti.
+LIDAR ?= nuscenes
+bench-lidar: install
+	$(BIN)/python benches/lidar.py $(LIDAR) --trove $(BIN)/trove --picture lidar-$(LIDAR).png
 
 # Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.
 bench-cycles: install .venv-cycles/.installed

@@ -26,6 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Material { coat: 1.0, flakes: 0.4, ..Material::plain("red paint", Vec3::new(0.5, 0.02, 0.02), 0.4) },
         ],
         instances: vec![standing(InstanceId(0), Class::Ground, 0), standing(CAR, Class::Car, 1)],
+        others: Default::default(),
         keyframes_apart_s: [f64::INFINITY; 2],
         light: Light {
             environment: Environment::Sky(PhysicalSky {
@@ -67,17 +68,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// A mesh that stands where it was modelled, at all times.
 fn standing(id: InstanceId, class: Class, index: usize) -> Instance {
-    let world_from_mesh = DAffine3::IDENTITY;
     Instance {
         id,
         class,
         mesh: index,
         materials: vec![index],
-        world_from_mesh,
-        world_from_mesh_previous: Some(world_from_mesh),
-        world_from_mesh_next: Some(world_from_mesh),
+        world_from_mesh: DAffine3::IDENTITY,
+        previous: None,
+        next: None,
         object: None,
     }
+    .at_rest()
 }
 
 /// A level square around the origin.

@@ -10,6 +10,7 @@
 mod argoverse2;
 mod datasets;
 mod elevation;
+mod frames;
 mod kitti;
 mod maps;
 mod models;
@@ -140,6 +141,10 @@ pub const TARGETS: &[Target] = &[
         prepare: |_| (),
         feed: texts::feed_cached_library,
     },
+    Target { name: "scanner", seeds: texts::scanner_seeds, prepare: |_| (), feed: texts::feed_scanner },
+    Target { name: "class_map", seeds: texts::class_map_seeds, prepare: |_| (), feed: texts::feed_class_map },
+    Target { name: "frame_table", seeds: frames::table_seeds, prepare: frames::prepare, feed: frames::feed_table },
+    Target { name: "frame_files", seeds: frames::picture_seeds, prepare: frames::prepare, feed: frames::feed_picture },
     Target { name: "output_folder", seeds: texts::output_seeds, prepare: |_| (), feed: texts::feed_output },
 ];
 

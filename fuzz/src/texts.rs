@@ -8,6 +8,7 @@ use trove_format::{Curated, FrameLine, Manifest, RunIdentity, SiteFile};
 use trove_model::Report;
 use trove_read::asset_files;
 use trove_read::locale::Locales;
+use trove_read::scanner::{self, ScannerChoice};
 
 pub(crate) fn feed_recipe(_: &Path, data: &[u8]) {
     let _ = Recipe::parse(&String::from_utf8_lossy(data));
@@ -57,6 +58,33 @@ pub(crate) fn feed_locales(folder: &Path, data: &[u8]) {
 
 pub(crate) fn locales_seeds() -> Vec<Vec<u8>> {
     vec![include_bytes!("../../crates/trove-read/src/locale/locales.toml")[..].into()]
+}
+
+pub(crate) fn feed_scanner(folder: &Path, data: &[u8]) {
+    let path = folder.join("lidar.toml");
+    let _ = fs::write(&path, data);
+    let _ = scanner::read(&path, &ScannerChoice::default());
+}
+
+pub(crate) fn scanner_seeds() -> Vec<Vec<u8>> {
+    vec![
+        include_bytes!("../../crates/trove-read/src/scanner/presets/vls-128.toml")[..].into(),
+        include_bytes!("../../crates/trove-read/src/scanner/presets/rs-m1.toml")[..].into(),
+    ]
+}
+
+pub(crate) fn feed_class_map(folder: &Path, data: &[u8]) {
+    let path = folder.join("classes.toml");
+    let _ = fs::write(&path, data);
+    let _ = trove_read::read_class_map(&path);
+}
+
+pub(crate) fn class_map_seeds() -> Vec<Vec<u8>> {
+    let own = "name = \"mine\"\nunlabelled = 0\ninstance_divisor = 1000\n[[class]]\nid = 1\nname = \"car\"\nthing = true\n\
+        rgb = [0, 0, 142]\ntrove = [\"car\", \"van\"]\n[[class]]\nid = 2\nname = \"dog\"\nkinds = [\"animal\"]\nignored = true\n\
+        paper13 = \"person\"\n";
+    let like = "like = \"cityscapes\"\n[[class]]\nid = 35\nname = \"cone\"\ntrove = [\"traffic_cone\"]\n";
+    [own, like].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 pub(crate) fn feed_cached_library(_: &Path, data: &[u8]) {

@@ -20,6 +20,8 @@ LABELS = [
     "normal.exr",
     "flow_forward.exr",
     "flow_backward.exr",
+    "occluded_forward.png",
+    "occluded_backward.png",
     "frame.json",
 ]
 SKY, CLASSES = 1, 20
@@ -70,10 +72,16 @@ def check_frame(folder, hashes):
     assert depth.shape == shape and np.array_equal(np.isinf(depth), sky) and (depth > 0).all()
     assert normal.shape == (*shape, 3) and (normal[sky] == 0).all()
     assert np.abs(np.linalg.norm(normal[~sky], axis=-1) - 1).max(initial=0) < 1e-5, f"{folder}: normals are not unit"
-    for name in ("flow_forward.exr", "flow_backward.exr"):
-        flow = exr(folder / name)
+    for way in ("forward", "backward"):
+        flow, occluded = exr(folder / f"flow_{way}.exr"), np.asarray(Image.open(folder / f"occluded_{way}.png"))
         assert flow.shape == (*shape, 2)
         assert np.array_equal(np.isnan(flow[..., 0]), np.isnan(flow[..., 1]))
+        assert occluded.shape == shape and set(np.unique(occluded)) <= {0, 128, 255}
+        assert np.array_equal(occluded == 128, np.isnan(flow[..., 0]))
+        x, y = flow[..., 0] + np.arange(shape[1]) + 0.5, flow[..., 1] + np.arange(shape[0])[:, None] + 0.5
+        # Rounding may take a point across the picture's edge.
+        outside = (x < -1e-3) | (y < -1e-3) | (x > shape[1] + 1e-3) | (y > shape[0] + 1e-3)
+        assert (occluded[outside] == 255).all()
 
     rows = {row["id"]: row for row in frame["objects"]}
     assert len(rows) == len(frame["objects"]), f"{folder}: an id twice"

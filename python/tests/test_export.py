@@ -150,6 +150,43 @@ def test_pycocotools_finds_our_masks_and_rates_them_as_perfect(finished, tmp_pat
         assert judge.stats[0] == pytest.approx(1.0)
 
 
+def test_pycocotools_finds_the_points_of_people_where_they_are_seen(finished, tmp_path):
+    coco = pytest.importorskip("pycocotools.coco")
+    evaluation = pytest.importorskip("pycocotools.cocoeval")
+    out, _ = exported(finished, tmp_path / "out", "coco")
+    truth = coco.COCO(str(out / "annotations/person_keypoints_train.json"))
+    assert truth.cats[1]["keypoints"][0] == "nose" and len(truth.cats[1]["keypoints"]) == 17
+    tables = frames(finished)
+    shown, on_them = 0, 0
+    for annotation in truth.anns.values():
+        folder, table = tables[truth.imgs[annotation["image_id"]]["trove_path"]]
+        instance = picture(folder / "instance.png")
+        row = next(row for row in table["objects"] if row["id"] == annotation["track_id"])
+        points = np.array(annotation["keypoints"]).reshape(17, 3)
+        assert annotation["num_keypoints"] == (points[:, 2] > 0).sum()
+        # Hidden or not, a point is where the camera of the frame sees its place in World.
+        world = np.c_[row["keypoints_world_m"], np.ones(17)]
+        camera = (np.linalg.inv(table["world_from_camera"]) @ world.T)[:3]
+        expected = (np.array(table["intrinsics"]) @ camera / camera[2])[:2].T
+        inside = points[:, 2] > 0
+        assert np.abs(points[inside, :2] - expected[inside]).max(initial=0) < 0.01
+        # Left is the person's left, and heads are above hips.
+        body = (np.linalg.inv(row["world_from_body"]) @ world.T)[:3].T
+        assert body[5, 1] > body[6, 1] and body[11, 1] > body[12, 1]
+        assert body[0, 2] > body[[11, 12], 2].max()
+        for column, line, visibility in points:
+            # Who is a few pixels high may be seen between the pixels' middles alone, and an arm beside the middle of its own.
+            if visibility == 2 and annotation["area"] >= 10:
+                shown += 1
+                x, y = int(column), int(line)
+                on_them += (instance[max(0, y - 1) : y + 2, max(0, x - 1) : x + 2] == row["id"]).any()
+    assert shown > 30 and on_them > 0.98 * shown
+    perfect = truth.loadRes([row | {"score": 1.0} for row in truth.anns.values()])
+    judge = evaluation.COCOeval(truth, perfect, "keypoints")
+    judge.evaluate(), judge.accumulate(), judge.summarize()
+    assert judge.stats[0] == pytest.approx(1.0)
+
+
 def test_a_panoptic_picture_and_its_segments_say_the_same(finished, tmp_path):
     out, _ = exported(finished, tmp_path / "out", "coco-panoptic")
     rows = json.loads((out / "annotations/panoptic_train.json").read_text())
@@ -243,6 +280,10 @@ def test_flow_and_depth_come_back_from_kitti_s_numbers(finished, tmp_path):
         valid = v16[..., 2] == 1
         assert (valid == (~np.isnan(flow).any(-1) & (np.abs(flow) < 512).all(-1))).all()
         assert np.abs((v16[..., :2] - 2**15) / 64 - flow)[valid].max() <= 1 / 128 + 1e-6
+        rows = png.Reader(str(out / "training/flow_noc" / path.name)).read()[2]
+        seen = np.array([list(row) for row in rows]).reshape(height, width, 3)
+        occluded = picture(tables[view, 1] / "occluded_forward.png")
+        assert (seen == np.where((occluded == 0)[..., None], v16, 0)).all()
     out, _ = exported(finished, tmp_path / "depth", "kitti-depth")
     depths = sorted(out.glob("train/*/proj_depth/groundtruth/image_02/*.png"))
     assert len(depths) == len(tables)

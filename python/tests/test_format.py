@@ -28,8 +28,8 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         "run": [finished / ".trove" / "run.json"],
         "curated": [chosen],
     }
-    # The frames' journal is looked at below, and what people write as a drive in test_plain_drive.py.
-    assert set(found) | {"frames", "drive"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
+    # The frames' journal is looked at below, sweeps in test_lidar.py, and what people write as a drive in test_plain_drive.py.
+    assert set(found) | {"frames", "drive", "sweep"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
     for name, paths in found.items():
         validator = jsonschema.Draft202012Validator(schema(name))
         assert paths, name
@@ -48,6 +48,8 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         (schema("manifest")["$defs"]["FrameRow"], form.FrameRow),
         (schema("frame"), form.FrameTable),
         (schema("frame")["$defs"]["ObjectRow"], form.ObjectRow),
+        (schema("sweep"), form.SweepTable),
+        (schema("sweep")["$defs"]["SweptObject"], form.SweptObject),
     ],
 )
 def test_the_types_have_the_fields_of_the_schemas(described, typed):

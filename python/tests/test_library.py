@@ -51,9 +51,16 @@ def test_every_image_is_what_other_libraries_read(finished):
     for frame in library.open(finished):
         folder = finished / frame.name
         assert set(frame.images) == {
-            "rgb", "class", "instance", "depth", "normal", "flow_forward", "flow_backward"
+            "rgb", "class", "instance", "depth", "normal", "flow_forward", "flow_backward",
+            "occluded_forward", "occluded_backward",
         }  # fmt: skip
-        for name, array in [("rgb", frame.rgb), ("class", frame.class_), ("instance", frame.instance)]:
+        for name, array in [
+            ("rgb", frame.rgb),
+            ("class", frame.class_),
+            ("instance", frame.instance),
+            ("occluded_forward", frame.occluded_forward),
+            ("occluded_backward", frame.occluded_backward),
+        ]:
             expected = np.asarray(Image.open(folder / f"{name}.png"))
             assert array.dtype == (np.uint16 if name == "instance" else np.uint8)
             assert np.array_equal(array, expected), name
@@ -90,7 +97,7 @@ def test_camera_and_objects_are_those_of_the_table(finished):
     assert seen > 0
 
 
-@pytest.mark.parametrize("label", ["class", "instance", "depth", "normal", "flow_forward", "boxes"])
+@pytest.mark.parametrize("label", ["class", "instance", "depth", "normal", "flow_forward", "occluded_forward", "boxes"])
 def test_an_overlay_is_a_picture_that_notebooks_show(finished, tmp_path, label):
     frame = next(frame for frame in library.open(finished) if any(thing.visible_px for thing in frame.objects))
     overlay = frame.overlay(label)

@@ -20,6 +20,7 @@ from trove.frames import Frame, Frames, open
 from trove.objects import Object
 from trove.overlay import Overlay
 from trove.scene import Scene, build, render
+from trove.sweeps import Sweep
 
 if TYPE_CHECKING:
     from trove import torch
@@ -31,6 +32,7 @@ __all__ = [
     "Object",
     "Overlay",
     "Scene",
+    "Sweep",
     "TroveError",
     "__version__",
     "build",

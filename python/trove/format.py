@@ -36,6 +36,7 @@ class Manifest(TypedDict):
     drives: list[dict[str, Any]]
     licences: list[dict[str, str]]
     frames: list[FrameRow]
+    sweeps: list[FrameRow]
 
 
 # In this form because `class` is a keyword.
@@ -61,6 +62,8 @@ ObjectRow = TypedDict(
         "truncation": float,
         "occlusion": float,
         "range_m": float,
+        "keypoints": list[list[float]] | None,
+        "keypoints_world_m": list[list[float]] | None,
     },
 )
 """An object in `frame.json`."""
@@ -94,12 +97,57 @@ class FrameTable(TypedDict):
     world_from_camera_next: Matrix4 | None
     world_from_ego: Matrix4 | None
     carrier: int | None
+    carrier_track_token: str
     projection: dict[str, Any]
     exposure_ev: float | None
     spp: int
     denoised: bool
     seed: int
     objects: list[ObjectRow]
+
+
+# In this form because `class` is a keyword.
+SweptObject = TypedDict(
+    "SweptObject",
+    {
+        "id": int,
+        "class": str,
+        "kind": str,
+        "origin": str,
+        "track_token": str,
+        "world_from_body": Matrix4,
+        "size_m": list[float],
+        "points": int,
+    },
+)
+"""An object in `sweep.json`."""
+
+
+class SweepTable(TypedDict):
+    """`sweep.json`."""
+
+    scene: str
+    dataset: str
+    place: str
+    variation: int
+    keyframe: int
+    keyframe_token: str
+    keyframe_time_ns: int
+    view: str
+    time_ns: int
+    begins_s: float
+    sweep_s: float
+    lidar: str
+    elevations_deg: list[float]
+    columns: int
+    returns: str
+    points: int
+    world_from_lidar: Matrix4
+    world_from_ego: Matrix4 | None
+    carrier: int | None
+    projection: dict[str, Any]
+    seed: int
+    objects: list[SweptObject]
 
 
 def read_manifest(root: Path) -> Manifest:
@@ -116,6 +164,12 @@ def read_manifest(root: Path) -> Manifest:
 def read_frame(folder: Path) -> FrameTable:
     """The table of the frame in `folder`."""
     table: FrameTable = _read(folder / "frame.json")
+    return table
+
+
+def read_sweep(folder: Path) -> SweepTable:
+    """The table of the LiDAR sweep in `folder`."""
+    table: SweepTable = _read(folder / "sweep.json")
     return table
 
 

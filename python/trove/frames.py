@@ -14,6 +14,7 @@ from trove.camera import Camera
 from trove.format import FrameTable, Manifest, read_curated, read_frame, read_manifest
 from trove.objects import Object
 from trove.overlay import Overlay, laid_over, with_boxes
+from trove.sweeps import Sweep
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,6 +31,8 @@ _OVERLAYS = {
     "normal": "normal",
     "flow_forward": "flow",
     "flow_backward": "flow",
+    "occluded_forward": "occluded",
+    "occluded_backward": "occluded",
     "change": "change",
 }
 
@@ -140,6 +143,19 @@ class Frame:
         return self._read("flow_backward")
 
     @cached_property
+    def occluded_forward(self) -> Bytes:
+        """Whether the next keyframe's picture hides what a pixel shows: H × W, `uint8`.
+
+        255: hidden there or out of the picture; 128: flow is not defined; 0: seen.
+        """
+        return self._read("occluded_forward")
+
+    @cached_property
+    def occluded_backward(self) -> Bytes:
+        """The same of the previous keyframe's picture."""
+        return self._read("occluded_backward")
+
+    @cached_property
     def change(self) -> npt.NDArray[np.bool_]:
         """Whether a pixel shows another surface than the counterfactual's base: H × W, `bool`."""
         return self._read("change")
@@ -152,8 +168,8 @@ class Frame:
     def overlay(self, label: str = "class", opacity: float = 2 / 3) -> Overlay:
         """A label in colours over the grey picture (alone where there is none), which notebooks show.
 
-        `label` is `class`, `instance`, `depth`, `normal`, `flow_forward`, `flow_backward`, `change`, or `boxes` for the
-        picture with the 2D boxes of what is seen.
+        `label` is `class`, `instance`, `depth`, `normal`, `flow_forward`, `flow_backward`, `occluded_forward`,
+        `occluded_backward`, `change`, or `boxes` for the picture with the 2D boxes of what is seen.
         """
         if label == "boxes":
             return with_boxes(self.rgb, self.objects)
@@ -222,6 +238,15 @@ class Frames(Sequence[Frame]):
         return read_manifest(self.root)
 
     @cached_property
+    def sweeps(self) -> list[Sweep]:
+        """The LiDAR sweeps of the same output folder, of an unfinished run those that are finished."""
+        if (self.root / "manifest.json").is_file():
+            names = [row["path"] for row in self.manifest.get("sweeps", [])]
+        else:
+            names = _finished(self.root, "sweep.json")
+        return [Sweep(self.root / name, name) for name in names]
+
+    @cached_property
     def classes(self) -> dict[int, str]:
         """The names of the classes by their ids."""
         return {row["id"]: row["name"] for row in self.manifest["classes"]}
@@ -248,6 +273,10 @@ def open(
         return Frames(root, [row["path"] for row in read_manifest(root)["frames"]])
     if not (root / ".trove").is_dir():
         raise TroveError(f"{root}: expected an output folder of trove generate, found no manifest.json in it")
-    # As an unfinished run leaves it: a frame's folder has its name once it is complete.
-    found = root.glob("*/v[0-9]*/k[0-9]*/*/frame.json")
-    return Frames(root, sorted(path.parent.relative_to(root).as_posix() for path in found))
+    return Frames(root, _finished(root, "frame.json"))
+
+
+def _finished(root: Path, table: str) -> list[str]:
+    """What an unfinished run leaves: a folder has its name once it is complete."""
+    found = root.glob(f"*/v[0-9]*/k[0-9]*/*/{table}")
+    return sorted(path.parent.relative_to(root).as_posix() for path in found)

@@ -46,6 +46,11 @@ class Object:
     occlusion: float
     range_m: float
     """From the camera to the centre of its box."""
+    keypoints: npt.NDArray[np.float64] | None
+    """(17, 3): column, row and visibility of a person's points in COCO's order (2 visible, 1 hidden, 0 outside); `None`
+    where they are not known."""
+    keypoints_world_m: npt.NDArray[np.float64] | None
+    """(17, 3): the same points in World."""
 
     @staticmethod
     def of(row: ObjectRow) -> Object:
@@ -73,6 +78,8 @@ class Object:
             truncation=row["truncation"],
             occlusion=row["occlusion"],
             range_m=row["range_m"],
+            keypoints=_points(row["keypoints"]),
+            keypoints_world_m=_points(row["keypoints_world_m"]),
         )
 
     @property
@@ -88,6 +95,12 @@ class Object:
 def _three(numbers: list[float]) -> tuple[float, float, float]:
     x, y, z = numbers
     return x, y, z
+
+
+def _points(rows: list[list[float]] | None) -> npt.NDArray[np.float64] | None:
+    import numpy as np
+
+    return None if rows is None else np.array(rows)
 
 
 def _box(numbers: list[int] | None) -> Box | None:

@@ -6,7 +6,7 @@
 OUT is the folder that was exported. All tables load and all tokens lead somewhere; every camera's boxes, as the devkit
 projects them, are those that frame.json tells, and lie around the pixels that show their objects; and nuScenes' own
 evaluation gives the boxes, judged against themselves, a mean average precision and a detection score of 1 over the
-classes that there are.
+classes that there are. Where there are LiDAR sweeps, their points load with their labels, which agree with the boxes.
 
 The exit status is 1 where a check fails.
 """
@@ -22,7 +22,9 @@ from nuscenes.eval.common.config import config_factory
 from nuscenes.eval.detection.evaluate import DetectionEval
 from nuscenes.eval.detection.utils import category_to_detection_name
 from nuscenes.nuscenes import NuScenes
-from nuscenes.utils.geometry_utils import BoxVisibility, box_in_image, view_points
+from nuscenes.utils.data_classes import LidarPointCloud
+from nuscenes.utils.data_io import load_bin_file
+from nuscenes.utils.geometry_utils import BoxVisibility, box_in_image, points_in_box, view_points
 from PIL import Image
 
 VERSION = "v1.0-trove"
@@ -97,6 +99,28 @@ def check_boxes(dataset, frames):
     return checked
 
 
+def check_lidar(dataset):
+    """Points, their labels and the boxes around them agree; returns how many points there are."""
+    checked = 0
+    for row in getattr(dataset, "lidarseg", []):
+        path, boxes, _ = dataset.get_sample_data(row["sample_data_token"])
+        points = LidarPointCloud.from_file(path).points[:3]
+        labels = load_bin_file(str(Path(dataset.dataroot) / row["filename"]))
+        things = dataset.get("panoptic", row["token"])["filename"]
+        things = load_bin_file(str(Path(dataset.dataroot) / things), type="panoptic")
+        assert len(labels) == len(things) == points.shape[1], row
+        assert (things // 1000 == labels).all(), row
+        for box in boxes:
+            category = dataset.lidarseg_name2idx_mapping[box.name]
+            # What moves was elsewhere at the beginning of the sweep.
+            inside = points_in_box(box, points, wlh_factor=1.5)
+            found = (labels[inside] == category).sum()
+            expected = dataset.get("sample_annotation", box.token)["num_lidar_pts"]
+            assert found >= 0.8 * expected - 2, (box, found, expected)
+        checked += len(labels)
+    return checked
+
+
 def detections(dataset):
     """The annotations as a detector would hand them in."""
     results = {}
@@ -151,9 +175,11 @@ def main():
     dataset.list_scenes()
     check_tokens(dataset)
     checked = check_boxes(dataset, frames_by_picture(options.frames))
+    points = check_lidar(dataset)
     splits = json.loads((options.exported / VERSION / "splits.json").read_text())
     present = set.union(*(check_evaluation(dataset, split) for split in splits))
     print(f"{len(dataset.scene)} scenes, {len(dataset.sample_annotation)} boxes, {checked} of them held to pixels")
+    print(f"{points} LiDAR points with their labels")
     print(f"classes judged: {', '.join(sorted(present))}")
     if not checked or not present:
         sys.exit(f"{options.exported}: expected boxes in view, found none")

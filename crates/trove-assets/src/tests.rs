@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use glam::Vec2;
-use trove_model::{Asset, Kind};
+use trove_model::{Asset, Class, KEYPOINTS, Kind};
 
 use crate::{Ingredients, assets};
 
@@ -32,6 +32,26 @@ fn every_asset_is_sound_and_stands_centred_on_the_ground() {
         assert_eq!(asset.licence, crate::licence::LICENCE, "{id}");
     }
     assert!(ASSETS.is_sorted_by(|a, b| a.id < b.id));
+}
+
+#[test]
+fn everyone_on_foot_and_on_wheels_has_points_in_their_body() {
+    let number = |name: &str| KEYPOINTS.iter().position(|n| *n == name).unwrap();
+    let [nose, left, right, ankle] = ["nose", "left_hip", "right_hip", "left_ankle"].map(number);
+    let mut people = 0;
+    for asset in &*ASSETS {
+        let has_rider = matches!(asset.kind, Kind::BicycleWithRider | Kind::MotorcycleWithRider);
+        assert_eq!(asset.keypoints.is_some(), asset.class == Class::Human || has_rider, "{}", asset.id);
+        let Some(points) = &asset.keypoints else { continue };
+        people += 1;
+        assert!(points[left].y > points[right].y && points[nose].z > points[left].z, "{}", asset.id);
+        assert!(points[left].z > points[ankle].z && points[nose].x > points[left].x - 0.3, "{}", asset.id);
+        for (point, name) in points.iter().zip(KEYPOINTS) {
+            let off_m = asset.mesh.positions.iter().map(|p| p.distance(*point)).fold(f32::INFINITY, f32::min);
+            assert!(off_m < 0.2, "{}: {name} is {off_m} m from the mesh", asset.id);
+        }
+    }
+    assert!(people > 20, "{people}");
 }
 
 /// The middle of what touches the ground; a trunk leans, and touches it all around only a little higher.

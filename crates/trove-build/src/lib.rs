@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use glam::DVec2;
-//! use trove_build::{BuildSettings, LightChoice, OnDisagreement, PlacePlan, Traffic, ViewSettings, Weather};
+//! use trove_build::{BuildSettings, LightChoice, OnDisagreement, PlacePlan, Traffic, ViewPlan, ViewSettings, Weather};
 //! use trove_model::{AssetLibrary, Class, DrivingSide, MapProjection, Report, Road, RoadKind, Seed, StreetMap};
 //!
 //! // One street in London, without models to furnish it.
@@ -36,7 +36,7 @@
 //! let scene = site.scene(&drive, 0);
 //! assert!(scene.instances.iter().any(|instance| instance.class == Class::Road));
 //! let views = ViewSettings { spp: 16, ..ViewSettings::default() };
-//! let shots = trove_build::shots(&drive, &site, 0, &views, &seed.into(), &report);
+//! let shots = ViewPlan::new(&drive, &site, views, seed.into(), &report).shots(&drive, &site, 0, &report);
 //! assert_eq!(shots.len(), 6, "cameras around the roof");
 //! # Ok::<(), trove_build::BuildError>(())
 //! ```
@@ -53,6 +53,7 @@ mod pieces;
 mod place;
 mod placement;
 mod roads;
+mod scanners;
 mod site;
 mod standing;
 mod surroundings;
@@ -69,7 +70,8 @@ pub use light::{LightChoice, Moment, SkyChoice};
 pub use place::{PlacePlan, Seeds, place_drive};
 pub use placement::{AssetFit, ObjectFit};
 pub use roads::HORIZON_M;
+pub use scanners::{MountedLidar, lidar_shots};
 pub use site::{BuildSettings, Site, area, build};
 pub use standing::on_relief;
 pub use traffic::Traffic;
-pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings, shots};
+pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewPlan, ViewSettings};

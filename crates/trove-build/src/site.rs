@@ -263,8 +263,9 @@ impl Site {
                 asset: Some(actor.asset(pose)),
                 cuboid: pose.cuboid,
                 velocity_mps: annotated.velocity_mps,
+                keypoints_world: pose.keypoints_world,
             };
-            instances.extend(actor.instance(track_id(annotated.track), keyframe, neighbours, object));
+            instances.extend(actor.instance(track_id(annotated.track), keyframe, neighbours, Some(object)));
         }
         instances.extend(self.ego_instance(drive, keyframe, neighbours));
         instances.sort_by_key(|i| i.id);
@@ -274,10 +275,20 @@ impl Site {
             meshes: self.stock.meshes.clone(),
             materials: self.stock.materials.clone(),
             instances,
+            others: neighbours.map(|then| self.others(keyframe, then)),
             keyframes_apart_s: neighbours.map(|other| apart_s(drive, keyframe, other)),
             light: self.light.clone(),
             provenance: self.provenance.clone(),
         }
+    }
+
+    /// Who is there at a keyframe beside and not at this one.
+    fn others(&self, keyframe: usize, beside: Option<usize>) -> Vec<Instance> {
+        let Some(beside) = beside else { return Vec::new() };
+        let tracks = self.actors.iter().enumerate().filter_map(|(i, actor)| Some((track_id(i), actor.as_ref()?)));
+        let all = tracks.chain(self.added.iter().map(|added| (added.id, &added.actor)));
+        let come_or_gone = all.filter(|(_, actor)| actor.at(keyframe).is_none());
+        come_or_gone.filter_map(|(id, actor)| actor.instance(id, beside, [None; 2], None)).collect()
     }
 
     fn ego_instance(&self, drive: &Drive, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
@@ -289,8 +300,9 @@ impl Site {
             asset: Some(ego.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: None,
+            keypoints_world: pose.keypoints_world,
         };
-        ego.instance(self.ego_id(drive), keyframe, neighbours, object)
+        ego.instance(self.ego_id(drive), keyframe, neighbours, Some(object))
     }
 
     /// The number of the recording vehicle.
@@ -348,8 +360,9 @@ impl Added {
             asset: Some(self.actor.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
+            keypoints_world: pose.keypoints_world,
         };
-        self.actor.instance(self.id, keyframe, neighbours, object)
+        self.actor.instance(self.id, keyframe, neighbours, Some(object))
     }
 }
 
@@ -364,7 +377,7 @@ mod tests {
     use trove_model::Seed;
 
     use crate::testing;
-    use crate::views::{PictureSize, ViewSettings, shots};
+    use crate::views::{PictureSize, ViewPlan, ViewSettings};
 
     fn settings(seed: u64) -> BuildSettings {
         BuildSettings {
@@ -471,13 +484,12 @@ mod tests {
         let scenes: Vec<Scene> = (0..10).map(|k| site.scene(&drive, k)).collect();
         for k in 1..10 {
             for (before, now) in scenes[k - 1].instances.iter().zip(&scenes[k].instances) {
-                assert_eq!(before.world_from_mesh_next, Some(now.world_from_mesh));
-                assert_eq!(now.world_from_mesh_previous, Some(before.world_from_mesh));
+                assert_eq!((before.next, now.previous), (Some(now.now()), Some(before.now())));
             }
         }
-        assert!(scenes[0].instances[1].world_from_mesh_previous.is_none());
+        assert!(scenes[0].instances[1].previous.is_none());
         let ahead = &scenes[3].instances[1];
-        let moved = ahead.world_from_mesh_next.unwrap().translation - ahead.world_from_mesh.translation;
+        let moved = ahead.next.unwrap().world_from_mesh.translation - ahead.world_from_mesh.translation;
         assert!((moved - DVec3::new(5.0, 0.0, 0.0)).length() < 1e-2, "{moved}");
     }
 
@@ -513,11 +525,11 @@ mod tests {
             let site = pool.install(|| site(5));
             let size = PictureSize::Scaled(0.5);
             let views = ViewSettings { other_vehicles: 2, size, spp: 1, ..ViewSettings::default() };
-            let scene = site.scene(&drive, 4);
+            let (scene, report) = (site.scene(&drive, 4), Report::default());
             format!(
                 "{:?} {:?}",
                 (scene.instances, scene.materials),
-                shots(&drive, &site, 4, &views, &Seed(5).into(), &Report::default())
+                ViewPlan::new(&drive, &site, views, Seed(5).into(), &report).shots(&drive, &site, 4, &report)
             )
         };
         assert_eq!(built(1), built(2));

@@ -199,6 +199,7 @@ pub(crate) fn drive() -> Drive {
         projection: MapProjection::spherical(1.3, 103.8, DVec2::ZERO),
         keyframes: (0..10).map(keyframe).collect(),
         path: Trajectory::default(),
+        lidars: Vec::new(),
         sweeps: Vec::new(),
         tracks: cast.iter().map(track).collect(),
         rig,

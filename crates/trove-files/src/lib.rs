@@ -14,10 +14,12 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+mod budget;
 mod component;
 mod lock;
 mod read;
 
+pub use budget::{Budget, Exceeded};
 pub use component::{OutputRoot, PathComponent, UnsafeName};
 pub use lock::FolderLock;
 pub use read::{Folder, LARGEST_FILE, LARGEST_TEXT, open_regular, read_regular, read_text};

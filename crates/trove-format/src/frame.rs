@@ -1,13 +1,11 @@
 //! `frame.json`: the camera and one row an object.
 
-use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use serde_json::ser::Formatter;
-use trove_model::{Class, Distortion, Kind, MapProjection, Origin};
+use trove_model::{Class, Distortion, Keypoints, Kind, MapProjection, Origin};
 
-use crate::{FormatError, file, names};
+use crate::{FormatError, file, names, rows};
 
 /// A 4×4 matrix, rows first, which takes a point with a 1 behind it.
 pub type Matrix4 = [[f64; 4]; 4];
@@ -76,6 +74,9 @@ pub struct FrameTable {
     pub world_from_ego: Option<Matrix4>,
     /// Id of that vehicle if it is one of the scene's objects, which the camera does not see; null otherwise.
     pub carrier: Option<u32>,
+    /// The dataset's token of that vehicle's track; empty for the recording vehicle and where there is none.
+    #[serde(default)]
+    pub carrier_track_token: String,
     /// From latitude and longitude to World.
     pub projection: Projection,
     /// Radiance was multiplied by 2 to this power; null without an image.
@@ -188,6 +189,14 @@ pub struct ObjectRow {
     pub occlusion: f32,
     /// Distance from the camera to the centre of its box, metres.
     pub range_m: f32,
+    /// The 17 points of the person that it is or carries, in COCO's order (nose; then left and right: eye, ear, shoulder,
+    /// elbow, wrist, hip, knee, ankle): column and row in pixels, and 2 where it is visible, 1 where something hides it;
+    /// [0, 0, 0] outside the picture. Null for all else, and where they are not known.
+    #[serde(default)]
+    pub keypoints: Option<Keypoints<[f64; 3]>>,
+    /// The same points in World, metres.
+    #[serde(default)]
+    pub keypoints_world_m: Option<Keypoints<[f64; 3]>>,
 }
 
 /// How an object comes to be in a scene.
@@ -252,56 +261,7 @@ impl FrameTable {
     }
 
     /// The file's bytes: one line a field and one line an object.
-    #[allow(clippy::missing_panics_doc)] // serde_json refuses keys that are not strings, and nothing else
     pub fn to_json(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, RowFormatter::default());
-        self.serialize(&mut serializer).expect("a frame has keys that are strings");
-        bytes.push(b'\n');
-        bytes
-    }
-}
-
-/// One line a field and one line an object: files that are read by people, by `grep` and by `diff`.
-#[derive(Default)]
-struct RowFormatter {
-    /// How many brackets are open.
-    depth: usize,
-}
-
-impl RowFormatter {
-    fn open<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
-        self.depth += 1;
-        writer.write_all(bracket)
-    }
-
-    fn close<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
-        self.depth -= 1;
-        writer.write_all(if self.depth == 0 { b"\n" } else { b"" })?;
-        writer.write_all(bracket)
-    }
-}
-
-impl Formatter for RowFormatter {
-    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.open(writer, b"[")
-    }
-
-    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.close(writer, b"]")
-    }
-
-    fn begin_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        // An object in a list of the table's is a row.
-        self.open(writer, if self.depth == 2 { b"\n{" } else { b"{" })
-    }
-
-    fn end_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.close(writer, b"}")
-    }
-
-    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
-        writer.write_all(if first { b"" } else { b"," })?;
-        writer.write_all(if self.depth == 1 { b"\n" } else { b"" })
+        rows::bytes(self)
     }
 }

@@ -15,12 +15,14 @@ pub enum FrameFile {
     Normal,
     FlowForward,
     FlowBackward,
+    OccludedForward,
+    OccludedBackward,
     Change,
 }
 
 impl FrameFile {
     /// All that there are.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Radiance,
         Self::Rgb,
         Self::Class,
@@ -29,6 +31,8 @@ impl FrameFile {
         Self::Normal,
         Self::FlowForward,
         Self::FlowBackward,
+        Self::OccludedForward,
+        Self::OccludedBackward,
         Self::Change,
     ];
 
@@ -43,6 +47,8 @@ impl FrameFile {
             Self::Normal => "normal.exr",
             Self::FlowForward => "flow_forward.exr",
             Self::FlowBackward => "flow_backward.exr",
+            Self::OccludedForward => "occluded_forward.png",
+            Self::OccludedBackward => "occluded_backward.png",
             Self::Change => "change.png",
         }
     }

@@ -1,6 +1,6 @@
 //! The JSON files of an output folder, and of drives in the plain form, as types.
 //!
-//! Everything that writes or reads `manifest.json`, `report.json`, `site.json`, `frame.json`, `curated.json` or the files
+//! Everything that writes or reads `manifest.json`, `report.json`, `site.json`, `frame.json`, `sweep.json`, `curated.json` or the files
 //! in `.trove/`, and the `drive.json` of a recording in the plain form, does it through these types. The schemas in `docs/schema` are generated from them:
 //! `TROVE_WRITE_SCHEMAS=1 cargo test -p trove-format schemas` writes them anew.
 //!
@@ -43,9 +43,11 @@ mod manifest;
 mod names;
 mod plain_drive;
 mod report;
+mod rows;
 #[cfg(test)]
 mod schemas;
 mod site;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -65,3 +67,4 @@ pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{
     AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, LocaleRow, ProjectionKind, SiteFile, Source,
 };
+pub use sweep::{SweepTable, SweptObject};

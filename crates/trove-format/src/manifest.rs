@@ -29,6 +29,9 @@ pub struct Manifest {
     pub licences: Vec<Source>,
     /// The finished frames, ordered by scene, variation and keyframe.
     pub frames: Vec<FrameRow>,
+    /// The finished LiDAR sweeps, likewise; missing in folders written by earlier versions.
+    #[serde(default)]
+    pub sweeps: Vec<FrameRow>,
 }
 
 /// A class in every label set.
@@ -78,7 +81,7 @@ pub struct FrameRow {
     pub variation: u32,
     /// Index of the keyframe in its drive, from 0.
     pub keyframe: u32,
-    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`).
+    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`) or LiDAR (`ego.LIDAR_TOP`).
     pub view: String,
     /// How its variation differs.
     pub factors: Factors,
@@ -137,7 +140,7 @@ impl Manifest {
         let manifest: Self = file::of_this_format(&path, &bytes, "a manifest of trove generate")?;
         // Whoever sends a folder does not choose which files are read elsewhere.
         let root = OutputRoot::new(folder);
-        match manifest.frames.iter().find_map(|frame| root.at(&frame.path).err()) {
+        match manifest.frames.iter().chain(&manifest.sweeps).find_map(|frame| root.at(&frame.path).err()) {
             Some(source) => Err(FormatError::Outside { path, source }),
             None => Ok(Some(manifest)),
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
-use crate::{Curated, FrameLine, FrameTable, Manifest, PlainDrive, RunIdentity, RunReport, SiteFile};
+use crate::{Curated, FrameLine, FrameTable, Manifest, PlainDrive, RunIdentity, RunReport, SiteFile, SweepTable};
 
 /// The schema of a file as it is written: as a name and a text.
 fn schema<T: JsonSchema>(file: &str) -> (&str, String) {
@@ -32,6 +32,7 @@ fn the_schemas_are_those_of_the_types() {
         schema::<RunReport>(RunReport::NAME),
         schema::<SiteFile>(SiteFile::NAME),
         schema::<FrameTable>(FrameTable::NAME),
+        schema::<SweepTable>(SweepTable::NAME),
         schema::<Curated>(Curated::NAME),
         schema::<RunIdentity>(RunIdentity::NAME),
         schema::<FrameLine>(FrameLine::JOURNAL),

@@ -34,6 +34,9 @@ pub struct SiteFile {
     pub planned: serde_json::Value,
     /// The frames that were planned: index of the keyframe in the drive, from 0, and the view (`ego.CAM_FRONT`).
     pub frames: Vec<(u32, String)>,
+    /// The LiDAR sweeps that were planned, likewise (`ego.LIDAR_TOP`).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sweeps: Vec<(u32, String)>,
 }
 
 /// Whose customs a place follows.

@@ -58,6 +58,7 @@ fn site() -> SiteFile {
         },
         locale: Some(LocaleRow { country: Some("US".into()), driving_side: "right".into(), speed_unit: "mph".into() }),
         frames: vec![(0, "ego.CAM_FRONT".into())],
+        sweeps: vec![],
     }
 }
 
@@ -152,6 +153,7 @@ fn a_manifest_of_another_version_is_refused() {
             files: BTreeMap::from([("class.png".into(), "00".into())]),
             counterfactual: None,
         }],
+        sweeps: vec![],
     };
     assert_eq!(Manifest::read(dir.path()).unwrap(), None);
     let path = dir.path().join(Manifest::NAME);

@@ -1,6 +1,8 @@
 //! What a camera returns.
 
-use crate::{Class, InstanceId, Raster};
+use glam::DVec2;
+
+use crate::{Class, InstanceId, Keypoints, Raster};
 
 /// A picture and its labels.
 #[derive(Clone, Debug)]
@@ -41,9 +43,36 @@ pub struct Labels {
     pub flow_forward: Raster<[f32; 2]>,
     /// Pixels to the previous keyframe; NaN = not defined.
     pub flow_backward: Raster<[f32; 2]>,
+    /// Whether the next keyframe's picture shows what the pixel shows.
+    pub occluded_forward: Raster<Occlusion>,
+    /// Whether the previous keyframe's picture does.
+    pub occluded_backward: Raster<Occlusion>,
     /// Every recorded object, and every road user like them, of which a pixel would be seen if nothing else were there, and all scenery of which one is
     /// seen, in the order of ids; without the object that carries the camera.
     pub objects: Vec<ObjectLabel>,
+}
+
+/// Whether the picture to which flow leads shows the same point: whether a ray from its camera reaches the point, or a place
+/// nearer to it than a pixel's extent on the surface there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Occlusion {
+    /// It does.
+    Seen,
+    /// Flow is not defined.
+    Undefined,
+    /// Something else is in front of it, or it is out of the picture.
+    Hidden,
+}
+
+impl Occlusion {
+    /// Its value in pictures of labels.
+    pub fn value(self) -> u8 {
+        match self {
+            Self::Seen => 0,
+            Self::Undefined => 128,
+            Self::Hidden => 255,
+        }
+    }
 }
 
 /// Pixels from `min` to `max`, both included.
@@ -74,6 +103,17 @@ pub struct ObjectLabel {
     pub occlusion: f32,
     /// From the camera to the centre of its box, metres.
     pub range_m: f32,
+    /// Points of the person that it is or carries, each `None` outside the picture; `None` where they are not known.
+    pub keypoints: Option<Keypoints<Option<SeenKeypoint>>>,
+}
+
+/// Where a picture shows a point of a person.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenKeypoint {
+    /// Its place in the picture.
+    pub pixel: DVec2,
+    /// Whether nothing hides it but the skin and clothes that it lies in.
+    pub is_visible: bool,
 }
 
 /// What a picture cost.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, Trajectory, World};
+use crate::{Bounds, Camera, Cuboid, Ego, Kind, LaneMap, Lens, MapProjection, Pose, RigLidar, Trajectory, World};
 
 /// One recorded scene: where the vehicle went, what its cameras saw, and who was there.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Drive {
     pub is_georeferenced: bool,
     /// Cameras in the order of their names.
     pub rig: Vec<RigCamera>,
+    /// LiDARs of the vehicle, as far as the recording tells where they are.
+    pub lidars: Vec<RigLidar>,
     /// The recording vehicle's own body.
     pub ego_body: EgoBody,
     /// Annotated moments in the order of time.
@@ -324,6 +326,7 @@ mod tests {
             projection: MapProjection::spherical(0.0, 0.0, DVec2::ZERO),
             is_georeferenced: false,
             rig: Vec::new(),
+            lidars: Vec::new(),
             ego_body: EgoBody { centre_ego: DVec3::ZERO, size_m: DVec3::ONE },
             keyframes: vec![keyframe],
             path: Trajectory::new(vec![(0, pose)]).0,

@@ -94,6 +94,9 @@ pub struct Material {
     pub transmission: f32,
     /// 0 to 1: share of diffuse light that comes out on the other side (leaves).
     pub translucency: f32,
+    /// 0 to 1: how much of light that comes from a sensor goes straight back to it (sheeting of signs, plates, glass beads in
+    /// paint); 1 is new sheeting. LiDARs alone see it: pictures have no light beside the camera.
+    pub retroreflection: f32,
     /// Radiance emitted to the side from which a triangle's corners run counter-clockwise, W·m⁻²·sr⁻¹ in the renderer's
     /// scale (a clear midday sky is about 0.1, see the light's docs).
     pub emission: Vec3,
@@ -133,6 +136,7 @@ impl Default for Material {
             subsurface: 0.0,
             transmission: 0.0,
             translucency: 0.0,
+            retroreflection: 0.0,
             emission: Vec3::ZERO,
             dirt: 0.0,
             wetness: 0.0,
@@ -176,6 +180,7 @@ impl Material {
             subsurface: _,
             transmission: _,
             translucency: _,
+            retroreflection: _,
             emission: _,
             dirt: _,
             wetness: _,

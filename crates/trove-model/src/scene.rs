@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use crate::{Class, Kind, Light, Material, Mesh};
+use crate::{Class, Keypoints, Kind, Light, Material, Mesh};
 
 /// An object's number, unique in a scene over all its keyframes and views; 0 is no object (stuff).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -19,6 +19,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// What stands where.
     pub instances: Vec<Instance>,
+    /// Who is there at the previous keyframe, or at the next one, and not now: placed as then, and without neighbours.
+    pub others: [Vec<Instance>; 2],
     /// From the previous keyframe to this one and from this one to the next, seconds, more than 0; infinite where there is
     /// none.
     pub keyframes_apart_s: [f64; 2],
@@ -41,12 +43,36 @@ pub struct Instance {
     pub materials: Vec<usize>,
     /// Placement, with scale.
     pub world_from_mesh: DAffine3,
-    /// The same at the previous keyframe: the same matrix for what stands still, `None` where it was not there.
-    pub world_from_mesh_previous: Option<DAffine3>,
+    /// Where and in which shape it was at the previous keyframe: the same for what stands still, `None` where it was not
+    /// there.
+    pub previous: Option<Placement>,
     /// The same at the next keyframe.
-    pub world_from_mesh_next: Option<DAffine3>,
+    pub next: Option<Placement>,
     /// What it is, for the frame's table; `None` for stuff.
     pub object: Option<Arc<SceneObject>>,
+}
+
+/// An instance at a neighbouring keyframe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Index into [`Scene::meshes`]: the same mesh, or one of the same triangles and slots, whose vertices are the same
+    /// points of the thing, such as of a person in another posture.
+    pub mesh: usize,
+    /// Takes that mesh's points to World, with scale.
+    pub world_from_mesh: DAffine3,
+}
+
+impl Instance {
+    /// Where and in which shape it is now.
+    pub fn now(&self) -> Placement {
+        Placement { mesh: self.mesh, world_from_mesh: self.world_from_mesh }
+    }
+
+    /// The same instance, which stands still from the previous keyframe to the next.
+    pub fn at_rest(self) -> Self {
+        let now = Some(self.now());
+        Self { previous: now, next: now, ..self }
+    }
 }
 
 /// A countable thing.
@@ -62,6 +88,8 @@ pub struct SceneObject {
     pub cuboid: crate::Cuboid,
     /// Velocity in World; `None` where unknown.
     pub velocity_mps: Option<DVec3>,
+    /// Points of the person that it is or carries, World; `None` where they are not known.
+    pub keypoints_world: Option<Keypoints<DVec3>>,
 }
 
 /// How an object comes to be in a scene.

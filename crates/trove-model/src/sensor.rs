@@ -11,12 +11,15 @@ pub struct SensorRay {
     pub origin: DVec3,
     /// Where it goes, World, unit.
     pub direction: DVec3,
-    /// When it leaves, seconds after the moment to which the scene belongs. Things move for 0.05 s before and after that
-    /// moment, and stand beyond.
+    /// When it leaves, seconds after the moment to which the scene belongs. Things move for [`SensorRay::MOVING_S`] before and
+    /// after that moment, and stand beyond.
     pub time_s: f64,
 }
 
 impl SensorRay {
+    /// How long things move before and after the moment of a scene, seconds.
+    pub const MOVING_S: f64 = 0.05;
+
     /// In a direction of any length; `None` where it has none or a number is not finite.
     pub fn new(origin: DVec3, direction: DVec3, time_s: f64) -> Option<Self> {
         let direction = direction.try_normalize()?;

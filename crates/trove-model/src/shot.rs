@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{Camera, InstanceId, Lens, Pose, Seed, Sensor, SensorRay, World};
+use crate::{Camera, Ego, InstanceId, Lens, Pose, Seed, Sensor, SensorRay, World};
 
 /// How bright the picture becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,6 +139,8 @@ pub struct Shot {
     pub viewpoint: Viewpoint,
     /// Intrinsics.
     pub lens: Lens,
+    /// The vehicle that carries the camera, at the picture's time; `None` where the camera stands on its own.
+    pub world_from_ego: Option<Pose<World, Ego>>,
     /// Pose.
     pub world_from_camera: Pose<World, Camera>,
     /// The same camera at the previous keyframe; `None` where there is none, and backward flow is not defined.
@@ -172,6 +174,7 @@ impl Shot {
             view: view.into(),
             viewpoint: Viewpoint::Free,
             lens,
+            world_from_ego: None,
             world_from_camera,
             world_from_camera_previous: None,
             world_from_camera_next: None,

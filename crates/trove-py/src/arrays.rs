@@ -3,7 +3,7 @@
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use trove::{Raster, colors};
+use trove::{Occlusion, Raster, colors};
 
 /// Rows × columns.
 pub(crate) fn values<T: Element>(py: Python<'_>, raster: Raster<T>) -> PyResult<Bound<'_, PyAny>> {
@@ -20,8 +20,13 @@ pub(crate) fn channels<T: Element, const N: usize>(
     Ok(PyArray1::from_vec(py, raster.data.into_flattened()).reshape(shape)?.into_any())
 }
 
-/// The colours (H, W, 3; `uint8`) in which a label's array is shown: `class`, `instance`, `depth`, `normal`, `flow` or
-/// `change`.
+/// As in the pictures: 0, 128 or 255.
+pub(crate) fn occlusion(py: Python<'_>, raster: Raster<Occlusion>) -> PyResult<Bound<'_, PyAny>> {
+    values(py, raster.map(|occlusion| occlusion.value()))
+}
+
+/// The colours (H, W, 3; `uint8`) in which a label's array is shown: `class`, `instance`, `depth`, `normal`, `flow`,
+/// `occluded` or `change`.
 #[pyfunction]
 pub(crate) fn label_colors<'py>(
     py: Python<'py>,
@@ -32,6 +37,7 @@ pub(crate) fn label_colors<'py>(
         "class" => colored(array, colors::of_class)?,
         "instance" => colored(array, colors::of_instance)?,
         "depth" => colored(array, colors::of_depth)?,
+        "occluded" => colored(array, |value: u8| [value; 3])?,
         "change" => colored(array, |differs: bool| if differs { [255; 3] } else { [0; 3] })?,
         "normal" => colored_vectors(array, colors::of_normal)?,
         "flow" => {
@@ -42,7 +48,7 @@ pub(crate) fn label_colors<'py>(
         }
         _ => {
             return Err(PyTypeError::new_err(format!(
-                "label: expected class, instance, depth, normal, flow or change, found {label:?}"
+                "label: expected class, instance, depth, normal, flow, occluded or change, found {label:?}"
             )));
         }
     };

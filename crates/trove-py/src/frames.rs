@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use trove::{FrameFile, StoredFrame};
 
-use crate::arrays::{channels, values};
+use crate::arrays::{channels, occlusion, values};
 use crate::error::trove_error;
 
 /// A finished frame's folder; its images are read, without Python's lock, when they are asked for.
@@ -38,6 +38,8 @@ impl PyStoredFrame {
             FrameFile::Normal => channels(py, py.detach(|| frame.normal()).map_err(trove_error)?),
             FrameFile::FlowForward => channels(py, py.detach(|| frame.flow_forward()).map_err(trove_error)?),
             FrameFile::FlowBackward => channels(py, py.detach(|| frame.flow_backward()).map_err(trove_error)?),
+            FrameFile::OccludedForward => occlusion(py, py.detach(|| frame.occluded_forward()).map_err(trove_error)?),
+            FrameFile::OccludedBackward => occlusion(py, py.detach(|| frame.occluded_backward()).map_err(trove_error)?),
             FrameFile::Change => values(py, py.detach(|| frame.change()).map_err(trove_error)?),
         }
     }

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use trove::{FreeCamera, PictureRequest, ReadyScene};
 
-use crate::arrays::{channels, values};
+use crate::arrays::{channels, occlusion, values};
 use crate::attended::attended;
 use crate::error::trove_error;
 
@@ -91,6 +91,8 @@ impl PyReadyScene {
         images.set_item("normal", channels(py, labels.normal)?)?;
         images.set_item("flow_forward", channels(py, labels.flow_forward)?)?;
         images.set_item("flow_backward", channels(py, labels.flow_backward)?)?;
+        images.set_item("occluded_forward", occlusion(py, labels.occluded_forward)?)?;
+        images.set_item("occluded_backward", occlusion(py, labels.occluded_backward)?)?;
         Ok((table, images))
     }
 }

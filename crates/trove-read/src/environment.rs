@@ -13,7 +13,7 @@ use trove_files::open_regular;
 use trove_model::EnvironmentMap;
 
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Wider pictures are of no use for light and take over 1.6 GB, pixels.
 const MAX_WIDTH: usize = 16_384;

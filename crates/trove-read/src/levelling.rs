@@ -317,6 +317,7 @@ mod tests {
             ego_body: EgoBody { centre_ego: DVec3::ZERO, size_m: DVec3::ONE },
             keyframes: (0..10).map(keyframe).collect(),
             path: Trajectory::default(),
+            lidars: Vec::new(),
             sweeps: Vec::new(),
             tracks: (0..16).map(track).collect(),
             lane_map: None,

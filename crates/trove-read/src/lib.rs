@@ -32,7 +32,6 @@
 
 pub mod argoverse2;
 pub mod asset_files;
-mod budget;
 mod class_map_file;
 mod clock_time;
 mod datasets;
@@ -54,6 +53,7 @@ mod plain;
 mod protobuf;
 pub mod relief;
 pub mod rig;
+pub mod scanner;
 mod toml_fault;
 pub mod waymo;
 

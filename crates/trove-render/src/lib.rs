@@ -23,7 +23,6 @@
 //!     triangles: vec![[0, 1, 2], [0, 2, 3]],
 //!     ..Mesh::default()
 //! };
-//! let stands = Some(DAffine3::IDENTITY);
 //! let sky = EnvironmentMap { name: "white".into(), width: 2, height: 1, rgb: vec![[1.0; 3]; 2] };
 //! let scene = Scene {
 //!     meshes: vec![Arc::new(ground)],
@@ -34,10 +33,12 @@
 //!         mesh: 0,
 //!         materials: vec![0],
 //!         world_from_mesh: DAffine3::IDENTITY,
-//!         world_from_mesh_previous: stands,
-//!         world_from_mesh_next: stands,
+//!         previous: None,
+//!         next: None,
 //!         object: None,
-//!     }],
+//!     }
+//!     .at_rest()],
+//!     others: Default::default(),
 //!     keyframes_apart_s: [f64::INFINITY; 2],
 //!     light: Light { environment: Environment::Map(Arc::new(sky)) },
 //!     provenance: Vec::new(),
@@ -73,6 +74,7 @@ mod denoise;
 mod error;
 mod film;
 mod labels;
+mod lidar;
 mod light;
 mod material;
 mod motion;

@@ -1,9 +1,10 @@
 //! Where an instance is while the shutter is open.
 
 use glam::{Affine3A, DAffine3, DMat3};
+use trove_model::SensorRay;
 
 /// Motion is known this long before and after the moment of the labels, seconds; beyond it things stand.
-const SPAN_S: f64 = 0.05;
+const SPAN_S: f64 = SensorRay::MOVING_S;
 
 /// A ray's time at the moment of the labels, of 0 (`SPAN_S` before it) to 1 (after it).
 pub(crate) const MIDDLE: f32 = 0.5;

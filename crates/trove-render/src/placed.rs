@@ -18,6 +18,8 @@ pub(crate) struct Placed {
     /// Lowest z of the mesh, its own metres.
     pub(crate) foot_z: f32,
     pub(crate) world_from_mesh: Motion,
+    /// Whether it stands at the previous and at the next keyframe as it stands now.
+    pub(crate) stays: [bool; 2],
     /// As `at` gives it at the moment of the labels.
     world_from_normal: Mat3A,
 }
@@ -29,6 +31,7 @@ impl Placed {
         foot_z: f32,
         materials: Vec<u32>,
         way: &Motion<DAffine3>,
+        stays: [bool; 2],
     ) -> Self {
         // Here in the model's precision.
         let cofactor = way.middle.matrix3.inverse().transpose() * way.middle.matrix3.determinant().signum();
@@ -37,6 +40,7 @@ impl Placed {
             mesh,
             foot_z,
             materials,
+            stays,
             world_from_mesh: way.single(),
             world_from_normal: Mat3A::from_cols(
                 cofactor.x_axis.as_vec3a(),

@@ -5,6 +5,13 @@ use trove_model::InstanceId;
 
 use crate::motion::MIDDLE;
 
+/// A keyframe beside the one that is seen; also an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Beside {
+    Previous,
+    Next,
+}
+
 /// A ray in World; distances are in lengths of `direction`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
@@ -17,12 +24,14 @@ pub(crate) struct Ray {
     /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it where they look
     /// for closest hits; shadows stay.
     pub(crate) past: Option<InstanceId>,
+    /// The keyframe beside at which it looks: closest hits on what does not stand then as it stands now do not count.
+    pub(crate) beside: Option<Beside>,
 }
 
 impl Ray {
     /// From a point to infinity, at the moment of the labels, through nothing.
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY, time: MIDDLE, past: None }
+        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY, time: MIDDLE, past: None, beside: None }
     }
 
     /// Another ray of the same time, to infinity, which is stopped by everything.

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, Points, Raster, Scene, Sensor, Shot};
+use trove_model::{Capture, CaptureStats, Color, LidarShot, PointCloud, Points, Raster, Scene, Sensor, Shot};
 
 use crate::accel::{self, Kernel, KernelChoice};
 use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
-use crate::{PreparedScene, RayTimes, RenderError, film, labels, path, scan};
+use crate::{PreparedScene, RayTimes, RenderError, film, labels, lidar, path, scan};
 
 /// How to set a renderer up.
 #[derive(Clone, Debug, Default)]
@@ -108,6 +108,11 @@ impl Renderer {
     /// panes of glass are.
     pub fn scan(&self, scene: &PreparedScene, sensor: &dyn Sensor) -> Points {
         self.pool.install(|| scan::scan(scene, sensor))
+    }
+
+    /// Makes a LiDAR's sweep: docs/lidar.md says by which model.
+    pub fn sweep(&self, scene: &PreparedScene, shot: &LidarShot) -> PointCloud {
+        self.pool.install(|| lidar::sweep(scene, shot))
     }
 
     /// Takes a picture with its labels, or with `light` false the labels alone.

@@ -47,7 +47,7 @@ pub(crate) fn seen_by_one(scene: &PreparedScene, carrier: &Carrier, ray: &Sensor
 }
 
 /// A hit in double precision.
-fn exactly(scene: &PreparedScene, hit: Hit, ray: Ray, exact: &SensorRay) -> Seen {
+pub(crate) fn exactly(scene: &PreparedScene, hit: Hit, ray: Ray, exact: &SensorRay) -> Seen {
     let (mesh, direction) = (&scene.placed(hit.instance).mesh, exact.direction);
     let world_from_mesh = scene.instances[hit.instance as usize].world_from_mesh.at(ray.time);
     let corner = |i: u32| world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());

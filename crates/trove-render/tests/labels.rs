@@ -2,13 +2,16 @@
 
 #![allow(clippy::unwrap_used)] // clippy knows the tests in here, not what they call
 
+mod solids;
+
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
+use solids::{ball, cube};
 use trove_model::{
-    Body, Camera, CameraBeside, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Kind,
-    Labels, Lens, Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Pose, Raster, Scene, SceneObject, Seed, Shot,
-    Shutter, World,
+    Body, Camera, CameraBeside, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId,
+    KEYPOINTS, Kind, Labels, Lens, Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Placement, Pose, Raster,
+    Scene, SceneObject, Seed, Shot, Shutter, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -129,7 +132,7 @@ fn a_moving_box_flows_with_its_tracks_and_the_sky_with_the_cameras_turn() {
     let now = DAffine3::from_translation(PLACE + DVec3::Y * 8.0);
     let next = DAffine3::from_rotation_translation(DQuat::from_rotation_z(0.3), PLACE + DVec3::new(1.0, 9.0, 0.0));
     let mut moving = object(1, PLACE + DVec3::Y * 8.0, 1.0);
-    (moving.world_from_mesh_next, moving.world_from_mesh_previous) = (Some(next), None);
+    (moving.next, moving.previous) = (Some(Placement { mesh: CUBE, world_from_mesh: next }), None);
     let labels = look(&scene(vec![moving]), &shot);
     for (x, y, centre) in centres() {
         let flow = DVec2::from_array(labels.flow_forward.at(x, y).map(f64::from));
@@ -166,6 +169,37 @@ fn a_box_behind_another_is_hidden_and_keeps_its_amodal_extent() {
     assert!((hidden.range_m - 12.0).abs() < 1e-4);
     // The near face of the front box, 4.5 m away and 3 m wide, is 40 × 41.3 pixels around the principal point.
     assert_eq!(shown.amodal_box, Some(PixelBox { min: [21, 8], max: [60, 48] }));
+}
+
+#[test]
+fn points_of_a_person_are_where_they_project_to_and_hidden_by_all_but_skin_and_clothes() {
+    // The near face of a person as large as a box is 7.5 m away; a post stands before its right half.
+    let mut person = object(7, PLACE + DVec3::Y * 8.0, 1.0);
+    let mut points = [PLACE + DVec3::Y * -5.0; KEYPOINTS.len()];
+    let face_and_joints = [
+        ("nose", DVec3::new(-0.2, 7.51, 0.3), Some(true)),
+        ("left_eye", DVec3::new(-0.3, 7.6, 0.3), Some(false)),
+        ("left_hip", DVec3::new(-0.3, 7.6, -0.1), Some(true)),
+        ("right_hip", DVec3::new(-0.1, 8.4, -0.1), Some(false)),
+        ("right_knee", DVec3::new(0.2, 7.51, -0.4), Some(false)),
+        ("left_ankle", DVec3::new(-30.0, 7.5, 0.0), None),
+        ("right_ankle", DVec3::new(0.0, -1.0, 0.0), None),
+    ];
+    let number = |name: &str| KEYPOINTS.iter().position(|n| *n == name).unwrap();
+    face_and_joints.iter().for_each(|(name, at, _)| points[number(name)] = PLACE + *at);
+    let shown = SceneObject { keypoints_world: Some(points), ..(**person.object.as_ref().unwrap()).clone() };
+    person.object = Some(Arc::new(shown));
+    let post = object(9, PLACE + DVec3::new(0.55, 4.0, 0.0), 1.0);
+    let both = objects(vec![person, post]);
+    let seen = both[0].keypoints.unwrap();
+    for (name, at, is_visible) in face_and_joints {
+        assert_eq!(seen[number(name)].map(|point| point.is_visible), is_visible, "{name}");
+        if let Some(point) = seen[number(name)] {
+            let [u, v] = [LENS.cx_px + LENS.fx_px * at.x / at.y, LENS.cy_px - LENS.fy_px * at.z / at.y];
+            assert!(point.pixel.distance(DVec2::new(u, v)) < 1e-9, "{name}: {}", point.pixel);
+        }
+    }
+    assert_eq!(both[1].keypoints, None);
 }
 
 #[test]
@@ -232,9 +266,7 @@ fn colour_is_sheared_by_a_rolling_shutter_and_labels_are_not() {
     let mut pole = object(1, PLACE + DVec3::Y * 20.0, 1.0);
     let size = DVec3::new(1.0, 1.0, 60.0);
     pole.world_from_mesh = DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, PLACE + DVec3::Y * 20.0);
-    pole.world_from_mesh_next = Some(pole.world_from_mesh);
-    pole.world_from_mesh_previous = Some(pole.world_from_mesh);
-    let mut scene = scene(vec![pole]);
+    let mut scene = scene(vec![pole.at_rest()]);
     scene.materials[0].base_color = Vec3::ZERO;
     let (yaw_rate, readout_s) = (0.8, 0.2);
     let turned = |angle: f64| {
@@ -267,7 +299,7 @@ fn an_edge_is_blurred_as_wide_as_the_camera_turns_while_it_is_exposed() {
     let size = DVec3::new(100.0, 0.1, 80.0);
     wall.world_from_mesh =
         DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, PLACE + DVec3::new(-50.0, 20.0, 0.0));
-    (wall.world_from_mesh_previous, wall.world_from_mesh_next) = (None, None);
+    (wall.previous, wall.next) = (None, None);
     let mut scene = scene(vec![wall]);
     scene.materials[0].base_color = Vec3::ZERO;
     let now = shot(PLACE).world_from_camera;
@@ -392,12 +424,12 @@ fn centres() -> impl Iterator<Item = (u32, u32, DVec2)> {
     (0..LENS.height_px).flat_map(row)
 }
 
-/// A camera that looks north.
 /// A camera's pose half a second away.
 fn beside(world_from_camera: Pose<World, Camera>) -> CameraBeside {
     CameraBeside { apart_s: 0.5, world_from_camera }
 }
 
+/// A camera that looks north.
 fn shot(position: DVec3) -> Shot {
     let rotation = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
     Shot { seed: Seed(1), ..Shot::new("test", LENS, Pose::<World, Camera>::new(rotation, position)) }
@@ -414,6 +446,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         meshes: [ground(), ball(400), cube()].map(Arc::new).to_vec(),
         materials: vec![Material::default()],
         instances,
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(sky)) },
         provenance: Vec::new(),
@@ -428,10 +461,11 @@ fn stuff(mesh: usize, place: DVec3) -> Instance {
         mesh,
         materials: vec![0],
         world_from_mesh,
-        world_from_mesh_previous: Some(world_from_mesh),
-        world_from_mesh_next: Some(world_from_mesh),
+        previous: None,
+        next: None,
         object: None,
     }
+    .at_rest()
 }
 
 /// A recorded cube.
@@ -447,16 +481,10 @@ fn object(id: u32, place: DVec3, side_m: f64) -> Instance {
         asset: Some("cube".into()),
         cuboid: Cuboid { world_from_body: Pose::<World, Body>::from_yaw(0.0, place), size_m: DVec3::splat(side_m) },
         velocity_mps: None,
+        keypoints_world: None,
     };
-    Instance {
-        id: InstanceId(id),
-        class: Class::Car,
-        world_from_mesh,
-        world_from_mesh_previous: Some(world_from_mesh),
-        world_from_mesh_next: Some(world_from_mesh),
-        object: Some(Arc::new(object)),
-        ..stuff(CUBE, place)
-    }
+    let cube = Instance { id: InstanceId(id), class: Class::Car, world_from_mesh, ..stuff(CUBE, place) };
+    Instance { object: Some(Arc::new(object)), ..cube.at_rest() }
 }
 
 /// A square kilometre at z = 0 in four triangles.
@@ -468,43 +496,4 @@ fn ground() -> Mesh {
         triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
         ..Mesh::default()
     }
-}
-
-/// Radius 1.
-fn ball(rings: u32) -> Mesh {
-    let mut mesh = Mesh::default();
-    for ring in 0..=rings {
-        for side in 0..=2 * rings {
-            let (sin, cos) = (ring as f32 / rings as f32 * std::f32::consts::PI).sin_cos();
-            let (y, x) = (side as f32 / rings as f32 * std::f32::consts::PI).sin_cos();
-            mesh.positions.push(Vec3::new(sin * x, sin * y, -cos));
-        }
-    }
-    for ring in 0..rings {
-        for side in 0..2 * rings {
-            let a = ring * (2 * rings + 1) + side;
-            let b = a + 2 * rings + 1;
-            mesh.triangles.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
-        }
-    }
-    mesh
-}
-
-/// Side 1 around the origin.
-fn cube() -> Mesh {
-    let mut mesh = Mesh::default();
-    for axis in 0..3 {
-        for side in [-0.5, 0.5] {
-            let base = mesh.positions.len() as u32;
-            for (u, v) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
-                let mut p = Vec3::ZERO;
-                p[axis] = side;
-                p[(axis + 1) % 3] = u;
-                p[(axis + 2) % 3] = v;
-                mesh.positions.push(p);
-            }
-            mesh.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
-        }
-    }
-    mesh
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose, Scene,
-    Seed, Shot, Shutter,
+    Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Placement, Pose,
+    Scene, Seed, Shot, Shutter,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -139,6 +139,7 @@ fn scene(world_from_mesh: DAffine3, [previous, next]: [Option<DAffine3>; 2]) -> 
         ..Mesh::default()
     };
     let sky = EnvironmentMap { name: "white".into(), width: 2, height: 1, rgb: vec![[1.0; 3]; 2] };
+    let placed = |world_from_mesh| Placement { mesh: 0, world_from_mesh };
     Scene {
         meshes: vec![Arc::new(square)],
         materials: vec![Material::plain("dark", Vec3::ZERO, 1.0)],
@@ -148,10 +149,11 @@ fn scene(world_from_mesh: DAffine3, [previous, next]: [Option<DAffine3>; 2]) -> 
             mesh: 0,
             materials: vec![0],
             world_from_mesh,
-            world_from_mesh_previous: previous,
-            world_from_mesh_next: next,
+            previous: previous.map(placed),
+            next: next.map(placed),
             object: None,
         }],
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(sky)) },
         provenance: Vec::new(),

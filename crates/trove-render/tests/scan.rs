@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use trove_model::{
     Camera, Class, ColorSpace, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material,
-    Mesh, Points, Pose, Return, Scan, Scene, Sensor, SensorRay, Shot, Texture, World,
+    Mesh, Placement, Points, Pose, Return, Scan, Scene, Sensor, SensorRay, Shot, Texture, World,
 };
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 
@@ -146,8 +146,8 @@ fn what_moves_is_met_where_it_is_at_the_rays_time() {
     let speed_mps = 20.0;
     let at = |time_s: f64| DAffine3::from_translation(PLACE + DVec3::Y * (10.0 + speed_mps * time_s));
     let car = Instance {
-        world_from_mesh_previous: Some(at(-0.5)),
-        world_from_mesh_next: Some(at(0.5)),
+        previous: Some(Placement { mesh: CUBE, world_from_mesh: at(-0.5) }),
+        next: Some(Placement { mesh: CUBE, world_from_mesh: at(0.5) }),
         ..instance(2, Class::Car, CUBE, 0, at(0.0))
     };
     let times_s = [-0.05, -0.02, 0.0, 0.013, 0.05, 0.4];
@@ -244,6 +244,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         meshes: vec![Arc::new(square(600.0, DVec3::Y)), Arc::new(cube()), Arc::new(square(0.5, DVec3::Z))],
         materials: vec![Material::default(), leaves, pane],
         instances,
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(sky)) },
         provenance: Vec::new(),
@@ -257,10 +258,11 @@ fn instance(id: u32, class: Class, mesh: usize, material: usize, world_from_mesh
         mesh,
         materials: vec![material],
         world_from_mesh,
-        world_from_mesh_previous: Some(world_from_mesh),
-        world_from_mesh_next: Some(world_from_mesh),
+        previous: None,
+        next: None,
         object: None,
     }
+    .at_rest()
 }
 
 /// Half as wide as said, along x and a second axis.

@@ -7,7 +7,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, MetaData,
     ReadChannels, ReadLayers, SmallVec, WritableImage, read,
 };
-use trove_files::{LARGEST_FILE, read_regular};
+use trove_files::{Budget, LARGEST_FILE, read_regular};
 use trove_model::Raster;
 
 use crate::WriteError;
@@ -75,10 +75,13 @@ fn read_planes<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) ->
     let bytes = read_regular(path, LARGEST_FILE).map_err(WriteError::storage(path, "read the file"))?;
     // Before anything is unpacked: a header of a few bytes may ask for any amount of memory.
     let headers = MetaData::read_from_buffered(Cursor::new(&bytes), false).map_err(|e| damaged(e.to_string()))?.headers;
-    let found = headers.first().map_or([0; 2], |layer| [layer.layer_size.x() as u32, layer.layer_size.y() as u32]);
+    let [layer] = headers.as_slice() else { return Err(damaged(format!("{} layers instead of one", headers.len()))) };
+    let found = [layer.layer_size.x() as u32, layer.layer_size.y() as u32];
     if found != size {
         return Err(damaged(format!("{}×{} pixels instead of {}×{}", found[0], found[1], size[0], size[1])));
     }
+    let floats = layer.layer_size.area().saturating_mul(layer.channels.list.len());
+    Budget::of_file(bytes.len() as u64).take(floats, size_of::<f32>()).map_err(|e| damaged(e.found()))?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()

@@ -47,6 +47,7 @@ impl Frame {
 /// Every picture has the shot's size.
 fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteError> {
     let labels = &capture.labels;
+    let (forward, backward) = (&labels.occluded_forward, &labels.occluded_backward);
     let mut found = vec![
         ("class", labels.class.width, labels.class.height, labels.class.data.len()),
         ("instance", labels.instance.width, labels.instance.height, labels.instance.data.len()),
@@ -54,6 +55,8 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
         ("normal", labels.normal.width, labels.normal.height, labels.normal.data.len()),
         ("flow_forward", labels.flow_forward.width, labels.flow_forward.height, labels.flow_forward.data.len()),
         ("flow_backward", labels.flow_backward.width, labels.flow_backward.height, labels.flow_backward.data.len()),
+        ("occluded_forward", forward.width, forward.height, forward.data.len()),
+        ("occluded_backward", backward.width, backward.height, backward.data.len()),
     ];
     if let Some(Color { radiance, srgb, .. }) = &capture.color {
         found.push(("radiance", radiance.width, radiance.height, radiance.data.len()));

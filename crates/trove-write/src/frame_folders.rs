@@ -6,10 +6,10 @@ use std::{fs, io};
 
 use trove_files::OutputRoot;
 use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
-use trove_model::{InstanceId, Labels};
+use trove_model::{InstanceId, Labels, Occlusion, Raster};
 
 use crate::files::FolderInTheMaking;
-use crate::{Frame, WriteError, contact_sheet, exr_file, png_file, write_atomically};
+use crate::{Frame, Sweep, WriteError, contact_sheet, exr_file, png_file, write_atomically};
 
 const CONTACT_SHEET: &str = "contact_sheet.png";
 
@@ -52,7 +52,8 @@ impl FrameFolders {
             _ => frame.color.is_some() || !file.shows_light(),
         };
         let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
-        let replaces = lies_unfinished(&dir, &Self::files(&pictures))?;
+        let known: Vec<&str> = FrameFile::ALL.map(FrameFile::name).into_iter().chain([FrameTable::NAME]).collect();
+        let replaces = lies_unfinished(&dir, &Self::files(&pictures), &known)?;
 
         let mut folder = FolderInTheMaking::start(&dir)?;
         for file in pictures {
@@ -61,6 +62,23 @@ impl FrameFolders {
         folder.add(FrameTable::NAME, &frame.table.to_json())?;
         if replaces {
             fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished frame"))?;
+        }
+        folder.finish()
+    }
+
+    /// Writes a LiDAR's sweep, as [`FrameFolders::frame`] writes a frame.
+    ///
+    /// # Errors
+    /// A file system that refuses, or a sweep that is there already.
+    pub fn sweep(&self, sweep: &Sweep) -> Result<Vec<WrittenFile>, WriteError> {
+        let dir = self.root.at(&sweep.path)?;
+        let replaces = lies_unfinished(&dir, &Sweep::FILES, &Sweep::FILES)?;
+        let mut folder = FolderInTheMaking::start(&dir)?;
+        for (name, bytes) in Sweep::FILES.into_iter().zip(sweep.encoded()) {
+            folder.add(name, &bytes)?;
+        }
+        if replaces {
+            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished sweep"))?;
         }
         folder.finish()
     }
@@ -95,6 +113,8 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
         FrameFile::Normal => exr_file::encode(name, &labels.normal, ["R", "G", "B"]),
         FrameFile::FlowForward => exr_file::encode(name, &labels.flow_forward, ["R", "G"]),
         FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
+        FrameFile::OccludedForward => png_file::grey(name, width, height, &values(&labels.occluded_forward)),
+        FrameFile::OccludedBackward => png_file::grey(name, width, height, &values(&labels.occluded_backward)),
         FrameFile::Change => {
             let change = frame.change.as_ref();
             let change =
@@ -104,13 +124,17 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
     }
 }
 
+fn values(occlusion: &Raster<Occlusion>) -> Vec<u8> {
+    occlusion.data.iter().map(|occlusion| occlusion.value()).collect()
+}
+
 fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
     let narrow = |&id: &u32| u16::try_from(id).map_err(|_| WriteError::TooManyObjects(InstanceId(id)));
     labels.instance.data.iter().map(narrow).collect()
 }
 
-/// Whether a frame without all its files lies at `dir`; an error where anything else does.
-fn lies_unfinished(dir: &Path, expected: &[&str]) -> Result<bool, WriteError> {
+/// Whether a frame without all its files lies at `dir`; an error where anything else does than some of the `known` ones.
+fn lies_unfinished(dir: &Path, expected: &[&str], known: &[&str]) -> Result<bool, WriteError> {
     let entries = match fs::read_dir(dir) {
         Ok(entries) => entries,
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(false),
@@ -120,8 +144,8 @@ fn lies_unfinished(dir: &Path, expected: &[&str]) -> Result<bool, WriteError> {
     let mut present = Vec::new();
     for entry in entries {
         let name = entry.map_err(WriteError::storage(dir, "read the folder"))?.file_name();
-        match FrameFile::ALL.map(FrameFile::name).into_iter().chain([FrameTable::NAME]).find(|file| name == *file) {
-            Some(file) => present.push(file),
+        match known.iter().find(|file| name == **file) {
+            Some(file) => present.push(*file),
             None => return occupied(format!("{}, which does not belong to a frame", name.to_string_lossy())),
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DAffine3;
 use trove_format::{FrameTable, Matrix4, ObjectRow};
-use trove_model::{Capture, Ego, Instance, MapProjection, ObjectLabel, Origin, PixelBox, Pose, Scene, Shot, World};
+use trove_model::{Capture, Instance, MapProjection, ObjectLabel, Origin, PixelBox, Scene, SeenKeypoint, Shot};
 
 use crate::WriteError;
 
@@ -29,8 +29,6 @@ pub struct FrameMeta {
     pub source_token: Option<String>,
     /// That picture's path below the dataset's root; `None` where it clones none or it is not at hand.
     pub source_image: Option<String>,
-    /// The vehicle that carries the camera, at the picture's time; `None` where the camera stands on its own.
-    pub world_from_ego: Option<Pose<World, Ego>>,
     /// From latitude and longitude to World.
     pub projection: MapProjection,
 }
@@ -46,6 +44,11 @@ pub(crate) fn frame_table(
     for instance in scene.instances.iter().filter(|i| i.object.is_some()) {
         instances.entry(instance.id.0).or_insert(instance);
     }
+    let carrier = shot.carrier.and_then(|id| instances.get(&id.0)?.object.as_deref());
+    let carrier_track_token = carrier.and_then(|object| match &object.origin {
+        Origin::Recorded { track_token, .. } => Some(track_token.clone()),
+        Origin::Carrier | Origin::Added | Origin::Scenery => None,
+    });
     let (lens, pose) = (&shot.lens, &shot.world_from_camera);
     Ok(FrameTable {
         scene: meta.scene.clone(),
@@ -71,8 +74,9 @@ pub(crate) fn frame_table(
         world_from_camera_translation_m: pose.translation.to_array(),
         world_from_camera_previous: shot.world_from_camera_previous.map(|p| matrix(p.affine())),
         world_from_camera_next: shot.world_from_camera_next.map(|p| matrix(p.affine())),
-        world_from_ego: meta.world_from_ego.map(|p| matrix(p.affine())),
+        world_from_ego: shot.world_from_ego.map(|p| matrix(p.affine())),
         carrier: shot.carrier.map(|id| id.0),
+        carrier_track_token: carrier_track_token.unwrap_or_default(),
         projection: (&meta.projection).into(),
         exposure_ev: capture.color.as_ref().map(|c| c.exposure_ev),
         spp: shot.spp,
@@ -116,13 +120,19 @@ fn row(label: &ObjectLabel, instances: &BTreeMap<u32, &Instance>) -> Result<Obje
         truncation: label.truncation,
         occlusion: label.occlusion,
         range_m: label.range_m,
+        keypoints: label.keypoints.map(|points| points.map(keypoint)),
+        keypoints_world_m: object.keypoints_world.map(|points| points.map(|p| p.to_array())),
     })
 }
 
-fn matrix(transform: DAffine3) -> Matrix4 {
+pub(crate) fn matrix(transform: DAffine3) -> Matrix4 {
     let (m, t) = (transform.matrix3.transpose(), transform.translation);
     let row = |r: glam::DVec3, t: f64| [r.x, r.y, r.z, t];
     [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z), [0.0, 0.0, 0.0, 1.0]]
+}
+
+fn keypoint(seen: Option<SeenKeypoint>) -> [f64; 3] {
+    seen.map_or([0.0; 3], |seen| [seen.pixel.x, seen.pixel.y, if seen.is_visible { 2.0 } else { 1.0 }])
 }
 
 fn pixel_box(b: PixelBox) -> [u32; 4] {

@@ -33,8 +33,10 @@ mod label_pictures;
 mod picture;
 mod plain_drive;
 mod png_file;
+mod points_file;
 mod sheet;
 mod stored_frame;
+mod sweep;
 
 pub use error::WriteError;
 pub use export::{Choice, DatasetFormat, Exported, Watch, export};
@@ -47,3 +49,4 @@ pub use picture::{encode_picture, write_picture};
 pub use plain_drive::{PlainFiles, write_plain_drive};
 pub use sheet::write_sheet;
 pub use stored_frame::StoredFrame;
+pub use sweep::{StoredSweep, Sweep};

@@ -3,10 +3,10 @@
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use image::{DynamicImage, ImageFormat, ImageReader};
-use trove_files::open_regular;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use trove_files::{Budget, open_regular};
 use trove_format::{FrameFile, FrameTable, ObjectRow};
-use trove_model::{Class, Raster};
+use trove_model::{Class, Occlusion, Raster};
 
 use crate::{WriteError, exr_file};
 
@@ -29,6 +29,11 @@ impl StoredFrame {
         let fits = |[x0, y0, x1, y1]: [u32; 4]| x0 <= x1 && y0 <= y1 && x1 < table.width_px && y1 < table.height_px;
         let strays =
             |object: &&ObjectRow| [object.visible_box, object.amodal_box].into_iter().flatten().any(|b| !fits(b));
+        // As many as instance.png can hold.
+        if let Some(object) = table.objects.iter().find(|object| object.id > u16::MAX.into()) {
+            let found = format!("object {}", object.id);
+            return Err(WriteError::Damaged { path: folder.join(FrameTable::NAME), found });
+        }
         if let Some(object) = table.objects.iter().find(strays) {
             let found = format!("object {} with a box that is not in the picture", object.id);
             return Err(WriteError::Damaged { path: folder.join(FrameTable::NAME), found });
@@ -154,6 +159,33 @@ impl StoredFrame {
         exr_file::read_rg(&self.needed(FrameFile::FlowBackward)?, self.size())
     }
 
+    /// Whether the next keyframe's picture shows what each pixel shows.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`], and a value that says nothing.
+    pub fn occluded_forward(&self) -> Result<Raster<Occlusion>, WriteError> {
+        self.occlusion(FrameFile::OccludedForward)
+    }
+
+    /// Whether the previous keyframe's picture does.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::occluded_forward`].
+    pub fn occluded_backward(&self) -> Result<Raster<Occlusion>, WriteError> {
+        self.occlusion(FrameFile::OccludedBackward)
+    }
+
+    fn occlusion(&self, file: FrameFile) -> Result<Raster<Occlusion>, WriteError> {
+        let picture = self.png(file)?.into_luma8();
+        let known = [Occlusion::Seen, Occlusion::Undefined, Occlusion::Hidden];
+        let of = |value: &u8| {
+            let found = known.into_iter().find(|occlusion| occlusion.value() == *value);
+            found.ok_or_else(|| self.damaged(file, format!("{value} instead of 0, 128 or 255")))
+        };
+        let data = picture.as_raw().iter().map(of).collect::<Result<_, _>>()?;
+        Ok(Raster { width: picture.width(), height: picture.height(), data })
+    }
+
     /// Columns and rows of every picture.
     fn size(&self) -> [u32; 2] {
         [self.table.width_px, self.table.height_px]
@@ -161,18 +193,19 @@ impl StoredFrame {
 
     fn png(&self, file: FrameFile) -> Result<DynamicImage, WriteError> {
         let path = self.needed(file)?;
-        let open = || -> Result<_, WriteError> {
-            let bytes = open_regular(&path).map_err(WriteError::storage(&path, "read the file"))?;
-            Ok(ImageReader::with_format(BufReader::new(bytes), ImageFormat::Png))
-        };
+        let bytes = open_regular(&path).map_err(WriteError::storage(&path, "read the file"))?;
+        let packed = bytes.metadata().map_or(0, |file| file.len());
         let broken = |e: image::ImageError| self.damaged(file, e.to_string());
         // Before anything is unpacked: a header of a few bytes may ask for any amount of memory.
-        let (width, height) = open()?.into_dimensions().map_err(broken)?;
+        let decoder =
+            ImageReader::with_format(BufReader::new(bytes), ImageFormat::Png).into_decoder().map_err(broken)?;
+        let (width, height) = decoder.dimensions();
         if [width, height] != self.size() {
             let [columns, rows] = self.size();
             return Err(self.damaged(file, format!("{width}×{height} pixels instead of {columns}×{rows}")));
         }
-        open()?.decode().map_err(broken)
+        Budget::of_file(packed).take(decoder.total_bytes() as usize, 1).map_err(|e| self.damaged(file, e.found()))?;
+        DynamicImage::from_decoder(decoder).map_err(broken)
     }
 
     fn damaged(&self, file: FrameFile, found: String) -> WriteError {

@@ -7,6 +7,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+    WritableImage,
+};
 use glam::{DMat3, DQuat, DVec3};
 use made::{ANCHOR_M, CAR, CAR_M, EYE_M, FOCAL_PX, HEIGHT, Made, WIDTH, finished, rear_px};
 use serde_json::Value;
@@ -59,6 +63,37 @@ fn a_frame_without_a_file_that_a_form_needs_names_the_entry_of_output_files() {
         assert!(error.contains(&format!("name {entry} in the recipe's output.files")), "{name}: {error}");
         assert!(error.contains(missing.name()), "{name}: {error}");
     }
+}
+
+#[test]
+fn a_frame_that_asks_for_more_than_its_files_hold_is_damaged() {
+    let told = |form: &str, damage: &dyn Fn(&Path)| {
+        let root = tempfile::tempdir().unwrap();
+        finished(&root.path().join("run"), &[Made::new(0)]);
+        damage(&root.path().join("run/scene-0001/v00/k000/ego.CAM_FRONT"));
+        exported(form, &root.path().join("run"), &root.path().join("out")).unwrap_err().to_string()
+    };
+    let of_the_table = told("cityscapes", &|frame| {
+        let text = fs::read_to_string(frame.join("frame.json")).unwrap();
+        let damaged = text.replace(&format!("\"id\":{CAR}"), "\"id\":4000000000");
+        assert_ne!(text, damaged);
+        fs::write(frame.join("frame.json"), damaged).unwrap();
+    });
+    assert!(of_the_table.contains("found object 4000000000"), "{of_the_table}");
+    let of_layers = told("kitti-depth", &|frame| {
+        let size = (WIDTH as usize, HEIGHT as usize);
+        let plane = || FlatSamples::F32(vec![1.0; size.0 * size.1]);
+        let layer = |name: &str| {
+            let channels = AnyChannels::sort([AnyChannel::new("Y", plane())].into_iter().collect());
+            Layer::new(size, LayerAttributes::named(name), Encoding::FAST_LOSSLESS, channels)
+        };
+        let layers = vec![layer("one"), layer("two")];
+        Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions(size)), layers)
+            .write()
+            .to_file(frame.join("depth.exr"))
+            .unwrap();
+    });
+    assert!(of_layers.contains("depth.exr") && of_layers.contains("2 layers instead of one"), "{of_layers}");
 }
 
 #[test]
@@ -204,7 +239,7 @@ fn webdataset_shards_are_the_frames_files() {
     let mut shard = tar::Archive::new(fs::File::open(root.path().join("out/train-00000000.tar")).unwrap());
     let names: Vec<String> =
         shard.entries().unwrap().map(|e| e.unwrap().path().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names.len(), 2 * 9, "{names:?}");
+    assert_eq!(names.len(), 2 * 11, "{names:?}");
     assert!(names.contains(&"00000001.json".into()) && names[0].starts_with("00000000."));
 }
 

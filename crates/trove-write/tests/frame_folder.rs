@@ -9,8 +9,8 @@ use glam::{DAffine3, DVec2, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
     CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels,
-    Lens, Light, MapProjection, Mesh, ObjectLabel, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene, SceneObject,
-    Seed, Shot,
+    Lens, Light, MapProjection, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene,
+    SceneObject, Seed, Shot,
 };
 use trove_write::{Frame, FrameFolders, FrameMeta, WriteError, sha256_file, write_atomically};
 
@@ -31,6 +31,7 @@ fn scene() -> Scene {
             size_m: DVec3::new(1.8, 0.6, 1.7),
         },
         velocity_mps: Some(DVec3::new(0.1, 0.2, 0.0)),
+        keypoints_world: None,
     };
     let instance = Instance {
         id: InstanceId(700),
@@ -38,8 +39,8 @@ fn scene() -> Scene {
         mesh: 0,
         materials: vec![],
         world_from_mesh: DAffine3::IDENTITY,
-        world_from_mesh_previous: None,
-        world_from_mesh_next: None,
+        previous: None,
+        next: None,
         object: Some(Arc::new(object)),
     };
     let sky = PhysicalSky { to_sun: DVec3::Z, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.0, cloud_seed: 0 };
@@ -47,6 +48,7 @@ fn scene() -> Scene {
         meshes: vec![Arc::new(Mesh::default())],
         materials: vec![],
         instances: vec![instance],
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Sky(sky) },
         provenance: vec![],
@@ -82,6 +84,7 @@ fn capture() -> Capture {
         truncation: 0.1,
         occlusion: 0.25,
         range_m: 12.5,
+        keypoints: None,
     };
     let labels = Labels {
         class: Raster::from_fn(W, H, |x, _| CLASSES[x as usize % 20].class),
@@ -90,6 +93,8 @@ fn capture() -> Capture {
         normal: Raster::from_fn(W, H, |_, y| if y < 4 { [0.0; 3] } else { [0.6, 0.0, -0.8] }),
         flow_forward: Raster::from_fn(W, H, |x, y| if y < 4 { [f32::NAN; 2] } else { [x as f32, -0.5] }),
         flow_backward: Raster::filled(W, H, [f32::NAN; 2]),
+        occluded_forward: Raster::from_fn(W, H, |x, _| if x < 3 { Occlusion::Hidden } else { Occlusion::Seen }),
+        occluded_backward: Raster::filled(W, H, Occlusion::Undefined),
         objects: vec![object],
     };
     let color = Color {
@@ -111,7 +116,6 @@ fn meta() -> FrameMeta {
         keyframe_time_ns: 1_533_151_603_547_590_000,
         source_token: Some("picture".into()),
         source_image: Some("samples/CAM_FRONT/a.jpg".into()),
-        world_from_ego: None,
         projection: MapProjection::spherical(42.3, -71.1, DVec2::new(1.0, 2.0)),
     }
 }
@@ -139,7 +143,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
     let files = write(&dir, &capture).unwrap();
 
-    assert_eq!(names(&dir).len(), 9);
+    assert_eq!(names(&dir).len(), 11);
     assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
     for file in &files {
         assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
@@ -150,6 +154,10 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     assert_eq!(png("class.png").as_luma8().unwrap().as_raw(), &capture.labels.class.map(|class| class.id()).data);
     let ids: Vec<u32> = png("instance.png").as_luma16().unwrap().iter().map(|&id| u32::from(id)).collect();
     assert_eq!(ids, capture.labels.instance.data);
+
+    let occluded = png("occluded_forward.png").into_luma8();
+    assert_eq!(occluded.rows().next().unwrap().map(|p| p.0[0]).take(5).collect::<Vec<_>>(), [255, 255, 255, 0, 0]);
+    assert!(png("occluded_backward.png").as_luma8().unwrap().iter().all(|value| *value == 128));
 
     let planes = |name: &str| -> Vec<(String, Vec<u32>)> {
         let image = exr::prelude::read_first_flat_layer_from_file(dir.join(name)).unwrap();
@@ -192,7 +200,7 @@ fn the_table_says_where_camera_and_objects_are() {
     assert!((object.world_from_body[1][0] - 1.0).abs() < 1e-12, "the bicycle faces north");
     assert!(text.contains(r#""class":"cycle_rider","class_id":12,"kind":"bicycle_with_rider""#), "{text}");
     assert!(text.contains(r#""truncation":0.1,"occlusion":0.25,"range_m":12.5"#), "floats are as short as they can be");
-    assert_eq!(text.lines().count(), 34, "one line a field and an object:\n{text}");
+    assert_eq!(text.lines().count(), 35, "one line a field and an object:\n{text}");
 }
 
 #[test]
@@ -208,7 +216,7 @@ fn labels_alone_leave_no_picture() {
     let dir = root.path().join("frame");
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
     assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
-    assert_eq!(names(&dir).len(), 7);
+    assert_eq!(names(&dir).len(), 9);
 }
 
 #[test]

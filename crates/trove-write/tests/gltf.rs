@@ -42,6 +42,7 @@ fn instance(id: u32, class: Class, mesh: usize, materials: &[usize], world_from_
         asset: Some("car/sedan".into()),
         cuboid: Cuboid { world_from_body: Pose::IDENTITY, size_m: DVec3::ONE },
         velocity_mps: None,
+        keypoints_world: None,
     };
     Instance {
         id: InstanceId(id),
@@ -49,8 +50,8 @@ fn instance(id: u32, class: Class, mesh: usize, materials: &[usize], world_from_
         mesh,
         materials: materials.to_vec(),
         world_from_mesh,
-        world_from_mesh_previous: None,
-        world_from_mesh_next: None,
+        previous: None,
+        next: None,
         object: (id > 0).then(|| Arc::new(object)),
     }
 }
@@ -96,6 +97,7 @@ fn scene() -> Scene {
             instance(9, Class::Car, 1, &[0, 2], at(3.0)),
             instance(0, Class::Ground, 2, &[0], DAffine3::IDENTITY),
         ],
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Sky(sky) },
         provenance: vec![Provenance { source: "made up".into(), licence: "MIT".into() }],

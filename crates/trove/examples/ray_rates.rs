@@ -6,7 +6,9 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use trove_build::{BuildSettings, LightChoice, OnDisagreement, PictureSize, SkyChoice, ViewSettings, Weather};
+use trove_build::{
+    BuildSettings, LightChoice, OnDisagreement, PictureSize, SkyChoice, ViewPlan, ViewSettings, Weather,
+};
 use trove_model::{MapProjection, Report, Seed};
 use trove_read::{locale::Locales, nuscenes::NuScenes, osm};
 use trove_render::{Denoising, KernelChoice, RaySeconds, Renderer, RendererOptions};
@@ -38,7 +40,7 @@ fn main() -> Result<()> {
         let site = trove_build::build(&drive, Some(&map), &library, &settings, &report)?;
         let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(0.5));
         let views = ViewSettings { rig, size, spp: 1, ..ViewSettings::default() };
-        let shots = trove_build::shots(&drive, &site, 1, &views, &Seed(5).into(), &report);
+        let shots = ViewPlan::new(&drive, &site, views, Seed(5).into(), &report).shots(&drive, &site, 1, &report);
         let prepared = renderer.prepare(&site.scene(&drive, 1))?;
         // The first time warms the caches.
         renderer.ray_times(&prepared, &shots[0]);

@@ -53,7 +53,7 @@ mod watch;
 pub use cli::{call, main};
 pub use ready_scene::{FreeCamera, PictureRequest, ReadyScene};
 pub use trove_format::FrameFile;
-pub use trove_model::{Raster, label_table};
+pub use trove_model::{Occlusion, Raster, label_table};
 pub use trove_write::{StoredFrame, colors, encode_picture};
 pub use watch::{Follower, Watch};
 

@@ -152,7 +152,6 @@ impl ReadyScene {
             keyframe_time_ns: moment.time_ns,
             source_token: exposure.and_then(|e| e.token.clone()),
             source_image: exposure.and_then(|e| e.file.clone()),
-            world_from_ego: exposure.map(|e| e.world_from_ego),
             projection: drive.projection,
         };
         Ok(Some(Frame::of(shot.view.clone(), scene, &shot, capture, &meta)?))

@@ -4,6 +4,7 @@ mod camera;
 mod check;
 mod light;
 mod season;
+mod sensors;
 mod standpoint;
 mod variations;
 
@@ -23,9 +24,11 @@ use trove_render::Denoising;
 use trove_write::DatasetFormat;
 
 use self::check::check;
+pub(crate) use self::check::nearest;
 pub use camera::CameraSection;
 pub use light::LightSection;
 pub use season::SeasonChoice;
+pub use sensors::{SensorKind, SensorSection, SensorsSection};
 pub use standpoint::Standpoint;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
@@ -49,6 +52,9 @@ pub struct Recipe {
     /// Cameras.
     #[serde(default)]
     pub views: ViewsSection,
+    /// What measures beside the cameras.
+    #[serde(default, skip_serializing_if = "SensorsSection::is_empty")]
+    pub sensors: SensorsSection,
     /// What the pictures are taken with.
     #[serde(default)]
     pub camera: CameraSection,
@@ -516,6 +522,7 @@ impl Recipe {
             "output.files: only counterfactual sets have change.png; remove change or set variations.counterfactual"
         );
         self.camera.check()?;
+        sensors::check_all(&self.sensors)?;
         self.light.check()?;
         for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
             check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
@@ -635,12 +642,6 @@ fn unknown_field(error: &toml::de::Error) -> Option<(&str, Vec<&str>)> {
     Some((unknown, names.collect()))
 }
 
-/// The known name that is nearest to an unknown one, as the end of a message.
-pub(crate) fn nearest(unknown: &str, known: &[&str]) -> String {
-    let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
-    nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -736,13 +737,13 @@ mod tests {
     fn only_the_light_that_is_shown_is_followed_and_cleaned() {
         let recipe = |text: &str| Recipe::parse(&format!("{DRIVE}{text}")).unwrap();
         let plain = recipe("");
-        assert_eq!((plain.pictures(0).len(), plain.follows_light(), plain.denoising()), (7, true, Denoising::Best));
+        assert_eq!((plain.pictures(0).len(), plain.follows_light(), plain.denoising()), (9, true, Denoising::Best));
         let labels = recipe("[output]\nfiles = [\"class\", \"instance\"]\n");
         assert_eq!(labels.pictures(0), [FrameFile::Class, FrameFile::Instance].into());
         assert_eq!((labels.follows_light(), labels.denoising()), (false, Denoising::None));
         let radiance = recipe("[render]\nradiance = true\ndenoise = \"fast\"\n[output]\nfiles = []\n");
         assert_eq!((radiance.pictures(0), radiance.denoising()), ([FrameFile::Radiance].into(), Denoising::Fast));
-        assert_eq!(recipe("[render]\nlight = false\n").pictures(0).len(), 6);
+        assert_eq!(recipe("[render]\nlight = false\n").pictures(0).len(), 8);
         assert_eq!(recipe("[render]\ndenoise = false\n").denoising(), Denoising::None);
     }
 

@@ -16,7 +16,7 @@ use crate::watch::Watch;
 /// What was found.
 #[derive(Debug, Default, PartialEq, Serialize)]
 struct Findings {
-    /// Finished frames.
+    /// Finished frames and sweeps.
     frames: usize,
     /// Their files.
     files: usize,
@@ -63,8 +63,9 @@ fn look(folder: &Path, watch: &Watch) -> Result<Findings> {
     let damaged: Vec<Vec<String>> = journal.par_iter().map(damaged).collect::<Result<_>>()?;
     progress.finish();
     // An unfinished run has no manifest yet.
-    let rows = Manifest::read(folder)?.map(|manifest| manifest.frames).unwrap_or_default();
-    let told_alike = |row: &trove_format::FrameRow| {
+    let manifest = Manifest::read(folder)?;
+    let rows: Vec<_> = manifest.iter().flat_map(|manifest| manifest.frames.iter().chain(&manifest.sweeps)).collect();
+    let told_alike = |row: &&&trove_format::FrameRow| {
         let files = journal.get(&row.path).map_or(&[][..], Vec::as_slice);
         files.len() == row.files.len() && files.iter().all(|file| row.files.get(&file.name) == Some(&file.sha256))
     };

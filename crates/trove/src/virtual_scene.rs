@@ -1,11 +1,11 @@
 //! A scene of a recipe, built as one of its variations.
 
 use anyhow::Result;
-use trove_build::{Seeds, Site, ViewSettings};
+use trove_build::{MountedLidar, Seeds, Site, ViewPlan, ViewSettings};
 use trove_format::Factors;
-use trove_model::{AssetLibrary, Drive, Locale, Report, Scene, Shot, StreetMap};
+use trove_model::{AssetLibrary, Drive, LidarShot, Locale, Report, Scene, Shot, StreetMap};
 
-use crate::recipe::Recipe;
+use crate::recipe::{Recipe, SensorSection};
 use crate::sources::Sources;
 use crate::variation::Variation;
 
@@ -18,7 +18,8 @@ pub(crate) struct VirtualScene<'a> {
     pub(crate) factors: Factors,
     /// Whose customs it follows.
     pub(crate) locale: Locale,
-    views: ViewSettings,
+    views: ViewPlan,
+    lidars: Vec<MountedLidar>,
     seeds: Seeds,
 }
 
@@ -39,7 +40,9 @@ impl<'a> VirtualScene<'a> {
         let there = Drive { projection: variation.projection(drive.projection), ..drive.clone() };
         let site = trove_build::build(&there, map, library, &settings, report)?;
         let factors = variation.factors(recipe, &site);
-        Ok(Self { drive, site, factors, locale: settings.locale, views, seeds: settings.seeds })
+        let views = ViewPlan::new(drive, &site, views, settings.seeds, report);
+        let lidars = lidars(recipe, drive, report)?;
+        Ok(Self { drive, site, factors, locale: settings.locale, views, lidars, seeds: settings.seeds })
     }
 
     /// The scene at a keyframe.
@@ -49,8 +52,21 @@ impl<'a> VirtualScene<'a> {
 
     /// The shots of a keyframe.
     pub(crate) fn shots(&self, keyframe: usize, report: &Report) -> Vec<Shot> {
-        trove_build::shots(self.drive, &self.site, keyframe, &self.views, &self.seeds, report)
+        self.views.shots(self.drive, &self.site, keyframe, report)
     }
+
+    /// The LiDARs' sweeps of a keyframe.
+    pub(crate) fn lidar_shots(&self, keyframe: usize) -> Vec<LidarShot> {
+        trove_build::lidar_shots(self.drive, &self.site, keyframe, &self.lidars, &self.seeds)
+    }
+}
+
+/// The LiDARs that a recipe puts on the vehicle.
+fn lidars(recipe: &Recipe, drive: &Drive, report: &Report) -> Result<Vec<MountedLidar>> {
+    let mounted = |(name, sensor): (&String, &SensorSection)| {
+        Ok(sensor.mounted(name, sensor.scanner(|file| recipe.at(file))?, drive, report))
+    };
+    recipe.sensors.iter().map(mounted).collect()
 }
 
 /// The views that a recipe asks for.

@@ -45,6 +45,7 @@ impl Rider {
         let slots = Wardrobe::new(model, &[], &[]);
         let figure = Figure::new(self.body, self.pose);
         model.add_marked(figure.dressed(&self.outfit, &slots));
+        model.shows(figure.keypoints());
         let lean = Quat::from_rotation_y(self.pose.lean_rad * 0.25);
         let place = |s: Shape| s.turned(lean).moved(figure.head);
         if self.helmet != Helmet::None {

@@ -97,6 +97,7 @@ fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extr
     };
     let slots = Wardrobe::new(&mut model, tops, bottoms);
     model.add_marked(figure.dressed(&outfit, &slots));
+    model.shows(figure.keypoints());
     let h = body.height_m;
     match extra {
         Extra::None => {}

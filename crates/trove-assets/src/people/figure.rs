@@ -1,6 +1,7 @@
 //! A clothed human body in any pose: every garment and the skin under it is one blended surface.
 
 use glam::{Quat, Vec3, vec3};
+use trove_model::Keypoints;
 
 use super::wardrobe::{Hair, Leg, Outfit, Sleeve, Wardrobe};
 use crate::shape::{Blend, Limb, Shape};
@@ -136,6 +137,17 @@ impl Figure {
             parts.push(self.legs(0.0, 0.62, 0.9).slot(slots.skin));
         }
         Shape::join(parts)
+    }
+
+    /// Points of face and joints.
+    pub(crate) fn keypoints(&self) -> Keypoints<Vec3> {
+        let face = |x: f32, y: f32, z: f32| self.at_head(x, y, z);
+        let [eyes, ears] =
+            [(0.09, 0.031, 0.016), (-0.005, 0.087, 0.002)].map(|(x, y, z)| SIDES.map(|s| face(x, s * y, z)));
+        let pairs =
+            [eyes, ears, self.shoulders, self.elbows, self.pose.wrists, self.hips, self.knees, self.pose.ankles];
+        let nose = face(0.108, 0.0, -0.022);
+        std::array::from_fn(|i| if i == 0 { nose } else { pairs.as_flattened()[i - 1] })
     }
 
     fn m(&self, share: f32) -> f32 {

@@ -31,6 +31,7 @@ fn start(body: Physique, pose: Pose, outfit: &Outfit) -> (Model, Metal, Figure) 
     let figure = Figure::new(body, pose);
     let slots = Wardrobe::new(&mut model, &[], &[]);
     model.add_marked(figure.dressed(outfit, &slots));
+    model.shows(figure.keypoints());
     (model, metal, figure)
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec3, vec3};
-use trove_model::{Asset, Class, Extra, Kind, Material, Mesh, Slot};
+use trove_model::{Asset, Class, Extra, Keypoints, Kind, Material, Mesh, Slot};
 
 use super::{Prism, Shape};
 
@@ -17,6 +17,7 @@ pub(crate) struct Model {
     slots: Vec<Slot>,
     extras: Vec<(Extra, Shape)>,
     tint: Option<Tint>,
+    keypoints: Option<Keypoints<Vec3>>,
 }
 
 impl Model {
@@ -36,6 +37,11 @@ impl Model {
         self.shape = std::mem::take(&mut self.shape).and(shape);
     }
 
+    /// Says where the points of the person are whom it shows.
+    pub(crate) fn shows(&mut self, keypoints: Keypoints<Vec3>) {
+        self.keypoints = Some(keypoints);
+    }
+
     /// What it is so far, without extras.
     pub(crate) fn shape(&self) -> &Shape {
         &self.shape
@@ -45,6 +51,7 @@ impl Model {
     pub(crate) fn shift(&mut self, by: Vec3) {
         self.shape = std::mem::take(&mut self.shape).moved(by);
         self.extras.iter_mut().for_each(|(_, shape)| *shape = std::mem::take(shape).moved(by));
+        self.keypoints = self.keypoints.map(|points| points.map(|p| p + by));
     }
 
     /// Makes all that is there larger or smaller.
@@ -52,6 +59,7 @@ impl Model {
         let by = Vec3::splat(by);
         self.shape = std::mem::take(&mut self.shape).scaled(by);
         self.extras.iter_mut().for_each(|(_, shape)| *shape = std::mem::take(shape).scaled(by));
+        self.keypoints = self.keypoints.map(|points| points.map(|p| p * by));
     }
 
     /// Adds what some variations have; its shape knows its slots, and [`Extra::mesh`] is taken from it.
@@ -103,6 +111,7 @@ impl Model {
         let mut meshes = meshes.into_iter();
         let mesh = meshes.next().unwrap_or_default();
         let extras = extras.into_iter().zip(meshes).map(|(e, mesh)| Extra { mesh: Arc::new(mesh), ..e }).collect();
-        Asset { extras, ..Asset::new(id, kind, class, mesh, slots, crate::licence::LICENCE) }
+        let keypoints = self.keypoints.map(|points| points.map(|p| p - origin));
+        Asset { extras, keypoints, ..Asset::new(id, kind, class, mesh, slots, crate::licence::LICENCE) }
     }
 }

@@ -48,9 +48,16 @@ impl PlateDesign {
                 _ => ground,
             }
         };
-        Material { dirt: 0.3, ..painted(&self.name, size, if is_wide { [256, 56] } else { [128, 64] }, picture) }
+        Material {
+            dirt: 0.3,
+            retroreflection: SHEETING,
+            ..painted(&self.name, size, if is_wide { [256, 56] } else { [128, 64] }, picture)
+        }
     }
 }
+
+/// Plates carry older, weaker sheeting than signs.
+const SHEETING: f32 = 0.2;
 
 /// Size of a number plate.
 pub(crate) const PLATE_M: Vec2 = vec2(0.48, 0.12);
@@ -69,12 +76,13 @@ pub(crate) fn any(name: &str) -> Material {
     let (ground, ink) =
         if yellow { (vec3(0.62, 0.45, 0.02), Vec3::splat(0.015)) } else { (Vec3::splat(0.66), Vec3::splat(0.02)) };
     let writing = Lettering::new(&text);
-    picture(&format!("plate-{text}"), 0.35, [192, 48], PLATE_M, |p| {
+    let plate = picture(&format!("plate-{text}"), 0.35, [192, 48], PLATE_M, |p| {
         let q = p - PLATE_M / 2.0;
         let height = 0.072;
         let wide = (PLATE_M.x * 0.88 / (writing.width() * height)).min(1.0);
         let line = writing.distance(q / vec2(height * wide, height)) < 0.1;
         let rim = (q.abs() - PLATE_M / 2.0).max_element() > -0.005;
         Texel::new(if line || rim { ink } else { ground }, 0.35)
-    })
+    });
+    Material { retroreflection: SHEETING, ..plate }
 }

@@ -6,10 +6,10 @@ mod weather;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Kind, Mesh, Origin, Pose, Provenance, SceneObject,
-    StreetMap,
+    Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Keypoints, Kind, Mesh, Origin, Placement, Pose,
+    Provenance, SceneObject, StreetMap,
 };
 
 use crate::pieces::{Piece, Scenery};
@@ -49,6 +49,8 @@ pub(crate) struct ActorPose {
     mesh: usize,
     /// Index of its asset among the actor's.
     asset: usize,
+    /// Points of the person whom it shows, World.
+    pub keypoints_world: Option<Keypoints<DVec3>>,
 }
 
 impl Actor {
@@ -69,15 +71,18 @@ impl Actor {
         places().next().is_some_and(|first| places().any(|place| place.distance(first) > LEAVES_M))
     }
 
-    /// Its instance at a keyframe, with the motion to and from the neighbouring ones.
+    /// Its instance at a keyframe, with where it is at the neighbouring ones.
     pub(crate) fn instance(
         &self,
         id: InstanceId,
         keyframe: usize,
         [previous, next]: [Option<usize>; 2],
-        object: SceneObject,
+        object: Option<SceneObject>,
     ) -> Option<Instance> {
-        let matrix = |k: Option<usize>| Some(self.at(k?)?.world_from_mesh);
+        let placement = |k: Option<usize>| {
+            let &ActorPose { mesh, world_from_mesh, .. } = self.at(k?)?;
+            Some(Placement { mesh, world_from_mesh })
+        };
         let pose = self.at(keyframe)?;
         Some(Instance {
             id,
@@ -85,9 +90,9 @@ impl Actor {
             mesh: pose.mesh,
             materials: self.materials.clone(),
             world_from_mesh: pose.world_from_mesh,
-            world_from_mesh_previous: matrix(previous),
-            world_from_mesh_next: matrix(next),
-            object: Some(Arc::new(object)),
+            previous: placement(previous),
+            next: placement(next),
+            object: object.map(Arc::new),
         })
     }
 }
@@ -130,7 +135,9 @@ impl Assembly {
             });
             let mesh = self.stock.individual(shown, role.is_driven, role.seed);
             let world_from_mesh = role.world_from_mesh(placement);
-            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, mesh, asset }));
+            let world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3());
+            let keypoints_world = shown.keypoints.map(|points| points.map(world));
+            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, mesh, asset, keypoints_world }));
         }
         hold_still(&mut poses);
         Actor { class: role.asset.class, assets, materials: self.stock.painted(role.asset, role.seed), poses }
@@ -147,11 +154,11 @@ impl Assembly {
             mesh: self.stock.mesh(&piece.mesh),
             materials: piece.materials.iter().map(|m| self.stock.material(m)).collect(),
             world_from_mesh: piece.world_from_mesh,
-            world_from_mesh_previous: Some(piece.world_from_mesh),
-            world_from_mesh_next: Some(piece.world_from_mesh),
+            previous: None,
+            next: None,
             object: object.map(Arc::new),
         };
-        self.fixed.push(instance);
+        self.fixed.push(instance.at_rest());
     }
 
     /// Takes a plant or a piece of furniture that stands at some distance from the driven path.
@@ -166,11 +173,11 @@ impl Assembly {
             mesh: self.stock.seen(scenery.asset, distance_m, scenery.seed),
             materials: self.stock.painted(scenery.asset, scenery.seed),
             world_from_mesh,
-            world_from_mesh_previous: Some(world_from_mesh),
-            world_from_mesh_next: Some(world_from_mesh),
+            previous: None,
+            next: None,
             object: Some(Arc::new(object)),
         };
-        self.fixed.push(instance);
+        self.fixed.push(instance.at_rest());
     }
 
     /// Where everything came from: recording, map, and the assets by licence.
@@ -197,7 +204,8 @@ fn take(next_id: &mut u32) -> InstanceId {
 }
 
 fn scene_object(kind: Kind, asset: Option<&str>, cuboid: Cuboid) -> SceneObject {
-    SceneObject { kind, origin: Origin::Scenery, asset: asset.map(str::to_owned), cuboid, velocity_mps: None }
+    let asset = asset.map(str::to_owned);
+    SceneObject { kind, origin: Origin::Scenery, asset, cuboid, velocity_mps: None, keypoints_world: None }
 }
 
 /// The box of a mesh where it stands.
@@ -219,7 +227,8 @@ mod tests {
     fn an_annotator_s_tremor_is_no_motion_and_a_creep_is() {
         let at = |x: f64| {
             let cuboid = Cuboid { world_from_body: Pose::from_yaw(0.0, DVec3::new(x, 0.0, 0.5)), size_m: DVec3::ONE };
-            ActorPose { world_from_mesh: DAffine3::from_translation(DVec3::X * x), cuboid, mesh: 0, asset: 0 }
+            let world_from_mesh = DAffine3::from_translation(DVec3::X * x);
+            ActorPose { world_from_mesh, cuboid, mesh: 0, asset: 0, keypoints_world: None }
         };
         let mut poses: Vec<(usize, ActorPose)> =
             [0.0, 0.008, 0.016, 0.024, 1.0].into_iter().map(at).enumerate().collect();

@@ -92,6 +92,7 @@ fn key(material: &Material) -> MaterialKey {
         subsurface,
         transmission,
         translucency,
+        retroreflection,
         emission,
         dirt,
         wetness,
@@ -101,7 +102,7 @@ fn key(material: &Material) -> MaterialKey {
         role,
     } = material;
     let shares = [alpha_cutoff, roughness, metalness, coat, flakes, sheen, subsurface, transmission, translucency];
-    let others = [dirt, wetness, ior, height_m];
+    let others = [retroreflection, dirt, wetness, ior, height_m];
     let colors = [base_color.to_array(), emission.to_array()];
     let numbers = shares.into_iter().chain(others).chain(colors.as_flattened()).chain(uv_scale.as_ref());
     let image = |texture: &Option<Arc<Texture>>| texture.as_ref().map_or(0, |t| Arc::as_ptr(t).addr());

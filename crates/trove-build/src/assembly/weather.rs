@@ -51,6 +51,7 @@ impl Weather {
                 subsurface: _,
                 transmission: _,
                 translucency: _,
+                retroreflection: _,
                 emission: _,
                 uv_scale: _,
                 mapping: _,

@@ -96,6 +96,7 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         is_georeferenced: true,
         keyframes: stands.iter().enumerate().map(keyframe).collect(),
         path: Trajectory::default(),
+        lidars: Vec::new(),
         sweeps: Vec::new(),
         rig,
         ego_body: EgoBody { centre_ego: DVec3::new(1.2, 0.0, 0.78), size_m: DVec3::new(4.08, 1.73, 1.56) },

@@ -109,8 +109,7 @@ impl Gait {
     ) -> Vec<&'a Asset> {
         let Some(figure) = &chosen.figure else { return vec![chosen; self.modes.len()] };
         let is_same = |asset: &&'a Asset| asset.figure.as_ref().is_some_and(|f| f.person == figure.person);
-        let postures: Vec<&'a Asset> =
-            library.filter(is_same).filter(|a| a.slots.len() == chosen.slots.len()).collect();
+        let postures: Vec<&'a Asset> = library.filter(is_same).filter(|a| shows_the_same(a, chosen)).collect();
         let of_mode = |mode: Mode| postures.iter().copied().filter(move |a| Mode::of(a) == Some(mode));
         let start = seed.child("phase").random().unit();
         let still: Vec<Vec<&Asset>> = [Mode::Standing, Mode::Sitting].map(|mode| of_mode(mode).collect()).to_vec();
@@ -133,6 +132,15 @@ impl Gait {
     }
 }
 
+/// Whether two postures show the same body, clothes and things held, vertex by vertex: nobody lets go of a bag between two
+/// keyframes, and flow follows every point.
+fn shows_the_same(a: &Asset, b: &Asset) -> bool {
+    fn materials(asset: &Asset) -> impl Iterator<Item = &str> {
+        asset.slots.iter().map(|slot| slot.material.name.as_str())
+    }
+    a.mesh.triangles == b.mesh.triangles && a.mesh.slots == b.mesh.slots && materials(a).eq(materials(b))
+}
+
 /// How far an asset's phase is from the one that a way leads to, 0 to 0.5 of the cycle.
 fn phase_off(asset: &Asset, start: f64, way_m: f64) -> f64 {
     let Some((phase, stride_m)) = asset.figure.as_ref().and_then(|f| match f.posture {
@@ -150,14 +158,17 @@ fn phase_off(asset: &Asset, start: f64, way_m: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::testing;
-    use trove_model::{Figure, Pose};
+    use trove_model::{Figure, Mesh, Pose};
 
     const SIZE_M: DVec3 = DVec3::new(0.6, 0.6, 1.75);
 
     fn person(posture: Posture) -> Asset {
         let figure = Figure { person: "adult/a".into(), posture };
-        let id = format!("adult/a-{posture:?}");
-        Asset { figure: Some(figure), ..testing::asset(&id, Kind::Adult, [0.5, 0.5, 1.75]) }
+        Asset {
+            id: format!("adult/a-{posture:?}"),
+            figure: Some(figure),
+            ..testing::asset("adult/a", Kind::Adult, [0.5, 0.5, 1.75])
+        }
     }
 
     fn people() -> Vec<Asset> {
@@ -195,6 +206,24 @@ mod tests {
         let still = Gait::new(&drive, &boxes(0.01), SIZE_M, Kind::Adult, Some(0.0));
         assert_eq!(still.main_mode(), Mode::Standing);
         assert!(still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == people[8].id));
+    }
+
+    #[test]
+    fn nobody_lets_go_of_what_they_hold_between_two_keyframes() {
+        let (drive, mut people) = (testing::drive(), people());
+        let held = Mesh { triangles: vec![[0, 1, 2]], ..Mesh::clone(&people[0].mesh) };
+        let mut with_bag = |i: usize| {
+            let mut mesh = Mesh::clone(&people[i].mesh);
+            mesh.append(&held, 0);
+            people[i].mesh = mesh.into();
+        };
+        [0, 2, 4].into_iter().for_each(&mut with_bag);
+        let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), SIZE_M, Kind::Adult, Some(0.0));
+        for (chosen, expect) in [(0, [0.0, 0.25, 0.5].as_slice()), (1, &[0.125, 0.375, 0.625, 0.75, 0.875])] {
+            let postures = gait.postures(&people[chosen], people.iter(), 1.0, Seed(1));
+            let shown = |asset: &&Asset| expect.contains(&phase(asset).unwrap());
+            assert!(postures.iter().all(shown), "{chosen}");
+        }
     }
 
     #[test]

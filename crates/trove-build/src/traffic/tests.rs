@@ -99,8 +99,8 @@ fn who_is_added_meets_nobody_keeps_a_steady_course_and_changes_nothing_else() {
             let found = seen.entry(instance.id).or_insert((k, place, object.asset.clone()));
             let ten = (k - found.0) as f64 * 0.5 * speed;
             assert!((found.1.distance(place) - ten).abs() < 0.5, "{:?} at {k}", object.asset);
-            if let Some(next) = instance.world_from_mesh_next {
-                let moved = next.translation.distance(instance.world_from_mesh.translation);
+            if let Some(next) = instance.next {
+                let moved = next.world_from_mesh.translation.distance(instance.world_from_mesh.translation);
                 assert!((moved - 0.5 * speed).abs() < 0.3, "{moved} {speed}");
             }
         }

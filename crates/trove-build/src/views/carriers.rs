@@ -1,9 +1,10 @@
-//! The rig on other vehicles of the scene.
+//! The rig on other vehicles of the scene: who carries it, and for how long.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::DVec3;
-use trove_model::{
-    Camera, Cuboid, Drive, Ego, Kind, ObjectBox, Outcome, Pose, Report, RigCamera, Shot, Viewpoint, World,
-};
+use trove_model::{Camera, Cuboid, Drive, Ego, Kind, Outcome, Pose, Report, RigCamera, Shot, Viewpoint, World};
 
 use super::motion;
 use super::settings::{ViewSettings, shot_seed};
@@ -28,70 +29,142 @@ struct Obstacles<'a> {
     boxes: Vec<(Option<usize>, Cuboid)>,
 }
 
-/// The rig on up to `views.other_vehicles` vehicles: moving ones and those with room around them first.
+/// A vehicle's time as a carrier of the rig, without a break.
+#[derive(Clone, Debug)]
+pub(super) struct Stay {
+    /// From 1, in the order in which stays begin; no other stay has it.
+    number: usize,
+    track: usize,
+    keyframes: Range<usize>,
+    /// How far its rig is lifted to stand clear all the while.
+    lift_m: f64,
+}
+
+/// Who carries the rig over the whole drive: at each keyframe up to `views.other_vehicles`. Who carries it does so as long
+/// as it is there; where one has left, one follows that is there long, moves and has room around it.
+pub(super) fn stays(drive: &Drive, site: &Site, views: &ViewSettings, seeds: &Seeds, report: &Report) -> Vec<Stay> {
+    if views.other_vehicles == 0 {
+        return Vec::new();
+    }
+    let moments: Vec<Obstacles> = (0..drive.keyframes.len()).map(|k| Obstacles::at(drive, site, k)).collect();
+    let run = |track: usize, from: usize| {
+        let follows = |&k: &usize| next(drive, k) == Some(k + 1) && can_carry_at(drive, site, track, k + 1);
+        from..(from..).find(|k| !follows(k)).map_or(from, |last| last + 1)
+    };
+    let worth = worth(drive, site, &moments);
+    // The seed chooses among those that are about as good.
+    let drawn = |track: usize| seeds.rigs.child("views").child("carriers").nth(track as u64).random().range(0.5, 1.0);
+    let mut stays: Vec<Stay> = Vec::new();
+    // Where a vehicle's rig found no clear place: as long as it stands there it is not asked again.
+    let mut blocked: BTreeMap<usize, Cuboid> = BTreeMap::new();
+    for (keyframe, moment) in drive.keyframes.iter().enumerate() {
+        let carries = |stays: &[Stay], track: Option<usize>| {
+            let there = |s: &&Stay| s.keyframes.contains(&keyframe) && track.is_none_or(|track| s.track == track);
+            stays.iter().filter(there).count()
+        };
+        let free = moment
+            .boxes
+            .iter()
+            .map(|b| b.track)
+            .filter(|&track| can_carry_at(drive, site, track, keyframe) && carries(&stays, Some(track)) == 0);
+        let mut candidates: Vec<(f64, usize)> = free
+            .map(|track| {
+                let worth: u32 = run(track, keyframe).filter_map(|k| worth.get(&(track, k))).sum();
+                (f64::from(worth) * drawn(track), track)
+            })
+            .collect();
+        candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, track) in candidates {
+            if carries(&stays, None) == views.other_vehicles {
+                break;
+            }
+            let Some(here) = site.placed(track, keyframe).filter(|here| blocked.get(&track) != Some(here)) else {
+                continue;
+            };
+            match clear_run(drive, site, views, &moments, track, run(track, keyframe)) {
+                Some((keyframes, lift_m)) => stays.push(Stay { number: stays.len() + 1, track, keyframes, lift_m }),
+                None => {
+                    if !blocked.contains_key(&track) {
+                        let what = "vehicle whose rig would be inside other geometry";
+                        report.note(Outcome::Dropped, what, &drive.tracks[track].token);
+                    }
+                    blocked.insert(track, here);
+                }
+            }
+        }
+    }
+    stays
+}
+
+/// The shots of the rig on all who carry it at a keyframe.
 pub(super) fn shots(
     drive: &Drive,
     site: &Site,
     keyframe: usize,
     views: &ViewSettings,
+    stays: &[Stay],
     seeds: &Seeds,
     report: &Report,
 ) -> Vec<Shot> {
-    if views.other_vehicles == 0 {
-        return Vec::new();
-    }
-    let moment = &drive.keyframes[keyframe];
-    let obstacles = Obstacles::at(drive, site, keyframe);
-
-    // Every vehicle gets a rank, and a draw among those of its rank.
-    let mut random = seeds.rigs.child("views").child("carriers").nth(keyframe as u64).random();
-    let mut candidates: Vec<(u32, u64, &ObjectBox, Cuboid)> = Vec::new();
-    for vehicle in moment.boxes.iter().filter(|b| can_carry(b.kind)) {
-        let draw = random.bits();
-        let Some(cuboid) = site.placed(vehicle.track, keyframe) else { continue };
-        let moving = vehicle.velocity_mps.is_some_and(|v| v.length() > MOVING_MPS);
-        let roomy = obstacles.is_roomy(vehicle.track, &cuboid);
-        candidates.push((2 * u32::from(!roomy) + u32::from(!moving), draw, vehicle, cuboid));
-    }
-    candidates.sort_by_key(|(rank, draw, ..)| (*rank, *draw));
-
-    let mut shots = Vec::new();
-    let mut carriers = 0;
-    for (_, _, vehicle, cuboid) in candidates {
-        if carriers == views.other_vehicles {
-            break;
-        }
-        let Some(lift_m) = obstacles.clear_lift_m(drive, views, vehicle.track, &cuboid) else {
-            report.note(Outcome::Dropped, "vehicle whose rig would be inside other geometry", &vehicle.token);
-            continue;
-        };
-        carriers += 1;
-        let carrier = Carrier { track: vehicle.track, number: carriers, lift_m };
-        shots.extend(carrier.shots(drive, site, keyframe, views, seeds));
-    }
-    if carriers < views.other_vehicles {
-        let example = format!("{} keyframe {keyframe}: {carriers} of {}", drive.id, views.other_vehicles);
+    let there: Vec<&Stay> = stays.iter().filter(|stay| stay.keyframes.contains(&keyframe)).collect();
+    if there.len() < views.other_vehicles {
+        let example = format!("{} keyframe {keyframe}: {} of {}", drive.id, there.len(), views.other_vehicles);
         report.note(Outcome::Warned, "fewer vehicles than asked for can carry the rig", example);
     }
-    shots
+    there.into_iter().flat_map(|stay| stay.shots(drive, site, keyframe, views, seeds)).collect()
 }
 
-/// A vehicle that carries the rig.
-struct Carrier {
+/// What each vehicle is worth as a carrier at each keyframe, by track and keyframe: 1 for being there, 1 more where it moves,
+/// 2 more where it has room around it.
+fn worth(drive: &Drive, site: &Site, moments: &[Obstacles]) -> BTreeMap<(usize, usize), u32> {
+    let mut worth = BTreeMap::new();
+    for (k, (keyframe, obstacles)) in drive.keyframes.iter().zip(moments).enumerate() {
+        for vehicle in keyframe.boxes.iter().filter(|b| can_carry(b.kind)) {
+            let Some(cuboid) = site.placed(vehicle.track, k) else { continue };
+            let moves = vehicle.velocity_mps.is_some_and(|v| v.length() > MOVING_MPS);
+            let is_roomy = obstacles.is_roomy(vehicle.track, &cuboid);
+            worth.insert((vehicle.track, k), 1 + u32::from(moves) + 2 * u32::from(is_roomy));
+        }
+    }
+    worth
+}
+
+/// The part of a run, from its start, in which a vehicle's rig stands clear by one lift: the longest, and of lifts that do
+/// as well the lowest; `None` where none is clear at the start.
+fn clear_run(
+    drive: &Drive,
+    site: &Site,
+    views: &ViewSettings,
+    moments: &[Obstacles],
     track: usize,
-    /// From 1, in the order in which they were chosen.
-    number: usize,
-    /// How far its rig is lifted to stand clear.
-    lift_m: f64,
+    run: Range<usize>,
+) -> Option<(Range<usize>, f64)> {
+    let mut best = (run.start, 0.0);
+    for step in 0..=LIFT_STEPS {
+        let lift_m = f64::from(step) * LIFT_STEP_M;
+        let is_clear = |&k: &usize| {
+            site.placed(track, k).is_some_and(|vehicle| moments[k].is_clear_of(drive, views, track, &vehicle, lift_m))
+        };
+        let end = run.start + run.clone().take_while(is_clear).count();
+        if end > best.0 {
+            best = (end, lift_m);
+        }
+        if end == run.end {
+            break;
+        }
+    }
+    let (end, lift_m) = best;
+    (end > run.start).then_some((run.start..end, lift_m))
 }
 
-impl Carrier {
+impl Stay {
     fn shots(&self, drive: &Drive, site: &Site, keyframe: usize, views: &ViewSettings, seeds: &Seeds) -> Vec<Shot> {
         let moment = &drive.keyframes[keyframe];
         let world_from_rig = |k: Option<usize>| Some(world_from_rig(drive, &site.placed(self.track, k?)?, self.lift_m));
         let Some(now) = world_from_rig(Some(keyframe)) else { return Vec::new() };
         let neighbours = [previous(drive, keyframe), next(drive, keyframe)];
-        let [before, after] = neighbours.map(world_from_rig);
+        // Flow leads to pictures that there are.
+        let [before, after] = neighbours.map(|k| world_from_rig(k.filter(|k| self.keyframes.contains(k))));
         let beside = |k: Option<usize>, mounted: Pose<Ego, Camera>| {
             motion::at_keyframe(
                 moment.time_ns,
@@ -106,6 +179,7 @@ impl Carrier {
                 Shot {
                     viewpoint: Viewpoint::OtherVehicle { number: self.number, camera: index },
                     lens: views.lens(&camera.name, &camera.lens),
+                    world_from_ego: Some(now),
                     world_from_camera: now * mounted(camera),
                     world_from_camera_previous: before.map(|rig| rig * mounted(camera)),
                     world_from_camera_next: after.map(|rig| rig * mounted(camera)),
@@ -122,6 +196,12 @@ impl Carrier {
             })
             .collect()
     }
+}
+
+/// Whether a track is there at a keyframe as a vehicle that can carry the rig.
+fn can_carry_at(drive: &Drive, site: &Site, track: usize, keyframe: usize) -> bool {
+    let is_annotated = drive.keyframes[keyframe].boxes.iter().any(|b| b.track == track && can_carry(b.kind));
+    is_annotated && site.placed(track, keyframe).is_some()
 }
 
 fn can_carry(kind: Kind) -> bool {
@@ -167,14 +247,12 @@ impl<'a> Obstacles<'a> {
         !self.others(track).any(in_room)
     }
 
-    /// How far the rig must be lifted for all its cameras to stand clear; `None` where that is too far.
-    fn clear_lift_m(&self, drive: &Drive, views: &ViewSettings, track: usize, vehicle: &Cuboid) -> Option<f64> {
-        (0..=LIFT_STEPS).map(|step| f64::from(step) * LIFT_STEP_M).find(|&lift_m| {
-            let world_from_rig = world_from_rig(drive, vehicle, lift_m);
-            drive.rig.iter().all(|c| {
-                let eye_ego = views.mounted(&c.ego_from_camera).translation;
-                self.is_clear(track, world_from_rig.point(eye_ego))
-            })
+    /// Whether all cameras of a vehicle's rig stand clear.
+    fn is_clear_of(&self, drive: &Drive, views: &ViewSettings, track: usize, vehicle: &Cuboid, lift_m: f64) -> bool {
+        let world_from_rig = world_from_rig(drive, vehicle, lift_m);
+        drive.rig.iter().all(|c| {
+            let eye_ego = views.mounted(&c.ego_from_camera).translation;
+            self.is_clear(track, world_from_rig.point(eye_ego))
         })
     }
 

@@ -11,10 +11,37 @@ pub use settings::{ALL_CAMERAS, LensChange, PictureSize, ViewSettings};
 use crate::place::Seeds;
 use crate::place::{next, previous};
 use crate::site::Site;
+use carriers::Stay;
 use settings::shot_seed;
 
-/// A clone of every recorded camera at its own time and pose, then the rig on other vehicles.
-pub fn shots(
+/// Who photographs a drive, and how: the same for all of its keyframes.
+#[derive(Clone, Debug)]
+pub struct ViewPlan {
+    settings: ViewSettings,
+    seeds: Seeds,
+    carriers: Vec<Stay>,
+}
+
+impl ViewPlan {
+    /// Chooses the other vehicles that carry the rig.
+    pub fn new(drive: &Drive, site: &Site, settings: ViewSettings, seeds: Seeds, report: &Report) -> Self {
+        let carriers = carriers::stays(drive, site, &settings, &seeds, report);
+        Self { settings, seeds, carriers }
+    }
+
+    /// A clone of every recorded camera at its own time and pose, then the rig on other vehicles.
+    pub fn shots(&self, drive: &Drive, site: &Site, keyframe: usize, report: &Report) -> Vec<Shot> {
+        let Self { settings, seeds, carriers } = self;
+        let mut shots = recorded(drive, site, keyframe, settings, seeds, report);
+        if keyframe < drive.keyframes.len() {
+            shots.extend(carriers::shots(drive, site, keyframe, settings, carriers, seeds, report));
+        }
+        shots
+    }
+}
+
+/// The recorded cameras' shots.
+fn recorded(
     drive: &Drive,
     site: &Site,
     keyframe: usize,
@@ -45,6 +72,7 @@ pub fn shots(
         let view = format!("ego.{}", camera.name);
         shots.push(Shot {
             lens: views.lens(&camera.name, &exposure.lens),
+            world_from_ego: Some(exposure.world_from_ego),
             world_from_camera,
             world_from_camera_previous: before,
             world_from_camera_next: after,
@@ -60,19 +88,24 @@ pub fn shots(
             view,
         });
     }
-    shots.extend(carriers::shots(drive, site, keyframe, views, seeds, report));
     shots
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeMap;
+
     use crate::testing;
     use crate::{BuildSettings, LightChoice, OnDisagreement, build};
     use glam::DVec3;
     use trove_model::{Pose, Seed, Trajectory};
 
     fn site() -> Site {
+        build_site(&testing::drive())
+    }
+
+    fn build_site(drive: &Drive) -> Site {
         let weather = crate::Weather::default();
         let settings = BuildSettings {
             seeds: Seed(1).into(),
@@ -84,13 +117,14 @@ mod tests {
             locale: testing::locale("SG"),
             borders: None,
         };
-        build(&testing::drive(), None, &testing::library(), &settings, &Report::default()).unwrap()
+        build(drive, None, &testing::library(), &settings, &Report::default()).unwrap()
     }
 
     fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
         let size = PictureSize::Scaled(0.5);
         let views = ViewSettings { other_vehicles: 2, size, spp: 1, ..ViewSettings::default() };
-        shots(&testing::drive(), site, keyframe, &views, &Seed(seed).into(), &Report::default())
+        let (drive, report) = (testing::drive(), Report::default());
+        ViewPlan::new(&drive, site, views, Seed(seed).into(), &report).shots(&drive, site, keyframe, &report)
     }
 
     #[test]
@@ -110,7 +144,8 @@ mod tests {
         let (mut drive, site) = (testing::drive(), site());
         let front = |drive: &Drive| {
             let views = ViewSettings { size: PictureSize::Scaled(0.5), spp: 1, ..ViewSettings::default() };
-            let shots = shots(drive, &site, 1, &views, &Seed(1).into(), &Report::default());
+            let report = Report::default();
+            let shots = ViewPlan::new(drive, &site, views, Seed(1).into(), &report).shots(drive, &site, 1, &report);
             shots.into_iter().find(|s| s.view == "ego.CAM_FRONT").unwrap()
         };
         let shot = front(&drive);
@@ -156,11 +191,57 @@ mod tests {
     }
 
     #[test]
-    fn the_seed_chooses_the_carriers_and_they_change_over_time() {
+    fn the_seed_chooses_the_carriers() {
         let site = site();
-        let carriers = |k, seed| taken(&site, k, seed).iter().map(|s| s.carrier).collect::<Vec<_>>();
-        assert_eq!(carriers(4, 1), carriers(4, 1));
-        let first = carriers(0, 1);
-        assert!((1..10).any(|k| carriers(k, 1) != first));
+        let carriers = |seed| taken(&site, 4, seed).iter().map(|s| s.carrier).collect::<Vec<_>>();
+        assert_eq!(carriers(1), carriers(1));
+        assert!((2..20).any(|seed| carriers(seed) != carriers(1)));
+    }
+
+    #[test]
+    fn a_view_is_one_vehicle_without_a_break_and_flow_leads_to_its_next_picture() {
+        // Of three vehicles one leaves in the middle and another comes late; two carry the rig.
+        let mut drive = testing::drive();
+        let is_there = |track: usize, k: usize| match track {
+            0 => k < 4,
+            1 => k != 6,
+            2 => k > 2,
+            _ => true,
+        };
+        for (track, of) in drive.tracks.iter_mut().enumerate() {
+            of.boxes.retain(|(k, _)| is_there(track, *k));
+        }
+        for (k, keyframe) in drive.keyframes.iter_mut().enumerate() {
+            keyframe.boxes.retain(|b| is_there(b.track, k));
+        }
+        let site = build_site(&drive);
+        for seed in 0..6 {
+            let report = Report::default();
+            let views = ViewSettings { other_vehicles: 2, spp: 1, ..ViewSettings::default() };
+            let plan = ViewPlan::new(&drive, &site, views, Seed(seed).into(), &report);
+            let at = |k: usize| -> BTreeMap<String, Shot> {
+                let shots = plan.shots(&drive, &site, k, &report).into_iter();
+                shots.filter(|s| !s.view.starts_with("ego.")).map(|s| (s.view.clone(), s)).collect()
+            };
+            let all: Vec<_> = (0..10).map(at).collect();
+            let mut vehicles: BTreeMap<&str, Vec<(usize, Option<trove_model::InstanceId>)>> = BTreeMap::new();
+            for (k, shots) in all.iter().enumerate() {
+                let there = (0..3).filter(|track| is_there(*track, k)).count();
+                assert_eq!(shots.len(), 2 * there.min(2), "two cameras on each at {k}");
+                for (view, shot) in shots {
+                    vehicles.entry(view).or_default().push((k, shot.carrier));
+                    let pose = |k: Option<usize>| Some(all.get(k?)?.get(view)?.world_from_camera);
+                    assert_eq!(shot.world_from_camera_next, pose(Some(k + 1)), "{view} at {k}");
+                    assert_eq!(shot.world_from_camera_previous, pose(k.checked_sub(1)), "{view} at {k}");
+                    let mounted = shot.world_from_ego.unwrap().inverse() * shot.world_from_camera;
+                    let Viewpoint::OtherVehicle { camera, .. } = shot.viewpoint else { panic!("{view}") };
+                    let recorded = drive.rig[camera].ego_from_camera;
+                    assert!(mounted.translation.distance(recorded.translation) < 1e-9, "{view} at {k}");
+                }
+            }
+            for (view, seen) in &vehicles {
+                assert!(seen.windows(2).all(|w| w[1] == (w[0].0 + 1, w[0].1)), "{view}: {seen:?}");
+            }
+        }
     }
 }

@@ -29,6 +29,8 @@ fn frame(i: u32) -> FrameTable {
         truncation: 0.0,
         occlusion: 0.0,
         range_m,
+        keypoints: None,
+        keypoints_world_m: None,
     };
     FrameTable {
         scene: "scene".into(),
@@ -56,6 +58,7 @@ fn frame(i: u32) -> FrameTable {
         world_from_camera_next: None,
         world_from_ego: None,
         carrier: None,
+        carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2], metres_per_rad: None },
         exposure_ev: None,
         spp: 1,

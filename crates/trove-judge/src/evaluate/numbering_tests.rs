@@ -54,6 +54,8 @@ fn frame(folder: &Path, ids: &[u8], instances: &[u16], kinds: &[Kind]) {
         truncation: 0.0,
         occlusion: 0.0,
         range_m: 9.0,
+        keypoints: None,
+        keypoints_world_m: None,
     };
     let table = FrameTable {
         scene: "scene".into(),
@@ -81,6 +83,7 @@ fn frame(folder: &Path, ids: &[u8], instances: &[u16], kinds: &[Kind]) {
         world_from_camera_next: None,
         world_from_ego: None,
         carrier: None,
+        carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2], metres_per_rad: None },
         exposure_ev: None,
         spp: 1,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use trove_files::PathComponent;
-use trove_model::{Camera, Distortion, Lens, Outcome, Pose, Report, RigCamera, SensorFrame};
+use trove_model::{Camera, Distortion, Lens, Outcome, Pose, Report, RigCamera, RigLidar, SensorFrame, SweepPhase};
 
 use super::city::axle_from_ego;
 use super::feather::Table;
@@ -26,6 +26,8 @@ pub(super) struct Calibration {
     pub(super) rig: Vec<RigCamera>,
     /// The upper LiDAR in the dataset's vehicle frame.
     pub(super) lidar_axle: DVec3,
+    /// The same with its axes, where the log says.
+    pub(super) lidar: Option<RigLidar>,
 }
 
 /// A camera's name with its lens, or with what is wrong with it.
@@ -48,12 +50,18 @@ pub(super) fn read(folder: &Path, report: &Report) -> Result<Calibration, ReadEr
             }
         }
     }
-    let lidar_axle = mounts.get(LIDAR).map(|mount| mount.translation);
-    if lidar_axle.is_none() {
+    let mount = mounts.get(LIDAR);
+    if mount.is_none() {
         let what = "place of an Argoverse 2 log's LiDAR, which has no valid pose";
         report.note(Outcome::Guessed, what, folder.display());
     }
-    Ok(Calibration { rig: rig.into_values().collect(), lidar_axle: lidar_axle.unwrap_or(LIDAR_AXLE) })
+    let lidar = mount.map(|mount| RigLidar {
+        name: LIDAR.to_owned(),
+        ego_from_lidar: axle_from_ego().inverse() * Pose::new(mount.rotation, mount.translation),
+        phase: SweepPhase::FORWARD,
+    });
+    let lidar_axle = mount.map_or(LIDAR_AXLE, |mount| mount.translation);
+    Ok(Calibration { rig: rig.into_values().collect(), lidar_axle, lidar })
 }
 
 /// The sensors' poses by name; LiDARs are posed as cameras here, and only their places are used.

@@ -84,6 +84,7 @@ impl Argoverse2 {
             is_georeferenced: frame.projection.is_some(),
             projection: frame.projection.unwrap_or_else(|| MapProjection::ellipsoidal(0.0, 0.0, glam::DVec2::ZERO)),
             rig: calibration.rig,
+            lidars: calibration.lidar.into_iter().collect(),
             ego_body: EGO_BODY,
             keyframes,
             path: poses.map(|_, pose| frame.world_from_ego(pose)).later(shift_ns),

@@ -18,7 +18,7 @@ use arrow_schema::DataType;
 use trove_files::{LARGEST_FILE, read_regular};
 
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 const MAGIC: &[u8] = b"ARROW1";
 /// The footer's length and the magic, at the end.

@@ -6,7 +6,7 @@ use glam::{Mat3, Mat4, Vec2, Vec3};
 use trove_model::{Material, Mesh, Outcome};
 
 use super::fault::Fault;
-use crate::budget::{Budget, Exceeded};
+use trove_files::{Budget, Exceeded};
 
 /// More triangles than this are refused, whatever the file's size; fewer than this and more than
 /// [`super::repair::BUDGET`] are thinned out.

@@ -9,7 +9,7 @@ use image::{ImageFormat, ImageReader, Limits};
 use trove_files::Folder;
 use trove_model::{ColorSpace, Texture};
 
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Wider or higher pictures are refused: decoding one takes over 2 GB.
 const LARGEST: u32 = 16_384;

@@ -97,6 +97,7 @@ pub(super) fn drive(
         ego_body: ORDINARY_CAR,
         keyframes,
         path: path(start_ns, &samples, &poses),
+        lidars: Vec::new(),
         sweeps: Vec::new(),
         tracks: Vec::new(),
         lane_map: None,

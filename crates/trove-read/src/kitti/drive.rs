@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use trove_model::{
-    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Pose, Report, RigCamera, SensorFrame, Trajectory, World,
+    Drive, DriveOrigin, Ego, Exposure, Keyframe, MapProjection, Pose, Report, RigCamera, RigLidar, SensorFrame,
+    SweepPhase, Trajectory, World,
 };
 
 use super::boxes::{self, Annotation};
@@ -82,6 +83,11 @@ pub(super) fn join(root: &Path, recorded: Recorded, report: &Report) -> Drive {
         projection: projection.unwrap_or_else(somewhere),
         is_georeferenced,
         rig,
+        lidars: vec![RigLidar {
+            name: "velodyne".to_owned(),
+            ego_from_lidar: ego_from_velodyne,
+            phase: SweepPhase::FORWARD,
+        }],
         ego_body: FACTS.ego_body(),
         keyframes,
         path,

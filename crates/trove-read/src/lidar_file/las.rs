@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::bytes::{array, f64_at, u16_at, u32_at};
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Bytes of a point of each format, at the least.
 const POINT_BYTES: [usize; 11] = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];

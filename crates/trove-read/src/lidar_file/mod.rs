@@ -11,7 +11,7 @@ use std::path::Path;
 use glam::DVec3;
 use trove_files::read_regular;
 
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Larger files are refused: a billion points, bytes.
 const LARGEST: u64 = 2 << 30;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bytes::{array, u32_at};
 use super::lzf;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// A header has a dozen lines; what has not ended by then is none, bytes.
 const LONGEST_HEADER: usize = 1 << 16;

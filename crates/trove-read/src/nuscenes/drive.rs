@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use glam::DVec2;
-use trove_model::{Drive, DriveOrigin, Keyframe, Outcome, Report};
+use trove_model::{Drive, DriveOrigin, Keyframe, Outcome, Report, RigLidar, SweepPhase};
 
 use super::dataset::NuScenes;
 use super::exposures::{self, GlobalFromEgo, Joined, Revolution, Taken};
 use super::index::read_spans;
 use super::records::{AnnotationRecord, EgoPoseRecord, SampleDataRecord, SampleRecord};
-use super::tables::ByToken;
+use super::tables::{ByToken, LIDAR};
 use super::{between, boxes, can_bus, keyframes, kinds, lane_map, lidar, place};
 use crate::ReadError;
 use crate::levelling::{self, Trust};
@@ -113,6 +113,7 @@ fn load(dataset: &NuScenes, scene: usize, report: &Report) -> Result<Drive, Read
         is_georeferenced,
         projection,
         rig,
+        lidars: recorded.revolutions().take(1).map(rig_lidar).collect(),
         ego_body: tables.relative.ego_body(),
         lane_map: lane_map::read(&dataset.root, place_name, anchor_m, &driven, report),
         keyframes,
@@ -154,6 +155,13 @@ impl<'a> Recorded<'a> {
     fn revolutions(&self) -> impl Iterator<Item = &Revolution> {
         self.moments.iter().filter_map(|moment| moment.taken.revolution.as_ref())
     }
+}
+
+/// Its sweeps begin on the left, in its own axes at −x, and end at the time that they are given: points are brought to the
+/// pose of that time, as the returns that were not there tell, which lie where the sensor was.
+fn rig_lidar(revolution: &Revolution) -> RigLidar {
+    let phase = SweepPhase { begins_at_rad: std::f64::consts::PI, over: 1.0 };
+    RigLidar { name: LIDAR.into(), ego_from_lidar: revolution.ego_from_sensor, phase }
 }
 
 fn read_sweeps(

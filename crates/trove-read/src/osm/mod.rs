@@ -35,10 +35,10 @@ use trove_files::{LARGEST_FILE, open_regular};
 use trove_model::{Bounds, DrivingSide, MapProjection, Report, StreetMap};
 
 use crate::ReadError;
-use crate::budget::Budget;
 use fault::Fault;
 use places::Places;
 use raw::{Raw, RawNode};
+use trove_files::Budget;
 
 pub use self::geojson::GeoJsonFrame;
 pub use crate::geo_extent::GeoExtent;

@@ -8,8 +8,8 @@ use trove_model::{Outcome, Report};
 
 use super::fault::Fault;
 use super::raw::{LONGEST_WORDS, Raw, RawNode, RawRelation, RawWay, Tags};
-use crate::budget::{Budget, Exceeded};
 use crate::protobuf::{Fields, Malformed, running_sums, zigzag};
+use trove_files::{Budget, Exceeded};
 
 /// The format's own limits, bytes.
 const MAX_HEADER_BYTES: u32 = 64 << 10;

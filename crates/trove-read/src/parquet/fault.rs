@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::ReadError;
-use crate::budget::Exceeded;
+use trove_files::Exceeded;
 
 /// Why something in a file cannot be read.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use super::codec::Codec;
 use super::fault::Fault;
 use super::thrift::Thrift;
 use super::values::Physical;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Schemas of flat tables and lists are three deep.
 const DEEPEST: usize = 8;

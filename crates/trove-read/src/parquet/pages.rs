@@ -9,7 +9,7 @@ use super::metadata::{Chunk, ColumnInfo};
 use super::runs::Runs;
 use super::thrift::Thrift;
 use super::values::{Dictionary, Physical, Values};
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Longer heads of pages are damaged: their statistics quote the least and the largest value, bytes.
 const LONGEST_HEAD: u64 = 1 << 20;

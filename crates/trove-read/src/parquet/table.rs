@@ -11,7 +11,7 @@ use super::metadata::{ColumnInfo, Metadata};
 use super::pages::{Page, Pages};
 use super::values::{Physical, Sink};
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// What a file begins and ends with.
 const MAGIC: &[u8; 4] = b"PAR1";

@@ -3,7 +3,7 @@
 //! <https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>
 
 use super::fault::Fault;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Structures of Parquet are five deep.
 const DEEPEST: usize = 16;

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::fault::Fault;
 use super::runs::Runs;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// How values are written, by the number in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

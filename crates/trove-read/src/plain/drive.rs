@@ -15,7 +15,7 @@ use super::keyframes;
 use super::parts::{self, Parts};
 use super::{boxes, lane_map, lidar};
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// An ordinary car: length, width without mirrors and height of a compact, with Ego on its rear axle.
 pub(crate) const ORDINARY_CAR: EgoBody =
@@ -95,6 +95,7 @@ fn assemble(parts: &Parts, name: &str, place: &Place, faults: &mut Faults, repor
         ego_body: ego_body.unwrap_or(ORDINARY_CAR),
         keyframes,
         path,
+        lidars: Vec::new(),
         sweeps: Vec::new(),
         tracks,
         lane_map,

@@ -15,7 +15,7 @@ use super::geo_keys::{Fault, GeoTags};
 use super::sheet::{Cut, Sheet, Window, plausible};
 use super::texts;
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Larger strips and tiles are refused, bytes; GDAL's are 8 KiB to 1 MiB.
 const LARGEST_CHUNK: usize = 128 << 20;

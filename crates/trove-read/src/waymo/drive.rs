@@ -55,6 +55,7 @@ pub(super) fn drive(path: &Path, mut segment: Segment, report: &Report) -> Resul
         ego_body: EGO_BODY,
         keyframes,
         path: Trajectory::default(),
+        lidars: Vec::new(),
         sweeps: Vec::new(),
         tracks,
         licence: vocabulary::licence().to_owned(),

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::ReadError;
-use crate::budget::Exceeded;
 use crate::protobuf::Malformed;
+use trove_files::Exceeded;
 
 /// A message that cannot be used.
 #[derive(Debug)]

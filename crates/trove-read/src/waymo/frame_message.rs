@@ -9,8 +9,8 @@ use glam::DVec3;
 use super::fault::Unusable;
 use super::map_message;
 use super::records::{CameraRecord, LabelRecord, LaserRecord, MapFeature, Matrix, PictureRecord};
-use crate::budget::Budget;
 use crate::protobuf::{Fields, Malformed, doubles};
+use trove_files::Budget;
 
 /// More beams has no LiDAR.
 const MOST_BEAMS: usize = 4096;

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::fault::Unusable;
 use super::records::{MapFeature, MapForm};
-use crate::budget::Budget;
 use crate::protobuf::{Fields, Malformed, doubles};
+use trove_files::Budget;
 
 /// `LaneCenter.LaneType`.
 const BIKE_LANE: u64 = 3;

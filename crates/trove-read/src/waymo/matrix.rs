@@ -6,8 +6,8 @@ use flate2::read::ZlibDecoder;
 
 use super::fault::Unusable;
 use super::range_image::Grid;
-use crate::budget::Budget;
 use crate::protobuf::{Fields, Malformed, Value};
+use trove_files::Budget;
 
 /// Four times the largest there is, 64 beams × 2650 columns × 6 numbers, bytes.
 const LARGEST_GRID: u64 = 16 << 20;

@@ -13,7 +13,7 @@ use super::records::{FrameRecord, GlobalFromEgo, LaserRecord, Returns, Segment};
 use super::tfrecord::{Next, Records};
 use super::{matrix, poses};
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// `LaserName` of the LiDAR on the roof.
 const TOP: i64 = 1;

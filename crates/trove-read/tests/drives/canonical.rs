@@ -129,6 +129,7 @@ pub(crate) fn drive() -> Drive {
         ego_body: EgoBody { centre_ego: DVec3::new(1.35, 0.0, 0.75), size_m: DVec3::new(4.6, 1.8, 1.5) },
         keyframes,
         path: Trajectory::new((0..=50).map(on_path).collect()).0,
+        lidars: Vec::new(),
         sweeps: vec![Sweep { time_ns: on_path(SWEPT_BETWEEN).0, lidar: sweep(&on_path(SWEPT_BETWEEN).1) }],
         tracks,
         lane_map: None,

@@ -1,5 +1,7 @@
 //! The data by which every kernel judges its hits.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use crate::material::Opacity;
@@ -11,7 +13,7 @@ pub(crate) struct Shapes {
     /// In the order of the scene's instances.
     pub(crate) placed: Vec<Placed>,
     /// In the order of the scene's materials.
-    pub(crate) opacities: Vec<Opacity>,
+    pub(crate) opacities: Arc<[Opacity]>,
 }
 
 impl Shapes {
@@ -42,12 +44,13 @@ impl Shapes {
         *light == Vec3::ZERO
     }
 
-    /// Whether what a ray has met is the object that it passes through.
+    /// Whether a ray passes through what it has met.
     pub(super) fn is_passed(&self, ray: &Ray, met: Option<Hit>) -> bool {
-        met.is_some_and(|hit| ray.past == Some(self.placed[hit.instance as usize].id))
+        let Some(placed) = met.map(|hit| &self.placed[hit.instance as usize]) else { return false };
+        ray.past == Some(placed.id) || ray.beside.is_some_and(|beside| !placed.stays[beside as usize])
     }
 
-    /// What a ray meets behind the object that it passes through, given what it meets first and how to ask again.
+    /// What a ray meets behind all that it passes through, given what it meets first and how to ask again.
     pub(super) fn past(&self, ray: &Ray, first: Option<Hit>, closest: impl Fn(&Ray) -> Option<Hit>) -> Option<Hit> {
         let mut met = first;
         let mut ray = *ray;

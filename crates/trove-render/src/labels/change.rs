@@ -109,6 +109,7 @@ impl<'a> Look<'a> {
             subsurface,
             transmission,
             translucency,
+            retroreflection: _,
             // Light alone is no difference.
             emission: _,
             dirt,

@@ -1,64 +1,151 @@
-//! Where the point of a pixel is in the picture of a neighbouring keyframe.
+//! Where the point of a pixel is in the picture of a neighbouring keyframe, and whether that picture shows it.
 
-use glam::{DAffine3, DVec2, DVec3};
-use trove_model::{Camera, Lens, Pose, Shot, World};
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use trove_model::{Camera, Lens, Mesh, Occlusion, Pose, Shot, World};
 
 use crate::PreparedScene;
-use crate::prepare::PreparedInstance;
+use crate::prepare::{Carrier, Then};
+use crate::ray::{Beside, Hit, Ray};
+
+/// Rays find triangles in the renderer's precision: a point may lie this share of an edge beside its triangle.
+const EDGE: f64 = 1e-2;
+
+/// A surface is taken to be seen no flatter than this, as the cosine to its normal: a pixel's extent on it is endless.
+const FLATTEST: f64 = 0.02;
 
 /// Flow that is not defined.
 pub(super) const NONE: [f32; 2] = [f32::NAN; 2];
 
-/// The next or the previous keyframe.
-pub(super) struct Neighbour {
+/// Where a pixel leads.
+pub(super) struct Arrow {
+    pub flow: [f32; 2],
+    end: End,
+}
+
+/// Where an arrow ends.
+enum End {
+    Undefined,
+    /// Beside the picture.
+    Outside,
+    /// There, if nothing meets this ray.
+    Before(Ray),
+}
+
+/// A surface's point and normal in World.
+#[derive(Clone, Copy)]
+pub(super) struct Spot {
+    pub point: DVec3,
+    pub normal: DVec3,
+}
+
+const UNDEFINED: Arrow = Arrow { flow: NONE, end: End::Undefined };
+
+/// The previous or the next keyframe.
+pub(super) struct Neighbour<'a> {
+    scene: &'a PreparedScene,
+    beside: Beside,
     lens: Lens,
     /// `None`: the camera has no such keyframe.
-    camera_from_world: Option<Pose<Camera, World>>,
-    /// By index of the instance.
-    motions: Vec<Motion>,
+    world_from_camera: Option<Pose<World, Camera>>,
+    carrier: Carrier,
 }
 
-/// Where an instance's points go.
-enum Motion {
-    Stays,
-    /// Takes points of World now to points of World then.
-    Moves(DAffine3),
-    IsNotThere,
-}
-
-impl Neighbour {
-    /// From the camera's pose and the instances' placements then.
-    pub(super) fn new(
-        scene: &PreparedScene,
-        shot: &Shot,
-        world_from_camera: Option<Pose<World, Camera>>,
-        world_from_mesh: impl Fn(&PreparedInstance) -> Option<DAffine3>,
-    ) -> Self {
-        let motion = |instance: &PreparedInstance| match world_from_mesh(instance) {
-            None => Motion::IsNotThere,
-            Some(then) if then == instance.world_from_mesh.middle => Motion::Stays,
-            Some(then) => Motion::Moves(then * instance.world_from_mesh.middle.inverse()),
-        };
-        let camera_from_world = world_from_camera.map(|pose| pose.inverse());
-        Self { lens: shot.lens, camera_from_world, motions: scene.instances.iter().map(motion).collect() }
+impl<'a> Neighbour<'a> {
+    /// The previous keyframe of a shot, and the next.
+    pub(super) fn both(scene: &'a PreparedScene, shot: &Shot) -> [Self; 2] {
+        let poses = [shot.world_from_camera_previous, shot.world_from_camera_next];
+        [Beside::Previous, Beside::Next].map(|beside| Self {
+            scene,
+            beside,
+            lens: shot.lens,
+            world_from_camera: poses[beside as usize],
+            carrier: Carrier::at(scene, Some(beside), shot.carrier),
+        })
     }
 
-    /// Pixels from `centre` to where the instance carries `point`.
-    pub(super) fn flow(&self, centre: DVec2, instance: u32, point: DVec3) -> [f32; 2] {
-        let then = match &self.motions[instance as usize] {
-            Motion::Stays => point,
-            Motion::Moves(then_from_now) => then_from_now.transform_point3(point),
-            Motion::IsNotThere => return NONE,
-        };
-        self.camera_from_world.map_or(NONE, |camera| self.to(centre, camera.point(then)))
+    /// From `centre` to where a hit's instance carries its spot.
+    pub(super) fn arrow(&self, centre: DVec2, hit: &Hit, spot: Spot) -> Arrow {
+        let Some(eye) = self.world_from_camera else { return UNDEFINED };
+        let Some(Spot { point, normal }) = self.carried(hit, spot) else { return UNDEFINED };
+        let way = point - eye.translation;
+        let range_m = way.length();
+        let flatness = (normal.dot(way).abs() / range_m).max(FLATTEST);
+        // What is nearer to the point than a pixel's extent on the surface does not hide it.
+        let before = range_m * (1.0 - 1.0 / (self.lens.fx_px * flatness));
+        self.to(centre, eye.inverse().point(point), || Ray {
+            t_max: before as f32,
+            ..Ray::new(eye.translation.as_vec3(), (way / range_m).as_vec3())
+        })
     }
 
     /// The same for a point infinitely far away, which only the camera's rotation moves.
-    pub(super) fn flow_of_sky(&self, centre: DVec2, direction: DVec3) -> [f32; 2] {
-        self.camera_from_world.map_or(NONE, |camera| self.to(centre, camera.vector(direction)))
+    pub(super) fn arrow_of_sky(&self, centre: DVec2, direction: DVec3) -> Arrow {
+        self.world_from_camera.map_or(UNDEFINED, |eye| {
+            let ray = || Ray::new(eye.translation.as_vec3(), direction.as_vec3());
+            self.to(centre, eye.inverse().vector(direction), ray)
+        })
     }
 
-    fn to(&self, centre: DVec2, point_camera: DVec3) -> [f32; 2] {
-        self.lens.project(point_camera).map_or(NONE, |pixel| (pixel - centre).as_vec2().to_array())
+    /// Whether the neighbour's picture shows what a packet of neighbouring pixels leads to.
+    pub(super) fn occlusion(&self, arrows: &[&Arrow]) -> Vec<Occlusion> {
+        let ray = |arrow: &&Arrow| match arrow.end {
+            End::Before(ray) => Some(self.carrier.past(ray)),
+            End::Undefined | End::Outside => None,
+        };
+        let rays: Vec<Ray> = arrows.iter().filter_map(ray).collect();
+        let mut blocked = self.scene.blocks_then(self.beside, &rays).into_iter();
+        let of = |arrow: &&Arrow| match arrow.end {
+            End::Undefined => Occlusion::Undefined,
+            End::Outside => Occlusion::Hidden,
+            End::Before(_) if blocked.next() == Some(true) => Occlusion::Hidden,
+            End::Before(_) => Occlusion::Seen,
+        };
+        arrows.iter().map(of).collect()
     }
+
+    fn to(&self, centre: DVec2, point_camera: DVec3, ray: impl FnOnce() -> Ray) -> Arrow {
+        let Some(pixel) = self.lens.project(point_camera) else { return UNDEFINED };
+        let end = if self.lens.contains(pixel) { End::Before(ray()) } else { End::Outside };
+        Arrow { flow: (pixel - centre).as_vec2().to_array(), end }
+    }
+
+    /// Where a hit's spot is then; `None` where its instance is not there.
+    fn carried(&self, hit: &Hit, spot: Spot) -> Option<Spot> {
+        let instance = &self.scene.instances[hit.instance as usize];
+        let (then, world_from_mesh) = match &instance.then[self.beside as usize] {
+            Then::IsNotThere => return None,
+            Then::Stays => return Some(spot),
+            Then::Moves { mesh, world_from_mesh } => (mesh, world_from_mesh),
+        };
+        let mesh = &self.scene.placed(hit.instance).mesh;
+        let mesh_from_world = instance.world_from_mesh.middle.inverse();
+        if Arc::ptr_eq(mesh, then) {
+            let then_from_now = *world_from_mesh * mesh_from_world;
+            let normal = then_from_now.transform_vector3(spot.normal).normalize_or_zero();
+            return Some(Spot { point: then_from_now.transform_point3(spot.point), normal });
+        }
+        let point_mesh = mesh_from_world.transform_point3(spot.point);
+        let place = place_in(corners(mesh, hit.triangle), point_mesh);
+        let [u, v] = place.unwrap_or([hit.u.into(), hit.v.into()]);
+        let [a, b, c] = corners(then, hit.triangle).map(|corner| world_from_mesh.transform_point3(corner));
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Some(Spot { point: a + (b - a) * u + (c - a) * v, normal })
+    }
+}
+
+/// A triangle's corners in the mesh's own metres.
+fn corners(mesh: &Mesh, triangle: u32) -> [DVec3; 3] {
+    mesh.triangles[triangle as usize].map(|i| mesh.positions[i as usize].as_dvec3())
+}
+
+/// Where in a triangle a point on it is, (1 − u − v)·a + u·b + v·c; `None` where the triangle has no area or the point is
+/// beside it.
+fn place_in([a, b, c]: [DVec3; 3], point: DVec3) -> Option<[f64; 2]> {
+    let (ab, ac, ap) = (b - a, c - a, point - a);
+    let normal = ab.cross(ac);
+    let [u, v] = [ap.cross(ac), ab.cross(ap)].map(|part| part.dot(normal) / normal.length_squared());
+    let inside = -EDGE..=1.0 + EDGE;
+    (inside.contains(&u) && inside.contains(&v) && inside.contains(&(u + v))).then_some([u, v])
 }

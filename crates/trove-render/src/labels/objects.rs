@@ -4,10 +4,12 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
 
+use super::keypoints;
 use super::outline;
 use super::pixel::Pixel;
 use crate::PreparedScene;
 use crate::placed::Placed;
+use crate::prepare::Carrier;
 use crate::ray::Ray;
 use crate::sight;
 
@@ -39,6 +41,7 @@ impl Extent {
 /// in the order of ids; `None` once `stop` answers true.
 pub(super) fn list(
     scene: &PreparedScene,
+    carrier: &Carrier,
     shot: &Shot,
     shown: &Raster<Pixel>,
     stop: &(dyn Fn() -> bool + Sync),
@@ -59,7 +62,7 @@ pub(super) fn list(
             let object = instance.object.as_deref().filter(|_| id.0 != 0 && Some(id) != shot.carrier)?;
             // Scenery is plentiful, and nobody asks for the thousand trees behind the houses.
             (object.origin.is_road_user() || visible[i].count > 0)
-                .then(|| label(scene, shot, shown, i, object, visible[i]))
+                .then(|| label(scene, carrier, shot, shown, (i, object), visible[i]))
                 .flatten()
         })
         .collect();
@@ -69,10 +72,10 @@ pub(super) fn list(
 
 fn label(
     scene: &PreparedScene,
+    carrier: &Carrier,
     shot: &Shot,
     shown: &Raster<Pixel>,
-    index: usize,
-    object: &SceneObject,
+    (index, object): (usize, &SceneObject),
     visible: Extent,
 ) -> Option<ObjectLabel> {
     let amodal = visible.and(hidden(scene, shot, shown, index));
@@ -88,6 +91,7 @@ fn label(
         truncation: outline::truncation(&shot.lens, outline::project(&shot.lens, &corners_camera)) as f32,
         occlusion: 1.0 - visible.count as f32 / amodal.count as f32,
         range_m: range_m as f32,
+        keypoints: object.keypoints_world.map(|points| keypoints::seen(scene, carrier, shot, index as u32, &points)),
     })
 }
 

@@ -1,5 +1,7 @@
 //! Everything that one pixel shows.
 
+use trove_model::Occlusion;
+
 use super::flow;
 
 /// Indices of no instance: the sky, and what lies outside the lens's image circle.
@@ -14,8 +16,9 @@ pub(super) struct Pixel {
     pub range_m: f64,
     pub depth_m: f32,
     pub normal: [f32; 3],
-    pub flow_forward: [f32; 2],
-    pub flow_backward: [f32; 2],
+    /// To the previous keyframe, and to the next.
+    pub flow: [[f32; 2]; 2],
+    pub occlusion: [Occlusion; 2],
 }
 
 /// A pixel that no ray belongs to.
@@ -24,6 +27,6 @@ pub(super) const OUTSIDE_LENS: Pixel = Pixel {
     range_m: f64::INFINITY,
     depth_m: f32::INFINITY,
     normal: [0.0; 3],
-    flow_forward: flow::NONE,
-    flow_backward: flow::NONE,
+    flow: [flow::NONE; 2],
+    occlusion: [Occlusion::Undefined; 2],
 };

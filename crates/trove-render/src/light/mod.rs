@@ -224,14 +224,15 @@ mod tests {
             mesh: 0,
             materials: vec![0],
             world_from_mesh: at,
-            world_from_mesh_previous: Some(at),
-            world_from_mesh_next: Some(at),
+            previous: None,
+            next: None,
             object: None,
         };
         Scene {
             meshes: vec![Arc::new(lamp)],
             materials: vec![Material { emission: Vec3::splat(3.0), ..Material::default() }],
             instances: vec![instance],
+            others: Default::default(),
             keyframes_apart_s: [0.5; 2],
             light: Light { environment: Environment::Sky(sky) },
             provenance: Vec::new(),

@@ -59,6 +59,7 @@ pub(crate) struct PreparedMaterial {
     subsurface: f32,
     transmission: f32,
     translucency: f32,
+    retroreflection: f32,
     pub(crate) emission: Vec3,
     texturing: Texturing,
     weather: Weather,
@@ -88,6 +89,7 @@ impl PreparedMaterial {
             subsurface,
             transmission,
             translucency,
+            retroreflection,
             emission,
             dirt,
             wetness,
@@ -117,6 +119,7 @@ impl PreparedMaterial {
             subsurface: share(subsurface),
             transmission: share(transmission),
             translucency: share(translucency),
+            retroreflection: share(retroreflection),
             emission: emission.max(Vec3::ZERO),
             texturing: Texturing { scale: *uv_scale, mapping: *mapping, tiling: *tiling },
             weather: Weather { dirt: share(dirt), wetness: share(wetness) },
@@ -138,6 +141,11 @@ impl PreparedMaterial {
     /// Whether light that comes from behind is scattered to the front.
     pub(crate) fn is_translucent(&self) -> bool {
         self.translucency > 0.0
+    }
+
+    /// How much of a sensor's own light goes straight back to it, 0 to 1.
+    pub(crate) fn retroreflection(&self) -> f32 {
+        self.retroreflection
     }
 
     /// How it scatters light at a point; `width_m` is the width of what one sample covers there,

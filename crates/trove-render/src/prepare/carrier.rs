@@ -5,7 +5,7 @@ use trove_model::InstanceId;
 
 use super::PreparedScene;
 use crate::motion::{MIDDLE, Motion};
-use crate::ray::Ray;
+use crate::ray::{Beside, Ray};
 
 /// Rays that leave the carrier's box lower than this above its bottom may have met the ground in it.
 const ABOVE_GROUND_M: f32 = 0.3;
@@ -19,9 +19,14 @@ pub(crate) struct Carrier {
 
 impl Carrier {
     pub(crate) fn new(scene: &PreparedScene, id: Option<InstanceId>) -> Self {
+        Self::at(scene, None, id)
+    }
+
+    /// The same now or at a keyframe beside.
+    pub(crate) fn at(scene: &PreparedScene, beside: Option<Beside>, id: Option<InstanceId>) -> Self {
         let id = id.filter(|id| id.0 != 0);
         let around = id.and_then(|id| {
-            let mut parts = scene.shapes.placed.iter().filter(|p| p.id == id).peekable();
+            let mut parts = scene.all(beside).filter(|p| p.id == id).peekable();
             let world_from_box = parts.peek()?.world_from_mesh;
             let box_from_world = world_from_box.middle.inverse();
             let points = parts.flat_map(|p| {

@@ -1,6 +1,8 @@
 //! Everything in a scene that could make rendering fail is refused here, once.
 
-use trove_model::{Environment, Material, Scene};
+use std::sync::Arc;
+
+use trove_model::{Environment, Material, Mesh, Placement, Scene};
 
 use crate::RenderError;
 
@@ -31,7 +33,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
             }
         }
     }
-    for (i, instance) in scene.instances.iter().enumerate() {
+    for (i, instance) in scene.instances.iter().chain(scene.others.iter().flatten()).enumerate() {
         let place = || format!("instance {i} (id {}, {:?})", instance.id.0, instance.class);
         let Some(mesh) = scene.meshes.get(instance.mesh) else {
             let found = format!("index {} of {}", instance.mesh, scene.meshes.len());
@@ -44,9 +46,17 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
         if let Some(m) = instance.materials.iter().find(|&&m| m >= scene.materials.len()) {
             return refuse(place(), "existing materials", format!("index {m} of {}", scene.materials.len()));
         }
-        let poses = [Some(instance.world_from_mesh), instance.world_from_mesh_previous, instance.world_from_mesh_next];
-        if !poses.iter().flatten().all(|pose| pose.is_finite()) {
-            return refuse(place(), "finite placements", format!("{:?}", instance.world_from_mesh));
+        for Placement { mesh: index, world_from_mesh } in
+            [Some(instance.now()), instance.previous, instance.next].into_iter().flatten()
+        {
+            if !world_from_mesh.is_finite() {
+                return refuse(place(), "finite placements", format!("{world_from_mesh:?}"));
+            }
+            let same = |other: &Arc<Mesh>| other.triangles == mesh.triangles && other.slots == mesh.slots;
+            if index != instance.mesh && !scene.meshes.get(index).is_some_and(same) {
+                let found = format!("mesh {index} beside mesh {}", instance.mesh);
+                return refuse(place(), "one set of triangles and slots at neighbouring keyframes", found);
+            }
         }
         let volume = instance.world_from_mesh.matrix3.determinant();
         if volume.abs() < 1e-12 {
@@ -77,6 +87,7 @@ fn is_finite(material: &Material) -> bool {
         subsurface,
         transmission,
         translucency,
+        retroreflection,
         emission,
         dirt,
         wetness,
@@ -85,7 +96,7 @@ fn is_finite(material: &Material) -> bool {
         tiling: _,
         role: _,
     } = material;
-    let layers = [coat, flakes, sheen, subsurface, transmission, translucency, dirt, wetness];
+    let layers = [coat, flakes, sheen, subsurface, transmission, translucency, retroreflection, dirt, wetness];
     let numbers = [alpha_cutoff, roughness, metalness, ior, height_m].into_iter().chain(layers);
     numbers.into_iter().all(|n| n.is_finite()) && base_color.is_finite() && emission.is_finite() && uv_scale.is_finite()
 }

@@ -6,15 +6,15 @@ mod check;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec3};
-use trove_model::{Class, Scene, SceneObject};
+use trove_model::{Class, Instance, Mesh, Placement, Scene, SceneObject};
 
 use crate::RenderError;
-use crate::accel::{Accel, Coherence, Kernel, Shapes};
+use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
 use crate::light::{LastSurroundings, Lights};
-use crate::material::PreparedMaterial;
+use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
 use crate::placed::Placed;
-use crate::ray::{Hit, Ray};
+use crate::ray::{Beside, Hit, Ray};
 use crate::surface::Surface;
 use crate::texture::Textures;
 
@@ -27,6 +27,14 @@ pub struct PreparedScene {
     pub(crate) materials: Vec<PreparedMaterial>,
     pub(crate) lights: Lights,
     accel: Box<dyn Accel>,
+    /// What is at the previous and at the next keyframe other than now, as it is then.
+    others: [Others; 2],
+}
+
+/// Shapes that are there at another moment.
+struct Others {
+    shapes: Arc<Shapes>,
+    accel: Box<dyn Accel>,
 }
 
 /// What labels tell of an instance.
@@ -34,11 +42,22 @@ pub(crate) struct PreparedInstance {
     pub(crate) class: Class,
     /// In the model's precision.
     pub(crate) world_from_mesh: Motion<DAffine3>,
-    /// At the neighbouring keyframes, for flow.
-    pub(crate) world_from_mesh_previous: Option<DAffine3>,
-    pub(crate) world_from_mesh_next: Option<DAffine3>,
+    /// At the previous and the next keyframe.
+    pub(crate) then: [Then; 2],
     /// What it is; `None` for stuff.
     pub(crate) object: Option<Arc<SceneObject>>,
+}
+
+/// An instance at a neighbouring keyframe.
+pub(crate) enum Then {
+    IsNotThere,
+    /// As it stands now.
+    Stays,
+    /// Elsewhere or in another shape, which has the same triangles; in the model's precision.
+    Moves {
+        mesh: Arc<Mesh>,
+        world_from_mesh: DAffine3,
+    },
 }
 
 impl PreparedScene {
@@ -50,17 +69,52 @@ impl PreparedScene {
     ) -> Result<Self, RenderError> {
         check::check(scene)?;
         textures.make_all(&scene.materials);
-        let (materials, opacities) = scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).unzip();
+        let (materials, opacities): (_, Vec<_>) =
+            scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).unzip();
+        let opacities: Arc<[_]> = opacities.into();
         let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
         let feet_z: Vec<f32> = scene.meshes.iter().map(|m| m.bounds().map_or(0.0, |(low, _)| low.z)).collect();
-        let place = |(i, prepared): (&trove_model::Instance, &PreparedInstance)| {
+        let place = |i: &Instance, now: Placement, way: &Motion<DAffine3>, stays: [bool; 2]| {
             let materials = i.materials.iter().map(|&m| m as u32).collect();
-            Placed::new(i.id, scene.meshes[i.mesh].clone(), feet_z[i.mesh], materials, &prepared.world_from_mesh)
+            Placed::new(i.id, scene.meshes[now.mesh].clone(), feet_z[now.mesh], materials, way, stays)
         };
-        let placed = scene.instances.iter().zip(&instances).map(place).collect();
-        let shapes = Arc::new(Shapes { placed, opacities });
+        let placed = scene.instances.iter().zip(&instances).map(|(instance, prepared)| {
+            let stays = prepared.then.each_ref().map(|then| matches!(then, Then::Stays));
+            place(instance, instance.now(), &prepared.world_from_mesh, stays)
+        });
+        let shapes = Arc::new(Shapes { placed: placed.collect(), opacities: opacities.clone() });
         let (accel, lights) = rayon::join(|| kernel.build(&shapes), || Lights::new(scene, last));
-        Ok(Self { shapes, instances, materials, lights, accel: accel? })
+        let others = |beside: Beside| -> Result<Others, RenderError> {
+            let moved = scene.instances.iter().filter_map(|i| {
+                let then = [i.previous, i.next][beside as usize]?;
+                (then != i.now()).then_some((i, then))
+            });
+            let others = moved.chain(scene.others[beside as usize].iter().map(|i| (i, i.now())));
+            let placed =
+                others.map(|(i, then)| place(i, then, &Motion { middle: then.world_from_mesh, ends: None }, [true; 2]));
+            let shapes = Arc::new(Shapes { placed: placed.collect(), opacities: opacities.clone() });
+            Ok(Others { accel: kernel.build(&shapes)?, shapes })
+        };
+        let others = [others(Beside::Previous)?, others(Beside::Next)?];
+        Ok(Self { shapes, instances, materials, lights, accel: accel?, others })
+    }
+
+    /// What stands where, now or at a keyframe beside.
+    pub(crate) fn all(&self, beside: Option<Beside>) -> impl Iterator<Item = &Placed> {
+        let stays = move |p: &&Placed| beside.is_none_or(|beside| p.stays[beside as usize]);
+        let others = beside.into_iter().flat_map(|beside| &self.others[beside as usize].shapes.placed);
+        self.shapes.placed.iter().filter(stays).chain(others)
+    }
+
+    /// Whether each of up to [`PACKET`] rays that run alike meets something at a keyframe beside.
+    pub(crate) fn blocks_then(&self, beside: Beside, rays: &[Ray]) -> [bool; PACKET] {
+        let mut looking = [Ray::new(Vec3::ZERO, Vec3::Z); PACKET];
+        looking.iter_mut().zip(rays).for_each(|(to, ray)| *to = Ray { beside: Some(beside), ..*ray });
+        let mut hits = [[None; PACKET]; 2];
+        for (accel, hits) in [&self.accel, &self.others[beside as usize].accel].into_iter().zip(&mut hits) {
+            accel.closest(&looking[..rays.len()], Coherence::Coherent, &mut hits[..rays.len()]);
+        }
+        std::array::from_fn(|i| hits.iter().any(|hits| hits[i].is_some()))
     }
 
     /// The shape of an instance.
@@ -90,6 +144,11 @@ impl PreparedScene {
         &*self.accel
     }
 
+    /// What the surface at a hit lets pass.
+    pub(crate) fn opacity(&self, hit: &Hit) -> &Opacity {
+        &self.shapes.opacities[self.placed(hit.instance).material(hit)]
+    }
+
     /// The surface at a ray's hit, and its material.
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
         let placed = self.placed(hit.instance);
@@ -98,13 +157,21 @@ impl PreparedScene {
 }
 
 impl PreparedInstance {
-    fn new(scene: &Scene, instance: &trove_model::Instance) -> Self {
-        let neighbours = [instance.world_from_mesh_previous, instance.world_from_mesh_next];
+    fn new(scene: &Scene, instance: &Instance) -> Self {
+        let neighbours = [instance.previous, instance.next];
+        let then = |placement: Option<Placement>| match placement {
+            None => Then::IsNotThere,
+            Some(then) if then == instance.now() => Then::Stays,
+            Some(Placement { mesh, world_from_mesh }) => {
+                Then::Moves { mesh: scene.meshes[mesh].clone(), world_from_mesh }
+            }
+        };
+        // Shapes change between keyframes, and light follows the motion alone.
+        let ways = neighbours.map(|placement| Some(placement?.world_from_mesh));
         Self {
             class: instance.class,
-            world_from_mesh: Motion::new(instance.world_from_mesh, neighbours, scene.keyframes_apart_s),
-            world_from_mesh_previous: instance.world_from_mesh_previous,
-            world_from_mesh_next: instance.world_from_mesh_next,
+            world_from_mesh: Motion::new(instance.world_from_mesh, ways, scene.keyframes_apart_s),
+            then: neighbours.map(then),
             object: instance.object.clone(),
         }
     }

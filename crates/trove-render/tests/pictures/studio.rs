@@ -53,6 +53,7 @@ pub(crate) fn empty(environment: EnvironmentMap) -> Scene {
         meshes: Vec::new(),
         materials: Vec::new(),
         instances: Vec::new(),
+        others: Default::default(),
         keyframes_apart_s: [0.5; 2],
         light: Light { environment: Environment::Map(Arc::new(environment)) },
         provenance: Vec::new(),
@@ -61,16 +62,17 @@ pub(crate) fn empty(environment: EnvironmentMap) -> Scene {
 
 /// Puts one more thing into a scene.
 pub(crate) fn put(scene: &mut Scene, mesh: Mesh, material: Material, world_from_mesh: DAffine3) {
-    scene.instances.push(Instance {
+    let instance = Instance {
         id: InstanceId(scene.instances.len() as u32 + 1),
         class: Class::Void,
         mesh: scene.meshes.len(),
         materials: vec![scene.materials.len()],
         world_from_mesh,
-        world_from_mesh_previous: Some(world_from_mesh),
-        world_from_mesh_next: Some(world_from_mesh),
+        previous: None,
+        next: None,
         object: None,
-    });
+    };
+    scene.instances.push(instance.at_rest());
     scene.meshes.push(Arc::new(mesh));
     scene.materials.push(material);
 }

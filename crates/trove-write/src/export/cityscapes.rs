@@ -1,5 +1,7 @@
 //! Cityscapes' tree: pictures, ids, training ids, objects, polygons, cameras, 3D boxes and panoptic files.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DMat3, EulerRot};
 use serde_json::{Value, json};
 use trove_format::{FrameFile, FrameTable, ObjectRow};
@@ -8,7 +10,7 @@ use trove_model::{ClassMap, Raster};
 use super::contours::components;
 use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, camera_from_body, quaternion_wxyz};
-use super::labels::{Extent, MappedLabels, Segment};
+use super::labels::{Extent, MappedLabels, Segment, things};
 use super::plan::{Plan, PlannedFrame};
 use super::stereo::{RightEye, right_eye};
 use super::tables::write_tables;
@@ -64,7 +66,7 @@ impl Dataset for Cityscapes {
             let instances = Raster { width, height, data: instances };
             let polygons = self.polygons(&instances);
             unit.write(&name.path("gtFine", "gtFine_polygons.json"), &text(&polygons))?;
-            self.panoptic(&name, &instances, unit)?;
+            self.panoptic(&name, &instances, numbers.merged(&segments), unit)?;
 
             let eye = right_eye(plan, number, &frame.table)?;
             let baseline_m = eye.as_ref().map_or(0.0, |eye| eye.baseline_m);
@@ -172,6 +174,16 @@ impl Numbers {
     fn of_pixel(&self, id: u8, object: u16) -> u16 {
         self.of_object(object.into()).unwrap_or(id.into())
     }
+
+    /// Segments by their value in `instanceIds`.
+    fn merged(&self, segments: &[(Segment, Extent)]) -> BTreeMap<u16, Extent> {
+        let mut merged: BTreeMap<u16, Extent> = BTreeMap::new();
+        for (segment, extent) in segments {
+            let number = self.of_pixel(segment.id, segment.object);
+            merged.entry(number).and_modify(|known| *known = known.and(extent)).or_insert(*extent);
+        }
+        merged
+    }
 }
 
 impl Cityscapes {
@@ -195,29 +207,32 @@ impl Cityscapes {
         json!({ "imgHeight": instances.height, "imgWidth": instances.width, "objects": objects })
     }
 
-    /// The picture of segments, twice under the names of both numberings, and its rows.
-    fn panoptic(&self, name: &Name, instances: &Raster<u16>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
-        let mut extents: std::collections::BTreeMap<u16, Extent> = std::collections::BTreeMap::new();
-        let mut pixels = vec![[0; 3]; instances.data.len()];
-        let width = instances.width as usize;
-        let mut counts = [false; 256];
-        self.map.counted().for_each(|class| counts[usize::from(class.id)] = true);
-        for (i, number) in instances.data.iter().enumerate() {
+    /// The picture of segments, under the names of both numberings, and its rows.
+    fn panoptic(
+        &self,
+        name: &Name,
+        instances: &Raster<u16>,
+        extents: BTreeMap<u16, Extent>,
+        unit: &mut Unit<'_>,
+    ) -> Result<(), WriteError> {
+        let things = things(&self.map);
+        let color = |number: &u16| {
             let id = if *number < 1000 { *number } else { *number / 1000 };
-            if !counts[usize::from(id as u8)] {
-                continue;
+            if things[usize::from(id as u8)].is_some() {
+                [(number & 0xff) as u8, (number >> 8) as u8, 0]
+            } else {
+                [0; 3]
             }
-            pixels[i] = [(number & 0xff) as u8, (number >> 8) as u8, 0];
-            let (x, y) = ((i % width) as u32, (i / width) as u32);
-            let extent = extents.entry(*number).or_insert(Extent { area: 0, bounds: [x, y, x, y] });
-            let [left, top, right, _] = extent.bounds;
-            *extent = Extent { area: extent.area + 1, bounds: [left.min(x), top, right.max(x), y] };
-        }
+        };
+        let pixels: Vec<[u8; 3]> = instances.data.iter().map(color).collect();
         let png = png_file::labels_rgb("gtFine_panoptic.png", instances.width, instances.height, &pixels)?;
         let file = format!("{}_gtFine_panoptic.png", name.stem);
+        let [path, by_train_id] =
+            ["", "_trainId"].map(|ending| format!("gtFine/cityscapes_panoptic_{}{ending}/{file}", name.split));
+        unit.write(&path, &png)?;
+        unit.link_own(&by_train_id, &path)?;
         for by_train_id in [false, true] {
             let ending = if by_train_id { "_trainId" } else { "" };
-            unit.write(&format!("gtFine/cityscapes_panoptic_{}{ending}/{file}", name.split), &png)?;
             let info = |(number, extent): (&u16, &Extent)| {
                 let class = self.class_of(*number)?;
                 let category = if by_train_id { class.train_id? } else { class.id };

@@ -1,18 +1,18 @@
-//! COCO: objects with masks as run lengths, and the panoptic form of a picture and its segments.
+//! COCO: objects with masks as run lengths, points of people, and the panoptic form of a picture and its segments.
 
-use serde_json::json;
+use serde_json::{Value, json};
 use trove_format::FrameFile;
-use trove_model::ClassMap;
+use trove_model::{ClassMap, KEYPOINTS, Keypoints};
 
 use super::dataset::{Dataset, Finished};
-use super::labels::{Extent, MappedLabels, Segment};
+use super::labels::{Extent, MappedLabels, Segment, things};
 use super::masks::{Mask, packed};
 use super::plan::Plan;
 use super::tables::write_tables;
 use super::unit::Unit;
-use crate::{WriteError, png_file};
+use crate::{StoredFrame, WriteError, png_file};
 
-/// `<split>/*.png` and `annotations/instances_<split>.json`.
+/// `<split>/*.png`, `annotations/instances_<split>.json` and `annotations/person_keypoints_<split>.json`.
 pub(super) struct CocoInstances {
     pub map: ClassMap,
 }
@@ -24,30 +24,47 @@ pub(super) struct CocoPanoptic {
 
 const IMAGES: &str = "images";
 const ANNOTATIONS: &str = "annotations";
+/// Annotations of those whose points are known.
+const PEOPLE: &str = "people";
+
+/// The only category of COCO's keypoints.
+const PERSON: u8 = 1;
+/// COCO's lines between points, numbered from 1.
+#[rustfmt::skip]
+const SKELETON: [[u8; 2]; 19] = [
+    [16, 14], [14, 12], [17, 15], [15, 13], [12, 13], [6, 12], [7, 13], [6, 7], [6, 8], [7, 9], [8, 10], [9, 11], [2, 3],
+    [1, 2], [1, 3], [2, 4], [3, 5], [4, 6], [5, 7],
+];
 
 impl Dataset for CocoInstances {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for &number in frames {
-            let labels = image(plan, number, &self.map, unit)?;
+            let (frame, labels) = image(plan, number, &self.map, unit)?;
             for (segment, extent) in labels.segments(&self.map) {
                 if segment.object == 0 {
                     continue;
                 }
                 let mask = mask(&labels, segment, extent.bounds);
                 let runs = mask.run_lengths(labels.ids.width, labels.ids.height);
-                unit.row(
-                    ANNOTATIONS,
-                    &json!({
-                        "id": number as u64 * 65536 + u64::from(segment.object),
-                        "image_id": number,
-                        "category_id": segment.id,
-                        "bbox": extent.xywh(),
-                        "area": extent.area,
-                        "segmentation": { "size": [labels.ids.height, labels.ids.width], "counts": packed(&runs) },
-                        "iscrowd": 0,
-                        "track_id": segment.object,
-                    }),
-                )?;
+                let mut annotation = json!({
+                    "id": number as u64 * 65536 + u64::from(segment.object),
+                    "image_id": number,
+                    "category_id": segment.id,
+                    "bbox": extent.xywh(),
+                    "area": extent.area,
+                    "segmentation": { "size": [labels.ids.height, labels.ids.width], "counts": packed(&runs) },
+                    "iscrowd": 0,
+                    "track_id": segment.object,
+                });
+                unit.row(ANNOTATIONS, &annotation)?;
+                let object = frame.table.objects.iter().find(|object| object.id == u32::from(segment.object));
+                if let Some(points) = object.and_then(|object| object.keypoints) {
+                    annotation["category_id"] = json!(PERSON);
+                    annotation["keypoints"] = keypoints(&points);
+                    annotation["num_keypoints"] =
+                        json!(points.iter().filter(|[.., visibility]| *visibility > 0.0).count());
+                    unit.row(PEOPLE, &annotation)?;
+                }
             }
         }
         Ok(())
@@ -56,12 +73,17 @@ impl Dataset for CocoInstances {
     fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
         let things = self.map.counted().filter(|class| class.thing);
         let category = |class: &trove_model::MappedClass| json!({ "id": class.id, "name": class.name });
-        let categories: Vec<_> = things.map(category).collect();
+        let things: Vec<_> = things.map(category).collect();
+        let person =
+            json!([{ "id": PERSON, "name": "person", "keypoints": KEYPOINTS, "skeleton": SKELETON.map(Vec::from) }]);
         for split in &finished.plan.splits {
-            let path = format!("annotations/instances_{split}.json");
-            let fields =
-                [("info", info(finished)), ("licenses", finished.licenses()), ("categories", json!(categories))];
-            write_tables(finished, split, &path, &fields, &[IMAGES, ANNOTATIONS].map(|table| (table, table)), unit)?;
+            for (file, categories, rows) in
+                [("instances", json!(things), ANNOTATIONS), ("person_keypoints", person.clone(), PEOPLE)]
+            {
+                let path = format!("annotations/{file}_{split}.json");
+                let fields = [("info", info(finished)), ("licenses", finished.licenses()), ("categories", categories)];
+                write_tables(finished, split, &path, &fields, &[(IMAGES, IMAGES), (ANNOTATIONS, rows)], unit)?;
+            }
         }
         Ok(())
     }
@@ -69,13 +91,12 @@ impl Dataset for CocoInstances {
 
 impl Dataset for CocoPanoptic {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
+        let things = things(&self.map);
         for &number in frames {
-            let labels = image(plan, number, &self.map, unit)?;
+            let (_, labels) = image(plan, number, &self.map, unit)?;
             // Numbers of three bytes: the category's, and the object's above it.
             let segment_id = |segment: Segment| u32::from(segment.id) + 256 * u32::from(segment.object);
-            let mut numbers = [None; 256];
-            self.map.counted().for_each(|class| numbers[usize::from(class.id)] = Some(class.thing));
-            let color = |(id, object): (&u8, &u16)| match numbers[usize::from(*id)] {
+            let color = |(id, object): (&u8, &u16)| match things[usize::from(*id)] {
                 None => [0; 3],
                 Some(thing) => {
                     let [r, g, b, _] =
@@ -89,7 +110,7 @@ impl Dataset for CocoPanoptic {
             let png = png_file::labels_rgb(&name, labels.ids.width, labels.ids.height, &pixels)?;
             unit.write(&format!("annotations/panoptic_{split}/{name}"), &png)?;
             let info = |(segment, extent): (Segment, Extent)| {
-                let is_thing = numbers[usize::from(segment.id)] == Some(true);
+                let is_thing = things[usize::from(segment.id)] == Some(true);
                 json!({
                     "id": segment_id(segment),
                     "category_id": segment.id,
@@ -118,7 +139,12 @@ impl Dataset for CocoPanoptic {
 }
 
 /// Puts the picture in its place, adds its row and reads its labels.
-fn image(plan: &Plan, number: usize, map: &ClassMap, unit: &mut Unit<'_>) -> Result<MappedLabels, WriteError> {
+fn image(
+    plan: &Plan,
+    number: usize,
+    map: &ClassMap,
+    unit: &mut Unit<'_>,
+) -> Result<(StoredFrame, MappedLabels), WriteError> {
     let planned = &plan.frames[number];
     let frame = plan.open(planned)?;
     let name = format!("{number:012}.png");
@@ -126,7 +152,13 @@ fn image(plan: &Plan, number: usize, map: &ClassMap, unit: &mut Unit<'_>) -> Res
     let (width, height) = (frame.table.width_px, frame.table.height_px);
     let row = json!({ "id": number, "file_name": name, "width": width, "height": height, "trove_path": planned.path });
     unit.row(IMAGES, &row)?;
-    MappedLabels::read(&frame, map)
+    let labels = MappedLabels::read(&frame, map)?;
+    Ok((frame, labels))
+}
+
+/// Column, row and visibility of each point in one list, as COCO has it: to a hundredth of a pixel.
+fn keypoints(points: &Keypoints<[f64; 3]>) -> Value {
+    json!(points.as_flattened().iter().map(|v| (v * 100.0).round() / 100.0).collect::<Vec<_>>())
 }
 
 fn mask(labels: &MappedLabels, segment: Segment, bounds: [u32; 4]) -> Mask {

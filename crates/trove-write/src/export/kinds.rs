@@ -27,9 +27,9 @@ pub(crate) fn kitti(object: &ObjectRow) -> Option<&'static str> {
     }
 }
 
-/// nuScenes' category of an object; `None` for what nuScenes does not annotate.
-pub(crate) fn nuscenes(object: &ObjectRow) -> Option<&'static str> {
-    named(object.kind, 1)
+/// nuScenes' category of a kind; `None` for what nuScenes does not annotate.
+pub(crate) fn nuscenes(kind: Kind) -> Option<&'static str> {
+    named(kind, 1)
 }
 
 /// nuScenes' categories, each once.

@@ -3,17 +3,18 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, ObjectRow};
+use trove_model::LidarPoint;
 
 use super::dataset::{Dataset, Finished};
-use super::geometry::camera_from_body;
+use super::geometry::{affine, camera_from_body, camera_from_world};
 use super::kinds;
 use super::plan::Plan;
 use super::unit::Unit;
-use crate::WriteError;
+use crate::{StoredSweep, WriteError};
 
-/// `training/{image_2,label_2,calib}`, a frame a number; `ImageSets` holds the splits.
+/// `training/{image_2,label_2,calib,velodyne}`, a frame a number; `ImageSets` holds the splits.
 pub(super) struct KittiObject;
 
 /// `training/{image_02,label_02,calib}`, a sequence a number.
@@ -30,7 +31,13 @@ impl Dataset for KittiObject {
                 let _ = writeln!(labels, "{object}"); // strings take everything
             }
             unit.write(&format!("training/label_2/{i:06}.txt"), labels.as_bytes())?;
-            unit.write(&format!("training/calib/{i:06}.txt"), calibration(&frame.table, &OBJECT_NAMES).as_bytes())?;
+            let sweep = plan.sweep(&plan.frames[i]).map(|sweep| plan.open_sweep(sweep)).transpose()?;
+            let velodyne = sweep.as_ref().and_then(Velodyne::of);
+            if let Some(velodyne) = &velodyne {
+                unit.write(&format!("training/velodyne/{i:06}.bin"), &velodyne.points()?)?;
+            }
+            let calibration = calibration(&frame.table, velodyne.as_ref(), &OBJECT_NAMES);
+            unit.write(&format!("training/calib/{i:06}.txt"), calibration.as_bytes())?;
         }
         Ok(())
     }
@@ -61,7 +68,7 @@ impl Dataset for KittiTracking {
             unit.link(&format!("training/image_02/{sequence:04}/{index:06}.png"), &frame.needed(FrameFile::Rgb)?)?;
             note_distortion(&frame.table, unit);
             if index == 0 {
-                let calibration = calibration(&frame.table, &TRACKING_NAMES);
+                let calibration = calibration(&frame.table, None, &TRACKING_NAMES);
                 unit.write(&format!("training/calib/{sequence:04}.txt"), calibration.as_bytes())?;
             }
             for object in &frame.table.objects {
@@ -131,9 +138,39 @@ pub(super) fn wrapped(angle: f64) -> f64 {
 const OBJECT_NAMES: [&str; 3] = ["R0_rect:", "Tr_velo_to_cam:", "Tr_imu_to_velo:"];
 const TRACKING_NAMES: [&str; 3] = ["R_rect", "Tr_velo_cam", "Tr_imu_velo"];
 
-/// The camera is the only sensor: all four projections are its own, and the LiDAR's frame is the camera's with KITTI's axes
-/// (x forward, y left, z up).
-fn calibration(table: &FrameTable, [rectification, camera_from_lidar, lidar_from_imu]: &[&str; 3]) -> String {
+/// A sweep in KITTI's axes (x forward, y left, z up, as the vehicle's), from where the LiDAR is.
+struct Velodyne<'a> {
+    sweep: &'a StoredSweep,
+    world_from_velodyne: DAffine3,
+    velodyne_from_lidar: DAffine3,
+}
+
+impl<'a> Velodyne<'a> {
+    /// `None` where no vehicle carries it.
+    fn of(sweep: &'a StoredSweep) -> Option<Self> {
+        let world_from_ego = affine(sweep.table.world_from_ego.as_ref()?);
+        let world_from_lidar = affine(&sweep.table.world_from_lidar);
+        let world_from_velodyne = DAffine3::from_mat3_translation(world_from_ego.matrix3, world_from_lidar.translation);
+        let velodyne_from_lidar = world_from_velodyne.inverse() * world_from_lidar;
+        Some(Self { sweep, world_from_velodyne, velodyne_from_lidar })
+    }
+
+    /// x, y, z and reflectance (0 to 1), each a float32.
+    fn points(&self) -> Result<Vec<u8>, WriteError> {
+        let record = |point: &LidarPoint| {
+            let p = self.velodyne_from_lidar.transform_point3(point.position_m);
+            [p.x as f32, p.y as f32, p.z as f32, f32::from(point.intensity) / 255.0].map(f32::to_le_bytes)
+        };
+        Ok(self.sweep.points()?.iter().flat_map(record).collect::<Vec<_>>().concat())
+    }
+}
+
+/// All four projections are the camera's own. Without a sweep the LiDAR's frame is the camera's with KITTI's axes.
+fn calibration(
+    table: &FrameTable,
+    velodyne: Option<&Velodyne<'_>>,
+    [rectification, camera_from_lidar, lidar_from_imu]: &[&str; 3],
+) -> String {
     let k = &table.intrinsics;
     let row = |values: &[f64]| values.iter().map(|v| format!("{v:.12e}")).collect::<Vec<_>>().join(" ");
     let projection: Vec<f64> = k.iter().flat_map(|r| [r[0], r[1], r[2], 0.0]).collect();
@@ -142,7 +179,14 @@ fn calibration(table: &FrameTable, [rectification, camera_from_lidar, lidar_from
         let _ = writeln!(text, "P{i}: {}", row(&projection)); // strings take everything
     }
     let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-    let axes = [0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let mut axes = [0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    if let Some(Velodyne { world_from_velodyne, .. }) = velodyne {
+        let camera_from_velodyne = camera_from_world(table) * *world_from_velodyne;
+        let (m, t) = (camera_from_velodyne.matrix3.transpose(), camera_from_velodyne.translation);
+        for (i, (row, t)) in [m.x_axis, m.y_axis, m.z_axis].into_iter().zip(t.to_array()).enumerate() {
+            axes[4 * i..4 * i + 4].copy_from_slice(&[row.x, row.y, row.z, t]);
+        }
+    }
     let none = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     for (name, values) in [(rectification, &identity[..]), (camera_from_lidar, &axes), (lidar_from_imu, &none)] {
         let _ = writeln!(text, "{name} {}", row(values));

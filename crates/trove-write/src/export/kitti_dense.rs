@@ -1,13 +1,15 @@
 //! KITTI's optical flow of 2015 and depth completion: 16-bit pictures of numbers.
 
 use trove_format::FrameFile;
+use trove_model::Occlusion;
 
 use super::dataset::Dataset;
 use super::plan::Plan;
 use super::unit::Unit;
 use crate::{WriteError, png_file};
 
-/// `training/image_2/*_10.png`, `*_11.png` and `training/flow_occ/*_10.png`: pairs of frames that follow each other.
+/// `training/image_2/*_10.png`, `*_11.png` and `training/flow_occ/*_10.png`: pairs of frames that follow each other; and
+/// `training/flow_noc/*_10.png`, where only flow to what the second picture shows is valid.
 pub(super) struct KittiFlow;
 
 /// `<split>/<sequence>/{image_02/data,proj_depth/groundtruth/image_02}/*.png`.
@@ -34,6 +36,7 @@ impl Dataset for KittiFlow {
             unit.link(&format!("training/image_2/{i:06}_10.png"), &frame.needed(FrameFile::Rgb)?)?;
             unit.link(&format!("training/image_2/{i:06}_11.png"), &plan.open(next)?.needed(FrameFile::Rgb)?)?;
             let flow = frame.flow_forward()?;
+            let occlusion = frame.has(FrameFile::OccludedForward).then(|| frame.occluded_forward()).transpose()?;
             let mut beyond = 0;
             let pixel = |[u, v]: &[f32; 2]| {
                 if u.is_nan() || v.is_nan() {
@@ -50,6 +53,12 @@ impl Dataset for KittiFlow {
             unit.clip("pixels whose flow is beyond ±512 pixels, which are invalid", beyond);
             let png = png_file::rgb16("flow", flow.width, flow.height, &pixels)?;
             unit.write(&format!("training/flow_occ/{i:06}_10.png"), &png)?;
+            if let Some(occlusion) = occlusion {
+                let seen = |(pixel, occlusion)| if occlusion == Occlusion::Seen { pixel } else { [0; 3] };
+                let pixels: Vec<[u16; 3]> = pixels.into_iter().zip(occlusion.data).map(seen).collect();
+                let png = png_file::rgb16("flow", flow.width, flow.height, &pixels)?;
+                unit.write(&format!("training/flow_noc/{i:06}_10.png"), &png)?;
+            }
         }
         Ok(())
     }

@@ -15,6 +15,13 @@ pub(crate) struct MappedLabels {
     pub instance: Raster<u16>,
 }
 
+/// For each number whether its class is made of things; `None` for what does not count.
+pub(crate) fn things(map: &ClassMap) -> [Option<bool>; 256] {
+    let mut things = [None; 256];
+    map.counted().for_each(|class| things[usize::from(class.id)] = Some(class.thing));
+    things
+}
+
 /// Pixels of one class, and of one object where there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Segment {
@@ -34,6 +41,12 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
+    /// That of both.
+    pub(crate) fn and(&self, other: &Self) -> Self {
+        let ([l, t, r, b], [left, top, right, bottom]) = (self.bounds, other.bounds);
+        Self { area: self.area + other.area, bounds: [l.min(left), t.min(top), r.max(right), b.max(bottom)] }
+    }
+
     /// First column, first row, width and height, as COCO writes boxes.
     pub(crate) fn xywh(&self) -> [u32; 4] {
         let [x0, y0, x1, y1] = self.bounds;
@@ -62,8 +75,7 @@ impl MappedLabels {
 
     /// The segments of the picture, without what is not labelled or does not count.
     pub(crate) fn segments(&self, map: &ClassMap) -> Vec<(Segment, Extent)> {
-        let mut counts = [None; 256];
-        map.counted().for_each(|class| counts[usize::from(class.id)] = Some(class.thing));
+        let things = things(map);
         let mut found: BTreeMap<Segment, Extent> = BTreeMap::new();
         let (width, height) = (self.ids.width, self.ids.height);
         for y in 0..height {
@@ -76,7 +88,7 @@ impl MappedLabels {
                 while x < width as usize && (ids[x], objects[x]) == (id, object) {
                     x += 1;
                 }
-                let Some(thing) = counts[usize::from(id)] else { continue };
+                let Some(thing) = things[usize::from(id)] else { continue };
                 let segment = Segment { id, object: if thing { object } else { 0 } };
                 let (x0, x1) = (first as u32, x as u32 - 1);
                 let extent = found.entry(segment).or_insert(Extent { area: 0, bounds: [x0, y, x1, y] });

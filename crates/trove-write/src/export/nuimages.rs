@@ -39,7 +39,7 @@ impl Dataset for NuImages {
             let name = &planned.path;
             let data = token("sample_data", name);
             let ego_from_camera = world_from_ego.inverse() * affine(&table.world_from_camera);
-            let mut calibrated = calibrated_sensor(name, channel, Some((ego_from_camera, &table.intrinsics)));
+            let mut calibrated = calibrated_sensor(name, channel, ego_from_camera, Some(&table.intrinsics));
             calibrated["camera_distortion"] = distortion(table, unit);
             let mut pose = ego_pose(name, table.time_ns, in_plane(table, &world_from_ego));
             // What no frame tells.
@@ -100,7 +100,7 @@ impl Dataset for NuImages {
 fn annotations(frame: &StoredFrame, name: &str, data: &str, unit: &mut Unit<'_>) -> Result<(), WriteError> {
     let (class, instance) = (frame.class()?, frame.instance()?);
     for object in frame.table.objects.iter().filter(|object| object.origin != ObjectOrigin::Scenery) {
-        let (Some(category), Some(bounds)) = (kinds::nuscenes(object), object.visible_box) else { continue };
+        let (Some(category), Some(bounds)) = (kinds::nuscenes(object.kind), object.visible_box) else { continue };
         let mask = Mask::of(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id);
         // One picture does not tell what stands for a moment from what is parked.
         let attribute = attribute(object.kind, speed_mps(object), false).filter(|name| *name != "vehicle.parked");

@@ -1,5 +1,6 @@
-//! nuScenes: thirteen tables of rows that name each other by tokens, and pictures below `samples`.
+//! nuScenes: thirteen tables of rows that name each other by tokens, and pictures and sweeps below `samples`.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DAffine3;
@@ -11,6 +12,7 @@ use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, quaternion_wxyz};
 use super::kinds;
 use super::kitti::note_distortion;
+use super::nuscenes_lidar::{self, PanopticNumbers};
 use super::nuscenes_rows::{
     ATTRIBUTES, STANDS_MPS, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows,
     sensor, speed_mps, token, world_from_ego,
@@ -18,7 +20,7 @@ use super::nuscenes_rows::{
 use super::plan::{Plan, PlannedFrame};
 use super::tables::write_list;
 use super::unit::Unit;
-use crate::{WriteError, png_file};
+use crate::{StoredSweep, WriteError, png_file};
 
 /// `v1.0-trove/*.json`, `samples/<camera>/*.png` and `maps/*.png`; a variation seen from one vehicle is a scene.
 pub(super) struct NuScenes;
@@ -49,7 +51,7 @@ impl Dataset for NuScenes {
             unit.link(&path, &frame.needed(FrameFile::Rgb)?)?;
             let name = format!("{scene}/{}/{channel}", planned.keyframe);
             let ego_from_camera = world_from_ego.inverse() * affine(&table.world_from_camera);
-            let calibrated = calibrated_sensor(&scene, channel, Some((ego_from_camera, &table.intrinsics)));
+            let calibrated = calibrated_sensor(&scene, channel, ego_from_camera, Some(&table.intrinsics));
             let data = json!({
                 "token": token("sample_data", &name),
                 "sample_token": sample_token(&scene, planned.keyframe),
@@ -67,8 +69,13 @@ impl Dataset for NuScenes {
                 unit.row("calibrated_sensor", &calibrated)?;
             }
             cameras.entry(channel).or_default().push(data);
-            let moment = moments.entry(planned.keyframe).or_insert_with(|| Moment::new(table, world_from_ego));
-            moment.look(table, world_from_ego);
+            match moments.entry(planned.keyframe) {
+                Entry::Occupied(mut moment) => moment.get_mut().look(table, world_from_ego),
+                Entry::Vacant(moment) => {
+                    let sweep = plan.sweep(planned).map(|sweep| plan.open_sweep(sweep)).transpose()?;
+                    moment.insert(Moment { sweep, ..Moment::new(table, world_from_ego) });
+                }
+            }
             tracks.look(planned.keyframe, table);
         }
         for mut pictures in cameras.into_values() {
@@ -76,7 +83,7 @@ impl Dataset for NuScenes {
             pictures.iter().try_for_each(|row| unit.row("sample_data", row))?;
         }
         scene_rows(&scene, &moments, unit)?;
-        tracks.rows(&scene, unit)
+        tracks.rows(&scene, &moments, unit)
     }
 
     fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
@@ -100,7 +107,6 @@ impl Dataset for NuScenes {
                 remedy: "export it in a form without vehicles, such as kitti or coco".into(),
             });
         }
-        let categories: Vec<&str> = kinds::nuscenes_categories().into_iter().collect();
         let channels: BTreeSet<&str> = finished.plan.frames.iter().map(|frame| channel(&frame.view)).collect();
         let cameras = channels.into_iter().map(|channel| sensor(channel, "camera"));
         let levels = LEVELS
@@ -117,7 +123,7 @@ impl Dataset for NuScenes {
         // The devkit asks for a raster of the drivable area, which frames do not have: nothing is marked in this one.
         unit.write(&map, &png_file::grey(&map, 1, 1, &[0])?)?;
         let fixed = [
-            ("category", named_rows("category", &categories)),
+            ("category", nuscenes_lidar::categories()),
             ("attribute", named_rows("attribute", &ATTRIBUTES)),
             ("visibility", levels.collect()),
             ("sensor", cameras.chain([sensor(LIDAR, "lidar")]).collect()),
@@ -127,7 +133,8 @@ impl Dataset for NuScenes {
             write_list(finished, &format!("{VERSION}/{table}.json"), &rows, "", unit)?;
         }
         let of_steps = ["log", "scene", "sample", "sample_data", "ego_pose", "calibrated_sensor"];
-        for table in of_steps.into_iter().chain(["instance", "sample_annotation"]) {
+        let labels = ["lidarseg", "panoptic"].into_iter().filter(|_| finished.plan.has_sweeps());
+        for table in of_steps.into_iter().chain(["instance", "sample_annotation"]).chain(labels) {
             write_list(finished, &format!("{VERSION}/{table}.json"), &[], table, unit)?;
         }
         let splits = serde_json::to_vec_pretty(&splits).map_err(|e| WriteError::Mismatch(e.to_string()))?;
@@ -159,26 +166,46 @@ fn sample_token(scene: &str, keyframe: u32) -> String {
 struct Moment {
     table: FrameTable,
     world_from_ego: DAffine3,
+    sweep: Option<StoredSweep>,
 }
 
 impl Moment {
     fn new(table: &FrameTable, world_from_ego: DAffine3) -> Self {
-        Self { table: FrameTable { objects: Vec::new(), ..table.clone() }, world_from_ego }
+        Self { table: FrameTable { objects: Vec::new(), ..table.clone() }, world_from_ego, sweep: None }
     }
 
     /// Keeps the pose of the camera whose picture is nearest to the moment.
     fn look(&mut self, table: &FrameTable, world_from_ego: DAffine3) {
         let apart = |table: &FrameTable| table.time_ns.abs_diff(table.keyframe_time_ns);
         if apart(table) < apart(&self.table) {
-            *self = Self::new(table, world_from_ego);
+            *self = Self { sweep: self.sweep.take(), ..Self::new(table, world_from_ego) };
+        }
+    }
+}
+
+impl Moment {
+    /// Time and pose of the vehicle that the LiDAR's sweep has, and the LiDAR's place on it.
+    fn lidar(&self) -> (i64, DAffine3, DAffine3) {
+        let of_sweep = self.sweep.as_ref().and_then(|StoredSweep { table, .. }| {
+            let world_from_ego = affine(table.world_from_ego.as_ref()?);
+            Some((table.time_ns, world_from_ego, world_from_ego.inverse() * affine(&table.world_from_lidar)))
+        });
+        of_sweep.unwrap_or((self.table.time_ns, self.world_from_ego, DAffine3::IDENTITY))
+    }
+
+    /// Points on an object: as the sweep tells, or one on what a camera sees.
+    fn lidar_points(&self, id: u32, visible_px: u64) -> u32 {
+        match &self.sweep {
+            Some(sweep) => sweep.table.objects.iter().find(|object| object.id == id).map_or(0, |object| object.points),
+            None => u32::from(visible_px > 0),
         }
     }
 }
 
 fn scene_rows(scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
     let Some(Moment { table, .. }) = moments.values().next() else { return Ok(()) };
-    let lidar = calibrated_sensor(scene, LIDAR, None);
-    unit.row("calibrated_sensor", &lidar)?;
+    let numbers = PanopticNumbers::of(moments.values().filter_map(|moment| moment.sweep.as_ref()));
+    let mut calibrations = BTreeSet::new();
     let (mut samples, mut sweeps) = (Vec::new(), Vec::new());
     for (keyframe, moment) in moments {
         samples.push(json!({
@@ -186,24 +213,33 @@ fn scene_rows(scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>)
             "timestamp": moment.table.keyframe_time_ns / 1000,
             "scene_token": token("scene", scene),
         }));
-        // The devkit takes a sample's own pose from its sweep, and so do others: there is one, without points.
+        // The devkit takes a sample's own pose from its sweep, and so do others: where none was made there is one without points.
         let path = format!("samples/{LIDAR}/{scene}__{LIDAR}__{keyframe:06}.pcd.bin");
-        unit.write(&path, &[])?;
         let name = format!("{scene}/{keyframe}/{LIDAR}");
+        let points = match &moment.sweep {
+            Some(sweep) => nuscenes_lidar::points(sweep, &token("sample_data", &name), &numbers, unit)?,
+            None => Vec::new(),
+        };
+        unit.write(&path, &points)?;
+        let (time_ns, world_from_ego, ego_from_lidar) = moment.lidar();
+        let calibrated = calibrated_sensor(scene, LIDAR, ego_from_lidar, None);
+        if calibrations.insert(calibrated["token"].to_string()) {
+            unit.row("calibrated_sensor", &calibrated)?;
+        }
         sweeps.push(json!({
             "token": token("sample_data", &name),
             "sample_token": sample_token(scene, *keyframe),
             "ego_pose_token": token("ego_pose", &name),
-            "calibrated_sensor_token": lidar["token"],
-            "timestamp": moment.table.time_ns / 1000,
+            "calibrated_sensor_token": calibrated["token"],
+            "timestamp": time_ns / 1000,
             "fileformat": "pcd",
             "is_key_frame": true,
             "height": 0,
             "width": 0,
             "filename": path,
         }));
-        let plane_from_ego = in_plane(&moment.table, &moment.world_from_ego);
-        unit.row("ego_pose", &ego_pose(&name, moment.table.time_ns, plane_from_ego))?;
+        let plane_from_ego = in_plane(&moment.table, &world_from_ego);
+        unit.row("ego_pose", &ego_pose(&name, time_ns, plane_from_ego))?;
     }
     for (table, rows) in [("sample", &mut samples), ("sample_data", &mut sweeps)] {
         link(rows);
@@ -245,7 +281,7 @@ struct Sighting {
 impl Tracks {
     fn look(&mut self, keyframe: u32, table: &FrameTable) {
         for object in table.objects.iter().filter(|object| object.origin != ObjectOrigin::Scenery) {
-            let Some(category) = kinds::nuscenes(object) else { continue };
+            let Some(category) = kinds::nuscenes(object.kind) else { continue };
             let new = || Track { kind: object.kind, category, sightings: BTreeMap::new() };
             let sightings = &mut self.0.entry(object.id).or_insert_with(new).sightings;
             let sighting = sightings.entry(keyframe).or_insert_with(|| Sighting {
@@ -260,7 +296,7 @@ impl Tracks {
         }
     }
 
-    fn rows(&self, scene: &str, unit: &mut Unit<'_>) -> Result<(), WriteError> {
+    fn rows(&self, scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for (id, Track { kind, category, sightings }) in &self.0 {
             let instance = token("instance", &format!("{scene}/{id}"));
             let ever_moves = sightings.values().any(|s| s.speed_mps.is_some_and(|speed| speed > STANDS_MPS));
@@ -277,8 +313,8 @@ impl Tracks {
                     "translation": sighting.plane_from_body.translation.to_array(),
                     "size": [width, length, height],
                     "rotation": quaternion_wxyz(&sighting.plane_from_body),
-                    // Boxes without points are neither trained nor judged on: what is seen by a camera has one.
-                    "num_lidar_pts": u8::from(sighting.visible_px > 0),
+                    // Boxes without points are neither trained nor judged on.
+                    "num_lidar_pts": moments[keyframe].lidar_points(*id, sighting.visible_px),
                     "num_radar_pts": 0,
                 }));
             }

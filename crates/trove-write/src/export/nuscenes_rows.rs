@@ -60,11 +60,14 @@ pub(crate) fn sensor(channel: &str, modality: &str) -> Value {
     json!({ "token": token("sensor", channel), "channel": channel, "modality": modality })
 }
 
-/// The row of a sensor's place on a vehicle: at its origin where none is given. Its token tells rows of other contents
-/// apart.
-pub(crate) fn calibrated_sensor(scene: &str, channel: &str, camera: Option<(DAffine3, &[[f64; 3]; 3])>) -> Value {
-    let ego_from_sensor = camera.map_or(DAffine3::IDENTITY, |(pose, _)| pose);
-    let intrinsic = camera.map_or_else(|| json!([]), |(_, intrinsic)| json!(intrinsic));
+/// The row of a sensor's place on a vehicle; a camera has intrinsics. Its token tells rows of other contents apart.
+pub(crate) fn calibrated_sensor(
+    scene: &str,
+    channel: &str,
+    ego_from_sensor: DAffine3,
+    intrinsic: Option<&[[f64; 3]; 3]>,
+) -> Value {
+    let intrinsic = intrinsic.map_or_else(|| json!([]), |intrinsic| json!(intrinsic));
     // Nanometres: what is left of the arithmetic is no other calibration.
     let rounded = |values: &[f64]| values.iter().map(|v| (v * 1e9).round() / 1e9).collect::<Vec<_>>();
     let translation = rounded(&ego_from_sensor.translation.to_array());

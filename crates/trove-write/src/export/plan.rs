@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use trove_format::{Curated, FrameRow, Manifest};
 
-use crate::{StoredFrame, WriteError};
+use crate::{StoredFrame, StoredSweep, WriteError};
 
 /// The side that all frames are on where nobody has split them.
 const UNSPLIT: &str = "train";
@@ -21,6 +21,8 @@ pub(crate) struct Plan {
     pub splits: Vec<String>,
     /// The frames.
     pub frames: Vec<PlannedFrame>,
+    /// LiDAR sweeps by drive, variation and keyframe.
+    sweeps: HashMap<(String, u32, u32), Vec<PlannedSweep>>,
     /// Places in `frames` by what [`moment`] makes of them.
     moments: HashMap<u64, Vec<usize>>,
 }
@@ -44,6 +46,17 @@ pub(crate) struct PlannedFrame {
     pub sequence: u32,
     /// Its place in the sequence, from 0.
     pub index: u32,
+    /// SHA-256 over the hashes of its files.
+    pub content: [u8; 32],
+}
+
+/// A LiDAR's sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlannedSweep {
+    /// Its folder below the source's.
+    path: String,
+    /// The LiDAR on its vehicle (`ego.LIDAR_TOP`).
+    view: String,
     /// SHA-256 over the hashes of its files.
     pub content: [u8; 32],
 }
@@ -74,6 +87,11 @@ impl Plan {
         })?;
         let splits = curated.map(splits).transpose()?;
         let mut rows: BTreeMap<_, Vec<FrameRow>> = BTreeMap::new();
+        let mut sweeps: HashMap<_, Vec<PlannedSweep>> = HashMap::new();
+        for row in std::mem::take(&mut manifest.sweeps) {
+            let sweep = PlannedSweep { content: content(&row), path: row.path, view: row.view };
+            sweeps.entry((row.scene, row.variation, row.keyframe)).or_default().push(sweep);
+        }
         let mut unlisted = splits.clone().unwrap_or_default();
         for row in std::mem::take(&mut manifest.frames) {
             unlisted.remove(&row.path);
@@ -92,7 +110,7 @@ impl Plan {
             return Err(unfit("every frame of the split's list", format!("no {path}"), remedy));
         }
         let mut plan =
-            Self { source: source.to_owned(), splits: Vec::new(), frames: Vec::new(), moments: HashMap::new() };
+            Self { source: source.to_owned(), splits: Vec::new(), frames: Vec::new(), sweeps, moments: HashMap::new() };
         for (sequence, ((split, ..), mut members)) in (0..).zip(rows) {
             if plan.splits.last() != Some(&split) {
                 plan.splits.push(split.clone());
@@ -131,6 +149,26 @@ impl Plan {
     /// A table that cannot be read.
     pub(crate) fn open(&self, frame: &PlannedFrame) -> Result<StoredFrame, WriteError> {
         StoredFrame::open(&self.source.join(&frame.path))
+    }
+
+    /// The first LiDAR's sweep of a frame's moment from its vehicle; `None` where there is none.
+    pub(crate) fn sweep(&self, frame: &PlannedFrame) -> Option<&PlannedSweep> {
+        let sweeps = self.sweeps.get(&(frame.scene.clone(), frame.variation, frame.keyframe))?;
+        let vehicle = |view: &str| view.split('.').next().map(str::to_owned);
+        sweeps.iter().find(|sweep| vehicle(&sweep.view) == vehicle(&frame.view))
+    }
+
+    /// Whether there is any sweep.
+    pub(crate) fn has_sweeps(&self) -> bool {
+        !self.sweeps.is_empty()
+    }
+
+    /// Opens a sweep.
+    ///
+    /// # Errors
+    /// A table that cannot be read.
+    pub(crate) fn open_sweep(&self, sweep: &PlannedSweep) -> Result<StoredSweep, WriteError> {
+        StoredSweep::open(&self.source.join(&sweep.path))
     }
 
     /// Other frames of a frame's moment, variation and split.

@@ -95,6 +95,12 @@ impl<'a> Unit<'a> {
         Ok(())
     }
 
+    /// Puts a file that was just written at a second path.
+    pub(crate) fn link_own(&mut self, path: &str, own: &str) -> Result<(), WriteError> {
+        let from = self.place(own)?;
+        self.link(path, &from)
+    }
+
     /// Adds a row to a table.
     pub(crate) fn row(&mut self, table: &str, row: &impl Serialize) -> Result<(), WriteError> {
         let row = serde_json::value::to_raw_value(row).map_err(|e| WriteError::Mismatch(format!("a row: {e}")))?;

@@ -63,6 +63,8 @@ impl Materials {
             subsurface,
             transmission,
             translucency,
+            // No glTF viewer knows it.
+            retroreflection: _,
             emission,
             dirt,
             wetness,

@@ -7,7 +7,7 @@ use trove_format::{
     ClassEntry, Factors, FrameFile, FrameRow, FrameTable, LensModel, LightFactor, Manifest, Matrix4, ObjectOrigin,
     ObjectRow, Projection, Source, Versions,
 };
-use trove_model::{Class, Color, Kind, Labels, Raster, Season};
+use trove_model::{Class, Color, Kind, Labels, Occlusion, Raster, Season};
 use trove_write::{Frame, FrameFolders};
 
 pub(crate) const WIDTH: u32 = 64;
@@ -81,6 +81,8 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         truncation: 0.0,
         occlusion: 0.0,
         range_m: 20.0,
+        keypoints: None,
+        keypoints_world_m: None,
     };
     let keyframe_time_ns = 1_532_402_927_000_000_000 + i64::from(made.keyframe) * 500_000_000;
     FrameTable {
@@ -113,6 +115,7 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         world_from_camera_next: None,
         world_from_ego: made.has_vehicle.then(|| heading_north([0.0; 3])),
         carrier: None,
+        carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: ANCHOR_M, metres_per_rad: None },
         exposure_ev: Some(0.0),
         spp: 1,
@@ -158,6 +161,12 @@ fn frame(made: &Made, path: String) -> Frame {
         }),
         flow_forward: Raster::from_fn(WIDTH, HEIGHT, |x, y| if is_sky(x, y) { [f32::NAN; 2] } else { [1.5, -0.25] }),
         flow_backward: Raster::filled(WIDTH, HEIGHT, [f32::NAN; 2]),
+        occluded_forward: Raster::from_fn(WIDTH, HEIGHT, |x, y| match x {
+            _ if is_sky(x, y) => Occlusion::Undefined,
+            0..3 => Occlusion::Hidden,
+            _ => Occlusion::Seen,
+        }),
+        occluded_backward: Raster::filled(WIDTH, HEIGHT, Occlusion::Undefined),
         objects: vec![],
     };
     let color = Color {
@@ -201,6 +210,7 @@ pub(crate) fn finished(root: &Path, frames: &[Made]) {
         drives: vec![],
         licences: vec![Source { source: "made".into(), licence: "CC0-1.0".into() }],
         frames: rows.collect(),
+        sweeps: vec![],
     };
     fs::write(root.join(Manifest::NAME), manifest.to_json()).unwrap();
 }

@@ -60,6 +60,7 @@ impl Studio {
             meshes: vec![Arc::new(ground(GROUND_M)), mesh],
             materials: all,
             instances,
+            others: Default::default(),
             keyframes_apart_s: [f64::INFINITY; 2],
             light: Light { environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())) },
             provenance: Vec::new(),
@@ -106,17 +107,17 @@ fn afternoon() -> PhysicalSky {
 }
 
 fn instance(id: u32, class: Class, mesh: usize, materials: Vec<usize>) -> Instance {
-    let still = DAffine3::IDENTITY;
     Instance {
         id: InstanceId(id),
         class,
         mesh,
         materials,
-        world_from_mesh: still,
-        world_from_mesh_previous: Some(still),
-        world_from_mesh_next: Some(still),
+        world_from_mesh: DAffine3::IDENTITY,
+        previous: None,
+        next: None,
         object: None,
     }
+    .at_rest()
 }
 
 fn ground(side_m: f32) -> Mesh {

@@ -28,7 +28,7 @@ osm = "crossing.osm"
 
 [render]
 scale = 0.5
-spp = 64
+spp = 16
 "#;
 
 /// Writes the demo's drive, map and recipe below `out` and returns the recipe.

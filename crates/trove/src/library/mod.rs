@@ -207,6 +207,7 @@ mod tests {
         let body = human_body::read_human_body(&packages).unwrap();
         let library = trove_assets::library(&Ingredients { human_body: Some(&body), ..Ingredients::default() });
         let mut phases = BTreeMap::<&str, [usize; 4]>::new();
+        let mut cycles = BTreeMap::new();
         let mut bytes = 0;
         for asset in &library.assets {
             let Some(figure) = &asset.figure else { continue };
@@ -227,6 +228,11 @@ mod tests {
                 Posture::Sitting => 3,
             };
             phases.entry(&figure.person).or_default()[which] += 1;
+            if which == 1 || which == 2 {
+                let cycle = cycles.entry((&figure.person, which)).or_insert(mesh);
+                let are_the_same = (&mesh.triangles, &mesh.slots) == (&cycle.triangles, &cycle.slots);
+                assert!(are_the_same, "{id}: flow follows each vertex through the cycle");
+            }
             bytes += 44 * mesh.positions.len() + 14 * mesh.triangles.len();
         }
         assert!(phases.len() >= 24, "{} persons", phases.len());

@@ -75,6 +75,7 @@ mod tests {
             ego_body: EgoBody { centre_ego: glam::DVec3::ZERO, size_m: glam::DVec3::ONE },
             keyframes: vec![keyframe(3.0), keyframe(13.0)],
             path: trove_model::Trajectory::default(),
+            lidars: Vec::new(),
             sweeps: Vec::new(),
             tracks: Vec::new(),
             lane_map: None,

@@ -25,6 +25,9 @@ pub(super) fn of_run(recipe: &Recipe, sources: &Sources, contents: &mut Contents
     recipe.map.osm.paths().iter().for_each(|path| add("map.osm", path));
     recipe.map.elevation.paths().iter().for_each(|path| add("map.elevation", path));
     recipe.map.locales.iter().for_each(|path| add("map.locales", path));
+    for (name, sensor) in &recipe.sensors {
+        sensor.file().into_iter().for_each(|path| add(&format!("sensors.{name}"), path));
+    }
     if recipe.light.is_file() {
         add("light.environment", Path::new(&recipe.light.environment));
     }

@@ -1,5 +1,6 @@
 //! What sums a run up, and rows of what was built.
 
+use anyhow::{Context, Result};
 use trove_build::{AssetFit, ObjectFit};
 use trove_format::{
     AssetFitRow, ClassEntry, FORMAT, FitRow, FrameRow, Manifest, ManifestDrive, RunIdentity, RunReport, SceneReport,
@@ -27,6 +28,16 @@ pub(super) struct FrameKey {
     pub(super) variation: u32,
     pub(super) keyframe: u32,
     pub(super) view: String,
+    pub(super) sensed: Sensed,
+}
+
+/// What a folder holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sensed {
+    /// A camera's frame.
+    Frame,
+    /// A LiDAR's sweep.
+    Sweep,
 }
 
 impl FrameKey {
@@ -34,6 +45,13 @@ impl FrameKey {
     pub(super) fn path(&self) -> String {
         let folder = variation_folder(&self.scene, self.variation);
         format!("{folder}/k{:03}/{}", self.keyframe, self.view)
+    }
+
+    /// What was planned for it, among that of all keyframes.
+    pub(super) fn of<'a, T>(&self, planned: &'a [(u32, Vec<T>)], view: impl Fn(&T) -> &String) -> Result<&'a T> {
+        let of_keyframe =
+            planned.iter().filter(|(keyframe, _)| *keyframe == self.keyframe).flat_map(|(_, taken)| taken);
+        of_keyframe.into_iter().find(|taken| *view(taken) == self.view).context("a planned view has no shot")
     }
 }
 
@@ -49,8 +67,30 @@ pub(super) struct SiteSummary {
     pub(super) file: SiteFile,
 }
 
-/// The manifest of finished frames.
-pub(super) fn manifest(seed: u64, identity: RunIdentity, sites: &[SiteSummary], frames: Vec<FrameRow>) -> Manifest {
+/// The frames and sweeps that were planned for a variation of a scene, keyframe by keyframe.
+pub(super) fn planned(scene: &str, variation: u32, file: &SiteFile) -> Vec<FrameKey> {
+    let of = |sensed: Sensed, planned: &[(u32, String)]| -> Vec<FrameKey> {
+        let key = |(keyframe, view): &(u32, String)| FrameKey {
+            scene: scene.to_owned(),
+            variation,
+            keyframe: *keyframe,
+            view: view.clone(),
+            sensed,
+        };
+        planned.iter().map(key).collect()
+    };
+    let mut keys = [of(Sensed::Frame, &file.frames), of(Sensed::Sweep, &file.sweeps)].concat();
+    keys.sort_by_key(|key| key.keyframe);
+    keys
+}
+
+/// The manifest of finished frames and sweeps.
+pub(super) fn manifest(
+    seed: u64,
+    identity: RunIdentity,
+    sites: &[SiteSummary],
+    [frames, sweeps]: [Vec<FrameRow>; 2],
+) -> Manifest {
     let mut drives: Vec<ManifestDrive> = Vec::new();
     for SiteSummary { file, .. } in sites {
         let row = ManifestDrive { drive: file.drive.clone(), sources: file.sources.clone() };
@@ -70,6 +110,7 @@ pub(super) fn manifest(seed: u64, identity: RunIdentity, sites: &[SiteSummary], 
         drives,
         licences,
         frames,
+        sweeps,
     }
 }
 

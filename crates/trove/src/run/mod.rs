@@ -16,9 +16,9 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 use rayon::Scope;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
-use trove_model::{AssetLibrary, Capture, Drive, Outcome, Report, Scene, Shot, Viewpoint};
+use trove_model::{AssetLibrary, Capture, Drive, LidarShot, Outcome, PointCloud, Report, Scene, Shot, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
-use trove_write::{Frame, FrameFolders, FrameMeta, WriteError};
+use trove_write::{Frame, FrameFolders, FrameMeta, Sweep, WriteError};
 
 use crate::contents::Contents;
 use crate::progress::Progress;
@@ -28,7 +28,7 @@ use crate::virtual_scene::VirtualScene;
 use crate::watch::Watch;
 use crate::{library, message};
 pub(crate) use manifest::fit_rows;
-use manifest::{FrameKey, SiteSummary, variation_folder};
+use manifest::{FrameKey, Sensed, SiteSummary, planned, variation_folder};
 use output::OutputFolder;
 pub(crate) use output::{PRIVATE, is_whole, refuse_foreign};
 use read::Read;
@@ -149,7 +149,7 @@ fn frames_hints(recipe: &Recipe, scene: &str, keyframes: usize, frames: Option<&
         Some(drive) => drive.keyframes.of(keyframes).map_or(0, |chosen| chosen.len()),
         None => keyframes,
     };
-    let all = chosen * cameras * (1 + recipe.views.other_vehicles);
+    let all = chosen * (cameras * (1 + recipe.views.other_vehicles) + recipe.sensors.len());
     let listed = |frames: &BTreeSet<String>, variation| {
         let folder = variation_folder(scene, variation);
         frames.iter().filter(|frame| Path::new(frame).starts_with(&folder)).count()
@@ -190,24 +190,32 @@ struct Run<'a> {
     rendered: Vec<RenderedFrame>,
 }
 
-/// A rendered frame, to be written.
+/// A rendered frame or a sweep, to be written.
 struct Job {
     /// Below the output folder.
     path: String,
     scene: Arc<Scene>,
-    shot: Shot,
-    capture: Capture,
     meta: FrameMeta,
-    pictures: BTreeSet<FrameFile>,
+    taken: Taken,
+}
+
+/// What was taken.
+enum Taken {
+    Frame { shot: Box<Shot>, capture: Box<Capture>, pictures: BTreeSet<FrameFile> },
+    Sweep { shot: Box<LidarShot>, cloud: PointCloud },
 }
 
 /// A frame's path and files.
 type Written = Result<(String, Vec<WrittenFile>), WriteError>;
 
-fn write(folders: &FrameFolders, Job { path, scene, shot, capture, meta, pictures }: Job) -> Written {
-    let frame = Frame::of(path, &scene, &shot, capture, &meta)?;
-    let files = folders.frame(&frame, &pictures)?;
-    Ok((frame.path, files))
+fn write(folders: &FrameFolders, Job { path, scene, meta, taken }: Job) -> Written {
+    let files = match taken {
+        Taken::Frame { shot, capture, pictures } => {
+            folders.frame(&Frame::of(path.clone(), &scene, &shot, *capture, &meta)?, &pictures)?
+        }
+        Taken::Sweep { shot, cloud } => folders.sweep(&Sweep::of(path.clone(), &scene, &shot, cloud, &meta))?,
+    };
+    Ok((path, files))
 }
 
 /// A scene of one variation, ready to be photographed.
@@ -215,6 +223,8 @@ struct Built<'a> {
     scene: VirtualScene<'a>,
     /// Shots of each chosen keyframe.
     shots: Vec<(u32, Vec<Shot>)>,
+    /// Sweeps of each chosen keyframe.
+    sweeps: Vec<(u32, Vec<LidarShot>)>,
 }
 
 /// A keyframe's scene, made ready.
@@ -261,10 +271,8 @@ impl Run<'_> {
                     }
                 }
             };
-            let wanted = file.frames.iter().filter(|(keyframe, view)| {
-                self.wants(&FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() })
-            });
-            self.progress.correct(frames_hint, wanted.count());
+            let wanted = planned(scene, variation, &file).iter().filter(|key| self.wants(key)).count();
+            self.progress.correct(frames_hint, wanted);
             let compares = built.is_some() && self.recipe.pictures(variation).contains(&FrameFile::Change);
             if compares && base.is_none() {
                 base = Some(self.build(&read, 0)?.1);
@@ -280,8 +288,7 @@ impl Run<'_> {
 
     /// Whether a frame of a built scene is not finished.
     fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile) -> Result<bool> {
-        for (keyframe, view) in &site.frames {
-            let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
+        for key in planned(scene, variation, site) {
             if self.wants(&key) && self.finished(&key)?.is_none() {
                 return Ok(true);
             }
@@ -295,7 +302,11 @@ impl Run<'_> {
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
-        self.output.finished(&key.path(), &FrameFolders::files(&self.recipe.pictures(key.variation)))
+        let files = match key.sensed {
+            Sensed::Frame => FrameFolders::files(&self.recipe.pictures(key.variation)),
+            Sensed::Sweep => Sweep::FILES.to_vec(),
+        };
+        self.output.finished(&key.path(), &files)
     }
 
     fn build<'r>(&mut self, read: &'r Read<'_>, variation: u32) -> Result<(SiteFile, Built<'r>)> {
@@ -307,7 +318,8 @@ impl Run<'_> {
             Some(section) => section.keyframes.of(drive.keyframes.len())?,
             None => (0..drive.keyframes.len()).collect(),
         };
-        let shots: Vec<(u32, Vec<Shot>)> = keyframes.into_iter().map(|k| (k as u32, built.shots(k, &report))).collect();
+        let shots: Vec<(u32, Vec<Shot>)> = keyframes.iter().map(|&k| (k as u32, built.shots(k, &report))).collect();
+        let sweeps: Vec<(u32, Vec<LidarShot>)> = keyframes.iter().map(|&k| (k as u32, built.lidar_shots(k))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
             drive: drive.into(),
@@ -319,8 +331,9 @@ impl Run<'_> {
             recording,
             planned: self.planned.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
+            sweeps: sweeps.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
-        Ok((file, Built { scene: built, shots }))
+        Ok((file, Built { scene: built, shots, sweeps }))
     }
 
     /// Renders what is missing of a scene; `base` is what its pictures are compared with.
@@ -333,8 +346,7 @@ impl Run<'_> {
         base: Option<&Built<'_>>,
     ) -> Result<(), Stop> {
         let mut missing: Vec<(u32, Vec<FrameKey>)> = Vec::new();
-        for (keyframe, view) in &file.frames {
-            let key = FrameKey { scene: scene.to_owned(), variation, keyframe: *keyframe, view: view.clone() };
+        for key in planned(scene, variation, file) {
             if !self.wants(&key) {
                 continue;
             }
@@ -343,8 +355,8 @@ impl Run<'_> {
                 continue;
             }
             match missing.last_mut() {
-                Some((last, keys)) if last == keyframe => keys.push(key),
-                _ => missing.push((*keyframe, vec![key])),
+                Some((last, keys)) if *last == key.keyframe => keys.push(key),
+                _ => missing.push((key.keyframe, vec![key])),
             }
         }
         let Some((_, keys)) = missing.first() else { return Ok(()) };
@@ -370,10 +382,11 @@ impl Run<'_> {
                 next = ahead.next();
                 let mut prepare_s = started.elapsed().as_secs_f64();
                 for key in keys {
-                    let shot = built.shot(key.keyframe, &key.view).context("a planned view has no shot")?;
-                    let drive = built.scene.drive;
                     let prepare_s = std::mem::take(&mut prepare_s);
-                    let job = self.frame(key, drive, &photographed, before.as_ref(), prepare_s, shot)?;
+                    let job = match key.sensed {
+                        Sensed::Frame => self.frame(key, built, &photographed, before.as_ref(), prepare_s)?,
+                        Sensed::Sweep => self.sweep(key, built, &photographed, prepare_s)?,
+                    };
                     self.write(threads, job)?;
                     self.progress.frame_done();
                 }
@@ -386,12 +399,12 @@ impl Run<'_> {
     fn frame(
         &mut self,
         key: &FrameKey,
-        drive: &Drive,
+        built: &Built<'_>,
         photographed: &Photographed,
         before: Option<&Photographed>,
         prepare_s: f64,
-        shot: &Shot,
     ) -> Result<Job, Stop> {
+        let (shot, drive) = (key.of(&built.shots, |shot| &shot.view)?, built.scene.drive);
         self.progress.say(&key.path());
         let within = |share: f32| {
             self.progress.within(share);
@@ -410,22 +423,33 @@ impl Run<'_> {
             Viewpoint::OtherVehicle { .. } | Viewpoint::Free => None,
         };
         let meta = FrameMeta {
-            scene: key.scene.clone(),
-            dataset: drive.dataset.clone(),
-            place: drive.place.clone(),
-            variation: key.variation,
-            keyframe: key.keyframe,
-            keyframe_token: moment.token.clone(),
-            keyframe_time_ns: moment.time_ns,
             source_token: exposure.and_then(|e| e.token.clone()),
             source_image: exposure.and_then(|e| e.file.clone()),
-            world_from_ego: exposure.map(|e| e.world_from_ego),
-            projection: drive.projection,
+            ..meta(key, drive)
         };
         let path = key.path();
         self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s });
         let pictures = self.recipe.pictures(key.variation);
-        Ok(Job { path, scene: scene.clone(), shot: shot.clone(), capture, meta, pictures })
+        let taken = Taken::Frame { shot: Box::new(shot.clone()), capture: Box::new(capture), pictures };
+        Ok(Job { path, scene: scene.clone(), meta, taken })
+    }
+
+    /// Makes one sweep.
+    fn sweep(
+        &mut self,
+        key: &FrameKey,
+        built: &Built<'_>,
+        photographed: &Photographed,
+        prepare_s: f64,
+    ) -> Result<Job, Stop> {
+        let (shot, drive) = (key.of(&built.sweeps, |shot| &shot.view)?, built.scene.drive);
+        let path = key.path();
+        self.progress.say(&path);
+        let started = Instant::now();
+        let cloud = self.renderer.sweep(&photographed.prepared, shot);
+        self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s: started.elapsed().as_secs_f64() });
+        let taken = Taken::Sweep { shot: Box::new(shot.clone()), cloud };
+        Ok(Job { path, scene: photographed.scene.clone(), meta: meta(key, drive), taken })
     }
 
     /// Lets one of the renderer's threads write a frame, once there is room for it.
@@ -456,16 +480,19 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The manifest's rows of all frames.
-    fn rows(&mut self) -> Result<Vec<FrameRow>> {
-        let mut rows = Vec::new();
+    /// The manifest's rows of all frames, and of all sweeps.
+    fn rows(&mut self) -> Result<[Vec<FrameRow>; 2]> {
+        let [mut frames, mut sweeps] = [Vec::new(), Vec::new()];
         for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
-            for (keyframe, view) in &file.frames {
-                let key = FrameKey { scene: scene.clone(), variation, keyframe: *keyframe, view: view.clone() };
+            for key in planned(&scene, variation, &file) {
                 if self.wants(&key) {
                     let path = key.path();
                     let files = self.finished(&key)?.with_context(|| format!("{path}: removed during the run"))?;
-                    let counterfactual = self.recipe.variations.counterfactual.filter(|_| variation > 0);
+                    let (rows, is_compared) = match key.sensed {
+                        Sensed::Frame => (&mut frames, variation > 0),
+                        Sensed::Sweep => (&mut sweeps, false),
+                    };
+                    let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
                     rows.push(FrameRow {
                         path,
                         scene: key.scene.clone(),
@@ -483,7 +510,7 @@ impl Run<'_> {
             }
             self.sites.push(SiteSummary { scene, variation, file });
         }
-        Ok(rows)
+        Ok([frames, sweeps])
     }
 
     /// Writes what sums the run up.
@@ -491,12 +518,12 @@ impl Run<'_> {
         self.record(0)?;
         self.progress.finish();
         let rows = self.rows()?;
-        let given: BTreeSet<&str> = rows.iter().map(|row| row.path.as_str()).collect();
+        let given: BTreeSet<&str> = rows.iter().flatten().map(|row| row.path.as_str()).collect();
         for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
             self.report.note(Outcome::Dropped, "frame that the recipe does not produce", frame.clone());
         }
-        ensure!(!rows.is_empty(), "no scene could be built: {}", self.dropped_scenes());
-        let frames = rows.len();
+        let frames = rows.iter().map(Vec::len).sum();
+        ensure!(frames > 0, "no scene could be built: {}", self.dropped_scenes());
         let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
         let report = manifest::report(&self.report, &self.sites);
         self.folders.finish(&manifest, &report)?;
@@ -516,9 +543,21 @@ impl Built<'_> {
         let prepared = renderer.prepare(&scene)?;
         Ok(Photographed { scene, prepared })
     }
+}
 
-    fn shot(&self, keyframe: u32, view: &str) -> Option<&Shot> {
-        let (_, shots) = self.shots.iter().find(|(k, _)| *k == keyframe)?;
-        shots.iter().find(|shot| shot.view == view)
+/// What is told of a view that clones no recorded picture and has no vehicle.
+fn meta(key: &FrameKey, drive: &Drive) -> FrameMeta {
+    let moment = &drive.keyframes[key.keyframe as usize];
+    FrameMeta {
+        scene: key.scene.clone(),
+        dataset: drive.dataset.clone(),
+        place: drive.place.clone(),
+        variation: key.variation,
+        keyframe: key.keyframe,
+        keyframe_token: moment.token.clone(),
+        keyframe_time_ns: moment.time_ns,
+        source_token: None,
+        source_image: None,
+        projection: drive.projection,
     }
 }

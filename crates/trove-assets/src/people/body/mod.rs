@@ -6,6 +6,7 @@ mod check;
 mod fabric;
 mod gait;
 mod head;
+mod keypoints;
 mod outfit;
 mod pattern;
 mod plan;

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, vec3};
 use rayon::prelude::*;
-use trove_model::{Asset, Figure, Kind, Material, Mesh, Posture, Seed, Slot};
+use trove_model::{Asset, Figure, Keypoints, Kind, Material, Mesh, Posture, Seed, Slot};
 
 use super::carried::Held;
 use super::fabric::Fabrics;
@@ -31,7 +31,7 @@ pub(super) fn assets(stock: &Stock<'_>, person: &PersonPlan) -> Vec<Asset> {
     let acts: Vec<Act> = person.acts.iter().copied().chain(Act::cycles()).collect();
     let licence = format!("{}; shaped, dressed and posed by TRoVE", stock.body.licence);
     let assets = acts.par_iter().map(|&act| {
-        let (mesh, posture) = dressed.posed(act);
+        let (mesh, posture, keypoints) = dressed.posed(act);
         let mut used = vec![false; dressed.slots.len()];
         mesh.slots.iter().for_each(|&s| used[usize::from(s)] = true);
         let number = |s: u16| used[..usize::from(s)].iter().filter(|u| **u).count() as u16;
@@ -41,6 +41,7 @@ pub(super) fn assets(stock: &Stock<'_>, person: &PersonPlan) -> Vec<Asset> {
         let asset = Asset {
             commonness: person.commonness,
             figure: Some(Figure { person: person.id.clone(), posture }),
+            keypoints: Some(keypoints),
             ..Asset::new(&format!("{}-{}", person.id, act.name()), kind, kind.class(), mesh, slots, &licence)
         };
         asset.tagged(&person.tags)
@@ -206,7 +207,7 @@ impl<'a> Dressed<'a> {
 
     /// The mesh in a posture: it stands on z = 0, x and y from the middle of its bounds, or from below the hips where
     /// it goes.
-    fn posed(&self, act: Act) -> (Mesh, Posture) {
+    fn posed(&self, act: Act) -> (Mesh, Posture, Keypoints<Vec3>) {
         let skeleton = &self.wearer.skeleton;
         let mut stance = act.stance(skeleton);
         let is_going = matches!(act, Act::Walk(_) | Act::Run(_));
@@ -247,16 +248,18 @@ impl<'a> Dressed<'a> {
             let piece = Piece::stiff(shape, 0, slot);
             add(&mut mesh, piece.positions.clone(), &piece);
         }
-        stand(&mut mesh, is_going);
-        (mesh, act.posture(skeleton))
+        let origin = stand(&mut mesh, is_going);
+        (mesh, act.posture(skeleton), self.wearer.keypoints(&posed).map(|p| p - origin))
     }
 }
 
-/// Moves a mesh to where an asset's origin has to be, and lets go triangles without area.
-fn stand(mesh: &mut Mesh, is_going: bool) {
+/// Moves a mesh to where an asset's origin has to be; answers what was there before.
+fn stand(mesh: &mut Mesh, is_going: bool) -> Vec3 {
     let (low, high) = mesh.bounds().unwrap_or_default();
     let middle = if is_going { Vec2::ZERO } else { (low + high).truncate() / 2.0 };
-    mesh.positions.iter_mut().for_each(|p| *p -= middle.extend(low.z));
+    let origin = middle.extend(low.z);
+    mesh.positions.iter_mut().for_each(|p| *p -= origin);
+    origin
 }
 
 const NAVY: Vec3 = vec3(0.015, 0.02, 0.06);

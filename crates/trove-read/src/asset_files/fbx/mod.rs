@@ -13,7 +13,7 @@ use super::fault::Fault;
 use super::model::{Model, Piece};
 use super::picture::Pictures;
 use crate::ReadError;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// Reads a file's bytes; with `part` only the node of that name and what hangs on it. FBX files come in metres with y
 /// up, by what they say of their units and axes; OBJ files say nothing and come as they are.

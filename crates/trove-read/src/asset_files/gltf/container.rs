@@ -7,7 +7,7 @@ use trove_files::Folder;
 use super::json::Root;
 use crate::ReadError;
 use crate::asset_files::fault::Fault;
-use crate::budget::Budget;
+use trove_files::Budget;
 
 /// A file with everything that it refers to but pictures.
 #[derive(Debug)]

@@ -19,7 +19,7 @@ use self::geometry::Geometry;
 use self::properties::Of;
 use super::fault::Fault;
 use super::raw::{Raw, RawNode, RawRelation, RawThing, RawWay, Tags};
-use crate::budget::{Budget, Exceeded};
+use trove_files::{Budget, Exceeded};
 
 pub use self::frame::GeoJsonFrame;
 

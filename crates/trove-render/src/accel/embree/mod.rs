@@ -89,14 +89,14 @@ impl Embree {
         });
         let at = |z: f64, material: u32| {
             let way = Motion { middle: DAffine3::from_translation(DVec3::Z * z), ends: None };
-            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way)
+            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, [true; 2])
         };
         let clear =
             Texture { name: String::new(), width: 1, height: 1, rgba: vec![[0; 4]], color_space: ColorSpace::Srgb };
         let hole = Opacity::cut_out(OpacityMask::new(&clear, &MipMap::new(&clear), 0.5));
         let leaf = Texture { rgba: vec![[255; 4]], ..clear };
         let leaf = Opacity::cut_out(OpacityMask::new(&leaf, &MipMap::new(&leaf), 0.5));
-        let shapes = Shapes { placed: vec![at(1.0, 0), at(3.0, 1)], opacities: vec![hole, leaf] };
+        let shapes = Shapes { placed: vec![at(1.0, 0), at(3.0, 1)], opacities: [hole, leaf].into() };
         let scene = self.scene(&Arc::new(shapes))?;
         let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
         Ok([Coherence::Coherent, Coherence::Incoherent].into_iter().all(|coherence| {

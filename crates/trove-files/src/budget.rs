@@ -12,26 +12,29 @@ const MOST: u64 = 6 << 30;
 /// What is left of the memory that a file may make its reader take: small files that unpack to gigabytes are damaged, or
 /// made to do harm.
 #[derive(Debug)]
-pub(crate) struct Budget {
+pub struct Budget {
     whole: u64,
     left: Cell<u64>,
 }
 
 /// A file asks for more than its budget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Exceeded {
+pub struct Exceeded {
     whole: u64,
 }
 
 impl Budget {
     /// Of a file of so many bytes.
-    pub(crate) fn of_file(bytes: u64) -> Self {
+    pub fn of_file(bytes: u64) -> Self {
         let whole = bytes.saturating_mul(PER_BYTE).saturating_add(BASE).min(MOST);
         Self { whole, left: Cell::new(whole) }
     }
 
     /// Takes memory for `count` things of `size` bytes each.
-    pub(crate) fn take(&self, count: usize, size: usize) -> Result<(), Exceeded> {
+    ///
+    /// # Errors
+    /// More than is left, of which nothing is taken then.
+    pub fn take(&self, count: usize, size: usize) -> Result<(), Exceeded> {
         let wanted = (count as u64).checked_mul(size as u64);
         let left = wanted.and_then(|wanted| self.left.get().checked_sub(wanted));
         self.left.set(left.ok_or(Exceeded { whole: self.whole })?);
@@ -39,15 +42,20 @@ impl Budget {
     }
 
     /// Bytes that may still be taken.
-    pub(crate) fn left(&self) -> u64 {
+    pub fn left(&self) -> u64 {
         self.left.get()
     }
 }
 
 impl Exceeded {
     /// What is expected instead.
-    pub(crate) fn expected(self) -> String {
+    pub fn expected(self) -> String {
         format!("content that unpacks to at most {} MiB, which is ample for a file of its size", self.whole >> 20)
+    }
+
+    /// What is there.
+    pub fn found(self) -> String {
+        format!("content that unpacks to more than {} MiB", self.whole >> 20)
     }
 }
 

@@ -1,0 +1,118 @@
+//! A LiDAR's sweep as it is written and read back.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use trove_files::{LARGEST_FILE, read_regular};
+use trove_format::{SweepTable, SweptObject};
+use trove_model::{InstanceId, LidarPoint, LidarShot, Origin, PointCloud, Scene};
+
+use crate::frame_table::{FrameMeta, matrix};
+use crate::{WriteError, points_file};
+
+/// A sweep: its table and its points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Its folder below the output folder (`scene-0103/v00/k005/ego.LIDAR_TOP`), with `/` between the parts.
+    pub path: String,
+    /// LiDAR and objects.
+    pub table: SweepTable,
+    /// What was told.
+    pub cloud: PointCloud,
+}
+
+impl Sweep {
+    /// The sweep that a LiDAR made of a scene.
+    pub fn of(path: String, scene: &Scene, shot: &LidarShot, cloud: PointCloud, meta: &FrameMeta) -> Self {
+        let scanner = &shot.scanner;
+        let table = SweepTable {
+            scene: meta.scene.clone(),
+            dataset: meta.dataset.clone(),
+            place: meta.place.clone(),
+            variation: meta.variation,
+            keyframe: meta.keyframe,
+            keyframe_token: meta.keyframe_token.clone(),
+            keyframe_time_ns: meta.keyframe_time_ns,
+            view: shot.view.clone(),
+            time_ns: shot.time_ns,
+            begins_s: shot.time_s(0),
+            sweep_s: scanner.sweep_s,
+            lidar: scanner.name.clone(),
+            elevations_deg: scanner.elevations_rad.iter().map(|rad| (rad.to_degrees() * 1e6).round() / 1e6).collect(),
+            columns: scanner.columns as u32,
+            returns: scanner.told.name().into(),
+            points: cloud.points.len() as u32,
+            world_from_lidar: matrix(shot.world_from_lidar.affine()),
+            world_from_ego: Some(matrix(shot.world_from_ego.affine())),
+            carrier: shot.carrier.map(|id| id.0),
+            projection: (&meta.projection).into(),
+            seed: shot.seed.0,
+            objects: objects(scene, &cloud.points),
+        };
+        Self { path, table, cloud }
+    }
+
+    /// Names of the files in a finished sweep's folder.
+    pub const FILES: [&'static str; 2] = [SweepTable::POINTS, SweepTable::NAME];
+
+    /// The files' bytes, in the order of their names.
+    pub(crate) fn encoded(&self) -> [Vec<u8>; 2] {
+        [points_file::encode(&self.cloud.points), self.table.to_json()]
+    }
+}
+
+/// Rows of the objects that have points.
+fn objects(scene: &Scene, points: &[LidarPoint]) -> Vec<SweptObject> {
+    let mut counts: BTreeMap<InstanceId, u32> = BTreeMap::new();
+    points
+        .iter()
+        .filter(|point| point.instance.0 != 0)
+        .for_each(|point| *counts.entry(point.instance).or_default() += 1);
+    let mut rows: BTreeMap<InstanceId, SweptObject> = BTreeMap::new();
+    for instance in &scene.instances {
+        let (Some(object), Some(points)) = (&instance.object, counts.get(&instance.id)) else { continue };
+        rows.entry(instance.id).or_insert_with(|| SweptObject {
+            id: instance.id.0,
+            class: instance.class,
+            kind: object.kind,
+            origin: (&object.origin).into(),
+            track_token: match &object.origin {
+                Origin::Recorded { track_token, .. } => track_token.clone(),
+                _ => String::new(),
+            },
+            world_from_body: matrix(object.cuboid.world_from_body.affine()),
+            size_m: object.cuboid.size_m.to_array(),
+            points: *points,
+        });
+    }
+    rows.into_values().collect()
+}
+
+/// The folder of a finished sweep; its points are read when they are asked for.
+#[derive(Clone, Debug)]
+pub struct StoredSweep {
+    /// The folder.
+    pub folder: PathBuf,
+    /// LiDAR and objects.
+    pub table: SweepTable,
+}
+
+impl StoredSweep {
+    /// Opens a sweep's folder.
+    ///
+    /// # Errors
+    /// A table that cannot be read or is damaged.
+    pub fn open(folder: &Path) -> Result<Self, WriteError> {
+        Ok(Self { folder: folder.to_owned(), table: SweepTable::read(folder)? })
+    }
+
+    /// Its points, in the sensor's axes.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or that holds other records than are written.
+    pub fn points(&self) -> Result<Vec<LidarPoint>, WriteError> {
+        let path = self.folder.join(SweepTable::POINTS);
+        let bytes = read_regular(&path, LARGEST_FILE).map_err(WriteError::storage(&path, "read the file"))?;
+        points_file::decode(&bytes).map_err(|found| WriteError::Damaged { path, found })
+    }
+}
