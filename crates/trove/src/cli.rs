@@ -13,6 +13,7 @@ use crate::answer::Answer;
 use crate::assets::{self, AssetsCommand};
 use crate::drives::DatasetChoice;
 use crate::export::Export;
+use crate::judge::audit::LabelOptions;
 use crate::judge::curate::{Curate, frames_of};
 use crate::judge::evaluate::Evaluate;
 use crate::judge::recolor::Recolor;
@@ -100,11 +101,15 @@ enum Command {
         #[command(subcommand)]
         command: AssetsCommand,
     },
-    /// Check that an output folder still holds what was written to it.
-    #[command(after_help = "Example:\n  trove verify out/boston")]
+    /// Check that an output folder still holds what was written to it, or what a dataset's labels say.
+    #[command(
+        after_help = "Examples:\n  trove verify out/boston\n  trove verify out/boston --labels --out faults\n  trove verify cityscapes --labels --json"
+    )]
     Verify {
-        /// The output folder of trove generate.
+        /// The output folder of trove generate; with --labels also a folder of Cityscapes, KITTI, COCO, nuScenes or CamVid.
         folder: PathBuf,
+        #[command(flatten)]
+        labels: LabelOptions,
         /// Print JSON.
         #[arg(long)]
         json: bool,
@@ -239,7 +244,8 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
             }
             produce(recipe, &out, &machine, options, json)
         }
-        Command::Verify { folder, json } => verify::run(&folder, json, watch),
+        Command::Verify { folder, labels, json } if labels.are_wanted() => labels.run(&folder, json, watch),
+        Command::Verify { folder, labels: _, json } => verify::run(&folder, json, watch),
         Command::Curate(curate) => curate.run(watch),
         Command::Recolor(recolor) => recolor.run(watch),
         Command::Evaluate(evaluate) => evaluate.run(watch),

@@ -1,5 +1,6 @@
-//! `trove curate`, `trove recolor`, `trove evaluate`: verdicts on datasets, printed and written.
+//! `trove curate`, `trove recolor`, `trove evaluate`, `trove verify --labels`: verdicts on datasets, printed and written.
 
+pub(crate) mod audit;
 pub(crate) mod curate;
 pub(crate) mod evaluate;
 pub(crate) mod recolor;

@@ -1,0 +1,242 @@
+//! What flow says, held to depth, the cameras' poses and the neighbouring moment's labels.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+use trove_model::{Occlusion, Raster};
+
+use super::finding::{Check, Count, Notes};
+use super::frame::{Eye, LabelledFrame, around, grid, rigid};
+use super::single::STEP;
+
+/// A frame with its camera, and which ids stand still.
+pub(super) struct Looked<'a> {
+    pub(super) frame: &'a LabelledFrame,
+    pub(super) eye: Option<Eye>,
+    pub(super) still: Vec<bool>,
+}
+
+impl<'a> Looked<'a> {
+    pub(super) fn at(frame: &'a LabelledFrame) -> Self {
+        Self { frame, eye: frame.eye().ok(), still: frame.stands_still() }
+    }
+}
+
+/// The two ways of flow: to the next moment, and to the previous one.
+pub(super) const WAYS: [usize; 2] = [0, 1];
+const NAMES: [[&str; 2]; 2] = [["flow_forward.exr", "occluded_forward.png"], ["flow_backward.exr", "occluded_backward.png"]];
+
+/// Flow of what stands still may differ from its projection by this, pixels: rounding of depth and flow.
+const STATIC_PX: f64 = 0.1;
+const STATIC: f64 = 0.99;
+/// Share of an object's pixels, and of all, whose flow ends on the same.
+const ENDS: [f64; 2] = [0.8, 0.97];
+/// Share of what stands still that is seen at its depth at the end of its flow.
+const AT_DEPTH: f64 = 0.97;
+/// Forward and backward may differ by this, pixels: flow is interpolated between pixels, and not linear.
+const RETURNS_PX: f64 = 1.0;
+const RETURNS: f64 = 0.95;
+/// Share of hidden ends that something nearer hides, as far as an image tells.
+const HIDDEN: f64 = 0.8;
+
+/// Holds flow of what stands still to depth and the two cameras' poses; needs no other frame.
+pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
+    let Looked { frame, eye: Some(eye), still } = looked else { return };
+    let (Some(depth), Some(instance)) = (&frame.depth_m, &frame.instance) else { return };
+    let to = [&frame.table.world_from_camera_next, &frame.table.world_from_camera_previous];
+    for way in WAYS {
+        let Some(flow) = &frame.flow[way] else { continue };
+        let Some(matrix) = to[way] else {
+            notes.look(Check::Flow);
+            let defined = super::single::pixels(flow).filter(|(_, flow)| !flow[0].is_nan());
+            let defined: Vec<_> = defined.map(|(pixel, _)| pixel).collect();
+            if !defined.is_empty() {
+                let what = format!("{}: expected NaN without a neighbouring moment, found numbers", NAMES[way][0]);
+                notes.found(Check::Flow, 1.0, what, defined);
+            }
+            continue;
+        };
+        let other = match rigid(matrix, "the neighbouring camera's pose") {
+            Ok(world_from_camera) => world_from_camera.inverse() * eye.world_from_camera,
+            Err(what) => {
+                notes.wrong(Check::Camera, what);
+                continue;
+            }
+        };
+        let mut count = Count::default();
+        for pixel in grid(depth.width, depth.height, STEP) {
+            let [x, y] = pixel;
+            let (metres, flow) = (*depth.at(x, y), *flow.at(x, y));
+            if !still[usize::from(*instance.at(x, y))] {
+                continue;
+            }
+            let Some(direction) = eye.direction(pixel) else { continue };
+            // The sky is a point at infinity: only rotation moves it.
+            let moved = if metres.is_finite() {
+                other.transform_point3(direction * (f64::from(metres) / direction.z))
+            } else {
+                other.transform_vector3(direction)
+            };
+            let Some(expected) = moved_to(eye, moved) else { continue };
+            let start = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let end = start + DVec2::new(f64::from(flow[0]), f64::from(flow[1]));
+            // Far outside of the image rounding is magnified as distances are.
+            let slack = STATIC_PX + 1e-4 * (expected - start).length();
+            count.tell(pixel, expected.distance(end) < slack);
+        }
+        notes.judge(Check::Flow, &count, STATIC, |share| {
+            let percent = 100.0 * share;
+            format!("{}: expected what depth and the cameras' poses say, found it on {percent:.1} %", NAMES[way][0])
+        });
+    }
+}
+
+/// Where a point in Camera falls, unless it is so close to the camera that nothing can be told.
+fn moved_to(eye: &Eye, point: DVec3) -> Option<DVec2> {
+    (point.z > 0.1).then(|| eye.lens.project(point)).flatten()
+}
+
+/// Holds two neighbouring moments of one view to each other, by the flow from one to the other and back.
+pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
+    poses(from, to, way, notes);
+    let (a, b) = (from.frame, to.frame);
+    let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &b.instance) else { return };
+    if (flow.width, flow.height) != (there.width, there.height) {
+        return;
+    }
+    let [flow_name, occlusion_name] = NAMES[way];
+    let mut ends = BTreeMap::<u16, Count>::new();
+    let (mut all, mut seen, mut hidden, mut returns) =
+        (Count::default(), Count::default(), Count::default(), Count::default());
+    for pixel in grid(flow.width, flow.height, 1) {
+        let [x, y] = pixel;
+        let Some(end) = end(flow, pixel) else { continue };
+        let occlusion = a.occluded[way].as_ref().map(|occluded| *occluded.at(x, y));
+        let id = *instance.at(x, y);
+        match occlusion {
+            Some(Occlusion::Hidden) => {
+                if let Some(is_hidden) = is_nearer(from, to, pixel, end) {
+                    hidden.tell(pixel, is_hidden);
+                }
+                continue;
+            }
+            Some(Occlusion::Undefined) => continue,
+            _ => {}
+        }
+        // Without occlusion nothing is known of any one pixel, but most ends are visible.
+        let is_same = around(there, end).any(|other| other == id);
+        all.tell(pixel, is_same);
+        if id > 0 {
+            ends.entry(id).or_default().tell(pixel, is_same);
+        }
+        if occlusion.is_some() && is_same {
+            if x % STEP == 0 && y % STEP == 0 && let Some(is_there) = is_at_depth(from, to, pixel, end) {
+                seen.tell(pixel, is_there);
+            }
+            if let Some(error) = returned(a, b, way, pixel) {
+                returns.tell(pixel, error < RETURNS_PX);
+            }
+        }
+    }
+    let [least_object, least] = if a.occluded[way].is_some() { ENDS } else { [0.3, 0.6] };
+    notes.judge(Check::FlowEnds, &all, least, |share| {
+        format!("{flow_name}: expected to end on the same object, found {:.1} % of pixels that do", 100.0 * share)
+    });
+    for (id, count) in ends {
+        notes.judge(Check::FlowEnds, &count, least_object, |share| {
+            let (name, percent) = (a.object(id).map_or("?", |object| object.class.row().name), 100.0 * share);
+            format!("{flow_name}: object {id} ({name}): expected to end on it, found {percent:.1} % of pixels that do")
+        });
+    }
+    notes.judge(Check::Occlusion, &seen, AT_DEPTH, |share| {
+        let percent = 100.0 * share;
+        format!("{occlusion_name}: expected points told as visible to be seen at their depth, found {percent:.1} %")
+    });
+    notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
+        let percent = 100.0 * share;
+        format!("{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %")
+    });
+    notes.judge(Check::FlowReturns, &returns, RETURNS, |share| {
+        let percent = 100.0 * share;
+        format!("{flow_name}: expected to be undone by the flow back, found {percent:.1} % within {RETURNS_PX} px")
+    });
+}
+
+/// The poses that a frame tells of its neighbours are theirs.
+fn poses(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
+    let told = [&from.frame.table.world_from_camera_next, &from.frame.table.world_from_camera_previous][way];
+    notes.look(Check::Camera);
+    let Some(told) = told else { return };
+    let apart = told.iter().flatten().zip(to.frame.table.world_from_camera.iter().flatten());
+    let apart = apart.map(|(told, found)| (told - found).abs()).fold(0.0, f64::max);
+    if apart.is_nan() || apart > 1e-6 {
+        let name = ["world_from_camera_next", "world_from_camera_previous"][way];
+        notes.wrong(Check::Camera, format!("{name}: expected the pose of {}, found another", to.frame.place));
+    }
+}
+
+/// The pixel in which flow ends.
+fn end(flow: &Raster<[f32; 2]>, [x, y]: [u32; 2]) -> Option<[u32; 2]> {
+    let [u, v] = *flow.at(x, y);
+    let (x, y) = (f64::from(x) + 0.5 + f64::from(u), f64::from(y) + 0.5 + f64::from(v));
+    let is_inside = x >= 0.0 && y >= 0.0 && x < f64::from(flow.width) && y < f64::from(flow.height);
+    is_inside.then_some([x as u32, y as u32])
+}
+
+/// Depth at the other camera of what stands still at a pixel.
+fn depth_there(from: &Looked, to: &Looked, [x, y]: [u32; 2]) -> Option<f64> {
+    let (eye, other) = (from.eye.as_ref()?, to.eye.as_ref()?);
+    let (depth, instance) = (from.frame.depth_m.as_ref()?, from.frame.instance.as_ref()?);
+    if !from.still[usize::from(*instance.at(x, y))] {
+        return None;
+    }
+    let point = eye.world_from_camera.transform_point3(eye.point([x, y], *depth.at(x, y))?);
+    Some(other.camera_from_world.transform_point3(point).z)
+}
+
+/// Whether what stands still is seen where its flow ends; `None` where that cannot be told.
+fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
+    let expected = depth_there(from, to, pixel)?;
+    let (least, most) = extremes(to, end)?;
+    Some(least * 0.97 - 0.05 < expected && expected < most * 1.03 + 0.05)
+}
+
+/// Whether something at the end of a hidden point's flow is nearer than the point.
+fn is_nearer(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
+    let expected = depth_there(from, to, pixel)?;
+    Some(extremes(to, end)?.0 < expected * 1.001)
+}
+
+/// The least and the greatest depth around a pixel.
+fn extremes(looked: &Looked, pixel: [u32; 2]) -> Option<(f64, f64)> {
+    let depth = looked.frame.depth_m.as_ref()?;
+    let fold = |(least, most): (f64, f64), depth: f32| (least.min(f64::from(depth)), most.max(f64::from(depth)));
+    Some(around(depth, pixel).fold((f64::INFINITY, f64::NEG_INFINITY), fold))
+}
+
+/// How far flow there and back ends from where it began, pixels; `None` where flow back is not defined, or where the four
+/// pixels around the end are not of one smooth surface, between which it may be interpolated.
+fn returned(a: &LabelledFrame, b: &LabelledFrame, way: usize, pixel: [u32; 2]) -> Option<f64> {
+    let (flow, back) = (a.flow[way].as_ref()?, b.flow[1 - way].as_ref()?);
+    let (here, there) = (a.instance.as_ref()?, b.instance.as_ref()?);
+    let (depth, normal) = (b.depth_m.as_ref()?, b.normal.as_ref()?);
+    let id = here.at(pixel[0], pixel[1]);
+    let flow = DVec2::from_array(flow.at(pixel[0], pixel[1]).map(f64::from));
+    let end = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + flow;
+    let is_inside = end.x >= 0.0 && end.y >= 0.0 && end.x < f64::from(back.width - 1) && end.y < f64::from(back.height - 1);
+    let [x, y] = is_inside.then_some([end.x as u32, end.y as u32])?;
+    let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
+    let vector = |[x, y]: [u32; 2]| glam::Vec3::from_array(*normal.at(x, y));
+    let (metres, up) = (*depth.at(x, y), vector(corners[0]));
+    let is_one = |[x, y]: [u32; 2]| {
+        there.at(x, y) == id && (depth.at(x, y) / metres - 1.0).abs() < 0.05 && vector([x, y]).dot(up) > 0.87
+    };
+    if !corners.into_iter().all(is_one) {
+        return None;
+    }
+    let [a, b, c, d] = corners.map(|[x, y]| DVec2::from_array(back.at(x, y).map(f64::from)));
+    let part = end - end.floor();
+    let returned = a.lerp(b, part.x).lerp(c.lerp(d, part.x), part.y);
+    let error = (flow + returned).length();
+    error.is_finite().then_some(error)
+}

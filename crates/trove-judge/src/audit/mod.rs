@@ -1,0 +1,29 @@
+//! Whether labels agree with themselves, with the image, and over views and times.
+//!
+//! Frames of `trove generate` are handed over by whoever can read them; datasets in other forms are read here.
+
+mod camvid;
+mod cityscapes;
+mod coco;
+mod finding;
+mod flow;
+mod form;
+mod frame;
+mod image;
+mod kitti;
+mod moments;
+mod nuscenes;
+mod polygons;
+mod rle;
+mod single;
+#[cfg(test)]
+mod tests;
+mod tracks;
+mod views;
+mod worst;
+
+pub use finding::{Audit, Check, Finding, Tally};
+pub use frame::{LabelledFrame, LabelledSweep};
+pub use form::{LabelForm, audit};
+pub use moments::FrameReader;
+pub use worst::picture;

@@ -1,0 +1,49 @@
+//! Polygons, painted.
+
+use trove_model::Raster;
+
+/// Paints the pixels whose centres lie in a polygon, by the even-odd rule; corners are in pixels, with (0, 0) in the
+/// corner of the image.
+pub(super) fn paint<T: Copy>(canvas: &mut Raster<T>, polygon: &[[f64; 2]], value: T) {
+    if polygon.iter().flatten().any(|number| !number.is_finite()) || polygon.len() < 3 {
+        return;
+    }
+    let (low, high) = polygon.iter().fold((f64::MAX, f64::MIN), |(low, high), [_, y]| (low.min(*y), high.max(*y)));
+    let rows = (low - 0.5).ceil().max(0.0) as u32..((high + 0.5).floor().max(0.0) as u32).min(canvas.height);
+    let mut crossings = Vec::new();
+    for row in rows {
+        let y = f64::from(row) + 0.5;
+        crossings.clear();
+        for (i, [x0, y0]) in polygon.iter().enumerate() {
+            let [x1, y1] = polygon[(i + 1) % polygon.len()];
+            if (*y0 <= y) != (y1 <= y) {
+                crossings.push(x0 + (y - y0) / (y1 - y0) * (x1 - x0));
+            }
+        }
+        crossings.sort_by(f64::total_cmp);
+        for pair in crossings.as_chunks::<2>().0 {
+            let [first, last] = pair.map(|x| ((x - 0.5).ceil().max(0.0) as u32).min(canvas.width));
+            (first..last).for_each(|x| *canvas.at_mut(x, row) = value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(polygon: &[[f64; 2]]) -> usize {
+        let mut canvas = Raster::filled(20, 10, false);
+        paint(&mut canvas, polygon, true);
+        canvas.data.iter().filter(|painted| **painted).count()
+    }
+
+    #[test]
+    fn a_polygon_covers_the_pixels_whose_centres_it_holds() {
+        assert_eq!(area(&[[2.0, 1.0], [6.0, 1.0], [6.0, 4.0], [2.0, 4.0]]), 12);
+        assert_eq!(area(&[[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]]), 45);
+        // Beyond the image there is nothing to paint.
+        assert_eq!(area(&[[-9.0, -9.0], [90.0, -9.0], [90.0, 90.0], [-9.0, 90.0]]), 200);
+        assert_eq!(area(&[[1.0, 1.0], [f64::NAN, 2.0], [3.0, 3.0]]), 0);
+    }
+}

@@ -1,0 +1,37 @@
+//! Pictures of what is wrong.
+
+use std::path::Path;
+
+use trove_model::Raster;
+
+use super::finding::Finding;
+use crate::JudgeError;
+use crate::pictures::read;
+
+/// Marks are seen from afar, pixels.
+const MARK: i64 = 1;
+const MAGENTA: [u8; 3] = [255, 0, 255];
+
+/// The image of a finding, darkened, with what is wrong in magenta; `None` where no image shows it.
+///
+/// # Errors
+/// An image that cannot be read.
+pub fn picture(root: &Path, finding: &Finding) -> Result<Option<Raster<[u8; 3]>>, JudgeError> {
+    let Some(path) = finding.image.as_ref().map(|image| root.join(image)).filter(|path| path.is_file()) else {
+        return Ok(None);
+    };
+    let image = read(&path)?.into_rgb8();
+    // Numbers of classes are small, and would be black.
+    let brightness = if image.as_raw().iter().all(|value| *value < 64) { 4 } else { 1 };
+    let dim = |value: u8| (u16::from(value) * brightness / 2).min(255) as u8;
+    let mut raster = Raster::from_fn(image.width(), image.height(), |x, y| image.get_pixel(x, y).0.map(dim));
+    for [x, y] in &finding.pixels {
+        for (dx, dy) in (-MARK..=MARK).flat_map(|dy| (-MARK..=MARK).map(move |dx| (dx, dy))) {
+            let (x, y) = (i64::from(*x) + dx, i64::from(*y) + dy);
+            if (0..i64::from(raster.width)).contains(&x) && (0..i64::from(raster.height)).contains(&y) {
+                *raster.at_mut(x as u32, y as u32) = MAGENTA;
+            }
+        }
+    }
+    Ok(Some(raster))
+}
