@@ -79,6 +79,7 @@ class FrameTable(TypedDict):
     keyframe: int
     keyframe_token: str
     keyframe_time_ns: int
+    recorded_keyframe: int | None
     view: str
     time_ns: int
     source_token: str
@@ -133,6 +134,7 @@ class SweepTable(TypedDict):
     keyframe: int
     keyframe_token: str
     keyframe_time_ns: int
+    recorded_keyframe: int | None
     view: str
     time_ns: int
     begins_s: float

@@ -43,6 +43,7 @@
 
 mod agreement;
 mod assembly;
+mod between;
 mod buildings;
 mod error;
 mod furniture;
@@ -65,13 +66,14 @@ mod views;
 
 pub use agreement::{OnDisagreement, agreed};
 pub use assembly::Weather;
+pub use between::{Moments, Timeline, between};
 pub use error::BuildError;
 pub use light::{LightChoice, Moment, SkyChoice};
 pub use place::{PlacePlan, Seeds, place_drive};
 pub use placement::{AssetFit, ObjectFit};
 pub use roads::HORIZON_M;
 pub use scanners::{MountedLidar, lidar_shots};
-pub use site::{BuildSettings, Site, area, build};
+pub use site::{BuildSettings, Site, area, build, build_at};
 pub use standing::on_relief;
 pub use traffic::Traffic;
 pub use views::{ALL_CAMERAS, LensChange, PictureSize, ViewPlan, ViewSettings};

@@ -11,7 +11,8 @@ use trove_model::{
 use crate::agreement::{OnDisagreement, agreed, assumed};
 use crate::assembly::Stock;
 use crate::assembly::Weather;
-use crate::assembly::{Actor, Assembly};
+use crate::assembly::{Actor, Assembly, MeshesNow};
+use crate::between::Moments;
 use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::ground::{Ground, ground};
@@ -111,6 +112,22 @@ pub fn build(
     settings: &BuildSettings,
     report: &Report,
 ) -> Result<Site, BuildError> {
+    build_at(drive, Moments::of_keyframes(drive), map, library, settings, report)
+}
+
+/// Builds the place of a drive to be seen at moments of which its keyframes are some: all but where road users are then comes
+/// from the keyframes alone, and is the same whatever the moments.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_at(
+    drive: &Drive,
+    moments: Moments,
+    map: Option<&StreetMap>,
+    library: &AssetLibrary,
+    settings: &BuildSettings,
+    report: &Report,
+) -> Result<Site, BuildError> {
     let bounds = checked_area(drive)?;
     let (seeds, locale) = (settings.seeds, &settings.locale);
     let relief = map.and_then(|map| map.relief.as_ref());
@@ -136,7 +153,7 @@ pub fn build(
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
     let absent = traffic::absent(drive, settings.traffic.density, seeds.traffic.child("absent"), report);
-    let casting = Casting { drive, library, stand, top_k: settings.top_k, seeds: &seeds, report };
+    let casting = Casting { drive, moments, library, stand, top_k: settings.top_k, seeds: &seeds, report };
     let Cast { roles, fits } = casting.recorded(&absent);
 
     // What is made up keeps clear of everything recorded; poles come before plants.
@@ -149,7 +166,8 @@ pub fn build(
 
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
     let mut assembly = Assembly::default();
-    let mut actors: Vec<Option<Actor>> = roles.iter().map(|role| Some(assembly.actor(role.as_ref()?))).collect();
+    let mut actors: Vec<Option<Actor>> =
+        roles.iter().map(|role| Some(assembly.actor(role.as_ref()?, moments))).collect();
     let mut next_id = actors.len() as u32 + 1;
     for piece in surfaces.pieces.iter().chain(&buildings.pieces).chain(&furniture.pieces) {
         assembly.piece(piece, &mut next_id);
@@ -168,11 +186,11 @@ pub fn build(
     }
     // Road users whom nobody recorded come last: they take the room that is left.
     let seed = seeds.traffic.child("added");
-    let users = traffic::added(&around, &absent, &clearance, &assembly, settings.traffic, seed);
+    let users = traffic::added(&around, &absent, &clearance, &assembly, moments, settings.traffic, seed);
     let mut added = Vec::new();
     for user in &users {
-        let Some(role) = casting.added(&user.track, user.speed_mps) else { continue };
-        let actor = assembly.actor(&role);
+        let Some(role) = casting.added(&user.track, user.at_moments.as_ref(), user.speed_mps) else { continue };
+        let actor = assembly.actor(&role, moments);
         added.push(Added { id: InstanceId(next_id), kind: user.track.kind, speed_mps: user.speed_mps, actor });
         next_id += 1;
     }
@@ -241,9 +259,11 @@ fn checked_area(drive: &Drive) -> Result<Bounds, BuildError> {
 }
 
 impl Site {
-    /// Everything that a picture of one keyframe needs; a keyframe that the drive does not have shows the place alone.
+    /// Everything that a picture of one keyframe needs; a keyframe that the drive does not have shows the place alone. Where
+    /// the place was built for other moments, the drive is theirs ([`Moments::drive`]).
     pub fn scene(&self, drive: &Drive, keyframe: usize) -> Scene {
         let neighbours = [previous(drive, keyframe), next(drive, keyframe)];
+        let mut meshes = MeshesNow::new(&self.stock.meshes);
         let mut instances = Vec::with_capacity(self.fixed.len() + self.actors.len());
         let boxes = drive.keyframes.get(keyframe).map_or(&[][..], |k| &k.boxes);
         for annotated in boxes {
@@ -265,17 +285,19 @@ impl Site {
                 velocity_mps: annotated.velocity_mps,
                 keypoints_world: pose.keypoints_world,
             };
-            instances.extend(actor.instance(track_id(annotated.track), keyframe, neighbours, Some(object)));
+            let id = track_id(annotated.track);
+            instances.extend(actor.instance(id, keyframe, neighbours, &mut meshes, Some(object)));
         }
-        instances.extend(self.ego_instance(drive, keyframe, neighbours));
+        instances.extend(self.ego_instance(drive, keyframe, neighbours, &mut meshes));
         instances.sort_by_key(|i| i.id);
         instances.extend(self.fixed.iter().cloned());
-        instances.extend(self.added.iter().filter_map(|added| added.instance(keyframe, neighbours)));
+        instances.extend(self.added.iter().filter_map(|added| added.instance(keyframe, neighbours, &mut meshes)));
+        let others = neighbours.map(|then| self.others(keyframe, then, &mut meshes));
         Scene {
-            meshes: self.stock.meshes.clone(),
+            meshes: meshes.into_meshes(),
             materials: self.stock.materials.clone(),
             instances,
-            others: neighbours.map(|then| self.others(keyframe, then)),
+            others,
             keyframes_apart_s: neighbours.map(|other| apart_s(drive, keyframe, other)),
             light: self.light.clone(),
             provenance: self.provenance.clone(),
@@ -283,15 +305,21 @@ impl Site {
     }
 
     /// Who is there at a keyframe beside and not at this one.
-    fn others(&self, keyframe: usize, beside: Option<usize>) -> Vec<Instance> {
+    fn others(&self, keyframe: usize, beside: Option<usize>, meshes: &mut MeshesNow) -> Vec<Instance> {
         let Some(beside) = beside else { return Vec::new() };
         let tracks = self.actors.iter().enumerate().filter_map(|(i, actor)| Some((track_id(i), actor.as_ref()?)));
         let all = tracks.chain(self.added.iter().map(|added| (added.id, &added.actor)));
         let come_or_gone = all.filter(|(_, actor)| actor.at(keyframe).is_none());
-        come_or_gone.filter_map(|(id, actor)| actor.instance(id, beside, [None; 2], None)).collect()
+        come_or_gone.filter_map(|(id, actor)| actor.instance(id, beside, [None; 2], meshes, None)).collect()
     }
 
-    fn ego_instance(&self, drive: &Drive, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
+    fn ego_instance(
+        &self,
+        drive: &Drive,
+        keyframe: usize,
+        neighbours: [Option<usize>; 2],
+        meshes: &mut MeshesNow,
+    ) -> Option<Instance> {
         let ego = self.actors.last()?.as_ref()?;
         let pose = ego.at(keyframe)?;
         let object = SceneObject {
@@ -302,7 +330,7 @@ impl Site {
             velocity_mps: None,
             keypoints_world: pose.keypoints_world,
         };
-        ego.instance(self.ego_id(drive), keyframe, neighbours, Some(object))
+        ego.instance(self.ego_id(drive), keyframe, neighbours, meshes, Some(object))
     }
 
     /// The number of the recording vehicle.
@@ -352,7 +380,7 @@ impl Site {
 }
 
 impl Added {
-    fn instance(&self, keyframe: usize, neighbours: [Option<usize>; 2]) -> Option<Instance> {
+    fn instance(&self, keyframe: usize, neighbours: [Option<usize>; 2], meshes: &mut MeshesNow) -> Option<Instance> {
         let pose = self.actor.at(keyframe)?;
         let object = SceneObject {
             kind: self.kind,
@@ -362,7 +390,7 @@ impl Added {
             velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
             keypoints_world: pose.keypoints_world,
         };
-        self.actor.instance(self.id, keyframe, neighbours, Some(object))
+        self.actor.instance(self.id, keyframe, neighbours, meshes, Some(object))
     }
 }
 

@@ -25,13 +25,18 @@ pub struct FrameTable {
     /// Number of the variation, from 0.
     #[serde(default)]
     pub variation: u32,
-    /// Index of the keyframe in its drive, from 0.
+    /// Index of the moment in its drive, from 0: of the keyframe, unless there are moments between keyframes
+    /// (`time.rate_hz`).
     pub keyframe: u32,
     /// The dataset's token of the keyframe; empty if there is none.
     #[serde(default)]
     pub keyframe_token: String,
     /// Time of the keyframe, nanoseconds since 1970 UTC.
     pub keyframe_time_ns: i64,
+    /// Index of the recorded keyframe that this is; null at moments between keyframes (`time.rate_hz`), and in folders
+    /// written by earlier versions, which have keyframes alone.
+    #[serde(default)]
+    pub recorded_keyframe: Option<u32>,
     /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`).
     pub view: String,
     /// Time of the middle of the exposure, nanoseconds since 1970 UTC; it differs from the keyframe's.

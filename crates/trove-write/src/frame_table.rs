@@ -19,12 +19,14 @@ pub struct FrameMeta {
     pub place: String,
     /// Which variation of the scene.
     pub variation: u32,
-    /// Index of the keyframe in its drive.
+    /// Index of the keyframe in its drive, among all moments where there are others between.
     pub keyframe: u32,
     /// The dataset's name of the keyframe; empty where there is none.
     pub keyframe_token: String,
     /// Time of the keyframe, nanoseconds since 1970 UTC.
     pub keyframe_time_ns: i64,
+    /// Index of the recorded keyframe that it is; `None` for a moment between keyframes.
+    pub recorded_keyframe: Option<u32>,
     /// The dataset's name of the recorded picture that this view clones; `None` where it clones none.
     pub source_token: Option<String>,
     /// That picture's path below the dataset's root; `None` where it clones none or it is not at hand.
@@ -58,6 +60,7 @@ pub(crate) fn frame_table(
         keyframe: meta.keyframe,
         keyframe_token: meta.keyframe_token.clone(),
         keyframe_time_ns: meta.keyframe_time_ns,
+        recorded_keyframe: meta.recorded_keyframe,
         view: shot.view.clone(),
         time_ns: shot.time_ns,
         source_token: meta.source_token.clone().unwrap_or_default(),

@@ -33,6 +33,7 @@ impl Sweep {
             keyframe: meta.keyframe,
             keyframe_token: meta.keyframe_token.clone(),
             keyframe_time_ns: meta.keyframe_time_ns,
+            recorded_keyframe: meta.recorded_keyframe,
             view: shot.view.clone(),
             time_ns: shot.time_ns,
             begins_s: shot.time_s(0),

@@ -114,6 +114,7 @@ fn meta() -> FrameMeta {
         keyframe: 5,
         keyframe_token: "keyframe".into(),
         keyframe_time_ns: 1_533_151_603_547_590_000,
+        recorded_keyframe: Some(5),
         source_token: Some("picture".into()),
         source_image: Some("samples/CAM_FRONT/a.jpg".into()),
         projection: MapProjection::spherical(42.3, -71.1, DVec2::new(1.0, 2.0)),

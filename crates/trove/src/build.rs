@@ -29,8 +29,8 @@ pub(crate) fn run(
     let report = Report::default();
     let built = BuiltScene::build(recipe, keyframe, &search, &report)?;
     let stats = write_scene(&built, out, environment)?;
-    let BuiltScene { name, keyframe, drive, scene, fits, .. } = built;
-    let area = trove_build::area(&drive).with_context(|| format!("{name}: nothing was recorded"))?;
+    let BuiltScene { name, keyframe, timeline, scene, fits, .. } = built;
+    let area = trove_build::area(&timeline.recorded).with_context(|| format!("{name}: nothing was recorded"))?;
     overview.write(&scene, area, search)?;
     let report = ReportTable::from(&report);
     let json = json!({

@@ -136,7 +136,8 @@ impl ReadyScene {
         let Some(capture) = self.renderer.render(&self.prepared, &shot, !request.labels_only, &following) else {
             return Ok(None);
         };
-        let BuiltScene { name, drive, keyframe, scene, .. } = &self.built;
+        let BuiltScene { name, timeline, keyframe, scene, .. } = &self.built;
+        let drive = timeline.moments().drive;
         let moment = &drive.keyframes[*keyframe];
         let exposure = match shot.viewpoint {
             Viewpoint::Recording { camera } => moment.exposures.iter().find(|e| e.camera == camera),
@@ -150,6 +151,7 @@ impl ReadyScene {
             keyframe: *keyframe as u32,
             keyframe_token: moment.token.clone(),
             keyframe_time_ns: moment.time_ns,
+            recorded_keyframe: timeline.moments().keyframe(*keyframe).map(|k| k as u32),
             source_token: exposure.and_then(|e| e.token.clone()),
             source_image: exposure.and_then(|e| e.file.clone()),
             projection: drive.projection,

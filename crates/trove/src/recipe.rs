@@ -6,6 +6,7 @@ mod light;
 mod season;
 mod sensors;
 mod standpoint;
+mod time;
 mod variations;
 
 use std::collections::BTreeSet;
@@ -30,6 +31,7 @@ pub use light::LightSection;
 pub use season::SeasonChoice;
 pub use sensors::{SensorKind, SensorSection, SensorsSection};
 pub use standpoint::Standpoint;
+pub use time::TimeSection;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
@@ -46,6 +48,9 @@ pub struct Recipe {
     /// The street map.
     #[serde(default)]
     pub map: MapSection,
+    /// Moments between keyframes.
+    #[serde(default, skip_serializing_if = "TimeSection::is_default")]
+    pub time: TimeSection,
     /// Models.
     #[serde(default)]
     pub assets: AssetsSection,
@@ -484,6 +489,7 @@ impl Recipe {
                 ensure!(!names_none, "drive.scenes: expected at least one scene, found none; omit it for all");
             }
         }
+        self.time.check(self.drive.as_ref().map(|drive| &drive.keyframes))?;
         let (render, assets) = (&self.render, &self.assets);
         match (render.scale, render.size) {
             (Some(_), Some(_)) => bail!("expected render.scale or render.size, found both; remove one of them"),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
+use trove_build::Timeline;
 use trove_model::{
     Bounds, Drive, EnvironmentMap, Exposure, Locale, MapProjection, Outcome, Provenance, Report, RigCamera, StreetMap,
 };
@@ -157,13 +158,14 @@ impl<'a> Sources<'a> {
         self.rig.as_deref()
     }
 
-    /// One scene's drive, with the recipe's own rig where it has one, and the map around it.
-    pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {
+    /// One scene's drive, with the recipe's own rig where it has one and at all moments that it asks for, and the map around
+    /// it.
+    pub(crate) fn drive(&self, scene: &str, report: &Report) -> Result<(Timeline, Option<StreetMap>)> {
         let (mut drive, map) = self.recorded(scene, report)?;
         if let Some(rig) = &self.rig {
             carry(&mut drive, rig);
         }
-        Ok((drive, map))
+        Ok((trove_build::between(drive, self.recipe.time.rate_hz, report), map))
     }
 
     fn recorded(&self, scene: &str, report: &Report) -> Result<(Drive, Option<StreetMap>)> {

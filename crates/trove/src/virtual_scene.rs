@@ -1,7 +1,7 @@
 //! A scene of a recipe, built as one of its variations.
 
 use anyhow::Result;
-use trove_build::{MountedLidar, Seeds, Site, ViewPlan, ViewSettings};
+use trove_build::{Moments, MountedLidar, Seeds, Site, Timeline, ViewPlan, ViewSettings};
 use trove_format::Factors;
 use trove_model::{AssetLibrary, Drive, LidarShot, Locale, Report, Scene, Shot, StreetMap};
 
@@ -11,8 +11,8 @@ use crate::variation::Variation;
 
 /// What stands and drives in a scene, and how it is photographed.
 pub(crate) struct VirtualScene<'a> {
-    /// The drive as it was recorded.
-    pub(crate) drive: &'a Drive,
+    /// The moments at which it can be seen.
+    pub(crate) moments: Moments<'a>,
     pub(crate) site: Site,
     /// What the variation differs in, for the manifest.
     pub(crate) factors: Factors,
@@ -27,37 +27,37 @@ impl<'a> VirtualScene<'a> {
     /// Builds variation `number` of what was read; what was read stays as it is, for the other variations.
     pub(crate) fn build(
         sources: &Sources,
-        (drive, map): (&'a Drive, Option<&StreetMap>),
+        (timeline, map): (&'a Timeline, Option<&StreetMap>),
         library: &AssetLibrary,
         number: u32,
         report: &Report,
     ) -> Result<Self> {
-        let recipe = sources.recipe();
+        let (recipe, drive, moments) = (sources.recipe(), &timeline.recorded, timeline.moments());
         let variation = Variation::draw(sources, drive, number, report)?;
         let settings = variation.build_settings(recipe, sources)?;
         let mut views = view_settings(recipe)?;
         variation.change(&mut views);
         let there = Drive { projection: variation.projection(drive.projection), ..drive.clone() };
-        let site = trove_build::build(&there, map, library, &settings, report)?;
+        let site = trove_build::build_at(&there, moments, map, library, &settings, report)?;
         let factors = variation.factors(recipe, &site);
-        let views = ViewPlan::new(drive, &site, views, settings.seeds, report);
+        let views = ViewPlan::new(moments.drive, &site, views, settings.seeds, report);
         let lidars = lidars(recipe, drive, report)?;
-        Ok(Self { drive, site, factors, locale: settings.locale, views, lidars, seeds: settings.seeds })
+        Ok(Self { moments, site, factors, locale: settings.locale, views, lidars, seeds: settings.seeds })
     }
 
-    /// The scene at a keyframe.
-    pub(crate) fn at(&self, keyframe: usize) -> Scene {
-        self.site.scene(self.drive, keyframe)
+    /// The scene at a moment.
+    pub(crate) fn at(&self, moment: usize) -> Scene {
+        self.site.scene(self.moments.drive, moment)
     }
 
-    /// The shots of a keyframe.
-    pub(crate) fn shots(&self, keyframe: usize, report: &Report) -> Vec<Shot> {
-        self.views.shots(self.drive, &self.site, keyframe, report)
+    /// The shots of a moment.
+    pub(crate) fn shots(&self, moment: usize, report: &Report) -> Vec<Shot> {
+        self.views.shots(self.moments.drive, &self.site, moment, report)
     }
 
-    /// The LiDARs' sweeps of a keyframe.
-    pub(crate) fn lidar_shots(&self, keyframe: usize) -> Vec<LidarShot> {
-        trove_build::lidar_shots(self.drive, &self.site, keyframe, &self.lidars, &self.seeds)
+    /// The LiDARs' sweeps of a moment.
+    pub(crate) fn lidar_shots(&self, moment: usize) -> Vec<LidarShot> {
+        trove_build::lidar_shots(self.moments.drive, &self.site, moment, &self.lidars, &self.seeds)
     }
 }
 

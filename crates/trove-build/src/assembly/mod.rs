@@ -1,5 +1,6 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
+mod postures;
 mod stock;
 mod weather;
 
@@ -12,15 +13,14 @@ use trove_model::{
     Provenance, SceneObject, StreetMap,
 };
 
+use crate::between::{Moments, is_tremor};
 use crate::pieces::{Piece, Scenery};
-use crate::placement::Role;
+use crate::placement::{Role, Shown};
 
+pub(crate) use postures::MeshesNow;
+use postures::Posed;
 pub(crate) use stock::Stock;
 pub use weather::Weather;
-
-/// Motion from keyframe to keyframe that is no motion.
-const TREMOR_M: f64 = 0.02;
-const TREMOR_RAD: f64 = 0.005;
 
 /// What gets farther than this does not stand.
 const LEAVES_M: f64 = 1.0;
@@ -34,19 +34,19 @@ pub(crate) struct Actor {
     assets: Vec<String>,
     /// Of each slot.
     pub materials: Vec<usize>,
-    /// By keyframe, in the order of time.
+    /// By moment, in the order of time.
     poses: Vec<(usize, ActorPose)>,
 }
 
-/// An actor at one keyframe.
+/// An actor at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ActorPose {
     /// Placement of its mesh.
     pub world_from_mesh: DAffine3,
     /// Its box as placed.
     pub cuboid: Cuboid,
-    /// Index of its mesh.
-    mesh: usize,
+    /// Its shape.
+    posed: Posed,
     /// Index of its asset among the actor's.
     asset: usize,
     /// Points of the person whom it shows, World.
@@ -77,19 +77,20 @@ impl Actor {
         id: InstanceId,
         keyframe: usize,
         [previous, next]: [Option<usize>; 2],
+        meshes: &mut MeshesNow,
         object: Option<SceneObject>,
     ) -> Option<Instance> {
-        let placement = |k: Option<usize>| {
-            let &ActorPose { mesh, world_from_mesh, .. } = self.at(k?)?;
-            Some(Placement { mesh, world_from_mesh })
+        let mut placement = |k: Option<usize>| {
+            let &ActorPose { posed, world_from_mesh, .. } = self.at(k?)?;
+            Some(Placement { mesh: meshes.index(posed), world_from_mesh })
         };
-        let pose = self.at(keyframe)?;
+        let Placement { mesh, world_from_mesh } = placement(Some(keyframe))?;
         Some(Instance {
             id,
             class: self.class,
-            mesh: pose.mesh,
+            mesh,
             materials: self.materials.clone(),
-            world_from_mesh: pose.world_from_mesh,
+            world_from_mesh,
             previous: placement(previous),
             next: placement(next),
             object: object.map(Arc::new),
@@ -97,16 +98,21 @@ impl Actor {
     }
 }
 
-/// Gives each pose that is the one before it but for an annotator's tremor that pose, so that what stands has no flow
-/// of its own.
-fn hold_still(poses: &mut [(usize, ActorPose)]) {
+/// Gives each pose at a keyframe that is the one at the keyframe before but for an annotator's tremor that pose, so that what
+/// stands has no flow of its own. Between the two it stands already.
+fn hold_still(poses: &mut [(usize, ActorPose)], moments: Moments) {
+    let mut last = 0;
     for i in 1..poses.len() {
-        let before = poses[i - 1].1;
-        let (was, is) = (before.cuboid.world_from_body, poses[i].1.cuboid.world_from_body);
-        let turned_rad = was.rotation.angle_between(is.rotation);
-        if was.translation.distance(is.translation) < TREMOR_M && turned_rad < TREMOR_RAD {
-            poses[i].1 = before;
+        if moments.keyframe(poses[i].0).is_none() {
+            continue;
         }
+        let before = poses[last].1;
+        let at = |pose: &ActorPose| (pose.cuboid.world_from_body.rotation, pose.cuboid.world_from_body.translation);
+        let stands = poses[last + 1..i].iter().all(|(_, pose)| is_tremor(at(&before), at(pose)));
+        if stands && is_tremor(at(&before), at(&poses[i].1)) {
+            poses[last + 1..=i].iter_mut().for_each(|(_, pose)| *pose = before);
+        }
+        last = i;
     }
 }
 
@@ -123,10 +129,10 @@ pub(crate) struct Assembly {
 
 impl Assembly {
     /// Takes a recorded object.
-    pub(crate) fn actor(&mut self, role: &Role) -> Actor {
+    pub(crate) fn actor(&mut self, role: &Role, moments: Moments) -> Actor {
         let mut assets: Vec<String> = Vec::new();
         let mut poses = Vec::with_capacity(role.placements.len());
-        for ((k, placement), &shown) in role.placements.iter().zip(&role.postures) {
+        for ((k, placement), &Shown { asset: shown, towards }) in role.placements.iter().zip(&role.postures) {
             self.credit(shown);
             let known = assets.iter().position(|id| *id == shown.id);
             let asset = known.unwrap_or_else(|| {
@@ -134,12 +140,23 @@ impl Assembly {
                 assets.len() - 1
             });
             let mesh = self.stock.individual(shown, role.is_driven, role.seed);
+            let towards = towards.map(|(other, share)| {
+                self.credit(other);
+                (other, self.stock.individual(other, role.is_driven, role.seed), share)
+            });
             let world_from_mesh = role.world_from_mesh(placement);
             let world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3());
-            let keypoints_world = shown.keypoints.map(|points| points.map(world));
-            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, mesh, asset, keypoints_world }));
+            let keypoints = match towards.and_then(|(other, _, share)| Some((other.keypoints?, share))) {
+                Some((others, share)) => {
+                    shown.keypoints.map(|points| std::array::from_fn(|i| points[i].lerp(others[i], share)))
+                }
+                None => shown.keypoints,
+            };
+            let posed = Posed { mesh, towards: towards.map(|(_, mesh, share)| (mesh, share)) };
+            let keypoints_world = keypoints.map(|points| points.map(world));
+            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, posed, asset, keypoints_world }));
         }
-        hold_still(&mut poses);
+        hold_still(&mut poses, moments);
         Actor { class: role.asset.class, assets, materials: self.stock.painted(role.asset, role.seed), poses }
     }
 
@@ -228,11 +245,18 @@ mod tests {
         let at = |x: f64| {
             let cuboid = Cuboid { world_from_body: Pose::from_yaw(0.0, DVec3::new(x, 0.0, 0.5)), size_m: DVec3::ONE };
             let world_from_mesh = DAffine3::from_translation(DVec3::X * x);
-            ActorPose { world_from_mesh, cuboid, mesh: 0, asset: 0, keypoints_world: None }
+            ActorPose {
+                world_from_mesh,
+                cuboid,
+                posed: Posed { mesh: 0, towards: None },
+                asset: 0,
+                keypoints_world: None,
+            }
         };
         let mut poses: Vec<(usize, ActorPose)> =
             [0.0, 0.008, 0.016, 0.024, 1.0].into_iter().map(at).enumerate().collect();
-        hold_still(&mut poses);
+        let drive = crate::testing::drive();
+        hold_still(&mut poses, Moments::of_keyframes(&drive));
         let placed: Vec<f64> = poses.iter().map(|(_, pose)| pose.world_from_mesh.translation.x).collect();
         assert_eq!(placed, [0.0, 0.0, 0.0, 0.024, 1.0]);
     }

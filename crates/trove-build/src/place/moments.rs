@@ -2,8 +2,7 @@
 
 use trove_model::Drive;
 
-/// Keyframes further apart than this are not neighbours, nanoseconds: what moved between them cannot be told.
-const MAX_STEP_NS: i64 = 2_000_000_000;
+use crate::between::MAX_STEP_NS;
 
 /// The keyframe before, where the recording runs through.
 pub(crate) fn previous(drive: &Drive, keyframe: usize) -> Option<usize> {

@@ -9,7 +9,9 @@ use super::choice::{self, Candidate, ObjectFit, draw, measure, object_fit, ranke
 use super::fit::Fit;
 use super::gait::{Gait, Mode};
 use super::rows::rows;
+use super::shown::Shown;
 use super::stand::{Placement, Stand};
+use crate::between::Moments;
 use crate::place::Seeds;
 
 /// A living thing annotated higher than this above the ground stands on something, metres.
@@ -28,10 +30,10 @@ pub(crate) struct Role<'a> {
     pub seed: Seed,
     /// It moves by itself or is ridden at some time.
     pub is_driven: bool,
-    /// Where it stands, by keyframe, in the order of time.
+    /// Where it stands, by moment, in the order of time.
     pub placements: Vec<(usize, Placement)>,
-    /// The asset at each of the placements.
-    pub postures: Vec<&'a Asset>,
+    /// What is seen of it at each of the placements.
+    pub postures: Vec<Shown<'a>>,
 }
 
 impl Role<'_> {
@@ -51,8 +53,10 @@ pub(crate) struct Cast<'a> {
 
 /// What assets are chosen with.
 pub(crate) struct Casting<'a, 'b> {
-    /// Its keyframes tell the times, its recording vehicle is cast too.
+    /// Its boxes decide who is cast, and its recording vehicle is cast too.
     pub drive: &'b Drive,
+    /// When they are seen.
+    pub moments: Moments<'b>,
     /// Who there is.
     pub library: &'a AssetLibrary,
     /// The ground.
@@ -67,6 +71,8 @@ pub(crate) struct Casting<'a, 'b> {
 
 /// What a track is cast by beside its boxes.
 struct Part<'a> {
+    /// Its boxes at all moments, by moment; `None` where these are the keyframes.
+    at_moments: Option<&'a Track>,
     /// The token of the first of its row, and the row's middle size.
     row: (&'a str, DVec3),
     /// Its speed, for whom a single box shows none; `None` where that is not known.
@@ -89,7 +95,11 @@ impl<'a> Casting<'a, '_> {
             let cast = median_size_m(&boxes).and_then(|size_m| {
                 // A row is of one make, which fits its middle size.
                 let row_size_m = row_size_m(self.drive, &rows, first).unwrap_or(size_m);
-                let part = Part { row: (&tracks[first].token, row_size_m), alone_mps: self.annotated_mps(i, track) };
+                let part = Part {
+                    at_moments: self.moments.are_between().then(|| self.moments.drive.tracks.get(i)).flatten(),
+                    row: (&tracks[first].token, row_size_m),
+                    alone_mps: self.annotated_mps(i, track),
+                };
                 self.role(track, &boxes, size_m, &part)
             });
             roles.push(cast.map(|(role, fit)| {
@@ -102,11 +112,11 @@ impl<'a> Casting<'a, '_> {
         Cast { roles, fits }
     }
 
-    /// Chooses an asset for someone whom nobody recorded.
-    pub(crate) fn added(&self, track: &Track, speed_mps: f64) -> Option<Role<'a>> {
+    /// Chooses an asset for someone whom nobody recorded, of whom there are boxes at keyframes and at all moments.
+    pub(crate) fn added(&self, track: &Track, at_moments: Option<&Track>, speed_mps: f64) -> Option<Role<'a>> {
         let boxes = self.sound_boxes(track);
         let size_m = median_size_m(&boxes)?;
-        let part = Part { row: (&track.token, size_m), alone_mps: Some(speed_mps) };
+        let part = Part { at_moments, row: (&track.token, size_m), alone_mps: Some(speed_mps) };
         Some(self.role(track, &boxes, size_m, &part)?.0)
     }
 
@@ -133,7 +143,7 @@ impl<'a> Casting<'a, '_> {
         size_m: DVec3,
         part: &Part,
     ) -> Option<(Role<'a>, ObjectFit)> {
-        let Self { drive, library, stand, top_k, seeds, report } = *self;
+        let Self { drive, moments, library, stand, top_k, seeds, report } = *self;
         let (first, row_size_m) = part.row;
         let seed = individual_seed(track.kind, seeds).child(&track.token);
         let row_seed = choice_seed(track.kind, seeds).child(first);
@@ -156,22 +166,30 @@ impl<'a> Casting<'a, '_> {
         let place = |(k, cuboid): &(usize, Cuboid)| {
             (*k, if stays_up { stand.keep(cuboid) } else { stand.place(cuboid, track.kind) })
         };
-        let placements = boxes.iter().map(place).collect();
-        let postures = gait.postures(asset, library.of_kind(track.kind), fit.scale.z, seed);
-        let role = Role { asset, fit, seed, is_driven: gait.moves(), placements, postures };
+        let is_driven = gait.moves();
+        let (placements, gait) = match part.at_moments {
+            None => (boxes.iter().map(place).collect(), gait),
+            Some(at_moments) => {
+                let at_moments: Vec<_> = at_moments.boxes.iter().filter(|(_, c)| is_sound(c)).copied().collect();
+                let gait = gait.at_moments(moments, boxes, &at_moments);
+                (at_moments.iter().map(place).collect(), gait)
+            }
+        };
+        let postures = gait.postures(asset, library.of_kind(track.kind), fit.scale.x, seed);
+        let role = Role { asset, fit, seed, is_driven, placements, postures };
         Some((role, object_fit(track, size_m, &Candidate { asset, fit }, &ranked)))
     }
 
-    /// The recording vehicle at every keyframe, in its own body.
+    /// The recording vehicle at every moment, in its own body.
     fn ego(&self) -> Option<Role<'a>> {
-        let Self { drive, library, stand, top_k, seeds, .. } = *self;
+        let Self { drive, moments, library, stand, top_k, seeds, .. } = *self;
         let body = drive.ego_body;
         let ranked = ranked(library.of_kind(Kind::Car), body.size_m, Kind::Car);
         let Candidate { asset, fit } = draw(&ranked, top_k, choice_seed(Kind::Car, seeds).child("ego"))?;
         let seed = individual_seed(Kind::Car, seeds).child("ego");
         let place = |(k, keyframe): (usize, &Keyframe)| (k, stand.place(&ego_cuboid(drive, keyframe), Kind::Car));
-        let placements: Vec<(usize, Placement)> = drive.keyframes.iter().enumerate().map(place).collect();
-        let postures = vec![asset; placements.len()];
+        let placements: Vec<(usize, Placement)> = moments.drive.keyframes.iter().enumerate().map(place).collect();
+        let postures = vec![asset.into(); placements.len()];
         Some(Role { asset, fit, seed, is_driven: true, placements, postures })
     }
 }
@@ -258,7 +276,8 @@ mod tests {
         report: &Report,
     ) -> Vec<Option<Role<'a>>> {
         let seeds = seed.into();
-        Casting { drive, library, stand, top_k, seeds: &seeds, report }.recorded(&BTreeSet::new()).roles
+        let moments = Moments::of_keyframes(drive);
+        Casting { drive, moments, library, stand, top_k, seeds: &seeds, report }.recorded(&BTreeSet::new()).roles
     }
 
     fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {

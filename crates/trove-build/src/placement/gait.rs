@@ -3,6 +3,9 @@
 use glam::DVec3;
 use trove_model::{Asset, Class, Cuboid, Drive, Kind, Posture, Seed};
 
+use super::shown::Shown;
+use crate::between::Moments;
+
 /// Slower than this is standing, m/s: annotators' hands tremble.
 const WALKS_MPS: f64 = 0.35;
 /// Faster than this is running, m/s (people change over at about 2 m/s: Hreljac 1993, Human Movement Science).
@@ -45,6 +48,8 @@ pub(super) struct Gait {
     way_m: Vec<f64>,
     /// Only the box itself tells the posture, so whose fits it best stays.
     by_size: bool,
+    /// Whether the boxes are so dense that phases are wanted as they are, not as the nearest of the library's.
+    flows: bool,
 }
 
 impl Gait {
@@ -57,11 +62,6 @@ impl Gait {
         alone_mps: Option<f64>,
     ) -> Self {
         let time_s = |k: usize| drive.keyframes.get(k).map_or(0.0, |k| k.time_ns as f64 * 1e-9);
-        let step_m = |a: &Cuboid, b: &Cuboid| {
-            let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
-            let moved = b.world_from_body.translation - a.world_from_body.translation;
-            (moved.x * cos + moved.y * sin, moved.truncate().length())
-        };
         let mut way_m = vec![0.0; boxes.len()];
         let mut speeds_mps: Vec<f64> = vec![alone_mps.unwrap_or(0.0); boxes.len()];
         let by_size = boxes.len() == 1 && alone_mps.is_none() && kind.class() == Class::Human;
@@ -83,7 +83,26 @@ impl Gait {
             v if v < RUNS_MPS => Mode::Walking,
             _ => Mode::Running,
         };
-        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, by_size }
+        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, by_size, flows: false }
+    }
+
+    /// The same at all moments, of which the track's boxes there are: who walks to a keyframe walks up to it.
+    pub(super) fn at_moments(
+        &self,
+        moments: Moments,
+        boxes: &[(usize, Cuboid)],
+        at_moments: &[(usize, Cuboid)],
+    ) -> Self {
+        let mut modes = Vec::with_capacity(at_moments.len());
+        let mut way_m = Vec::with_capacity(at_moments.len());
+        let starts: Vec<usize> = boxes.iter().map(|(k, _)| moments.of_keyframe(*k)).collect();
+        for (i, (moment, now)) in at_moments.iter().enumerate() {
+            let next = starts.partition_point(|start| start < moment).min(self.modes.len().saturating_sub(1));
+            modes.push(self.modes.get(next).copied().unwrap_or(Mode::Standing));
+            let before = i.checked_sub(1).map(|i| (way_m[i], &at_moments[i].1));
+            way_m.push(before.map_or(0.0, |(way_m, before): (f64, _)| way_m + step_m(before, now).0));
+        }
+        Self { modes, way_m, by_size: self.by_size, flows: true }
     }
 
     /// Whether it is ever on its way.
@@ -98,16 +117,16 @@ impl Gait {
         all.into_iter().rev().max_by_key(count).unwrap_or(Mode::Standing)
     }
 
-    /// For each box the asset of the chosen one's person that is in the right posture, which is the chosen one where
-    /// the library has no such posture; `scale` is how much larger than the asset the person is.
+    /// For each box what of the chosen one's person is in the right posture, which is the chosen one where the library has
+    /// no such posture; `scale` is how much longer than the asset's the person's steps are.
     pub(super) fn postures<'a>(
         &self,
         chosen: &'a Asset,
         library: impl Iterator<Item = &'a Asset>,
         scale: f64,
         seed: Seed,
-    ) -> Vec<&'a Asset> {
-        let Some(figure) = &chosen.figure else { return vec![chosen; self.modes.len()] };
+    ) -> Vec<Shown<'a>> {
+        let Some(figure) = &chosen.figure else { return vec![chosen.into(); self.modes.len()] };
         let is_same = |asset: &&'a Asset| asset.figure.as_ref().is_some_and(|f| f.person == figure.person);
         let postures: Vec<&'a Asset> = library.filter(is_same).filter(|a| shows_the_same(a, chosen)).collect();
         let of_mode = |mode: Mode| postures.iter().copied().filter(move |a| Mode::of(a) == Some(mode));
@@ -117,16 +136,13 @@ impl Gait {
         let posture = |(mode, way_m): (&Mode, &f64)| {
             let found = match mode {
                 // Who was chosen in this mode stays as chosen.
-                _ if self.by_size && Mode::of(chosen) == Some(*mode) => Some(chosen),
-                Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen),
-                Mode::Standing => drawn(&still[0]),
-                Mode::Sitting => drawn(&still[1]),
-                Mode::Walking | Mode::Running => of_mode(*mode).min_by(|a, b| {
-                    let off = |asset: &Asset| phase_off(asset, start, *way_m / scale);
-                    off(a).total_cmp(&off(b))
-                }),
+                _ if self.by_size && Mode::of(chosen) == Some(*mode) => Some(chosen.into()),
+                Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen.into()),
+                Mode::Standing => drawn(&still[0]).map(Shown::from),
+                Mode::Sitting => drawn(&still[1]).map(Shown::from),
+                Mode::Walking | Mode::Running => in_phase(of_mode(*mode), start, *way_m / scale, self.flows),
             };
-            found.unwrap_or(chosen)
+            found.unwrap_or(chosen.into())
         };
         self.modes.iter().zip(&self.way_m).map(posture).collect()
     }
@@ -141,17 +157,35 @@ fn shows_the_same(a: &Asset, b: &Asset) -> bool {
     a.mesh.triangles == b.mesh.triangles && a.mesh.slots == b.mesh.slots && materials(a).eq(materials(b))
 }
 
-/// How far an asset's phase is from the one that a way leads to, 0 to 0.5 of the cycle.
-fn phase_off(asset: &Asset, start: f64, way_m: f64) -> f64 {
-    let Some((phase, stride_m)) = asset.figure.as_ref().and_then(|f| match f.posture {
-        Posture::Walking { phase, stride_m } | Posture::Running { phase, stride_m } => Some((phase, stride_m)),
-        Posture::Standing | Posture::Sitting => None,
-    }) else {
-        return 0.5;
+/// How far a box is from another, metres: along that one's heading, and in all.
+fn step_m(a: &Cuboid, b: &Cuboid) -> (f64, f64) {
+    let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
+    let moved = b.world_from_body.translation - a.world_from_body.translation;
+    (moved.x * cos + moved.y * sin, moved.truncate().length())
+}
+
+/// What of some phases shows the one to which a way leads: the nearest, or where it `flows` what is between the one before
+/// and the one after it. A foot on the ground is as far back in each phase as the way has led on, and so it is between two.
+fn in_phase<'a>(phases: impl Iterator<Item = &'a Asset>, start: f64, way_m: f64, flows: bool) -> Option<Shown<'a>> {
+    // How far the wanted phase is past each, 0 to below 1 of the cycle.
+    let past = |asset: &'a Asset| {
+        let (phase, stride_m) = match asset.figure.as_ref()?.posture {
+            Posture::Walking { phase, stride_m } | Posture::Running { phase, stride_m } => (phase, stride_m),
+            Posture::Standing | Posture::Sitting => return None,
+        };
+        let wanted = start + way_m / f64::from(stride_m).max(0.1);
+        Some(((wanted - f64::from(phase)).rem_euclid(1.0), asset))
     };
-    let wanted = start + way_m / f64::from(stride_m).max(0.1);
-    let off = (wanted - f64::from(phase)).rem_euclid(1.0);
-    off.min(1.0 - off)
+    let phases: Vec<(f64, &Asset)> = phases.filter_map(past).collect();
+    let (behind, before) = phases.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (passed, after) = phases.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let ahead = 1.0 - passed;
+    let share = behind / (behind + ahead);
+    Some(match flows {
+        true => Shown::between(before, after, share),
+        // Of two that are as near the earlier in the library.
+        false => phases.iter().min_by(|a, b| a.0.min(1.0 - a.0).total_cmp(&b.0.min(1.0 - b.0)))?.1.into(),
+    })
 }
 
 #[cfg(test)]
@@ -199,13 +233,15 @@ mod tests {
         let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), SIZE_M, Kind::Adult, Some(0.0));
         assert_eq!(gait.main_mode(), Mode::Walking, "{apart_s}");
         let postures = gait.postures(&people[0], people.iter(), 1.0, Seed(1));
-        let phases: Vec<f32> = postures.iter().map(|a| phase(a).unwrap()).collect();
+        let phases: Vec<f32> = postures.iter().map(|shown| phase(shown.asset).unwrap()).collect();
         for pair in phases.windows(2) {
             assert!(((pair[1] - pair[0]).rem_euclid(1.0) - 0.625).abs() < 1e-6, "{phases:?}");
         }
         let still = Gait::new(&drive, &boxes(0.01), SIZE_M, Kind::Adult, Some(0.0));
         assert_eq!(still.main_mode(), Mode::Standing);
-        assert!(still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == people[8].id));
+        assert!(
+            still.postures(&people[8], people.iter(), 1.0, Seed(1)).iter().all(|shown| shown.asset.id == people[8].id)
+        );
     }
 
     #[test]
@@ -221,8 +257,8 @@ mod tests {
         let gait = Gait::new(&drive, &boxes(1.4 * 5.0 / 8.0), SIZE_M, Kind::Adult, Some(0.0));
         for (chosen, expect) in [(0, [0.0, 0.25, 0.5].as_slice()), (1, &[0.125, 0.375, 0.625, 0.75, 0.875])] {
             let postures = gait.postures(&people[chosen], people.iter(), 1.0, Seed(1));
-            let shown = |asset: &&Asset| expect.contains(&phase(asset).unwrap());
-            assert!(postures.iter().all(shown), "{chosen}");
+            let fits = |shown: &Shown| expect.contains(&phase(shown.asset).unwrap());
+            assert!(postures.iter().all(fits), "{chosen}");
         }
     }
 
@@ -238,7 +274,7 @@ mod tests {
         let long = new(1.2, None);
         assert_eq!(long.main_mode(), Mode::Walking);
         for chosen in &people[..8] {
-            assert_eq!(long.postures(chosen, people.iter(), 1.0, Seed(1))[0].id, chosen.id);
+            assert_eq!(long.postures(chosen, people.iter(), 1.0, Seed(1))[0].asset.id, chosen.id);
         }
     }
 
@@ -250,6 +286,6 @@ mod tests {
         assert!(Mode::Sitting.allows(&people[9]) && !Mode::Sitting.allows(&people[0]));
         let car = testing::asset("car/a", Kind::Car, [4.5, 1.8, 1.5]);
         assert!(Mode::Walking.allows(&car));
-        assert!(gait.postures(&car, people.iter(), 1.0, Seed(1)).iter().all(|a| a.id == "car/a"));
+        assert!(gait.postures(&car, people.iter(), 1.0, Seed(1)).iter().all(|shown| shown.asset.id == "car/a"));
     }
 }

@@ -13,6 +13,7 @@ use std::ops::Range;
 use trove_model::{Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
 
 use crate::assembly::Assembly;
+use crate::between::Moments;
 use crate::place::{Place, next, previous};
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
@@ -44,6 +45,8 @@ const TRIES: usize = 40;
 pub(crate) struct RoadUser {
     /// Whose token is of no dataset: it tells road users of one place apart.
     pub track: Track,
+    /// The same with boxes at all moments, where these are not the keyframes.
+    pub at_moments: Option<Track>,
     /// Along its own heading, always the same.
     pub speed_mps: f64,
 }
@@ -81,6 +84,7 @@ pub(crate) fn added(
     absent: &BTreeSet<usize>,
     clearance: &Clearance,
     assembly: &Assembly,
+    moments: Moments,
     traffic: Traffic,
     seed: Seed,
 ) -> Vec<RoadUser> {
@@ -106,7 +110,11 @@ pub(crate) fn added(
             for (motion, visit) in group.iter().zip(visits) {
                 if users.len() < wanted {
                     room.take(&visit);
-                    users.push(user(around, motion, &visit, users.len()));
+                    let user = user(around, motion, &visit, users.len());
+                    users.push(RoadUser {
+                        at_moments: at_moments(around, motion, &user.track, keyframe, moments),
+                        ..user
+                    });
                     report.note(Outcome::Guessed, "road user added for more traffic", doing);
                 }
             }
@@ -137,11 +145,39 @@ fn run(drive: &Drive, keyframe: usize) -> Range<usize> {
 
 /// The track of a visit, on the ground.
 fn user(around: &Surroundings, motion: &Motion, visit: &room::Visit, number: usize) -> RoadUser {
-    let cuboid = |outline: &room::Outline| Cuboid {
+    let boxes = visit.at_keyframes().map(|(k, outline)| (k, on_ground(around, motion, outline))).collect();
+    let token = format!("added {number}");
+    RoadUser { track: Track { token, kind: motion.kind, boxes }, at_moments: None, speed_mps: motion.speed_mps }
+}
+
+/// The same track with a box at every moment from its first keyframe to its last; `keyframe` is the one for which the motion
+/// was drawn.
+fn at_moments(
+    around: &Surroundings,
+    motion: &Motion,
+    track: &Track,
+    keyframe: usize,
+    moments: Moments,
+) -> Option<Track> {
+    let (first, last) = (track.boxes.first()?.0, track.boxes.last()?.0);
+    if !moments.are_between() {
+        return None;
+    }
+    let start_ns = around.place.drive.keyframes[keyframe].time_ns;
+    let visited = moments.of_keyframe(first)..=moments.of_keyframe(last);
+    let times = visited.clone().map(|m| (moments.drive.keyframes[m].time_ns - start_ns) as f64 * 1e-9);
+    let poses = motion.poses(times);
+    let half_m = motion.size_m.truncate() / 2.0;
+    let boxes = visited.zip(poses).filter_map(|(moment, pose)| {
+        let [centre, along] = pose?;
+        Some((moment, on_ground(around, motion, &room::Outline { centre, along, half_m })))
+    });
+    Some(Track { boxes: boxes.collect(), ..track.clone() })
+}
+
+fn on_ground(around: &Surroundings, motion: &Motion, outline: &room::Outline) -> Cuboid {
+    Cuboid {
         world_from_body: outline.world_from_body(around.stand.surface_m(outline.centre) + motion.size_m.z / 2.0),
         size_m: motion.size_m,
-    };
-    let boxes = visit.at_keyframes().map(|(k, outline)| (k, cuboid(outline))).collect();
-    let token = format!("added {number}");
-    RoadUser { track: Track { token, kind: motion.kind, boxes }, speed_mps: motion.speed_mps }
+    }
 }

@@ -40,6 +40,7 @@ fn frame(i: u32) -> FrameTable {
         keyframe: i,
         keyframe_token: String::new(),
         keyframe_time_ns: 0,
+        recorded_keyframe: Some(0),
         view: "ego.CAM_FRONT".into(),
         time_ns: 0,
         source_token: String::new(),

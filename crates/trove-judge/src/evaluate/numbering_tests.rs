@@ -65,6 +65,7 @@ fn frame(folder: &Path, ids: &[u8], instances: &[u16], kinds: &[Kind]) {
         keyframe: 0,
         keyframe_token: String::new(),
         keyframe_time_ns: 0,
+        recorded_keyframe: Some(0),
         view: "ego.A".into(),
         time_ns: 0,
         source_token: String::new(),

@@ -93,6 +93,7 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         keyframe: made.keyframe,
         keyframe_token: String::new(),
         keyframe_time_ns,
+        recorded_keyframe: Some(made.keyframe),
         view: made.view.into(),
         time_ns: keyframe_time_ns + 10_000_000,
         source_token: String::new(),

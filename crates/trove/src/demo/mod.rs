@@ -61,7 +61,8 @@ mod tests {
         let recipe = recipe(dir.path()).unwrap();
         let report = Report::default();
         let sources = crate::sources::Sources::open(&recipe, &report).unwrap();
-        let (drive, map) = sources.drive("demo-0001", &report).unwrap();
+        let (timeline, map) = sources.drive("demo-0001", &report).unwrap();
+        let drive = timeline.recorded;
         assert_eq!((drive.keyframes.len(), drive.rig.len()), (tables::KEYFRAMES, 6));
         assert!(drive.keyframes.iter().all(|k| k.boxes.len() >= 25 && k.exposures.len() == 6));
         let kinds: std::collections::BTreeSet<_> = drive.tracks.iter().map(|track| track.kind).collect();

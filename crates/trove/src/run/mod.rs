@@ -15,8 +15,9 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use rayon::Scope;
+use trove_build::Moments;
 use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
-use trove_model::{AssetLibrary, Capture, Drive, LidarShot, Outcome, PointCloud, Report, Scene, Shot, Viewpoint};
+use trove_model::{AssetLibrary, Capture, LidarShot, Outcome, PointCloud, Report, Scene, Shot, Viewpoint};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{Frame, FrameFolders, FrameMeta, Sweep, WriteError};
 
@@ -221,13 +222,13 @@ fn write(folders: &FrameFolders, Job { path, scene, meta, taken }: Job) -> Writt
 /// A scene of one variation, ready to be photographed.
 struct Built<'a> {
     scene: VirtualScene<'a>,
-    /// Shots of each chosen keyframe.
+    /// Shots of each chosen moment.
     shots: Vec<(u32, Vec<Shot>)>,
-    /// Sweeps of each chosen keyframe.
+    /// Sweeps of each chosen moment.
     sweeps: Vec<(u32, Vec<LidarShot>)>,
 }
 
-/// A keyframe's scene, made ready.
+/// A moment's scene, made ready.
 struct Photographed {
     scene: Arc<Scene>,
     prepared: PreparedScene,
@@ -311,18 +312,19 @@ impl Run<'_> {
 
     fn build<'r>(&mut self, read: &'r Read<'_>, variation: u32) -> Result<(SiteFile, Built<'r>)> {
         let recording = read.recording(&self.sources, &mut self.contents)?.clone();
-        let (drive, map, report) = read.drive(&self.sources)?;
+        let (timeline, map, report) = read.drive(&self.sources)?;
         let report = report.clone();
-        let built = VirtualScene::build(&self.sources, (drive, map.as_ref()), &self.library, variation, &report)?;
+        let built = VirtualScene::build(&self.sources, (timeline, map.as_ref()), &self.library, variation, &report)?;
         let keyframes = match &self.recipe.drive {
-            Some(section) => section.keyframes.of(drive.keyframes.len())?,
-            None => (0..drive.keyframes.len()).collect(),
+            Some(section) => section.keyframes.of(timeline.recorded.keyframes.len())?,
+            None => (0..timeline.recorded.keyframes.len()).collect(),
         };
-        let shots: Vec<(u32, Vec<Shot>)> = keyframes.iter().map(|&k| (k as u32, built.shots(k, &report))).collect();
-        let sweeps: Vec<(u32, Vec<LidarShot>)> = keyframes.iter().map(|&k| (k as u32, built.lidar_shots(k))).collect();
+        let moments = timeline.moments().chosen(&keyframes);
+        let shots: Vec<(u32, Vec<Shot>)> = moments.iter().map(|&k| (k as u32, built.shots(k, &report))).collect();
+        let sweeps: Vec<(u32, Vec<LidarShot>)> = moments.iter().map(|&k| (k as u32, built.lidar_shots(k))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
-            drive: drive.into(),
+            drive: (&timeline.recorded).into(),
             sources: built.site.provenance().iter().map(Into::into).collect(),
             report: (&report).into(),
             fits: fit_rows(built.site.fits()),
@@ -404,7 +406,7 @@ impl Run<'_> {
         before: Option<&Photographed>,
         prepare_s: f64,
     ) -> Result<Job, Stop> {
-        let (shot, drive) = (key.of(&built.shots, |shot| &shot.view)?, built.scene.drive);
+        let (shot, moments) = (key.of(&built.shots, |shot| &shot.view)?, built.scene.moments);
         self.progress.say(&key.path());
         let within = |share: f32| {
             self.progress.within(share);
@@ -417,7 +419,7 @@ impl Run<'_> {
         let after = (&**scene, prepared);
         capture.change = before.map(|b| self.renderer.changes((&b.scene, &b.prepared), after, shot));
         let render_s = started.elapsed().as_secs_f64();
-        let moment = &drive.keyframes[key.keyframe as usize];
+        let moment = &moments.drive.keyframes[key.keyframe as usize];
         let exposure = match shot.viewpoint {
             Viewpoint::Recording { camera } => moment.exposures.iter().find(|e| e.camera == camera),
             Viewpoint::OtherVehicle { .. } | Viewpoint::Free => None,
@@ -425,7 +427,7 @@ impl Run<'_> {
         let meta = FrameMeta {
             source_token: exposure.and_then(|e| e.token.clone()),
             source_image: exposure.and_then(|e| e.file.clone()),
-            ..meta(key, drive)
+            ..meta(key, moments)
         };
         let path = key.path();
         self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s });
@@ -442,14 +444,14 @@ impl Run<'_> {
         photographed: &Photographed,
         prepare_s: f64,
     ) -> Result<Job, Stop> {
-        let (shot, drive) = (key.of(&built.sweeps, |shot| &shot.view)?, built.scene.drive);
+        let (shot, moments) = (key.of(&built.sweeps, |shot| &shot.view)?, built.scene.moments);
         let path = key.path();
         self.progress.say(&path);
         let started = Instant::now();
         let cloud = self.renderer.sweep(&photographed.prepared, shot);
         self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s: started.elapsed().as_secs_f64() });
         let taken = Taken::Sweep { shot: Box::new(shot.clone()), cloud };
-        Ok(Job { path, scene: photographed.scene.clone(), meta: meta(key, drive), taken })
+        Ok(Job { path, scene: photographed.scene.clone(), meta: meta(key, moments), taken })
     }
 
     /// Lets one of the renderer's threads write a frame, once there is room for it.
@@ -546,7 +548,8 @@ impl Built<'_> {
 }
 
 /// What is told of a view that clones no recorded picture and has no vehicle.
-fn meta(key: &FrameKey, drive: &Drive) -> FrameMeta {
+fn meta(key: &FrameKey, moments: Moments) -> FrameMeta {
+    let drive = moments.drive;
     let moment = &drive.keyframes[key.keyframe as usize];
     FrameMeta {
         scene: key.scene.clone(),
@@ -556,6 +559,7 @@ fn meta(key: &FrameKey, drive: &Drive) -> FrameMeta {
         keyframe: key.keyframe,
         keyframe_token: moment.token.clone(),
         keyframe_time_ns: moment.time_ns,
+        recorded_keyframe: moments.keyframe(key.keyframe as usize).map(|k| k as u32),
         source_token: None,
         source_image: None,
         projection: drive.projection,

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use anyhow::{Result, bail, ensure};
-use trove_build::ALL_CAMERAS;
+use trove_build::{ALL_CAMERAS, Timeline};
 use trove_format::SiteFile;
 use trove_model::{Drive, Report, StreetMap};
 use trove_read::rig;
@@ -16,7 +16,7 @@ use crate::sources::Sources;
 pub(super) struct Read<'a> {
     scene: &'a str,
     recording: OnceCell<Option<String>>,
-    drive: OnceCell<(Drive, Option<StreetMap>, Report)>,
+    drive: OnceCell<(Timeline, Option<StreetMap>, Report)>,
 }
 
 impl<'a> Read<'a> {
@@ -40,12 +40,12 @@ impl<'a> Read<'a> {
         Ok(())
     }
 
-    /// The drive, the map around it, and what was reported of both.
-    pub(super) fn drive(&self, sources: &Sources) -> Result<&(Drive, Option<StreetMap>, Report)> {
+    /// The drive with all its moments, the map around it, and what was reported of both.
+    pub(super) fn drive(&self, sources: &Sources) -> Result<&(Timeline, Option<StreetMap>, Report)> {
         once(&self.drive, || {
             let report = Report::default();
             let (drive, map) = sources.drive(self.scene, &report)?;
-            check_cameras(sources.recipe(), &drive)?;
+            check_cameras(sources.recipe(), &drive.recorded)?;
             Ok((drive, map, report))
         })
     }
@@ -94,11 +94,11 @@ mod tests {
         let read = Read::new("demo-0001");
         let hash = read.recording(&sources, &mut contents).unwrap().clone();
         assert!(hash.is_some());
-        let keyframes = read.drive(&sources).unwrap().0.keyframes.len();
+        let keyframes = read.drive(&sources).unwrap().0.recorded.keyframes.len();
         // Whoever looks again finds none of it.
         std::fs::remove_dir_all(folder.path()).unwrap();
         assert_eq!(read.recording(&sources, &mut contents).unwrap(), &hash);
-        assert_eq!(read.drive(&sources).unwrap().0.keyframes.len(), keyframes);
+        assert_eq!(read.drive(&sources).unwrap().0.recorded.keyframes.len(), keyframes);
         let again = Read::new("demo-0001");
         assert!(again.recording(&sources, &mut contents).is_err() && again.drive(&sources).is_err());
     }
