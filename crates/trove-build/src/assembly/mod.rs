@@ -132,7 +132,7 @@ impl Assembly {
     pub(crate) fn actor(&mut self, role: &Role, moments: Moments) -> Actor {
         let mut assets: Vec<String> = Vec::new();
         let mut poses = Vec::with_capacity(role.placements.len());
-        for ((k, placement), &Shown { asset: shown, towards }) in role.placements.iter().zip(&role.postures) {
+        for ((k, placement), &Shown { asset: shown, towards, shift_m }) in role.placements.iter().zip(&role.postures) {
             self.credit(shown);
             let known = assets.iter().position(|id| *id == shown.id);
             let asset = known.unwrap_or_else(|| {
@@ -144,7 +144,7 @@ impl Assembly {
                 self.credit(other);
                 (other, self.stock.individual(other, role.is_driven, role.seed), share)
             });
-            let world_from_mesh = role.world_from_mesh(placement);
+            let world_from_mesh = role.world_from_mesh(placement) * DAffine3::from_translation(shift_m);
             let world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3());
             let keypoints = match towards.and_then(|(other, _, share)| Some((other.keypoints?, share))) {
                 Some((others, share)) => {

@@ -10,7 +10,7 @@ pub(crate) const TREMOR_M: f64 = 0.02;
 pub(crate) const TREMOR_RAD: f64 = 0.005;
 /// What annotated poses ask of wheels beyond rolling is let slip up to so much from one pose to the next, metres: to steer it
 /// away would make every vehicle weave by its annotator's errors.
-const SLIP_M: f64 = 0.04;
+const SLIP_M: f64 = 0.035;
 /// A heading off the way by more than this is no steering, tangent of the angle.
 const STEEPEST: f64 = 0.4;
 /// Nothing steers farther than this from one pose to the next, radians.

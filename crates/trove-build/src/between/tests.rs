@@ -1,8 +1,11 @@
-use glam::DVec3;
-use trove_model::{Drive, Ego, Pose, Report, Trajectory, World};
+use glam::{DVec3, Vec3};
+use trove_model::{
+    Asset, AssetLibrary, Drive, Ego, Figure, Instance, Kind, Mesh, Origin, Pose, Posture, Report, Scene, Seed,
+    Trajectory, World,
+};
 
 use super::*;
-use crate::testing;
+use crate::{BuildSettings, LightChoice, OnDisagreement, Site, Traffic, Weather, build_at, testing};
 
 fn dense(drive: &Drive, rate_hz: f64) -> Timeline {
     between(drive.clone(), rate_hz, &Report::default())
@@ -121,4 +124,112 @@ fn keyframes_far_apart_have_nothing_between_them() {
         keyframe.time_ns += 2_000_000_000 + k as i64;
     }
     assert_eq!(dense(&drive, 10.0).moments().drive.keyframes.len(), 4 * 5 + 4 * 5 + 2);
+}
+
+fn site(drive: &Drive, moments: Moments, library: &AssetLibrary, density: f64) -> Site {
+    let settings = BuildSettings {
+        seeds: Seed(1).into(),
+        top_k: 3,
+        traffic: Traffic { density, ..Traffic::default() },
+        light: LightChoice::default(),
+        weather: Weather::default(),
+        on_disagreement: OnDisagreement::default(),
+        locale: testing::locale("SG"),
+        borders: None,
+    };
+    build_at(drive, moments, None, library, &settings, &Report::default()).unwrap()
+}
+
+#[test]
+fn the_place_and_who_is_there_at_keyframes_are_the_same_with_moments_between() {
+    let (drive, library) = (testing::drive(), testing::library());
+    let alone = site(&drive, Moments::of_keyframes(&drive), &library, 2.0);
+    let timeline = dense(&drive, 10.0);
+    let moments = timeline.moments();
+    let among = site(&drive, moments, &library, 2.0);
+    let look = |i: &Instance| (i.id, i.mesh, i.materials.clone(), i.world_from_mesh, i.object.clone());
+    for k in 0..10 {
+        let [a, b] = [alone.scene(&drive, k), among.scene(moments.drive, moments.of_keyframe(k))];
+        assert_eq!(a.instances.len(), b.instances.len());
+        for (a, b) in a.instances.iter().zip(&b.instances) {
+            assert_eq!(look(a), look(b), "at {k}");
+        }
+    }
+    // Who was added moves on evenly between keyframes.
+    let scenes: Vec<Scene> = (0..46).map(|m| among.scene(moments.drive, m)).collect();
+    let is_added = |i: &&Instance| i.object.as_ref().is_some_and(|o| o.origin == Origin::Added);
+    let mut seen = 0;
+    for (i, scene) in scenes.iter().enumerate() {
+        for added in scene.instances.iter().filter(is_added) {
+            let Some(next) = added.next else { continue };
+            let object = added.object.as_ref().unwrap();
+            let moved_m = next.world_from_mesh.translation.distance(added.world_from_mesh.translation);
+            let expected_m = object.velocity_mps.unwrap().length() * 0.1;
+            assert!((moved_m - expected_m).abs() < 0.02, "{i}: {moved_m} {expected_m}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 45, "{seen}");
+}
+
+/// How far a cycle of the tests' walker goes, and the share of it in which a foot stands, metres.
+const STRIDE_M: f32 = 1.4;
+const STANDS: f32 = 0.625;
+
+/// A walker whose soles are the first sixteen points, left and right by turns: on the ground each goes back as the walker
+/// goes on. As library's are, it is centred in its own box.
+fn walker(phase: f32) -> Asset {
+    let sole = |phase: f32, y: f32| {
+        let swing = (phase - STANDS).max(0.0) / (1.0 - STANDS);
+        let back_m = if swing > 0.0 { STRIDE_M * STANDS * (1.0 - swing) } else { STRIDE_M * phase };
+        Vec3::new(0.4 - back_m, y, 0.3 * swing * (1.0 - swing))
+    };
+    let soles = [sole(phase, 0.1), sole((phase + 0.5).fract(), -0.1)];
+    let mut positions: Vec<Vec3> = (0..8).flat_map(|i| soles.map(|sole| sole + Vec3::X * 0.01 * i as f32)).collect();
+    positions.extend([Vec3::new(-0.5, -0.3, 0.2), Vec3::new(0.5, 0.3, 0.2), Vec3::new(0.0, 0.0, 1.75)]);
+    let off_centre = Vec3::X * 0.06 * (phase * 17.0).sin();
+    positions.iter_mut().for_each(|p| *p += off_centre);
+    let ankle = |i: usize| positions[i % 2] + Vec3::new(0.05, 0.0, 0.08);
+    let keypoints = Some(std::array::from_fn(|i| ankle(i + 1)));
+    let mesh = Mesh { positions, triangles: vec![[16, 17, 18], [0, 1, 18]], ..Mesh::default() };
+    let figure = Figure { person: "walker".into(), posture: Posture::Walking { phase, stride_m: STRIDE_M } };
+    let asset = testing::asset("walker", Kind::Adult, [1.0, 0.6, 1.75]);
+    Asset { id: format!("walker/{phase}"), figure: Some(figure), mesh: mesh.into(), keypoints, ..asset }
+}
+
+#[test]
+fn a_foot_on_the_ground_stays_there_from_moment_to_moment() {
+    let mut library = testing::library();
+    library.assets.retain(|asset| asset.kind != Kind::Adult);
+    library.assets.extend((0..8).map(|i| walker(i as f32 / 8.0)));
+    library.assets.sort_by(|a, b| a.id.cmp(&b.id));
+    let mut drive = testing::drive();
+    // It walks unevenly, and is longer than the library's walker.
+    for (k, cuboid) in &mut drive.tracks[3].boxes {
+        cuboid.world_from_body.translation.x = 30.0 + 0.7 * *k as f64 + 0.15 * (*k as f64).sin();
+        cuboid.size_m.x = 1.08;
+        drive.keyframes[*k].boxes[3].cuboid = *cuboid;
+    }
+    let timeline = dense(&drive, 30.0);
+    let moments = timeline.moments();
+    let site = site(&drive, moments, &library, 1.0);
+    let soles = |scene: &Scene| -> [DVec3; 2] {
+        let walker = scene.instances.iter().find(|i| i.object.as_ref().is_some_and(|o| o.kind == Kind::Adult)).unwrap();
+        let mesh = &scene.meshes[walker.mesh];
+        [0, 1].map(|side| walker.world_from_mesh.transform_point3(mesh.positions[side].as_dvec3()))
+    };
+    let all: Vec<[DVec3; 2]> = (0..136).map(|m| soles(&site.scene(moments.drive, m))).collect();
+    let ground_m = all.iter().flatten().map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let [mut planted, mut lifted, mut most_m] = [0, 0, 0.0f64];
+    for (side, pair) in [0, 1].into_iter().flat_map(|side| all.windows(2).map(move |pair| (side, pair))) {
+        let [a, b] = [pair[0][side], pair[1][side]];
+        if a.z.max(b.z) > ground_m + 1e-3 {
+            lifted += 1;
+            continue;
+        }
+        planted += 1;
+        most_m = most_m.max(a.distance(b));
+    }
+    assert!(planted > 100 && lifted > 60, "{planted} {lifted}");
+    assert!(most_m < 0.005, "{most_m}");
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use trove_model::{Asset, Class, Cuboid, Drive, Kind, Posture, Seed};
 
+use super::cycle::Cycle;
 use super::shown::Shown;
 use crate::between::Moments;
 
@@ -133,6 +134,8 @@ impl Gait {
         let start = seed.child("phase").random().unit();
         let still: Vec<Vec<&Asset>> = [Mode::Standing, Mode::Sitting].map(|mode| of_mode(mode).collect()).to_vec();
         let drawn = |from: &[&'a Asset]| seed.child("posture").random().pick(from).copied();
+        let planted = |cycle: Cycle<'a>| if self.flows { cycle.planted() } else { cycle };
+        let cycles = [Mode::Walking, Mode::Running].map(|mode| Cycle::new(of_mode(mode)).map(planted));
         let posture = |(mode, way_m): (&Mode, &f64)| {
             let found = match mode {
                 // Who was chosen in this mode stays as chosen.
@@ -140,7 +143,13 @@ impl Gait {
                 Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen.into()),
                 Mode::Standing => drawn(&still[0]).map(Shown::from),
                 Mode::Sitting => drawn(&still[1]).map(Shown::from),
-                Mode::Walking | Mode::Running => in_phase(of_mode(*mode), start, *way_m / scale, self.flows),
+                Mode::Walking | Mode::Running => {
+                    let cycle = &cycles[usize::from(*mode == Mode::Running)];
+                    cycle.as_ref().map(|cycle| {
+                        let way_m = *way_m / scale;
+                        if self.flows { cycle.between(start, way_m) } else { cycle.nearest(start, way_m).into() }
+                    })
+                }
             };
             found.unwrap_or(chosen.into())
         };
@@ -162,30 +171,6 @@ fn step_m(a: &Cuboid, b: &Cuboid) -> (f64, f64) {
     let (sin, cos) = a.world_from_body.yaw_rad().sin_cos();
     let moved = b.world_from_body.translation - a.world_from_body.translation;
     (moved.x * cos + moved.y * sin, moved.truncate().length())
-}
-
-/// What of some phases shows the one to which a way leads: the nearest, or where it `flows` what is between the one before
-/// and the one after it. A foot on the ground is as far back in each phase as the way has led on, and so it is between two.
-fn in_phase<'a>(phases: impl Iterator<Item = &'a Asset>, start: f64, way_m: f64, flows: bool) -> Option<Shown<'a>> {
-    // How far the wanted phase is past each, 0 to below 1 of the cycle.
-    let past = |asset: &'a Asset| {
-        let (phase, stride_m) = match asset.figure.as_ref()?.posture {
-            Posture::Walking { phase, stride_m } | Posture::Running { phase, stride_m } => (phase, stride_m),
-            Posture::Standing | Posture::Sitting => return None,
-        };
-        let wanted = start + way_m / f64::from(stride_m).max(0.1);
-        Some(((wanted - f64::from(phase)).rem_euclid(1.0), asset))
-    };
-    let phases: Vec<(f64, &Asset)> = phases.filter_map(past).collect();
-    let (behind, before) = phases.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let (passed, after) = phases.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let ahead = 1.0 - passed;
-    let share = behind / (behind + ahead);
-    Some(match flows {
-        true => Shown::between(before, after, share),
-        // Of two that are as near the earlier in the library.
-        false => phases.iter().min_by(|a, b| a.0.min(1.0 - a.0).total_cmp(&b.0.min(1.0 - b.0)))?.1.into(),
-    })
 }
 
 #[cfg(test)]

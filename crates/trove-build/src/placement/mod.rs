@@ -2,6 +2,7 @@
 
 mod cast;
 mod choice;
+mod cycle;
 mod fit;
 mod gait;
 mod rows;

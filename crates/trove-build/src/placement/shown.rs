@@ -1,5 +1,6 @@
 //! What stands for someone at a moment: an asset, or something between two postures of a person.
 
+use glam::DVec3;
 use trove_model::Asset;
 
 /// Less than this of the way from one posture to another is none of it.
@@ -13,18 +14,21 @@ pub(crate) struct Shown<'a> {
     /// Another of the same triangles, slots and materials, and the share of the way that each vertex has moved towards it, 0
     /// to 1.
     pub towards: Option<(&'a Asset, f32)>,
+    /// How far its mesh is moved in its own axes, metres.
+    pub shift_m: DVec3,
 }
 
 impl<'a> Shown<'a> {
-    /// Between two postures of one person.
-    pub(super) fn between(before: &'a Asset, after: &'a Asset, share: f64) -> Self {
+    /// Between two postures of one person, each moved by some way.
+    pub(super) fn between((before, from): (&'a Asset, DVec3), (after, to): (&'a Asset, DVec3), share: f64) -> Self {
         let is_one = before.id == after.id || share < LEAST;
-        Self { asset: before, towards: (!is_one).then_some((after, share as f32)) }
+        let towards = (!is_one).then_some((after, share as f32));
+        Self { asset: before, towards, shift_m: from.lerp(to, share) }
     }
 }
 
 impl<'a> From<&'a Asset> for Shown<'a> {
     fn from(asset: &'a Asset) -> Self {
-        Self { asset, towards: None }
+        Self { asset, towards: None, shift_m: DVec3::ZERO }
     }
 }
