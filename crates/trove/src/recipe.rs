@@ -489,7 +489,7 @@ impl Recipe {
                 ensure!(!names_none, "drive.scenes: expected at least one scene, found none; omit it for all");
             }
         }
-        self.time.check(self.drive.as_ref().map(|drive| &drive.keyframes))?;
+        self.time.check(self.drive.as_ref().map(|drive| drive.keyframes.every()))?;
         let (render, assets) = (&self.render, &self.assets);
         match (render.scale, render.size) {
             (Some(_), Some(_)) => bail!("expected render.scale or render.size, found both; remove one of them"),
@@ -614,6 +614,11 @@ impl RenderSection {
 }
 
 impl Keyframes {
+    /// One in so many is asked for; 1 where they are listed.
+    fn every(&self) -> usize {
+        if let Self::Every(EveryNth { every }) = self { *every } else { 1 }
+    }
+
     /// The keyframes' numbers out of `count`, ascending.
     ///
     /// # Errors

@@ -4,7 +4,6 @@ use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 
 use super::check::check;
-use super::{EveryNth, Keyframes};
 
 /// `[time]`
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -20,23 +19,22 @@ impl TimeSection {
         *self == Self::default()
     }
 
-    /// `keyframes` are those that the recipe's drive is asked for; `None` for a place that nobody drove through.
-    pub(super) fn check(&self, keyframes: Option<&Keyframes>) -> Result<()> {
+    /// One in `every` keyframes is asked for, 1 where they are listed; `None` for a place that nobody drove through.
+    pub(super) fn check(&self, every: Option<usize>) -> Result<()> {
         let Self { rate_hz } = *self;
         let expected = "0 (the keyframes alone) to 1000 moments a second, such as 10";
         check("time.rate_hz", rate_hz, (0.0..=1000.0).contains(&rate_hz), expected)?;
         if rate_hz > 0.0 {
             ensure!(
-                keyframes.is_some(),
+                every.is_some(),
                 "time.rate_hz: expected 0 for a [place], whose views do not follow one another, found {rate_hz}; remove it"
             );
-            if let Some(Keyframes::Every(EveryNth { every })) = keyframes {
-                ensure!(
-                    *every == 1,
-                    "time.rate_hz: expected drive.keyframes = \"all\" or a list with neighbours, such as [4, 5, 6], found \
-                     {{ every = {every} }}, which leaves no two neighbours to be between; change it or remove time.rate_hz"
-                );
-            }
+            let every = every.unwrap_or(1);
+            ensure!(
+                every <= 1,
+                "time.rate_hz: expected drive.keyframes = \"all\" or a list with neighbours, such as [4, 5, 6], found \
+                 {{ every = {every} }}, which leaves no two neighbours to be between; change it or remove time.rate_hz"
+            );
         }
         Ok(())
     }
@@ -48,21 +46,18 @@ mod tests {
 
     #[test]
     fn a_rate_is_a_number_of_moments_between_neighbouring_keyframes() {
-        let told = |rate_hz: f64, keyframes: Option<&Keyframes>| {
-            TimeSection { rate_hz }.check(keyframes).map_err(|error| error.to_string()).err().unwrap_or_default()
+        let told = |rate_hz: f64, every: Option<usize>| {
+            TimeSection { rate_hz }.check(every).map_err(|error| error.to_string()).err().unwrap_or_default()
         };
-        let all = Some(&Keyframes::All);
         for rate_hz in [0.0, 0.5, 10.0, 1000.0] {
-            assert_eq!(told(rate_hz, all), "");
+            assert_eq!(told(rate_hz, Some(1)), "");
         }
         for rate_hz in [-1.0, 1000.5, f64::NAN, f64::INFINITY] {
-            let error = told(rate_hz, all);
+            let error = told(rate_hz, Some(1));
             assert!(error.starts_with("time.rate_hz: expected 0") && error.contains(&rate_hz.to_string()), "{error}");
         }
-        let every = |every| Keyframes::Every(EveryNth { every });
-        assert_eq!(told(10.0, Some(&every(1))), "");
-        assert_eq!(told(0.0, Some(&every(5))), "");
-        assert!(told(10.0, Some(&every(5))).contains("{ every = 5 }"));
+        assert_eq!(told(0.0, Some(5)), "");
+        assert!(told(10.0, Some(5)).contains("{ every = 5 }"));
         assert_eq!(told(0.0, None), "");
         assert!(told(10.0, None).contains("[place]"));
     }
