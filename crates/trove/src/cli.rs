@@ -78,7 +78,7 @@ enum Command {
         /// The .glb file to write.
         #[arg(long)]
         out: PathBuf,
-        /// Keyframe whose road users are placed [default: the recipe's first].
+        /// Keyframe, or with time.rate_hz moment, whose road users are placed [default: the recipe's first].
         #[arg(long)]
         keyframe: Option<usize>,
         /// Also write the sky as a latitude-longitude .exr file, without the sun, which is in the .glb.
