@@ -83,6 +83,8 @@ def check_frame(folder, hashes):
         outside = (x < -1e-3) | (y < -1e-3) | (x > shape[1] + 1e-3) | (y > shape[0] + 1e-3)
         assert (occluded[outside] == 255).all()
 
+    check_extra(folder, hashes, frame, classes, instances, depth, normal)
+
     rows = {row["id"]: row for row in frame["objects"]}
     assert len(rows) == len(frame["objects"]), f"{folder}: an id twice"
     assert set(np.unique(instances)) - {0} <= set(rows), f"{folder}: pixels of an object without a row"
@@ -95,6 +97,48 @@ def check_frame(folder, hashes):
         camera, middle = (np.array(m)[:3, 3] for m in (frame["world_from_camera"], row["world_from_body"]))
         assert abs(np.linalg.norm(middle - camera) - row["range_m"]) < 0.01, f"{folder}: object {number}"
     return frame
+
+
+def check_extra(folder, names, frame, classes, instances, depth, normal):
+    """Checks the files that a recipe has to name against those that every frame has."""
+    shape, sky = classes.shape, classes == SKY
+    if "panoptic.png" in names:
+        # COCO's ids.
+        red, green, blue = np.moveaxis(np.asarray(Image.open(folder / "panoptic.png")).astype(np.uint32), -1, 0)
+        assert np.array_equal(red + 256 * green + 65536 * blue, 65536 * classes.astype(np.uint32) + instances)
+    world_from_camera = np.array(frame["world_from_camera"])[:3, :3]
+    if "range.exr" in names:
+        distance = exr(folder / "range.exr")
+        assert distance.shape == shape and np.array_equal(np.isinf(distance), sky)
+        assert (distance[~sky] >= np.abs(depth[~sky]) * (1 - 1e-6)).all(), f"{folder}: nearer than its depth"
+    if "normal_world.exr" in names:
+        turned = normal @ world_from_camera.T
+        assert np.abs(exr(folder / "normal_world.exr") - turned).max() < 1e-5, f"{folder}: not the same normals"
+    for name, channels in (("albedo", 3), ("roughness", 1)):
+        if f"{name}.exr" in names:
+            values = exr(folder / f"{name}.exr").reshape(*shape, channels)
+            assert np.array_equal(np.isnan(values[..., 0]), sky) and np.nanmin(values) >= 0 and np.nanmax(values) <= 1
+    for way in ("forward", "backward"):
+        if f"scene_flow_{way}.exr" in names:
+            flow, pixels = exr(folder / f"scene_flow_{way}.exr"), exr(folder / f"flow_{way}.exr")
+            assert flow.shape == (*shape, 3) and np.isnan(flow[sky]).all()
+            # Flow can be undefined where the point is behind the other camera.
+            assert not np.isnan(flow[..., 0][~sky & ~np.isnan(pixels[..., 0])]).any()
+    if "object_coordinates.exr" in names:
+        inside = exr(folder / "object_coordinates.exr")
+        assert np.array_equal(np.isnan(inside[..., 0]), instances == 0)
+        axes = np.linalg.inv(frame["intrinsics"]) if frame["lens_model"] == "pinhole" else None
+        for row in frame["objects"] if axes is not None else []:
+            y, x = np.nonzero(instances == row["id"])
+            body = (inside[y, x] - 0.5) * row["size_m"]
+            world = np.column_stack([body, np.ones(len(body))]) @ np.array(row["world_from_body"])[:3].T
+            seen = np.column_stack([x + 0.5, y + 0.5, np.ones(len(x))]) @ axes.T * depth[y, x, None]
+            seen = seen @ world_from_camera.T + np.array(frame["world_from_camera"])[:3, 3]
+            off = np.linalg.norm(world - seen, axis=1)
+            assert off.max(initial=0) < 1e-3 + 1e-5 * depth[y, x].max(initial=0), f"{folder}: object {row['id']}"
+    if "coverage.png" in names:
+        coverage = np.asarray(Image.open(folder / "coverage.png"))
+        assert coverage.shape == shape and coverage.dtype == np.uint8 and coverage.mean() > 128
 
 
 def check(root):

@@ -75,6 +75,33 @@ def test_every_image_is_what_other_libraries_read(finished):
             assert array.flags.writeable and array.flags.c_contiguous
 
 
+def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_path):
+    scalars, vectors = ["range", "roughness"], ["normal_world", "albedo", "object_coordinates"]
+    vectors += ["scene_flow_forward", "scene_flow_backward"]
+    names = ["class", "instance", "depth", "panoptic", "coverage", *scalars, *vectors]
+    asked = recipe.with_name("asked.toml")
+    asked.write_text(f"{recipe.read_text()}[output]\nfiles = {json.dumps(names)}\n[labels]\nglass = \"behind\"\n")
+    library.generate(asked, tmp_path / "asked")
+    rendered = library.build(asked, keyframe=1).render("ego.CAM_FRONT")
+    for frame in library.open(tmp_path / "asked"):
+        assert sorted(frame.images) == sorted(names) and frame.table["glass"] == "behind"
+        assert frame.panoptic.dtype == np.uint32
+        assert np.array_equal(frame.panoptic, 65536 * frame.class_.astype(np.uint32) + frame.instance)
+        assert np.array_equal(frame.coverage, np.asarray(Image.open(frame.path / "coverage.png")))
+        for name in [*scalars, *vectors]:
+            array = frame.range_m if name == "range" else getattr(frame, name)
+            expected = check_output.exr(frame.path / f"{name}.exr")
+            assert array.dtype == np.float32 and np.array_equal(array, expected, equal_nan=True), name
+            assert array.ndim == (2 if name in scalars else 3)
+        for label in ["panoptic", "coverage", *scalars, *vectors]:
+            assert np.asarray(frame.overlay(label)).shape == (*frame.class_.shape, 3), label
+        if frame.name.endswith("k001/ego.CAM_FRONT"):
+            for name in ["panoptic", "range_m", "albedo", "scene_flow_forward", "coverage"]:
+                assert np.array_equal(getattr(rendered, name), getattr(frame, name), equal_nan=True), name
+            return
+    raise AssertionError("no frame of the front camera")
+
+
 def test_camera_and_objects_are_those_of_the_table(finished):
     seen = 0
     for frame in library.open(finished):

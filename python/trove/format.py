@@ -100,6 +100,7 @@ class FrameTable(TypedDict):
     carrier: int | None
     carrier_track_token: str
     projection: dict[str, Any]
+    glass: str
     exposure_ev: float | None
     spp: int
     denoised: bool

@@ -34,6 +34,15 @@ _OVERLAYS = {
     "occluded_forward": "occluded",
     "occluded_backward": "occluded",
     "change": "change",
+    "panoptic": "panoptic",
+    "range": "depth",
+    "normal_world": "normal_world",
+    "albedo": "albedo",
+    "roughness": "roughness",
+    "scene_flow_forward": "scene_flow",
+    "scene_flow_backward": "scene_flow",
+    "object_coordinates": "object_coordinates",
+    "coverage": "coverage",
 }
 
 
@@ -160,6 +169,51 @@ class Frame:
         """Whether a pixel shows another surface than the counterfactual's base: H × W, `bool`."""
         return self._read("change")
 
+    @cached_property
+    def panoptic(self) -> npt.NDArray[np.uint32]:
+        """Class and object in one id: H × W, `uint32`; 65536 · class + object, 0: void."""
+        return self._read("panoptic")
+
+    @cached_property
+    def range_m(self) -> Floats:
+        """Metres from the camera's centre along the ray: H × W, `float32`; +inf: sky."""
+        return self._read("range")
+
+    @cached_property
+    def normal_world(self) -> Floats:
+        """Unit normals in World: H × W × 3, `float32`; 0: sky."""
+        return self._read("normal_world")
+
+    @cached_property
+    def albedo(self) -> Floats:
+        """Share of linear red, green and blue that is scattered diffusely: H × W × 3, `float32`; NaN: sky."""
+        return self._read("albedo")
+
+    @cached_property
+    def roughness(self) -> Floats:
+        """Perceptual roughness, 0 to 1: H × W, `float32`; NaN: sky."""
+        return self._read("roughness")
+
+    @cached_property
+    def scene_flow_forward(self) -> Floats:
+        """Metres in World to where the point is at the next keyframe: H × W × 3, `float32`; NaN: not defined."""
+        return self._read("scene_flow_forward")
+
+    @cached_property
+    def scene_flow_backward(self) -> Floats:
+        """Metres in World to where the point was at the previous keyframe: H × W × 3, `float32`; NaN: not defined."""
+        return self._read("scene_flow_backward")
+
+    @cached_property
+    def object_coordinates(self) -> Floats:
+        """The point in its object's box, 0 to 1 along Body's axes: H × W × 3, `float32`; NaN: no object."""
+        return self._read("object_coordinates")
+
+    @cached_property
+    def coverage(self) -> Bytes:
+        """Share of the pixel, in 255ths, that shows what its centre shows: H × W, `uint8`."""
+        return self._read("coverage")
+
     def mask(self, thing: Object) -> npt.NDArray[np.bool_]:
         """The pixels that show an object: H × W, `bool`."""
         mask: npt.NDArray[np.bool_] = self.instance == thing.id
@@ -168,8 +222,8 @@ class Frame:
     def overlay(self, label: str = "class", opacity: float = 2 / 3) -> Overlay:
         """A label in colours over the grey picture (alone where there is none), which notebooks show.
 
-        `label` is `class`, `instance`, `depth`, `normal`, `flow_forward`, `flow_backward`, `occluded_forward`,
-        `occluded_backward`, `change`, or `boxes` for the picture with the 2D boxes of what is seen.
+        `label` is the name of any image but the picture's own (`class`, `instance`, `flow_forward`, …), or `boxes` for
+        the picture with the 2D boxes of what is seen.
         """
         if label == "boxes":
             return with_boxes(self.rgb, self.objects)

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use trove_model::{Class, Distortion, Keypoints, Kind, MapProjection, Origin};
+use trove_model::{Class, Distortion, GlassLabels, Keypoints, Kind, MapProjection, Origin};
 
 use crate::{FormatError, file, names, rows};
 
@@ -84,6 +84,9 @@ pub struct FrameTable {
     pub carrier_track_token: String,
     /// From latitude and longitude to World.
     pub projection: Projection,
+    /// What labels tell of panes of glass.
+    #[serde(default)]
+    pub glass: GlassPolicy,
     /// Radiance was multiplied by 2 to this power; null without an image.
     pub exposure_ev: Option<f64>,
     /// Samples per pixel.
@@ -94,6 +97,36 @@ pub struct FrameTable {
     pub seed: u64,
     /// Every object that would cover a pixel if nothing else were there, ordered by id.
     pub objects: Vec<ObjectRow>,
+}
+
+/// What labels tell of panes of glass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum GlassPolicy {
+    /// The pane: what is behind it is hidden.
+    #[default]
+    Glass,
+    /// What is behind it, as if no pane were there.
+    Behind,
+}
+
+impl From<GlassPolicy> for GlassLabels {
+    fn from(policy: GlassPolicy) -> Self {
+        match policy {
+            GlassPolicy::Glass => Self::Glass,
+            GlassPolicy::Behind => Self::Behind,
+        }
+    }
+}
+
+impl From<GlassLabels> for GlassPolicy {
+    fn from(glass: GlassLabels) -> Self {
+        match glass {
+            GlassLabels::Glass => Self::Glass,
+            GlassLabels::Behind => Self::Behind,
+        }
+    }
 }
 
 /// How a lens distorts.

@@ -55,7 +55,7 @@ pub use class_map_file::ClassMapFile;
 pub use curated::Curated;
 pub use error::FormatError;
 pub use file::FORMAT;
-pub use frame::{FrameTable, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
+pub use frame::{FrameTable, GlassPolicy, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
 pub use frame_file::FrameFile;
 pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};

@@ -1,5 +1,7 @@
 //! What a camera returns.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 
 use crate::{Class, InstanceId, Keypoints, Raster};
@@ -47,9 +49,67 @@ pub struct Labels {
     pub occluded_forward: Raster<Occlusion>,
     /// Whether the previous keyframe's picture does.
     pub occluded_backward: Raster<Occlusion>,
+    /// Labels that were asked for.
+    pub extra: ExtraLabels,
     /// Every recorded object, and every road user like them, of which a pixel would be seen if nothing else were there, and all scenery of which one is
     /// seen, in the order of ids; without the object that carries the camera.
     pub objects: Vec<ObjectLabel>,
+}
+
+/// A label that is made where it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs)] // as the fields of `ExtraLabels`
+pub enum ExtraLabel {
+    Range,
+    NormalWorld,
+    Albedo,
+    Roughness,
+    SceneFlowForward,
+    SceneFlowBackward,
+    ObjectCoordinates,
+    Coverage,
+}
+
+/// Labels that are made where they are asked for, each `None` otherwise.
+#[derive(Clone, Debug, Default)]
+pub struct ExtraLabels {
+    /// Metres from the camera's centre, along the ray; +inf = sky.
+    pub range_m: Option<Raster<f32>>,
+    /// Unit geometric-surface normal in World, towards the camera; 0 = sky.
+    pub normal_world: Option<Raster<[f32; 3]>>,
+    /// Share of red, green and blue light (linear Rec. 709) that the material scatters diffusely, 0 to 1, dirt and water
+    /// included: its base colour as far as it is neither metal nor glass; NaN = sky.
+    pub albedo: Option<Raster<[f32; 3]>>,
+    /// Perceptual roughness (the root of GGX's α), 0 to 1, under lacquer or water; NaN = sky.
+    pub roughness: Option<Raster<f32>>,
+    /// Metres in World that the point moves until the next keyframe; NaN = not defined.
+    pub scene_flow_forward: Option<Raster<[f32; 3]>>,
+    /// Metres in World from the point to where it was at the previous keyframe; NaN = not defined.
+    pub scene_flow_backward: Option<Raster<[f32; 3]>>,
+    /// The point in its object's box: from 0 at the back, right and bottom to 1 at the front, left and top, in the order of
+    /// Body's axes, and a little beyond where the object is larger than its box; NaN = no object.
+    pub object_coordinates: Option<Raster<[f32; 3]>>,
+    /// Share of the pixel, in 255ths, that shows what its centre shows: the same object, or no object and the same class.
+    pub coverage: Option<Raster<u8>>,
+}
+
+/// What labels tell of a pane of glass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GlassLabels {
+    /// The pane.
+    #[default]
+    Glass,
+    /// What is behind it, as if no pane were there.
+    Behind,
+}
+
+/// Which labels a picture gets.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelSettings {
+    /// What they tell of panes of glass.
+    pub glass: GlassLabels,
+    /// Those beside the usual ones.
+    pub extra: BTreeSet<ExtraLabel>,
 }
 
 /// Whether the picture to which flow leads shows the same point: whether a ray from its camera reaches the point, or a place

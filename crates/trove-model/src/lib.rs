@@ -70,7 +70,10 @@ mod trajectory;
 mod variation;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
-pub use capture::{Capture, CaptureStats, Color, Labels, ObjectLabel, Occlusion, PixelBox, SeenKeypoint};
+pub use capture::{
+    Capture, CaptureStats, Color, ExtraLabel, ExtraLabels, GlassLabels, LabelSettings, Labels, ObjectLabel, Occlusion,
+    PixelBox, SeenKeypoint,
+};
 pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, label_table};
 pub use class_map::{ClassMap, ClassMapEntry, ClassMapFault, InstanceCoding, MappedClass};
 pub use cuboid::Cuboid;

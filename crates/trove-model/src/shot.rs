@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{Camera, Ego, InstanceId, Lens, Pose, Seed, Sensor, SensorRay, World};
+use crate::{Camera, Ego, InstanceId, LabelSettings, Lens, Pose, Seed, Sensor, SensorRay, World};
 
 /// How bright the picture becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,6 +164,8 @@ pub struct Shot {
     pub seed: Seed,
     /// The object that carries the camera: camera and label rays pass through it, its shadow and reflection stay.
     pub carrier: Option<InstanceId>,
+    /// Which labels it gets.
+    pub labels: LabelSettings,
 }
 
 impl Shot {
@@ -186,6 +188,7 @@ impl Shot {
             film: Film::default(),
             seed: Seed(0),
             carrier: None,
+            labels: LabelSettings::default(),
         }
     }
 

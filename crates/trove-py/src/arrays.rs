@@ -25,8 +25,11 @@ pub(crate) fn occlusion(py: Python<'_>, raster: Raster<Occlusion>) -> PyResult<B
     values(py, raster.map(|occlusion| occlusion.value()))
 }
 
-/// The colours (H, W, 3; `uint8`) in which a label's array is shown: `class`, `instance`, `depth`, `normal`, `flow`,
-/// `occluded` or `change`.
+/// The names of what [`label_colors`] knows.
+const COLORED: &str = "class, instance, panoptic, depth, normal, normal_world, albedo, flow, scene_flow, object_coordinates, \
+                       roughness, coverage, occluded or change";
+
+/// The colours (H, W, 3; `uint8`) in which a label's array is shown.
 #[pyfunction]
 pub(crate) fn label_colors<'py>(
     py: Python<'py>,
@@ -37,7 +40,21 @@ pub(crate) fn label_colors<'py>(
         "class" => colored(array, colors::of_class)?,
         "instance" => colored(array, colors::of_instance)?,
         "depth" => colored(array, colors::of_depth)?,
-        "occluded" => colored(array, |value: u8| [value; 3])?,
+        "panoptic" => colored(array, |segment: u32| match segment as u16 {
+            0 => colors::of_class((segment >> 16) as u8),
+            id => colors::of_instance(id),
+        })?,
+        "occluded" | "coverage" => colored(array, |value: u8| [value; 3])?,
+        "roughness" => colored(array, |share: f32| colors::of_shares([share; 3]))?,
+        "normal_world" => colored_vectors(array, colors::of_normal_world)?,
+        "albedo" => colored_vectors(array, colors::of_albedo)?,
+        "object_coordinates" => colored_vectors(array, colors::of_shares)?,
+        "scene_flow" => {
+            let array: PyReadonlyArray3<'_, f32> = array.extract()?;
+            let lengths = array.as_slice()?.as_chunks().0.iter().map(|[x, y, _]: &[f32; 3]| x.hypot(*y));
+            let most_m = lengths.filter(|length| length.is_finite()).fold(0.0, f32::max);
+            colored_vectors(array.as_any(), |way| colors::of_scene_flow(way, most_m))?
+        }
         "change" => colored(array, |differs: bool| if differs { [255; 3] } else { [0; 3] })?,
         "normal" => colored_vectors(array, colors::of_normal)?,
         "flow" => {
@@ -47,9 +64,7 @@ pub(crate) fn label_colors<'py>(
             colored_vectors(array.as_any(), |flow| colors::of_flow(flow, most_px))?
         }
         _ => {
-            return Err(PyTypeError::new_err(format!(
-                "label: expected class, instance, depth, normal, flow, occluded or change, found {label:?}"
-            )));
+            return Err(PyTypeError::new_err(format!("label: expected {COLORED}, found {label:?}")));
         }
     };
     channels(py, colored)

@@ -40,6 +40,16 @@ impl PyStoredFrame {
             FrameFile::FlowBackward => channels(py, py.detach(|| frame.flow_backward()).map_err(trove_error)?),
             FrameFile::OccludedForward => occlusion(py, py.detach(|| frame.occluded_forward()).map_err(trove_error)?),
             FrameFile::OccludedBackward => occlusion(py, py.detach(|| frame.occluded_backward()).map_err(trove_error)?),
+            FrameFile::Panoptic => values(py, py.detach(|| frame.panoptic()).map_err(trove_error)?),
+            FrameFile::Coverage => values(py, py.detach(|| frame.coverage()).map_err(trove_error)?),
+            file @ (FrameFile::Range | FrameFile::Roughness) => {
+                values(py, py.detach(|| frame.numbers(file)).map_err(trove_error)?)
+            }
+            file @ (FrameFile::NormalWorld
+            | FrameFile::Albedo
+            | FrameFile::SceneFlowForward
+            | FrameFile::SceneFlowBackward
+            | FrameFile::ObjectCoordinates) => channels(py, py.detach(|| frame.vectors(file)).map_err(trove_error)?),
             FrameFile::Change => values(py, py.detach(|| frame.change()).map_err(trove_error)?),
         }
     }

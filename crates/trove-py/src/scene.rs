@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use trove::{FreeCamera, PictureRequest, ReadyScene};
+use trove::{FreeCamera, PictureRequest, Raster, ReadyScene};
 
 use crate::arrays::{channels, occlusion, values};
 use crate::attended::attended;
@@ -84,6 +84,11 @@ impl PyReadyScene {
             images.set_item("radiance", channels(py, color.radiance)?)?;
         }
         let labels = frame.labels;
+        // As in panoptic.png, which every frame can have.
+        let pixels = labels.class.data.iter().zip(&labels.instance.data);
+        let data = pixels.map(|(class, id)| u32::from(class.id()) << 16 | id).collect();
+        let Raster { width, height, .. } = labels.instance;
+        let panoptic = Raster { width, height, data };
         images.set_item("class", values(py, labels.class.map(|class| class.id()))?)?;
         // As in instance.png.
         images.set_item("instance", values(py, labels.instance.map(|id| *id as u16))?)?;
@@ -93,6 +98,25 @@ impl PyReadyScene {
         images.set_item("flow_backward", channels(py, labels.flow_backward)?)?;
         images.set_item("occluded_forward", occlusion(py, labels.occluded_forward)?)?;
         images.set_item("occluded_backward", occlusion(py, labels.occluded_backward)?)?;
+        images.set_item("panoptic", values(py, panoptic)?)?;
+        let extra = labels.extra;
+        let numbers = [("range", extra.range_m), ("roughness", extra.roughness)];
+        for (name, raster) in numbers.into_iter().filter_map(|(name, raster)| Some((name, raster?))) {
+            images.set_item(name, values(py, raster)?)?;
+        }
+        let vectors = [
+            ("normal_world", extra.normal_world),
+            ("albedo", extra.albedo),
+            ("scene_flow_forward", extra.scene_flow_forward),
+            ("scene_flow_backward", extra.scene_flow_backward),
+            ("object_coordinates", extra.object_coordinates),
+        ];
+        for (name, raster) in vectors.into_iter().filter_map(|(name, raster)| Some((name, raster?))) {
+            images.set_item(name, channels(py, raster)?)?;
+        }
+        if let Some(coverage) = extra.coverage {
+            images.set_item("coverage", values(py, coverage)?)?;
+        }
         Ok((table, images))
     }
 }

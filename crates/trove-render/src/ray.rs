@@ -21,17 +21,20 @@ pub(crate) struct Ray {
     pub(crate) t_max: f32,
     /// As `ray_time` gives it.
     pub(crate) time: f32,
-    /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it where they look
-    /// for closest hits; shadows stay.
+    /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it and the two
+    /// below where they look for surfaces; shadows stay.
     pub(crate) past: Option<InstanceId>,
-    /// The keyframe beside at which it looks: closest hits on what does not stand then as it stands now do not count.
+    /// The keyframe beside at which it looks: what does not stand then as it stands now is not there.
     pub(crate) beside: Option<Beside>,
+    /// Whether panes of glass are not there.
+    pub(crate) through_glass: bool,
 }
 
 impl Ray {
     /// From a point to infinity, at the moment of the labels, through nothing.
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY, time: MIDDLE, past: None, beside: None }
+        let (t_min, t_max) = (0.0, f32::INFINITY);
+        Self { origin, direction, t_min, t_max, time: MIDDLE, past: None, beside: None, through_glass: false }
     }
 
     /// Another ray of the same time, to infinity, which is stopped by everything.

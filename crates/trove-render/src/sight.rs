@@ -1,8 +1,8 @@
 //! What a sensor's rays meet first, and where exactly.
 //!
 //! A ray finds the surface in the renderer's precision; where on it is then derived in the model's, from the triangle's own
-//! corners. Holes of cut-outs are not there, nor is what carries the sensor. A pane of glass is: it is what is met, not
-//! what lies behind it.
+//! corners. Holes of cut-outs are not there, nor is what carries the sensor. A pane of glass is what is met, not what lies
+//! behind it, unless labels are asked for as if there were none.
 
 use glam::DVec3;
 use trove_model::SensorRay;
@@ -31,11 +31,21 @@ pub(crate) fn single(ray: &SensorRay) -> Ray {
 
 /// What up to [`PACKET`] rays that run alike meet, in their order.
 pub(crate) fn seen(scene: &PreparedScene, carrier: &Carrier, rays: &[SensorRay]) -> [Option<Seen>; PACKET] {
+    let (past, hits) = packet(scene, carrier, rays);
+    std::array::from_fn(|i| hits[i].map(|hit| exactly(scene, hit, past[i], &rays[i])))
+}
+
+/// The same in the renderer's precision alone.
+pub(crate) fn hits(scene: &PreparedScene, carrier: &Carrier, rays: &[SensorRay]) -> [Option<Hit>; PACKET] {
+    packet(scene, carrier, rays).1
+}
+
+fn packet(scene: &PreparedScene, carrier: &Carrier, rays: &[SensorRay]) -> ([Ray; PACKET], [Option<Hit>; PACKET]) {
     let mut past = [Ray::new(glam::Vec3::ZERO, glam::Vec3::Z); PACKET];
     past.iter_mut().zip(rays).for_each(|(past, ray)| *past = carrier.past(single(ray)));
     let mut hits = [None; PACKET];
     scene.closest(&past[..rays.len()], Coherence::Coherent, &mut hits[..rays.len()]);
-    std::array::from_fn(|i| hits[i].map(|hit| exactly(scene, hit, past[i], &rays[i])))
+    (past, hits)
 }
 
 /// What one ray meets.

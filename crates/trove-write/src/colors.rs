@@ -41,6 +41,29 @@ pub fn of_normal(normal: [f32; 3]) -> [u8; 3] {
     [normal[0], -normal[1], -normal[2]].map(|n| (127.5 * (n + 1.0)).clamp(0.0, 255.0) as u8)
 }
 
+/// Normals in World: east red, north green, up blue.
+pub fn of_normal_world(normal: [f32; 3]) -> [u8; 3] {
+    // Of Camera's axes, up and towards the camera are turned round.
+    of_normal([normal[0], -normal[1], -normal[2]])
+}
+
+/// Ways in World as seen from above: the wheel of directions, east red and north between yellow and green.
+pub fn of_scene_flow([east, north, up]: [f32; 3], most_m: f32) -> [u8; 3] {
+    of_flow([east, if up.is_finite() { -north } else { up }], most_m)
+}
+
+/// Linear colours as a screen shows them; black where there is none.
+pub fn of_albedo(albedo: [f32; 3]) -> [u8; 3] {
+    let encoded = |v: f32| if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+    // NaN becomes 0.
+    albedo.map(|v| (255.0 * encoded(v)).round() as u8)
+}
+
+/// Three shares as red, green and blue; black where there are none.
+pub fn of_shares(shares: [f32; 3]) -> [u8; 3] {
+    shares.map(|share| (255.0 * share).round() as u8)
+}
+
 /// The wheel of directions, white where nothing moves and full at `most_px` pixels: red to the right, then yellow, green
 /// (up and to the left), cyan, blue and violet against the clock; black where flow is not defined.
 pub fn of_flow(flow_px: [f32; 2], most_px: f32) -> [u8; 3] {
@@ -81,6 +104,20 @@ mod tests {
         assert!(down[2] == 255 && down[1] == 0, "{down:?} is violet");
         assert_eq!(left, [0, 255, 255]);
         assert_eq!(of(f32::NAN, 0.0), [0; 3]);
+    }
+
+    #[test]
+    fn ways_and_normals_of_world_have_the_colours_of_the_compass() {
+        assert_eq!(of_normal_world([0.0, 0.0, 1.0]), [127, 127, 255]);
+        assert_eq!(of_normal_world([1.0, 0.0, 0.0]), [255, 127, 127]);
+        assert_eq!(of_scene_flow([2.0, 0.0, 0.0], 2.0), [255, 0, 0]);
+        assert_eq!(of_scene_flow([0.0, 2.0, 0.0], 2.0), of_flow([0.0, -2.0], 2.0));
+        assert_eq!(
+            [of_scene_flow([f32::NAN; 3], 2.0), of_albedo([f32::NAN; 3]), of_shares([f32::NAN; 3])],
+            [[0; 3]; 3]
+        );
+        assert_eq!(of_albedo([0.0, 0.214, 1.0]), [0, 127, 255]);
+        assert_eq!(of_shares([0.0, 0.5, 1.2]), [0, 128, 255]);
     }
 
     #[test]

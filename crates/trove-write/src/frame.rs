@@ -44,27 +44,36 @@ impl Frame {
     }
 }
 
+/// What a raster is called, its width and height, and how many values it has.
+fn size<T>(what: &'static str, raster: &Raster<T>) -> (&'static str, u32, u32, usize) {
+    (what, raster.width, raster.height, raster.data.len())
+}
+
 /// Every picture has the shot's size.
 fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteError> {
-    let labels = &capture.labels;
-    let (forward, backward) = (&labels.occluded_forward, &labels.occluded_backward);
+    let (labels, extra) = (&capture.labels, &capture.labels.extra);
     let mut found = vec![
-        ("class", labels.class.width, labels.class.height, labels.class.data.len()),
-        ("instance", labels.instance.width, labels.instance.height, labels.instance.data.len()),
-        ("depth", labels.depth_m.width, labels.depth_m.height, labels.depth_m.data.len()),
-        ("normal", labels.normal.width, labels.normal.height, labels.normal.data.len()),
-        ("flow_forward", labels.flow_forward.width, labels.flow_forward.height, labels.flow_forward.data.len()),
-        ("flow_backward", labels.flow_backward.width, labels.flow_backward.height, labels.flow_backward.data.len()),
-        ("occluded_forward", forward.width, forward.height, forward.data.len()),
-        ("occluded_backward", backward.width, backward.height, backward.data.len()),
+        size("class", &labels.class),
+        size("instance", &labels.instance),
+        size("depth", &labels.depth_m),
+        size("normal", &labels.normal),
+        size("flow_forward", &labels.flow_forward),
+        size("flow_backward", &labels.flow_backward),
+        size("occluded_forward", &labels.occluded_forward),
+        size("occluded_backward", &labels.occluded_backward),
     ];
     if let Some(Color { radiance, srgb, .. }) = &capture.color {
-        found.push(("radiance", radiance.width, radiance.height, radiance.data.len()));
-        found.push(("rgb", srgb.width, srgb.height, srgb.data.len()));
+        found.extend([size("radiance", radiance), size("rgb", srgb)]);
     }
-    if let Some(change) = &capture.change {
-        found.push(("change", change.width, change.height, change.data.len()));
-    }
+    found.extend(capture.change.iter().map(|change| size("change", change)));
+    found.extend(extra.range_m.iter().map(|range| size("range", range)));
+    found.extend(extra.normal_world.iter().map(|normal| size("normal_world", normal)));
+    found.extend(extra.albedo.iter().map(|albedo| size("albedo", albedo)));
+    found.extend(extra.roughness.iter().map(|roughness| size("roughness", roughness)));
+    found.extend(extra.scene_flow_forward.iter().map(|flow| size("scene_flow_forward", flow)));
+    found.extend(extra.scene_flow_backward.iter().map(|flow| size("scene_flow_backward", flow)));
+    found.extend(extra.object_coordinates.iter().map(|points| size("object_coordinates", points)));
+    found.extend(extra.coverage.iter().map(|coverage| size("coverage", coverage)));
     match found.iter().find(|(_, w, h, len)| (*w, *h) != (width, height) || *len != width as usize * height as usize) {
         None if width > 0 && height > 0 => Ok(()),
         None => Err(WriteError::Mismatch(format!("an image of {width}×{height} pixels"))),

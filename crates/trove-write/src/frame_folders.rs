@@ -6,7 +6,7 @@ use std::{fs, io};
 
 use trove_files::OutputRoot;
 use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
-use trove_model::{InstanceId, Labels, Occlusion, Raster};
+use trove_model::{Class, InstanceId, Labels, Occlusion, Raster};
 
 use crate::files::FolderInTheMaking;
 use crate::{Frame, Sweep, WriteError, contact_sheet, exr_file, png_file, write_atomically};
@@ -115,6 +115,27 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
         FrameFile::FlowBackward => exr_file::encode(name, &labels.flow_backward, ["R", "G"]),
         FrameFile::OccludedForward => png_file::grey(name, width, height, &values(&labels.occluded_forward)),
         FrameFile::OccludedBackward => png_file::grey(name, width, height, &values(&labels.occluded_backward)),
+        FrameFile::Panoptic => {
+            let ids = narrowed(labels)?;
+            // Of an id's 24 bits, COCO's pictures have the lowest in red.
+            let segment = |(id, class): (&u16, &Class)| [(id & 0xff) as u8, (id >> 8) as u8, class.id()];
+            let segments: Vec<[u8; 3]> = ids.iter().zip(&labels.class.data).map(segment).collect();
+            png_file::labels_rgb(name, width, height, &segments)
+        }
+        FrameFile::Range => exr_file::encode_scalar(name, made(name, &labels.extra.range_m)?),
+        FrameFile::NormalWorld => exr_file::encode(name, made(name, &labels.extra.normal_world)?, ["R", "G", "B"]),
+        FrameFile::Albedo => exr_file::encode(name, made(name, &labels.extra.albedo)?, ["R", "G", "B"]),
+        FrameFile::Roughness => exr_file::encode_scalar(name, made(name, &labels.extra.roughness)?),
+        FrameFile::SceneFlowForward => {
+            exr_file::encode(name, made(name, &labels.extra.scene_flow_forward)?, ["R", "G", "B"])
+        }
+        FrameFile::SceneFlowBackward => {
+            exr_file::encode(name, made(name, &labels.extra.scene_flow_backward)?, ["R", "G", "B"])
+        }
+        FrameFile::ObjectCoordinates => {
+            exr_file::encode(name, made(name, &labels.extra.object_coordinates)?, ["R", "G", "B"])
+        }
+        FrameFile::Coverage => png_file::grey(name, width, height, &made(name, &labels.extra.coverage)?.data),
         FrameFile::Change => {
             let change = frame.change.as_ref();
             let change =
@@ -122,6 +143,11 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
             png_file::grey(name, width, height, &change.map(|&differs| if differs { u8::MAX } else { 0 }).data)
         }
     }
+}
+
+/// A label that the shot asked for.
+fn made<'a, T>(name: &str, raster: &'a Option<Raster<T>>) -> Result<&'a Raster<T>, WriteError> {
+    raster.as_ref().ok_or_else(|| WriteError::Mismatch(format!("{name} without the shot asking for it")))
 }
 
 fn values(occlusion: &Raster<Occlusion>) -> Vec<u8> {

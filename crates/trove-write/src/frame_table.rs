@@ -81,6 +81,7 @@ pub(crate) fn frame_table(
         carrier: shot.carrier.map(|id| id.0),
         carrier_track_token: carrier_track_token.unwrap_or_default(),
         projection: (&meta.projection).into(),
+        glass: shot.labels.glass.into(),
         exposure_ev: capture.color.as_ref().map(|c| c.exposure_ev),
         spp: shot.spp,
         denoised: capture.stats.denoised,

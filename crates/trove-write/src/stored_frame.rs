@@ -124,7 +124,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn depth_m(&self) -> Result<Raster<f32>, WriteError> {
-        exr_file::read_scalar(&self.needed(FrameFile::Depth)?, self.size())
+        self.numbers(FrameFile::Depth)
     }
 
     /// Unit normals in Camera; 0: sky.
@@ -132,7 +132,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn normal(&self) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.needed(FrameFile::Normal)?, self.size())
+        self.vectors(FrameFile::Normal)
     }
 
     /// Linear Rec. 709 radiance before exposure.
@@ -140,7 +140,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn radiance(&self) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.needed(FrameFile::Radiance)?, self.size())
+        self.vectors(FrameFile::Radiance)
     }
 
     /// Pixels to the next keyframe, right and down; NaN: not defined.
@@ -173,6 +173,44 @@ impl StoredFrame {
     /// As for [`StoredFrame::occluded_forward`].
     pub fn occluded_backward(&self) -> Result<Raster<Occlusion>, WriteError> {
         self.occlusion(FrameFile::OccludedBackward)
+    }
+
+    /// Class and object of each pixel in one number: 65536 · class + object.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn panoptic(&self) -> Result<Raster<u32>, WriteError> {
+        let picture = self.png(FrameFile::Panoptic)?;
+        let DynamicImage::ImageRgb8(segments) = picture else {
+            return Err(self.damaged(FrameFile::Panoptic, format!("{:?} instead of 8-bit colours", picture.color())));
+        };
+        let data = segments.pixels().map(|pixel| u32::from_le_bytes([pixel[0], pixel[1], pixel[2], 0])).collect();
+        Ok(Raster { width: segments.width(), height: segments.height(), data })
+    }
+
+    /// Share of each pixel, in 255ths, that shows what its centre shows.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn coverage(&self) -> Result<Raster<u8>, WriteError> {
+        let picture = self.png(FrameFile::Coverage)?.into_luma8();
+        Ok(Raster { width: picture.width(), height: picture.height(), data: picture.into_raw() })
+    }
+
+    /// The numbers of `range.exr` (metres along the ray; +inf: sky), `depth.exr` or `roughness.exr` (NaN: sky).
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`], and a file of vectors.
+    pub fn numbers(&self, file: FrameFile) -> Result<Raster<f32>, WriteError> {
+        exr_file::read_scalar(&self.needed(file)?, self.size())
+    }
+
+    /// The vectors of a file with three channels, such as `scene_flow_forward.exr`, as docs/output.md tells.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`], and a file of other values.
+    pub fn vectors(&self, file: FrameFile) -> Result<Raster<[f32; 3]>, WriteError> {
+        exr_file::read_rgb(&self.needed(file)?, self.size())
     }
 
     fn occlusion(&self, file: FrameFile) -> Result<Raster<Occlusion>, WriteError> {

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
-    CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, Instance, InstanceId, Kind, Labels,
-    Lens, Light, MapProjection, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose, Raster, Scene,
-    SceneObject, Seed, Shot,
+    CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, ExtraLabels, Instance, InstanceId,
+    Kind, Labels, Lens, Light, MapProjection, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose,
+    Raster, Scene, SceneObject, Seed, Shot,
 };
-use trove_write::{Frame, FrameFolders, FrameMeta, WriteError, sha256_file, write_atomically};
+use trove_write::{Frame, FrameFolders, FrameMeta, StoredFrame, WriteError, sha256_file, write_atomically};
 
 const W: u32 = 48;
 const H: u32 = 20;
@@ -95,6 +95,16 @@ fn capture() -> Capture {
         flow_backward: Raster::filled(W, H, [f32::NAN; 2]),
         occluded_forward: Raster::from_fn(W, H, |x, _| if x < 3 { Occlusion::Hidden } else { Occlusion::Seen }),
         occluded_backward: Raster::filled(W, H, Occlusion::Undefined),
+        extra: ExtraLabels {
+            range_m: Some(Raster::from_fn(W, H, |x, y| if y < 4 { f32::INFINITY } else { 2.0 + 0.1 * x as f32 })),
+            normal_world: Some(Raster::filled(W, H, [0.0, 0.6, 0.8])),
+            albedo: Some(Raster::from_fn(W, H, |x, _| [0.01 * x as f32, 0.5, f32::NAN])),
+            roughness: Some(Raster::filled(W, H, 0.25)),
+            scene_flow_forward: Some(Raster::from_fn(W, H, |x, y| [x as f32, y as f32, -0.5])),
+            scene_flow_backward: Some(Raster::filled(W, H, [f32::NAN; 3])),
+            object_coordinates: Some(Raster::filled(W, H, [0.25, 0.5, 1.0])),
+            coverage: Some(Raster::from_fn(W, H, |x, _| x as u8)),
+        },
         objects: vec![object],
     };
     let color = Color {
@@ -144,7 +154,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
     let files = write(&dir, &capture).unwrap();
 
-    assert_eq!(names(&dir).len(), 11);
+    assert_eq!(names(&dir).len(), 20);
     assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
     for file in &files {
         assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
@@ -177,6 +187,37 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
             assert_eq!(plane.1, bits(values.iter().map(|n| n[i]).collect()), "{file} {name}");
         }
     }
+    let extra = &capture.labels.extra;
+    let scalars = [("range.exr", &extra.range_m), ("roughness.exr", &extra.roughness)];
+    for (file, raster) in scalars {
+        assert_eq!(planes(file), [("Y".to_owned(), bits(raster.clone().unwrap().data))], "{file}");
+    }
+    let vectors = [
+        ("normal_world.exr", &extra.normal_world),
+        ("albedo.exr", &extra.albedo),
+        ("scene_flow_forward.exr", &extra.scene_flow_forward),
+        ("scene_flow_backward.exr", &extra.scene_flow_backward),
+        ("object_coordinates.exr", &extra.object_coordinates),
+    ];
+    for (file, raster) in vectors {
+        let (found, data) = (planes(file), &raster.as_ref().unwrap().data);
+        for (name, i) in [("R", 0), ("G", 1), ("B", 2)] {
+            let plane = found.iter().find(|(n, _)| n == name).unwrap();
+            assert_eq!(plane.1, bits(data.iter().map(|v| v[i]).collect()), "{file} {name}");
+        }
+    }
+    assert_eq!(png("coverage.png").as_luma8().unwrap().as_raw(), &extra.coverage.as_ref().unwrap().data);
+    // As panopticapi reads them: R + 256 · G + 65536 · B.
+    let segments = png("panoptic.png").into_rgb8();
+    let number = |p: &image::Rgb<u8>| u32::from(p[0]) + 256 * u32::from(p[1]) + 65_536 * u32::from(p[2]);
+    let expected = (0..W * H).map(|i| u32::from(capture.labels.class.data[i as usize].id()) * 65_536 + ids[i as usize]);
+    assert!(segments.pixels().map(number).eq(expected));
+    let stored = StoredFrame::open(&dir).unwrap();
+    assert!(stored.panoptic().unwrap().data.iter().copied().eq(segments.pixels().map(number)));
+    assert_eq!(stored.coverage().unwrap(), extra.coverage.clone().unwrap());
+    assert_eq!(stored.numbers(FrameFile::Range).unwrap(), extra.range_m.clone().unwrap());
+    assert_eq!(stored.vectors(FrameFile::SceneFlowForward).unwrap(), extra.scene_flow_forward.clone().unwrap());
+
     let flow = planes("flow_forward.exr");
     assert_eq!(flow.iter().find(|(n, _)| n == "R").unwrap().1[W as usize * 4 + 7], 7f32.to_bits());
 }
@@ -217,7 +258,7 @@ fn labels_alone_leave_no_picture() {
     let dir = root.path().join("frame");
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
     assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
-    assert_eq!(names(&dir).len(), 9);
+    assert_eq!(names(&dir).len(), 18);
 }
 
 #[test]
@@ -261,6 +302,8 @@ fn what_does_not_fit_is_an_error_and_leaves_nothing() {
     assert!(refused(|c| c.labels.instance.data[3] = 65_536).contains("found object 65536"));
     assert!(refused(|c| c.labels.depth_m = Raster::filled(2, 2, 1.0)).contains("depth of 2×2"));
     assert!(refused(|c| c.labels.objects[0].id = InstanceId(3)).contains("object 3"));
+    assert!(refused(|c| c.labels.extra.coverage = Some(Raster::filled(2, 2, 1))).contains("coverage of 2×2"));
+    assert!(refused(|c| c.labels.extra.range_m = None).contains("range.exr without"));
 }
 
 #[test]

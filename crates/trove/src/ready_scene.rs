@@ -177,7 +177,8 @@ impl ReadyScene {
                 let pose = pose.as_ref().map_or(Ok(view.world_from_camera), pose_of)?;
                 let name = if camera.is_some() { "free" } else { &view.view };
                 let Shot { time_ns, spp, noise, film, seed, .. } = *view;
-                Shot { time_ns, spp, noise, film, seed, ..Shot::new(name, lens, pose) }
+                let labels = view.labels.clone();
+                Shot { time_ns, spp, noise, film, seed, labels, ..Shot::new(name, lens, pose) }
             }
         };
         if let Some(spp) = request.spp {

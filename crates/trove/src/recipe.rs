@@ -2,6 +2,7 @@
 
 mod camera;
 mod check;
+mod labels;
 mod light;
 mod season;
 mod sensors;
@@ -17,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use trove_build::{PictureSize, Weather};
 use trove_files::{LARGEST_TEXT, read_text};
 use trove_format::FrameFile;
+use trove_model::LabelSettings;
 use trove_read::DATASETS;
 use trove_read::drive_source::Opener;
 use trove_read::osm::GeoJsonFrame;
@@ -27,6 +29,7 @@ use trove_write::DatasetFormat;
 use self::check::check;
 pub(crate) use self::check::nearest;
 pub use camera::CameraSection;
+pub use labels::LabelsSection;
 pub use light::LightSection;
 pub use season::SeasonChoice;
 pub use sensors::{SensorKind, SensorSection, SensorsSection};
@@ -72,6 +75,9 @@ pub struct Recipe {
     /// Pictures.
     #[serde(default)]
     pub render: RenderSection,
+    /// What labels tell.
+    #[serde(default)]
+    pub labels: LabelsSection,
     /// What is written.
     #[serde(default)]
     pub output: OutputSection,
@@ -374,7 +380,7 @@ pub enum Quickly {
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutputSection {
-    /// The pictures in a frame's folder; `None`: all but the radiance, which `render.radiance` adds.
+    /// The pictures in a frame's folder; `None`: the usual ones.
     pub files: Option<BTreeSet<FrameFile>>,
     /// Datasets for other tools that the finished run is exported as, by the names of their forms.
     #[serde(default)]
@@ -556,8 +562,8 @@ impl Recipe {
 
     /// The pictures in the folder of a variation's frame.
     pub fn pictures(&self, variation: u32) -> BTreeSet<FrameFile> {
-        let all = || FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Radiance).collect();
-        let mut files = self.output.files.clone().unwrap_or_else(all);
+        let usual = || FrameFile::ALL.into_iter().filter(|file| file.is_usual()).collect();
+        let mut files = self.output.files.clone().unwrap_or_else(usual);
         if self.render.radiance {
             files.insert(FrameFile::Radiance);
         }
@@ -566,6 +572,12 @@ impl Recipe {
             files.remove(&FrameFile::Change);
         }
         files
+    }
+
+    /// Which labels pictures get.
+    pub fn label_settings(&self) -> LabelSettings {
+        let extra = self.pictures(0).into_iter().filter_map(FrameFile::extra).collect();
+        LabelSettings { glass: self.labels.glass.into(), extra }
     }
 
     /// Whether there is a picture that shows light.
@@ -655,6 +667,8 @@ fn unknown_field(error: &toml::de::Error) -> Option<(&str, Vec<&str>)> {
 
 #[cfg(test)]
 mod tests {
+    use trove_model::{ExtraLabel, GlassLabels};
+
     use super::*;
 
     const DRIVE: &str = "[drive]\ndataset = \"nuscenes\"\nroot = \"data\"\n";
@@ -755,6 +769,13 @@ mod tests {
         let radiance = recipe("[render]\nradiance = true\ndenoise = \"fast\"\n[output]\nfiles = []\n");
         assert_eq!((radiance.pictures(0), radiance.denoising()), ([FrameFile::Radiance].into(), Denoising::Fast));
         assert_eq!(recipe("[render]\nlight = false\n").pictures(0).len(), 8);
+        let asked = recipe("[labels]\nglass = \"behind\"\n[output]\nfiles = [\"panoptic\", \"range\"]\n");
+        assert_eq!(asked.pictures(0), [FrameFile::Panoptic, FrameFile::Range].into());
+        assert_eq!(asked.label_settings().extra, [ExtraLabel::Range].into());
+        assert_eq!(
+            (asked.label_settings().glass, plain.label_settings()),
+            (GlassLabels::Behind, LabelSettings::default())
+        );
         assert_eq!(recipe("[render]\ndenoise = false\n").denoising(), Denoising::None);
     }
 

@@ -83,5 +83,6 @@ fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         exposure_s: recipe.camera.exposure_s,
         readout_s: recipe.camera.readout_s,
         film: recipe.camera.film(),
+        labels: recipe.label_settings(),
     })
 }

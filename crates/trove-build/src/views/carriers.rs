@@ -189,6 +189,7 @@ impl Stay {
                     spp: views.spp,
                     noise: views.noise,
                     film: views.film,
+                    labels: views.labels.clone(),
                     seed: shot_seed(seeds, keyframe, &view),
                     carrier: Some(track_id(self.track)),
                     view,

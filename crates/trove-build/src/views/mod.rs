@@ -82,6 +82,7 @@ fn recorded(
             spp: views.spp,
             noise: views.noise,
             film: views.film,
+            labels: views.labels.clone(),
             seed: shot_seed(seeds, keyframe, &view),
             carrier: Some(site.ego_id(drive)),
             viewpoint: Viewpoint::Recording { camera: exposure.camera },

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
-use trove_model::{Camera, Distortion, Ego, Exposure, Film, Lens, Pose, Seed, Shutter, World};
+use trove_model::{Camera, Distortion, Ego, Exposure, Film, LabelSettings, Lens, Pose, Seed, Shutter, World};
 
 use crate::place::Seeds;
 
@@ -32,6 +32,8 @@ pub struct ViewSettings {
     pub readout_s: f64,
     /// From light to picture.
     pub film: Film,
+    /// Which labels pictures get.
+    pub labels: LabelSettings,
 }
 
 /// How large pictures are.

@@ -1,6 +1,6 @@
 use super::*;
 use image::GrayImage;
-use trove_format::{FrameTable, LensModel, ObjectOrigin, ObjectRow, Projection};
+use trove_format::{FrameTable, GlassPolicy, LensModel, ObjectOrigin, ObjectRow, Projection};
 use trove_model::{Class, ClassMap, Kind};
 
 fn classes() -> [Option<u8>; 20] {
@@ -61,6 +61,7 @@ fn frame(i: u32) -> FrameTable {
         carrier: None,
         carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2], metres_per_rad: None },
+        glass: GlassPolicy::Glass,
         exposure_ev: None,
         spp: 1,
         denoised: false,

@@ -1,7 +1,7 @@
 //! How both sides' numbers are found out, and what becomes of them.
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, RgbImage};
-use trove_format::{FrameTable, LensModel, ObjectOrigin, ObjectRow, Projection};
+use trove_format::{FrameTable, GlassPolicy, LensModel, ObjectOrigin, ObjectRow, Projection};
 use trove_model::Kind;
 
 use super::*;
@@ -86,6 +86,7 @@ fn frame(folder: &Path, ids: &[u8], instances: &[u16], kinds: &[Kind]) {
         carrier: None,
         carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: [0.0; 2], metres_per_rad: None },
+        glass: GlassPolicy::Glass,
         exposure_ev: None,
         spp: 1,
         denoised: false,

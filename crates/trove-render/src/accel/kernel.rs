@@ -30,14 +30,19 @@ pub(crate) trait Kernel: Send + Sync {
 
 /// A kernel's scene, which answers batches of rays. Results have the rays' order and number.
 pub(crate) trait Accel: Send + Sync {
-    /// The nearest surface of each ray, holes and what the ray passes through left out.
+    /// The nearest surface of each ray, holes and what the ray passes through left out. All rays of a batch look at one
+    /// moment and pass through glass, or none does.
     fn closest(&self, rays: &[Ray], coherence: Coherence, hits: &mut [Option<Hit>]);
+
+    /// Whether [`Accel::closest`] would find a surface for each ray, in less time.
+    fn blocked(&self, rays: &[Ray], coherence: Coherence, blocked: &mut [bool]);
 
     /// Leaves of the light along each ray what no hit keeps back: nothing behind what is opaque, a tinted share behind
     /// panes.
     fn any(&self, rays: &[Ray], coherence: Coherence, light: &mut [Vec3]);
 
-    /// The nearest surface of one instance as if nothing else were there, at the moment of the labels.
+    /// The nearest surface of one instance as if nothing else were there, at the moment of the labels; of what rays pass
+    /// through, glass alone is left out.
     fn closest_on(&self, instance: u32, rays: &[Ray], hits: &mut [Option<Hit>]);
 
     /// How many rays meet a triangle, found as the nearest one with nothing judged: the kernel as its makers deliver it, to

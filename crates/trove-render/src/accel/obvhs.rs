@@ -105,7 +105,8 @@ impl Top {
 
     /// The nearest hit that is no hole.
     pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: u32) -> Option<Hit> {
-        self.intersect(shapes, ray, instance, ray.t_max, false, &mut |hit| shapes.is_there(hit))
+        let is_seen = &mut |hit: &Hit| shapes.is_seen(hit, ray.through_glass);
+        self.intersect(shapes, ray, instance, ray.t_max, false, is_seen)
     }
 
     /// The nearest hit before `t_max`; `stop_at_any` ends at the first that counts.
@@ -150,10 +151,14 @@ impl Top {
 }
 
 impl Scene {
-    fn intersect(&self, ray: &Ray, mut counts: impl FnMut(&Hit) -> bool) -> Option<Hit> {
+    /// The nearest hit that counts, on an instance that does.
+    fn intersect(&self, ray: &Ray, enters: impl Fn(u32) -> bool, mut counts: impl FnMut(&Hit) -> bool) -> Option<Hit> {
         let mut nearest = None;
         let meet = |world: &obvhs::ray::Ray, index: usize| {
             let instance = self.bvh.primitive_indices[index];
+            if !enters(instance) {
+                return f32::INFINITY;
+            }
             let top = &self.tops[instance as usize];
             let hit = top.intersect(&self.shapes, ray, instance, world.tmax, false, &mut counts);
             let t = hit.map_or(f32::INFINITY, |hit| hit.t);
@@ -164,9 +169,12 @@ impl Scene {
         nearest
     }
 
-    fn is_blocked(&self, ray: &Ray, mut counts: impl FnMut(&Hit) -> bool) -> bool {
+    fn is_blocked(&self, ray: &Ray, enters: impl Fn(u32) -> bool, mut counts: impl FnMut(&Hit) -> bool) -> bool {
         let meet = |_: &obvhs::ray::Ray, index: usize| {
             let instance = self.bvh.primitive_indices[index];
+            if !enters(instance) {
+                return f32::INFINITY;
+            }
             let top = &self.tops[instance as usize];
             let hit = top.intersect(&self.shapes, ray, instance, ray.t_max, true, &mut counts);
             hit.map_or(f32::INFINITY, |hit| hit.t)
@@ -178,15 +186,24 @@ impl Scene {
 /// Rays are traced one by one, coherent or not.
 impl Accel for Scene {
     fn closest(&self, rays: &[Ray], _: Coherence, hits: &mut [Option<Hit>]) {
-        let closest = |ray: &Ray| self.intersect(ray, |hit| self.shapes.is_there(hit));
+        let shapes = &self.shapes;
         for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.shapes.past(ray, closest(ray), closest);
+            let enters = |instance| !shapes.is_passed(ray, instance);
+            *hit = self.intersect(ray, enters, |hit| shapes.is_seen(hit, ray.through_glass));
+        }
+    }
+
+    fn blocked(&self, rays: &[Ray], _: Coherence, blocked: &mut [bool]) {
+        let shapes = &self.shapes;
+        for (ray, blocked) in rays.iter().zip(blocked) {
+            let enters = |instance| !shapes.is_passed(ray, instance);
+            *blocked = self.is_blocked(ray, enters, |hit| shapes.is_seen(hit, ray.through_glass));
         }
     }
 
     fn any(&self, rays: &[Ray], _: Coherence, light: &mut [Vec3]) {
         for (ray, light) in rays.iter().zip(light) {
-            if self.is_blocked(ray, |hit| self.shapes.blocks(hit, ray, light)) {
+            if self.is_blocked(ray, |_| true, |hit| self.shapes.blocks(hit, ray, light)) {
                 *light = Vec3::ZERO;
             }
         }
@@ -198,11 +215,11 @@ impl Accel for Scene {
     }
 
     fn bare_closest(&self, rays: &[Ray]) -> usize {
-        rays.iter().filter(|ray| self.intersect(ray, |_| true).is_some()).count()
+        rays.iter().filter(|ray| self.intersect(ray, |_| true, |_| true).is_some()).count()
     }
 
     fn bare_any(&self, rays: &[Ray]) -> usize {
-        rays.iter().filter(|ray| self.is_blocked(ray, |_| true)).count()
+        rays.iter().filter(|ray| self.is_blocked(ray, |_| true, |_| true)).count()
     }
 }
 

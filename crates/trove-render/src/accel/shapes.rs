@@ -29,6 +29,12 @@ impl Shapes {
         !opacity.has_holes() || opacity.covers(placed.uv(hit))
     }
 
+    /// Whether there is a surface at a hit for rays that pass through glass, or for those that do not.
+    pub(super) fn is_seen(&self, hit: &Hit, through_glass: bool) -> bool {
+        let is_pane = || self.opacities[self.placed[hit.instance as usize].material(hit)].is_pane();
+        self.is_there(hit) && !(through_glass && is_pane())
+    }
+
     /// Whether a hit keeps the last of the light back; what goes straight through it stays of `light`.
     pub(super) fn blocks(&self, hit: &Hit, ray: &Ray, light: &mut Vec3) -> bool {
         if !self.is_there(hit) {
@@ -44,9 +50,9 @@ impl Shapes {
         *light == Vec3::ZERO
     }
 
-    /// Whether a ray passes through what it has met.
-    pub(super) fn is_passed(&self, ray: &Ray, met: Option<Hit>) -> bool {
-        let Some(placed) = met.map(|hit| &self.placed[hit.instance as usize]) else { return false };
+    /// Whether a ray passes through all of an instance.
+    pub(super) fn is_passed(&self, ray: &Ray, instance: u32) -> bool {
+        let placed = &self.placed[instance as usize];
         ray.past == Some(placed.id) || ray.beside.is_some_and(|beside| !placed.stays[beside as usize])
     }
 
@@ -55,7 +61,7 @@ impl Shapes {
         let mut met = first;
         let mut ray = *ray;
         while let Some(hit) = met
-            && self.is_passed(&ray, met)
+            && self.is_passed(&ray, hit.instance)
         {
             ray.t_min = hit.t * (1.0 + 1e-6) + 1e-6;
             met = closest(&ray);

@@ -31,7 +31,7 @@ struct Met {
 /// (shadows, reflections, what shines) is no difference.
 pub(crate) fn changes([before, after]: [(&Scene, &PreparedScene); 2], shot: &Shot) -> Raster<bool> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
-    let carriers = [before.1, after.1].map(|scene| Carrier::new(scene, shot.carrier));
+    let carriers = [before.1, after.1].map(|scene| Carrier::of_labels(scene, None, shot));
     let row = |y: u32| {
         // Of two materials, by their indices, whether they look the same.
         let mut known: BTreeMap<[u32; 2], bool> = BTreeMap::new();

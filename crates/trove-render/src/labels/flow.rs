@@ -1,11 +1,10 @@
 //! Where the point of a pixel is in the picture of a neighbouring keyframe, and whether that picture shows it.
 
-use std::sync::Arc;
-
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use trove_model::{Camera, Lens, Mesh, Occlusion, Pose, Shot, World};
 
 use crate::PreparedScene;
+use crate::accel::PACKET;
 use crate::prepare::{Carrier, Then};
 use crate::ray::{Beside, Hit, Ray};
 
@@ -14,9 +13,6 @@ const EDGE: f64 = 1e-2;
 
 /// A surface is taken to be seen no flatter than this, as the cosine to its normal: a pixel's extent on it is endless.
 const FLATTEST: f64 = 0.02;
-
-/// Flow that is not defined.
-pub(super) const NONE: [f32; 2] = [f32::NAN; 2];
 
 /// Where a pixel leads.
 pub(super) struct Arrow {
@@ -40,7 +36,7 @@ pub(super) struct Spot {
     pub normal: DVec3,
 }
 
-const UNDEFINED: Arrow = Arrow { flow: NONE, end: End::Undefined };
+const UNDEFINED: Arrow = Arrow { flow: [f32::NAN; 2], end: End::Undefined };
 
 /// The previous or the next keyframe.
 pub(super) struct Neighbour<'a> {
@@ -61,14 +57,14 @@ impl<'a> Neighbour<'a> {
             beside,
             lens: shot.lens,
             world_from_camera: poses[beside as usize],
-            carrier: Carrier::at(scene, Some(beside), shot.carrier),
+            carrier: Carrier::of_labels(scene, Some(beside), shot),
         })
     }
 
-    /// From `centre` to where a hit's instance carries its spot.
-    pub(super) fn arrow(&self, centre: DVec2, hit: &Hit, spot: Spot) -> Arrow {
+    /// From `centre` to a spot then.
+    pub(super) fn arrow(&self, centre: DVec2, then: Option<Spot>) -> Arrow {
         let Some(eye) = self.world_from_camera else { return UNDEFINED };
-        let Some(Spot { point, normal }) = self.carried(hit, spot) else { return UNDEFINED };
+        let Some(Spot { point, normal }) = then else { return UNDEFINED };
         let way = point - eye.translation;
         let range_m = way.length();
         let flatness = (normal.dot(way).abs() / range_m).max(FLATTEST);
@@ -88,21 +84,25 @@ impl<'a> Neighbour<'a> {
         })
     }
 
-    /// Whether the neighbour's picture shows what a packet of neighbouring pixels leads to.
-    pub(super) fn occlusion(&self, arrows: &[&Arrow]) -> Vec<Occlusion> {
-        let ray = |arrow: &&Arrow| match arrow.end {
-            End::Before(ray) => Some(self.carrier.past(ray)),
-            End::Undefined | End::Outside => None,
-        };
-        let rays: Vec<Ray> = arrows.iter().filter_map(ray).collect();
-        let mut blocked = self.scene.blocks_then(self.beside, &rays).into_iter();
-        let of = |arrow: &&Arrow| match arrow.end {
-            End::Undefined => Occlusion::Undefined,
-            End::Outside => Occlusion::Hidden,
-            End::Before(_) if blocked.next() == Some(true) => Occlusion::Hidden,
-            End::Before(_) => Occlusion::Seen,
-        };
-        arrows.iter().map(of).collect()
+    /// Whether the neighbour's picture shows what a packet of neighbouring pixels leads to, each at its index in `layer`.
+    pub(super) fn occlusion(&self, arrows: &[(usize, Arrow)], layer: &mut [Occlusion]) {
+        let mut rays = [Ray::new(Vec3::ZERO, Vec3::Z); PACKET];
+        let mut n = 0;
+        for (_, arrow) in arrows {
+            if let End::Before(ray) = arrow.end {
+                rays[n] = self.carrier.past(ray);
+                n += 1;
+            }
+        }
+        let mut blocked = self.scene.blocks_then(self.beside, &rays[..n]).into_iter();
+        for (i, arrow) in arrows {
+            layer[*i] = match arrow.end {
+                End::Undefined => Occlusion::Undefined,
+                End::Outside => Occlusion::Hidden,
+                End::Before(_) if blocked.next() == Some(true) => Occlusion::Hidden,
+                End::Before(_) => Occlusion::Seen,
+            };
+        }
     }
 
     fn to(&self, centre: DVec2, point_camera: DVec3, ray: impl FnOnce() -> Ray) -> Arrow {
@@ -112,21 +112,19 @@ impl<'a> Neighbour<'a> {
     }
 
     /// Where a hit's spot is then; `None` where its instance is not there.
-    fn carried(&self, hit: &Hit, spot: Spot) -> Option<Spot> {
+    pub(super) fn carried(&self, hit: &Hit, spot: Spot) -> Option<Spot> {
         let instance = &self.scene.instances[hit.instance as usize];
-        let (then, world_from_mesh) = match &instance.then[self.beside as usize] {
+        let (then, world_from_mesh, then_from_now) = match &instance.then[self.beside as usize] {
             Then::IsNotThere => return None,
             Then::Stays => return Some(spot),
-            Then::Moves { mesh, world_from_mesh } => (mesh, world_from_mesh),
+            Then::Moves { mesh, world_from_mesh, then_from_now } => (mesh, world_from_mesh, then_from_now),
         };
-        let mesh = &self.scene.placed(hit.instance).mesh;
-        let mesh_from_world = instance.world_from_mesh.middle.inverse();
-        if Arc::ptr_eq(mesh, then) {
-            let then_from_now = *world_from_mesh * mesh_from_world;
+        if let Some(then_from_now) = then_from_now {
             let normal = then_from_now.transform_vector3(spot.normal).normalize_or_zero();
             return Some(Spot { point: then_from_now.transform_point3(spot.point), normal });
         }
-        let point_mesh = mesh_from_world.transform_point3(spot.point);
+        let mesh = &self.scene.placed(hit.instance).mesh;
+        let point_mesh = instance.mesh_from_world.transform_point3(spot.point);
         let place = place_in(corners(mesh, hit.triangle), point_mesh);
         let [u, v] = place.unwrap_or([hit.u.into(), hit.v.into()]);
         let [a, b, c] = corners(then, hit.triangle).map(|corner| world_from_mesh.transform_point3(corner));

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use trove_model::{Cuboid, ObjectLabel, PixelBox, Pose, Raster, SceneObject, Shot};
+use trove_model::{Cuboid, GlassLabels, ObjectLabel, PixelBox, Pose, SceneObject, Shot};
 
 use super::keypoints;
 use super::outline;
-use super::pixel::Pixel;
+use super::pixel::Shown;
 use crate::PreparedScene;
 use crate::placed::Placed;
 use crate::prepare::Carrier;
@@ -22,7 +22,12 @@ struct Extent {
 
 impl Extent {
     fn of(x: u32, y: u32) -> Self {
-        Self { count: 1, around: Some(PixelBox { min: [x, y], max: [x, y] }) }
+        Self::run([x, x], y)
+    }
+
+    /// From one column to another.
+    fn run([x0, x1]: [u32; 2], y: u32) -> Self {
+        Self { count: x1 + 1 - x0, around: Some(PixelBox { min: [x0, y], max: [x1, y] }) }
     }
 
     fn and(self, other: Self) -> Self {
@@ -43,14 +48,20 @@ pub(super) fn list(
     scene: &PreparedScene,
     carrier: &Carrier,
     shot: &Shot,
-    shown: &Raster<Pixel>,
+    shown: &Shown,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<ObjectLabel>> {
     let mut visible = vec![Extent::default(); scene.instances.len()];
-    for (i, pixel) in shown.data.iter().enumerate() {
-        // Sky and void are no instances.
-        let Some(extent) = visible.get_mut(pixel.instance as usize) else { continue };
-        *extent = extent.and(Extent::of(i as u32 % shown.width, i as u32 / shown.width));
+    for (y, row) in (0..).zip(shown.instance.chunks(shown.width.max(1) as usize)) {
+        let mut x = 0;
+        for run in row.chunk_by(|a, b| a == b) {
+            let next = x + run.len() as u32;
+            // Sky and void are no instances.
+            if let Some(extent) = visible.get_mut(run[0] as usize) {
+                *extent = extent.and(Extent::run([x, next - 1], y));
+            }
+            x = next;
+        }
     }
     let mut objects: Vec<ObjectLabel> = (0..scene.instances.len())
         .into_par_iter()
@@ -74,7 +85,7 @@ fn label(
     scene: &PreparedScene,
     carrier: &Carrier,
     shot: &Shot,
-    shown: &Raster<Pixel>,
+    shown: &Shown,
     (index, object): (usize, &SceneObject),
     visible: Extent,
 ) -> Option<ObjectLabel> {
@@ -96,7 +107,7 @@ fn label(
 }
 
 /// The pixels that would show an instance if other things did not hide it.
-fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usize) -> Extent {
+fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Extent {
     let Some((corners_camera, farthest_m)) = bounds_camera(scene, index, shot) else {
         return Extent::default();
     };
@@ -104,10 +115,12 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Raster<Pixel>, index: usiz
         return Extent::default();
     };
     // Where something farther than all of it is seen, the instance is not: no ray is needed.
-    let may_hide = |pixel: &Pixel| pixel.instance != index as u32 && pixel.range_m <= farthest_m;
+    let may_hide = |(instance, range_m): (u32, f64)| instance != index as u32 && range_m <= farthest_m;
+    let through_glass = shot.labels.glass == GlassLabels::Behind;
     let ray = |x: u32, y: u32| {
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        shot.lens.unproject(centre).map(|direction| sight::single(&shot.label_ray(direction)))
+        let direction = shot.lens.unproject(centre)?;
+        Some(Ray { through_glass, ..sight::single(&shot.label_ray(direction)) })
     };
     (around.min[1]..=around.max[1])
         .into_par_iter()

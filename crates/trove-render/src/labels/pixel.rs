@@ -1,32 +1,22 @@
-//! Everything that one pixel shows.
-
-use trove_model::Occlusion;
-
-use super::flow;
+//! What every pixel shows first.
 
 /// Indices of no instance: the sky, and what lies outside the lens's image circle.
 pub(super) const SKY: u32 = u32::MAX;
 pub(super) const OUTSIDE: u32 = u32::MAX - 1;
 
-/// Everything that one pixel shows.
-pub(super) struct Pixel {
-    /// Index into the scene's instances, [`SKY`] or [`OUTSIDE`].
-    pub instance: u32,
+/// What the pixels of a picture show first, row by row.
+pub(super) struct Shown {
+    pub width: u32,
+    /// Indices into the scene's instances, [`SKY`] or [`OUTSIDE`].
+    pub instance: Vec<u32>,
     /// From the camera, infinite where there is nothing.
-    pub range_m: f64,
-    pub depth_m: f32,
-    pub normal: [f32; 3],
-    /// To the previous keyframe, and to the next.
-    pub flow: [[f32; 2]; 2],
-    pub occlusion: [Occlusion; 2],
+    pub range_m: Vec<f64>,
 }
 
-/// A pixel that no ray belongs to.
-pub(super) const OUTSIDE_LENS: Pixel = Pixel {
-    instance: OUTSIDE,
-    range_m: f64::INFINITY,
-    depth_m: f32::INFINITY,
-    normal: [0.0; 3],
-    flow: [flow::NONE; 2],
-    occlusion: [Occlusion::Undefined; 2],
-};
+impl Shown {
+    /// Instance and range of a pixel.
+    pub(super) fn at(&self, x: u32, y: u32) -> (u32, f64) {
+        let i = y as usize * self.width as usize + x as usize;
+        (self.instance[i], self.range_m[i])
+    }
+}

@@ -151,6 +151,19 @@ impl PreparedMaterial {
     /// How it scatters light at a point; `width_m` is the width of what one sample covers there,
     /// `dither` a random number in [0, 1).
     pub(crate) fn shade(&self, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
+        let (p, normal) = self.parameters(surface, width_m, dither);
+        Bsdf::new(surface, normal, &p)
+    }
+
+    /// The share of light that it scatters diffusely, and its perceptual roughness, at a point: as sharp as its textures
+    /// have it, dirt and water included.
+    pub(crate) fn look(&self, surface: &Surface) -> (Vec3, f32) {
+        let (p, _) = self.parameters(surface, 0.0, 0.5);
+        (p.base_color * ((1.0 - p.metalness) * (1.0 - p.transmission)), p.alpha.sqrt())
+    }
+
+    /// What its lobes are made from at a point, and the shading normal.
+    fn parameters(&self, surface: &Surface, width_m: f32, dither: f32) -> (Parameters, Vec3) {
         let spot = self.texturing.spot(surface, width_m, dither);
         let look_up = |map: &Arc<MipMap>| map.sample(spot.uv, spot.footprint, spot.dither);
         let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| look_up(map).truncate());
@@ -179,7 +192,7 @@ impl PreparedMaterial {
         if !self.weather.is_none() {
             normal = self.weather.wear(surface, width_m, normal, &mut p);
         }
-        Bsdf::new(surface, normal, &p)
+        (p, normal)
     }
 
     /// Base colour at a point as sharp as its texture has it, before weather; where patches or directions are mixed, of one

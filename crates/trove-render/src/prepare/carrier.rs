@@ -1,7 +1,7 @@
-//! The object that carries a sensor: its rays pass through it.
+//! The object that carries a sensor: its rays pass through it, and through glass where labels tell what is behind.
 
 use glam::Vec3A;
-use trove_model::InstanceId;
+use trove_model::{GlassLabels, InstanceId, Shot};
 
 use super::PreparedScene;
 use crate::motion::{MIDDLE, Motion};
@@ -15,6 +15,7 @@ pub(crate) struct Carrier {
     id: Option<InstanceId>,
     /// Its box, with the way of the box's coordinates.
     around: Option<(Motion, [Vec3A; 2])>,
+    through_glass: bool,
 }
 
 impl Carrier {
@@ -22,8 +23,13 @@ impl Carrier {
         Self::at(scene, None, id)
     }
 
-    /// The same now or at a keyframe beside.
-    pub(crate) fn at(scene: &PreparedScene, beside: Option<Beside>, id: Option<InstanceId>) -> Self {
+    /// What carries the camera of a shot's labels, now or at a keyframe beside.
+    pub(crate) fn of_labels(scene: &PreparedScene, beside: Option<Beside>, shot: &Shot) -> Self {
+        let through_glass = shot.labels.glass == GlassLabels::Behind;
+        Self { through_glass, ..Self::at(scene, beside, shot.carrier) }
+    }
+
+    fn at(scene: &PreparedScene, beside: Option<Beside>, id: Option<InstanceId>) -> Self {
         let id = id.filter(|id| id.0 != 0);
         let around = id.and_then(|id| {
             let mut parts = scene.all(beside).filter(|p| p.id == id).peekable();
@@ -36,12 +42,12 @@ impl Carrier {
             let empty = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
             Some((world_from_box, points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])))
         });
-        Self { id, around }
+        Self { id, around, through_glass: false }
     }
 
     /// The ray as it passes through the carrier: without its way there, as far as that can be known without tracing it.
     pub(crate) fn past(&self, ray: Ray) -> Ray {
-        let ray = Ray { past: self.id, ..ray };
+        let ray = Ray { past: self.id, through_glass: self.through_glass, ..ray };
         let Some((world_from_box, [low, high])) = &self.around else { return ray };
         let box_from_world = world_from_box.at(ray.time).inverse();
         let origin = box_from_world.transform_point3a(ray.origin.into());

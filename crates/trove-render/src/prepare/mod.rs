@@ -29,6 +29,8 @@ pub struct PreparedScene {
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
+    /// Whether there is a previous and a next keyframe.
+    pub(crate) has_beside: [bool; 2],
 }
 
 /// Shapes that are there at another moment.
@@ -42,6 +44,8 @@ pub(crate) struct PreparedInstance {
     pub(crate) class: Class,
     /// In the model's precision.
     pub(crate) world_from_mesh: Motion<DAffine3>,
+    /// At the moment of the labels.
+    pub(crate) mesh_from_world: DAffine3,
     /// At the previous and the next keyframe.
     pub(crate) then: [Then; 2],
     /// What it is; `None` for stuff.
@@ -57,6 +61,8 @@ pub(crate) enum Then {
     Moves {
         mesh: Arc<Mesh>,
         world_from_mesh: DAffine3,
+        /// Takes points from now to then, where the shape is the same.
+        then_from_now: Option<DAffine3>,
     },
 }
 
@@ -96,7 +102,8 @@ impl PreparedScene {
             Ok(Others { accel: kernel.build(&shapes)?, shapes })
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
-        Ok(Self { shapes, instances, materials, lights, accel: accel?, others })
+        let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
+        Ok(Self { shapes, instances, materials, lights, accel: accel?, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.
@@ -110,11 +117,11 @@ impl PreparedScene {
     pub(crate) fn blocks_then(&self, beside: Beside, rays: &[Ray]) -> [bool; PACKET] {
         let mut looking = [Ray::new(Vec3::ZERO, Vec3::Z); PACKET];
         looking.iter_mut().zip(rays).for_each(|(to, ray)| *to = Ray { beside: Some(beside), ..*ray });
-        let mut hits = [[None; PACKET]; 2];
-        for (accel, hits) in [&self.accel, &self.others[beside as usize].accel].into_iter().zip(&mut hits) {
-            accel.closest(&looking[..rays.len()], Coherence::Coherent, &mut hits[..rays.len()]);
+        let mut blocked = [[false; PACKET]; 2];
+        for (accel, blocked) in [&self.accel, &self.others[beside as usize].accel].into_iter().zip(&mut blocked) {
+            accel.blocked(&looking[..rays.len()], Coherence::Coherent, &mut blocked[..rays.len()]);
         }
-        std::array::from_fn(|i| hits.iter().any(|hits| hits[i].is_some()))
+        std::array::from_fn(|i| blocked[0][i] || blocked[1][i])
     }
 
     /// The shape of an instance.
@@ -158,12 +165,15 @@ impl PreparedScene {
 
 impl PreparedInstance {
     fn new(scene: &Scene, instance: &Instance) -> Self {
+        let mesh_from_world = instance.world_from_mesh.inverse();
         let neighbours = [instance.previous, instance.next];
         let then = |placement: Option<Placement>| match placement {
             None => Then::IsNotThere,
             Some(then) if then == instance.now() => Then::Stays,
             Some(Placement { mesh, world_from_mesh }) => {
-                Then::Moves { mesh: scene.meshes[mesh].clone(), world_from_mesh }
+                let is_same = Arc::ptr_eq(&scene.meshes[mesh], &scene.meshes[instance.mesh]);
+                let then_from_now = is_same.then(|| world_from_mesh * mesh_from_world);
+                Then::Moves { mesh: scene.meshes[mesh].clone(), world_from_mesh, then_from_now }
             }
         };
         // Shapes change between keyframes, and light follows the motion alone.
@@ -171,6 +181,7 @@ impl PreparedInstance {
         Self {
             class: instance.class,
             world_from_mesh: Motion::new(instance.world_from_mesh, ways, scene.keyframes_apart_s),
+            mesh_from_world,
             then: neighbours.map(then),
             object: instance.object.clone(),
         }

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use trove_format::{
-    ClassEntry, Factors, FrameFile, FrameRow, FrameTable, LensModel, LightFactor, Manifest, Matrix4, ObjectOrigin,
-    ObjectRow, Projection, Source, Versions,
+    ClassEntry, Factors, FrameFile, FrameRow, FrameTable, GlassPolicy, LensModel, LightFactor, Manifest, Matrix4,
+    ObjectOrigin, ObjectRow, Projection, Source, Versions,
 };
-use trove_model::{Class, Color, Kind, Labels, Occlusion, Raster, Season};
+use trove_model::{Class, Color, ExtraLabels, Kind, Labels, Occlusion, Raster, Season};
 use trove_write::{Frame, FrameFolders};
 
 pub(crate) const WIDTH: u32 = 64;
@@ -35,7 +35,8 @@ pub(crate) struct Made {
 impl Made {
     /// A frame of the front camera, with all files and the car 20 m ahead, standing on the road.
     pub(crate) fn new(keyframe: u32) -> Self {
-        let files = FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Change).collect();
+        let files =
+            FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Change && file.extra().is_none()).collect();
         Self { view: "ego.CAM_FRONT", keyframe, car_m: [0.0, 20.0, CAR_M[2] / 2.0], has_vehicle: true, files }
     }
 }
@@ -118,6 +119,7 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         carrier: None,
         carrier_track_token: String::new(),
         projection: Projection { origin_lat_deg: 0.0, origin_lon_deg: 0.0, anchor_m: ANCHOR_M, metres_per_rad: None },
+        glass: GlassPolicy::Glass,
         exposure_ev: Some(0.0),
         spp: 1,
         denoised: false,
@@ -168,6 +170,7 @@ fn frame(made: &Made, path: String) -> Frame {
             _ => Occlusion::Seen,
         }),
         occluded_backward: Raster::filled(WIDTH, HEIGHT, Occlusion::Undefined),
+        extra: ExtraLabels::default(),
         objects: vec![],
     };
     let color = Color {

@@ -150,6 +150,7 @@ shared_library! {
     set_instanced_scene = b"rtcSetGeometryInstancedScene": fn(Handle, Handle);
     set_time_steps = b"rtcSetGeometryTimeStepCount": fn(Handle, u32);
     set_transform = b"rtcSetGeometryTransform": fn(Handle, u32, c_int, *const c_void);
+    set_mask = b"rtcSetGeometryMask": fn(Handle, u32);
     commit_geometry = b"rtcCommitGeometry": fn(Handle);
     attach_by_id = b"rtcAttachGeometryByID": fn(Handle, Handle, u32);
     intersect1 = b"rtcIntersect1": fn(Handle, *mut RayHit, *mut QueryArguments);

@@ -103,7 +103,7 @@ impl BuiltScene {
     /// Of one mesh.
     pub(super) fn of(device: &Arc<Device>, mesh: &Mesh, judged: bool) -> Result<Self, String> {
         let scene = Self::new(device)?;
-        scene.attach_mesh(mesh, judged, 0)?;
+        scene.attach_mesh(mesh, judged, 0, u32::MAX)?;
         scene.commit()?;
         Ok(scene)
     }
@@ -115,8 +115,8 @@ impl BuiltScene {
         check(&self.device.api, self.device.handle, "building a scene")
     }
 
-    /// Attaches a mesh, under an id that is not taken.
-    pub(super) fn attach_mesh(&self, mesh: &Mesh, judged: bool, id: u32) -> Result<(), String> {
+    /// Attaches a mesh, under an id that is not taken, for rays that share a bit with its mask.
+    pub(super) fn attach_mesh(&self, mesh: &Mesh, judged: bool, id: u32, mask: u32) -> Result<(), String> {
         if mesh.triangles.is_empty() {
             return Ok(());
         }
@@ -126,12 +126,12 @@ impl BuiltScene {
         geometry.fill(api::BUFFER_INDEX, api::FORMAT_UINT3, mesh.triangles.as_ptr().cast(), mesh.triangles.len())?;
         // SAFETY: the geometry is alive.
         unsafe { (api.filter_from_arguments)(geometry.handle, judged) };
-        geometry.attach(self, id);
+        geometry.attach(self, id, mask);
         Ok(())
     }
 
     /// Attaches a scene that moves through some placements, likewise.
-    pub(super) fn attach_instance(&self, bottom: &Self, steps: &[Affine3A], id: u32) -> Result<(), String> {
+    pub(super) fn attach_instance(&self, bottom: &Self, steps: &[Affine3A], id: u32, mask: u32) -> Result<(), String> {
         let api = &self.device.api;
         let geometry = Geometry::new(&self.device, api::GEOMETRY_INSTANCE)?;
         // SAFETY: all handles are alive; a transform is 12 floats, column by column.
@@ -144,7 +144,7 @@ impl BuiltScene {
                 (api.set_transform)(geometry.handle, step, format, columns.as_ptr().cast());
             }
         }
-        geometry.attach(self, id);
+        geometry.attach(self, id, mask);
         Ok(())
     }
 }
@@ -181,9 +181,10 @@ impl<'a> Geometry<'a> {
         Ok(())
     }
 
-    fn attach(self, scene: &BuiltScene, id: u32) {
+    fn attach(self, scene: &BuiltScene, id: u32, mask: u32) {
         // SAFETY: both handles are alive; the caller's ids are distinct.
         unsafe {
+            (self.device.api.set_mask)(self.handle, mask);
             (self.device.api.commit_geometry)(self.handle);
             (self.device.api.attach_by_id)(scene.handle, self.handle, id);
         }

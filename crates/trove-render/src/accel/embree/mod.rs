@@ -17,6 +17,7 @@ use trove_model::{ColorSpace, InstanceId, Mesh, Texture};
 
 use self::api::Api;
 use self::device::{BuiltScene, Device, made, take_down};
+use self::query::mask;
 use super::kernel::{Accel, Coherence, Kernel, PACKET};
 use super::obvhs;
 use super::shapes::Shapes;
@@ -25,7 +26,7 @@ use crate::cache::Cache;
 use crate::material::Opacity;
 use crate::motion::Motion;
 use crate::placed::Placed;
-use crate::ray::{Hit, Ray};
+use crate::ray::{Beside, Hit, Ray};
 use crate::texture::{MipMap, OpacityMask};
 
 /// Embree with what it built of the meshes so far.
@@ -79,36 +80,42 @@ impl Embree {
         Ok(kernel)
     }
 
-    /// Two instances of one triangle, of which the nearer one is nothing but a hole: guards against another binary
-    /// interface.
+    /// Three instances of one triangle, of which the nearest one is nothing but a hole and the next one leaves: guards
+    /// against another binary interface, and against builds without masks of rays.
     fn answers_correctly(&self) -> Result<bool, String> {
         let mesh = Arc::new(Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
             triangles: vec![[0, 1, 2]],
             ..Mesh::default()
         });
-        let at = |z: f64, material: u32| {
+        let at = |z: f64, material: u32, stays: [bool; 2]| {
             let way = Motion { middle: DAffine3::from_translation(DVec3::Z * z), ends: None };
-            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, [true; 2])
+            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, stays)
         };
         let clear =
             Texture { name: String::new(), width: 1, height: 1, rgba: vec![[0; 4]], color_space: ColorSpace::Srgb };
         let hole = Opacity::cut_out(OpacityMask::new(&clear, &MipMap::new(&clear), 0.5));
         let leaf = Texture { rgba: vec![[255; 4]], ..clear };
         let leaf = Opacity::cut_out(OpacityMask::new(&leaf, &MipMap::new(&leaf), 0.5));
-        let shapes = Shapes { placed: vec![at(1.0, 0), at(3.0, 1)], opacities: [hole, leaf].into() };
+        let placed = vec![at(1.0, 0, [true; 2]), at(2.0, 1, [true, false]), at(3.0, 1, [true; 2])];
+        let shapes = Shapes { placed, opacities: [hole, leaf].into() };
         let scene = self.scene(&Arc::new(shapes))?;
         let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
-        Ok([Coherence::Coherent, Coherence::Incoherent].into_iter().all(|coherence| {
-            let (mut hits, mut light) = ([None], [Vec3::ONE]);
+        let looks = [(None, 1), (Some(Beside::Previous), 1), (Some(Beside::Next), 2)];
+        let ways = [Coherence::Coherent, Coherence::Incoherent].into_iter();
+        Ok(ways.flat_map(|way| looks.map(|look| (way, look))).all(|(coherence, (beside, expected))| {
+            let ray = Ray { beside, ..ray };
+            let (mut hits, mut light, mut blocked) = ([None], [Vec3::ONE], [false]);
             scene.closest(&[ray], coherence, &mut hits);
             scene.any(&[ray], coherence, &mut light);
+            scene.blocked(&[ray], coherence, &mut blocked);
             // Packets round otherwise.
             let is_near = |a: f32, b: f32| (a - b).abs() < 1e-5;
             let is_found = hits[0].is_some_and(|Hit { t, instance, triangle, u, v }| {
-                (instance, triangle) == (1, 0) && is_near(t, 3.0) && is_near(u, 0.25) && is_near(v, 0.5)
+                let is_there = is_near(t, 1.0 + expected as f32) && is_near(u, 0.25) && is_near(v, 0.5);
+                (instance, triangle) == (expected, 0) && is_there
             });
-            is_found && light == [Vec3::ZERO]
+            is_found && light == [Vec3::ZERO] && blocked == [true]
         }))
     }
 
@@ -123,14 +130,14 @@ impl Embree {
             // Ground, roads and houses overlap: as instances, a ray would have to enter one after the other.
             let Motion { middle, ends } = p.world_from_mesh;
             if middle == Affine3A::IDENTITY && ends.is_none() && uses[&Arc::as_ptr(&p.mesh)] == 1 {
-                top.attach_mesh(&p.mesh, judged, id)?;
+                top.attach_mesh(&p.mesh, judged, id, mask(p.stays))?;
                 bottoms.push(Bottom::InTop(OnceLock::new()));
                 continue;
             }
             let cache = &self.built[usize::from(judged)];
             let bottom = cache.try_get(&p.mesh, |mesh| BuiltScene::of(&self.device, mesh, judged))?;
             let steps = ends.map_or(vec![middle], |[before, after]| vec![before, middle, after]);
-            top.attach_instance(&bottom, &steps, id)?;
+            top.attach_instance(&bottom, &steps, id, mask(p.stays))?;
             bottoms.push(Bottom::Placed(bottom, middle.inverse()));
         }
         top.commit()?;
@@ -165,8 +172,29 @@ impl Accel for Scene {
         }
         for (ray, hit) in rays.iter().zip(hits) {
             // A packet's distances differ from a single ray's in the last digit: what is passed through is met by one.
-            let again = coherence == Coherence::Coherent && self.shapes.is_passed(ray, *hit);
+            let again = coherence == Coherence::Coherent && hit.is_some_and(|h| self.shapes.is_passed(ray, h.instance));
             *hit = self.shapes.past(ray, if again { closest(ray) } else { *hit }, closest);
+        }
+    }
+
+    fn blocked(&self, rays: &[Ray], coherence: Coherence, blocked: &mut [bool]) {
+        match coherence {
+            Coherence::Coherent => {
+                for (rays, blocked) in rays.chunks(PACKET).zip(blocked.chunks_mut(PACKET)) {
+                    self.top.blocked_packet(&self.shapes, rays, blocked);
+                }
+            }
+            Coherence::Incoherent => {
+                rays.iter().zip(&mut *blocked).for_each(|(ray, b)| *b = self.top.blocked(&self.shapes, ray));
+            }
+        }
+        // Embree does not say by what: it may be what the ray passes through.
+        let doubtful: Vec<usize> = (0..rays.len()).filter(|&i| blocked[i] && rays[i].past.is_some()).collect();
+        if !doubtful.is_empty() {
+            let asked: Vec<Ray> = doubtful.iter().map(|&i| rays[i]).collect();
+            let mut hits = vec![None; asked.len()];
+            self.closest(&asked, coherence, &mut hits);
+            doubtful.iter().zip(hits).for_each(|(&i, hit)| blocked[i] = hit.is_some());
         }
     }
 

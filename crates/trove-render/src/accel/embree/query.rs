@@ -10,7 +10,7 @@ use super::api::{
 };
 use super::device::BuiltScene;
 use super::{PACKET, Shapes};
-use crate::ray::{Hit, Ray};
+use crate::ray::{Beside, Hit, Ray};
 
 /// What a filter judges by.
 struct Question<'a> {
@@ -20,6 +20,25 @@ struct Question<'a> {
     /// Rays on their way to light, by their ids, and what is left of it; empty where the closest hit is looked for.
     rays: &'a [Ray],
     light: &'a mut [Vec3],
+    through_glass: bool,
+}
+
+/// The bits of an instance that stays until the neighbouring keyframes or not: it shares one with the rays of every moment
+/// at which it is there.
+pub(super) fn mask([before, after]: [bool; 2]) -> u32 {
+    NOW | if before { PREVIOUS } else { 0 } | if after { NEXT } else { 0 }
+}
+
+const NOW: u32 = 1;
+const PREVIOUS: u32 = 2;
+const NEXT: u32 = 4;
+
+fn mask_of(ray: &Ray) -> u32 {
+    match ray.beside {
+        None => NOW,
+        Some(Beside::Previous) => PREVIOUS,
+        Some(Beside::Next) => NEXT,
+    }
 }
 
 /// Leaves the hits that count, given the ray's id.
@@ -54,13 +73,13 @@ unsafe fn judge(arguments: *const FilterArguments, counts: impl Fn(&mut Question
     }
 }
 
-/// Holes are not there.
+/// Holes are not there, nor are panes for rays that pass through glass.
 ///
 /// # Safety
 /// As for [`judge`].
 unsafe extern "C" fn keep_surfaces(arguments: *const FilterArguments) {
     // SAFETY: the same is asked of the caller.
-    unsafe { judge(arguments, |question, _, hit| question.shapes.is_there(hit)) }
+    unsafe { judge(arguments, |question, _, hit| question.shapes.is_seen(hit, question.through_glass)) }
 }
 
 /// Holes are not there, and panes take their share of the light.
@@ -105,7 +124,7 @@ fn raw_ray(ray: &Ray) -> RawRay {
         direction: ray.direction.to_array(),
         time: ray.time,
         t_max: ray.t_max,
-        mask: u32::MAX,
+        mask: mask_of(ray),
         id: 0,
         flags: 0,
     }
@@ -123,11 +142,16 @@ fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
         direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
         time: of(|r| r.time),
         t_max: of(|r| r.t_max),
-        mask: [u32::MAX; PACKET],
+        mask: std::array::from_fn(|i| rays.get(i).map_or(0, mask_of)),
         id: std::array::from_fn(|i| i as u32),
         flags: [0; PACKET],
     };
     (Valid(std::array::from_fn(|i| if i < rays.len() { -1 } else { 0 })), packet)
+}
+
+/// For surfaces.
+fn looking(shapes: &Shapes, instance: Option<u32>, through_glass: bool) -> Question<'_> {
+    Question { shapes, instance, rays: &[], light: &mut [], through_glass }
 }
 
 fn context(question: &mut Question<'_>) -> Context {
@@ -149,7 +173,7 @@ impl BuiltScene {
     /// The nearest surface; `instance` is what it is of where the scene does not know it.
     pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: Option<u32>) -> Option<Hit> {
         let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
-        let mut question = Question { shapes, instance, rays: &[], light: &mut [] };
+        let mut question = looking(shapes, instance, ray.through_glass);
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, 0, keep_surfaces);
         // SAFETY: the scene is committed; ray, context and arguments are as Embree declares them and outlive the call.
@@ -170,7 +194,7 @@ impl BuiltScene {
         };
         let (valid, ray) = packet(rays);
         let mut packet = Packet { ray, hit: nothing, room: NONE };
-        let mut question = Question { shapes, instance: None, rays: &[], light: &mut [] };
+        let mut question = looking(shapes, None, rays.iter().any(|ray| ray.through_glass));
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_surfaces);
         // SAFETY: as for `closest`; `valid` has a number for each ray and is as aligned as Embree demands.
@@ -182,10 +206,32 @@ impl BuiltScene {
         }
     }
 
+    /// Which of up to [`PACKET`] rays that run alike meet a surface.
+    pub(super) fn blocked_packet(&self, shapes: &Shapes, rays: &[Ray], blocked: &mut [bool]) {
+        let (valid, mut packet) = packet(rays);
+        let mut question = looking(shapes, None, rays.iter().any(|ray| ray.through_glass));
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_surfaces);
+        // SAFETY: as for `closest_packet`.
+        unsafe { (self.device.api.occluded16)(valid.0.as_ptr(), self.handle, &mut packet, &mut arguments) };
+        blocked.iter_mut().zip(packet.t_max).for_each(|(blocked, t_max)| *blocked = t_max == f32::NEG_INFINITY);
+    }
+
+    /// Whether a ray meets a surface.
+    pub(super) fn blocked(&self, shapes: &Shapes, ray: &Ray) -> bool {
+        let mut raw = raw_ray(ray);
+        let mut question = looking(shapes, None, ray.through_glass);
+        let mut context = context(&mut question);
+        let mut arguments = arguments(&mut context, 0, keep_surfaces);
+        // SAFETY: as for `closest`.
+        unsafe { (self.device.api.occluded1)(self.handle, &mut raw, &mut arguments) };
+        raw.t_max == f32::NEG_INFINITY
+    }
+
     /// What is left of the light along up to [`PACKET`] rays that run alike.
     pub(super) fn any_packet(&self, shapes: &Shapes, rays: &[Ray], light: &mut [Vec3]) {
         let (valid, mut packet) = packet(rays);
-        let mut question = Question { shapes, instance: None, rays, light };
+        let mut question = Question { shapes, instance: None, rays, light, through_glass: false };
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_blockers);
         // SAFETY: as for `closest_packet`.
@@ -196,7 +242,7 @@ impl BuiltScene {
     pub(super) fn any(&self, shapes: &Shapes, ray: &Ray, light: &mut Vec3) {
         let mut raw = raw_ray(ray);
         let (rays, light) = (std::slice::from_ref(ray), std::slice::from_mut(light));
-        let mut question = Question { shapes, instance: None, rays, light };
+        let mut question = Question { shapes, instance: None, rays, light, through_glass: false };
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, 0, keep_blockers);
         // SAFETY: as for `closest`.

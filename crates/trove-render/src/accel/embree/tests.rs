@@ -85,7 +85,7 @@ fn what_embree_says_of_an_error_is_told_once() {
     let [top, bottom] = [(); 2].map(|()| BuiltScene::new(&kernel.device).unwrap());
     bottom.commit().unwrap();
     // Embree takes at most 129 time steps.
-    top.attach_instance(&bottom, &[Affine3A::IDENTITY; 200], 0).unwrap();
+    top.attach_instance(&bottom, &[Affine3A::IDENTITY; 200], 0, u32::MAX).unwrap();
     let problem = top.commit().unwrap_err();
     assert!(problem.starts_with("building a scene: "), "{problem}");
     assert_eq!(check(&kernel.device.api, kernel.device.handle, "nothing"), Ok(()));

@@ -1,0 +1,130 @@
+//! The labels of a picture while they are made: several threads fill a row each.
+
+use std::slice::ChunksMut;
+
+use trove_model::{Class, ExtraLabel, ExtraLabels, Labels, Occlusion, Raster, Shot};
+
+use super::pixel::Shown;
+
+/// Everything that pixels tell.
+pub(super) struct Layers {
+    pub shown: Shown,
+    /// Without objects and coverage.
+    pub labels: Labels,
+}
+
+/// A row of it. Of two layers, the first is of the previous keyframe.
+pub(super) struct Row<'a> {
+    pub shown: &'a mut [u32],
+    pub exact_range_m: &'a mut [f64],
+    pub class: &'a mut [Class],
+    pub instance: &'a mut [u32],
+    pub depth_m: &'a mut [f32],
+    pub normal: &'a mut [[f32; 3]],
+    pub flow: [&'a mut [[f32; 2]]; 2],
+    pub occlusion: [&'a mut [Occlusion]; 2],
+    pub extra: ExtraRow<'a>,
+}
+
+/// A row of what was asked for.
+pub(super) struct ExtraRow<'a> {
+    pub range_m: Option<&'a mut [f32]>,
+    pub normal_world: Option<&'a mut [[f32; 3]]>,
+    pub albedo: Option<&'a mut [[f32; 3]]>,
+    pub roughness: Option<&'a mut [f32]>,
+    pub scene_flow: [Option<&'a mut [[f32; 3]]>; 2],
+    pub object_coordinates: Option<&'a mut [[f32; 3]]>,
+}
+
+impl Layers {
+    /// With room for what a shot asks for; every pixel is to be filled in.
+    pub(super) fn new(shot: &Shot) -> Self {
+        // Zeros cost nothing before they are written over.
+        let (width, height) = (shot.lens.width_px, shot.lens.height_px);
+        let pixels = width as usize * height as usize;
+        let numbers = || Raster::filled(width, height, 0.0);
+        let vectors = || Raster::filled(width, height, [0.0; 3]);
+        let flow = || Raster::filled(width, height, [0.0; 2]);
+        let occlusion = || Raster::filled(width, height, Occlusion::Undefined);
+        let wants = |label: ExtraLabel| shot.labels.extra.contains(&label);
+        let extra = ExtraLabels {
+            range_m: wants(ExtraLabel::Range).then(numbers),
+            normal_world: wants(ExtraLabel::NormalWorld).then(vectors),
+            albedo: wants(ExtraLabel::Albedo).then(vectors),
+            roughness: wants(ExtraLabel::Roughness).then(numbers),
+            scene_flow_forward: wants(ExtraLabel::SceneFlowForward).then(vectors),
+            scene_flow_backward: wants(ExtraLabel::SceneFlowBackward).then(vectors),
+            object_coordinates: wants(ExtraLabel::ObjectCoordinates).then(vectors),
+            coverage: None,
+        };
+        let labels = Labels {
+            class: Raster::filled(width, height, Class::Void),
+            instance: Raster::filled(width, height, 0),
+            depth_m: numbers(),
+            normal: vectors(),
+            flow_forward: flow(),
+            flow_backward: flow(),
+            occluded_forward: occlusion(),
+            occluded_backward: occlusion(),
+            extra,
+            objects: Vec::new(),
+        };
+        Self { shown: Shown { width, instance: vec![0; pixels], range_m: vec![0.0; pixels] }, labels }
+    }
+
+    /// All rows, from the top.
+    pub(super) fn rows(&mut self) -> Vec<Row<'_>> {
+        let width = self.shown.width.max(1) as usize;
+        let labels = &mut self.labels;
+        let extra = &mut labels.extra;
+        let mut shown = self.shown.instance.chunks_mut(width);
+        let mut exact_range_m = self.shown.range_m.chunks_mut(width);
+        let (mut class, mut instance) = (lines(&mut labels.class), lines(&mut labels.instance));
+        let (mut depth_m, mut normal) = (lines(&mut labels.depth_m), lines(&mut labels.normal));
+        let mut flow = [lines(&mut labels.flow_backward), lines(&mut labels.flow_forward)];
+        let mut occlusion = [lines(&mut labels.occluded_backward), lines(&mut labels.occluded_forward)];
+        let mut range_m = extra.range_m.as_mut().map(lines);
+        let mut normal_world = extra.normal_world.as_mut().map(lines);
+        let mut albedo = extra.albedo.as_mut().map(lines);
+        let mut roughness = extra.roughness.as_mut().map(lines);
+        let mut before = extra.scene_flow_backward.as_mut().map(lines);
+        let mut after = extra.scene_flow_forward.as_mut().map(lines);
+        let mut object_coordinates = extra.object_coordinates.as_mut().map(lines);
+        let mut row = || {
+            Some(Row {
+                shown: shown.next()?,
+                exact_range_m: exact_range_m.next()?,
+                class: class.next()?,
+                instance: instance.next()?,
+                depth_m: depth_m.next()?,
+                normal: normal.next()?,
+                flow: [flow[0].next()?, flow[1].next()?],
+                occlusion: [occlusion[0].next()?, occlusion[1].next()?],
+                extra: ExtraRow {
+                    range_m: next(&mut range_m),
+                    normal_world: next(&mut normal_world),
+                    albedo: next(&mut albedo),
+                    roughness: next(&mut roughness),
+                    scene_flow: [next(&mut before), next(&mut after)],
+                    object_coordinates: next(&mut object_coordinates),
+                },
+            })
+        };
+        std::iter::from_fn(&mut row).collect()
+    }
+}
+
+fn lines<T>(raster: &mut Raster<T>) -> ChunksMut<'_, T> {
+    raster.data.chunks_mut(raster.width.max(1) as usize)
+}
+
+fn next<'a, T>(lines: &mut Option<ChunksMut<'a, T>>) -> Option<&'a mut [T]> {
+    lines.as_mut().and_then(Iterator::next)
+}
+
+/// Fills a pixel in where its layer was asked for.
+pub(super) fn put<T>(layer: &mut Option<&mut [T]>, x: usize, value: impl FnOnce() -> T) {
+    if let Some(layer) = layer {
+        layer[x] = value();
+    }
+}
