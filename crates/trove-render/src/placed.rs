@@ -20,6 +20,8 @@ pub(crate) struct Placed {
     pub(crate) world_from_mesh: Motion,
     /// Whether it stands at the previous and at the next keyframe as it stands now.
     pub(crate) stays: [bool; 2],
+    /// Whether it is part of the recording vehicle, through which most cameras look.
+    pub(crate) is_carrier: bool,
     /// As `at` gives it at the moment of the labels.
     world_from_normal: Mat3A,
 }
@@ -32,6 +34,7 @@ impl Placed {
         materials: Vec<u32>,
         way: &Motion<DAffine3>,
         stays: [bool; 2],
+        is_carrier: bool,
     ) -> Self {
         // Here in the model's precision.
         let cofactor = way.middle.matrix3.inverse().transpose() * way.middle.matrix3.determinant().signum();
@@ -41,6 +44,7 @@ impl Placed {
             foot_z,
             materials,
             stays,
+            is_carrier,
             world_from_mesh: way.single(),
             world_from_normal: Mat3A::from_cols(
                 cofactor.x_axis.as_vec3a(),

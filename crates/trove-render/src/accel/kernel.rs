@@ -42,7 +42,7 @@ pub(crate) trait Accel: Send + Sync {
     fn any(&self, rays: &[Ray], coherence: Coherence, light: &mut [Vec3]);
 
     /// The nearest surface of one instance as if nothing else were there, at the moment of the labels; of what rays pass
-    /// through, glass alone is left out.
+    /// through, glass alone is left out. The rays run alike.
     fn closest_on(&self, instance: u32, rays: &[Ray], hits: &mut [Option<Hit>]);
 
     /// How many rays meet a triangle, found as the nearest one with nothing judged: the kernel as its makers deliver it, to

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use trove_model::InstanceId;
 
 use crate::material::Opacity;
 use crate::placed::Placed;
@@ -14,9 +15,16 @@ pub(crate) struct Shapes {
     pub(crate) placed: Vec<Placed>,
     /// In the order of the scene's materials.
     pub(crate) opacities: Arc<[Opacity]>,
+    /// The recording vehicle.
+    pub(super) carrier: Option<InstanceId>,
 }
 
 impl Shapes {
+    pub(crate) fn new(placed: Vec<Placed>, opacities: Arc<[Opacity]>) -> Self {
+        let carrier = placed.iter().find(|placed| placed.is_carrier).map(|placed| placed.id);
+        Self { placed, opacities, carrier }
+    }
+
     /// Whether hits on an instance have to be judged; those on others all count.
     pub(super) fn lets_pass(&self, placed: &Placed) -> bool {
         placed.materials.iter().any(|&m| !self.opacities[m as usize].is_opaque())

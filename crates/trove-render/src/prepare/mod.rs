@@ -6,7 +6,7 @@ mod check;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec3};
-use trove_model::{Class, Instance, Mesh, Placement, Scene, SceneObject};
+use trove_model::{Class, Instance, Mesh, Origin, Placement, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -82,13 +82,14 @@ impl PreparedScene {
         let feet_z: Vec<f32> = scene.meshes.iter().map(|m| m.bounds().map_or(0.0, |(low, _)| low.z)).collect();
         let place = |i: &Instance, now: Placement, way: &Motion<DAffine3>, stays: [bool; 2]| {
             let materials = i.materials.iter().map(|&m| m as u32).collect();
-            Placed::new(i.id, scene.meshes[now.mesh].clone(), feet_z[now.mesh], materials, way, stays)
+            let is_carrier = i.object.as_ref().is_some_and(|object| object.origin == Origin::Carrier);
+            Placed::new(i.id, scene.meshes[now.mesh].clone(), feet_z[now.mesh], materials, way, stays, is_carrier)
         };
         let placed = scene.instances.iter().zip(&instances).map(|(instance, prepared)| {
             let stays = prepared.then.each_ref().map(|then| matches!(then, Then::Stays));
             place(instance, instance.now(), &prepared.world_from_mesh, stays)
         });
-        let shapes = Arc::new(Shapes { placed: placed.collect(), opacities: opacities.clone() });
+        let shapes = Arc::new(Shapes::new(placed.collect(), opacities.clone()));
         let (accel, lights) = rayon::join(|| kernel.build(&shapes), || Lights::new(scene, last));
         let others = |beside: Beside| -> Result<Others, RenderError> {
             let moved = scene.instances.iter().filter_map(|i| {
@@ -98,7 +99,7 @@ impl PreparedScene {
             let others = moved.chain(scene.others[beside as usize].iter().map(|i| (i, i.now())));
             let placed =
                 others.map(|(i, then)| place(i, then, &Motion { middle: then.world_from_mesh, ends: None }, [true; 2]));
-            let shapes = Arc::new(Shapes { placed: placed.collect(), opacities: opacities.clone() });
+            let shapes = Arc::new(Shapes::new(placed.collect(), opacities.clone()));
             Ok(Others { accel: kernel.build(&shapes)?, shapes })
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];

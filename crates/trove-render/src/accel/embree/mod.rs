@@ -17,7 +17,7 @@ use trove_model::{ColorSpace, InstanceId, Mesh, Texture};
 
 use self::api::Api;
 use self::device::{BuiltScene, Device, made, take_down};
-use self::query::mask;
+use self::query::{is_masked, mask};
 use super::kernel::{Accel, Coherence, Kernel, PACKET};
 use super::obvhs;
 use super::shapes::Shapes;
@@ -90,7 +90,7 @@ impl Embree {
         });
         let at = |z: f64, material: u32, stays: [bool; 2]| {
             let way = Motion { middle: DAffine3::from_translation(DVec3::Z * z), ends: None };
-            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, stays)
+            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, stays, false)
         };
         let clear =
             Texture { name: String::new(), width: 1, height: 1, rgba: vec![[0; 4]], color_space: ColorSpace::Srgb };
@@ -98,7 +98,7 @@ impl Embree {
         let leaf = Texture { rgba: vec![[255; 4]], ..clear };
         let leaf = Opacity::cut_out(OpacityMask::new(&leaf, &MipMap::new(&leaf), 0.5));
         let placed = vec![at(1.0, 0, [true; 2]), at(2.0, 1, [true, false]), at(3.0, 1, [true; 2])];
-        let shapes = Shapes { placed, opacities: [hole, leaf].into() };
+        let shapes = Shapes::new(placed, [hole, leaf].into());
         let scene = self.scene(&Arc::new(shapes))?;
         let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
         let looks = [(None, 1), (Some(Beside::Previous), 1), (Some(Beside::Next), 2)];
@@ -130,14 +130,14 @@ impl Embree {
             // Ground, roads and houses overlap: as instances, a ray would have to enter one after the other.
             let Motion { middle, ends } = p.world_from_mesh;
             if middle == Affine3A::IDENTITY && ends.is_none() && uses[&Arc::as_ptr(&p.mesh)] == 1 {
-                top.attach_mesh(&p.mesh, judged, id, mask(p.stays))?;
+                top.attach_mesh(&p.mesh, judged, id, mask(p))?;
                 bottoms.push(Bottom::InTop(OnceLock::new()));
                 continue;
             }
             let cache = &self.built[usize::from(judged)];
             let bottom = cache.try_get(&p.mesh, |mesh| BuiltScene::of(&self.device, mesh, judged))?;
             let steps = ends.map_or(vec![middle], |[before, after]| vec![before, middle, after]);
-            top.attach_instance(&bottom, &steps, id, mask(p.stays))?;
+            top.attach_instance(&bottom, &steps, id, mask(p))?;
             bottoms.push(Bottom::Placed(bottom, middle.inverse()));
         }
         top.commit()?;
@@ -165,7 +165,7 @@ impl Accel for Scene {
         match coherence {
             Coherence::Coherent => {
                 for (rays, hits) in rays.chunks(PACKET).zip(hits.chunks_mut(PACKET)) {
-                    self.top.closest_packet(&self.shapes, rays, hits);
+                    self.top.closest_packet(&self.shapes, rays, None, hits);
                 }
             }
             Coherence::Incoherent => rays.iter().zip(&mut *hits).for_each(|(ray, hit)| *hit = closest(ray)),
@@ -189,7 +189,8 @@ impl Accel for Scene {
             }
         }
         // Embree does not say by what: it may be what the ray passes through.
-        let doubtful: Vec<usize> = (0..rays.len()).filter(|&i| blocked[i] && rays[i].past.is_some()).collect();
+        let is_doubtful = |i: usize| blocked[i] && rays[i].past.is_some() && !is_masked(&self.shapes, &rays[i]);
+        let doubtful: Vec<usize> = (0..rays.len()).filter(|&i| is_doubtful(i)).collect();
         if !doubtful.is_empty() {
             let asked: Vec<Ray> = doubtful.iter().map(|&i| rays[i]).collect();
             let mut hits = vec![None; asked.len()];
@@ -212,21 +213,25 @@ impl Accel for Scene {
     }
 
     fn closest_on(&self, instance: u32, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        let closest = |ray: &Ray| match &self.bottoms[instance as usize] {
-            Bottom::Placed(bottom, mesh_from_world) => {
-                let local = Ray {
-                    origin: mesh_from_world.transform_point3(ray.origin),
-                    direction: mesh_from_world.transform_vector3(ray.direction),
-                    ..*ray
-                };
-                bottom.closest(&self.shapes, &local, Some(instance))
+        for (rays, hits) in rays.chunks(PACKET).zip(hits.chunks_mut(PACKET)) {
+            match &self.bottoms[instance as usize] {
+                Bottom::Placed(bottom, mesh_from_world) => {
+                    let local = |ray: &Ray| Ray {
+                        origin: mesh_from_world.transform_point3(ray.origin),
+                        direction: mesh_from_world.transform_vector3(ray.direction),
+                        ..*ray
+                    };
+                    let local: [Ray; PACKET] = std::array::from_fn(|i| local(&rays[i.min(rays.len() - 1)]));
+                    bottom.closest_packet(&self.shapes, &local[..rays.len()], Some(instance), hits);
+                }
+                Bottom::InTop(alone) => match alone.get_or_init(|| self.alone(instance)) {
+                    Alone::Built(scene) => scene.closest_packet(&self.shapes, rays, Some(instance), hits),
+                    Alone::BuiltIn(top) => {
+                        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = top.closest(&self.shapes, ray, instance));
+                    }
+                },
             }
-            Bottom::InTop(alone) => match alone.get_or_init(|| self.alone(instance)) {
-                Alone::Built(scene) => scene.closest(&self.shapes, ray, Some(instance)),
-                Alone::BuiltIn(top) => top.closest(&self.shapes, ray, instance),
-            },
-        };
-        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = closest(ray));
+        }
     }
 
     fn bare_closest(&self, rays: &[Ray]) -> usize {

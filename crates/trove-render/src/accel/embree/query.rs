@@ -10,6 +10,7 @@ use super::api::{
 };
 use super::device::BuiltScene;
 use super::{PACKET, Shapes};
+use crate::placed::Placed;
 use crate::ray::{Beside, Hit, Ray};
 
 /// What a filter judges by.
@@ -23,22 +24,31 @@ struct Question<'a> {
     through_glass: bool,
 }
 
-/// The bits of an instance that stays until the neighbouring keyframes or not: it shares one with the rays of every moment
-/// at which it is there.
-pub(super) fn mask([before, after]: [bool; 2]) -> u32 {
-    NOW | if before { PREVIOUS } else { 0 } | if after { NEXT } else { 0 }
-}
-
 const NOW: u32 = 1;
 const PREVIOUS: u32 = 2;
 const NEXT: u32 = 4;
+/// Farther left are the same bits of the recording vehicle.
+const OF_CARRIER: u32 = 3;
 
-fn mask_of(ray: &Ray) -> u32 {
-    match ray.beside {
+/// The bits of an instance: it shares one with the rays of every moment at which it is there as it is now.
+pub(super) fn mask(placed: &Placed) -> u32 {
+    let [before, after] = placed.stays;
+    let moments = NOW | if before { PREVIOUS } else { 0 } | if after { NEXT } else { 0 };
+    if placed.is_carrier { moments << OF_CARRIER } else { moments }
+}
+
+fn mask_of(shapes: &Shapes, ray: &Ray) -> u32 {
+    let moment = match ray.beside {
         None => NOW,
         Some(Beside::Previous) => PREVIOUS,
         Some(Beside::Next) => NEXT,
-    }
+    };
+    if is_masked(shapes, ray) { moment } else { moment | moment << OF_CARRIER }
+}
+
+/// Whether a ray meets nothing that it passes through; of other vehicles that carry sensors there may be many.
+pub(super) fn is_masked(shapes: &Shapes, ray: &Ray) -> bool {
+    ray.past.is_some() && ray.past == shapes.carrier
 }
 
 /// Leaves the hits that count, given the ray's id.
@@ -117,14 +127,14 @@ const NO_HIT: RawHit = RawHit {
     instance: api::INVALID_ID,
 };
 
-fn raw_ray(ray: &Ray) -> RawRay {
+fn raw_ray(ray: &Ray, mask: u32) -> RawRay {
     RawRay {
         origin: ray.origin.to_array(),
         t_min: ray.t_min,
         direction: ray.direction.to_array(),
         time: ray.time,
         t_max: ray.t_max,
-        mask: mask_of(ray),
+        mask,
         id: 0,
         flags: 0,
     }
@@ -134,7 +144,7 @@ fn raw_ray(ray: &Ray) -> RawRay {
 #[repr(align(64))]
 struct Valid([c_int; PACKET]);
 
-fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
+fn packet(rays: &[Ray], mask: impl Fn(&Ray) -> u32) -> (Valid, PacketRays) {
     let of = |field: fn(&Ray) -> f32| std::array::from_fn(|i| rays.get(i).map_or(0.0, field));
     let packet = PacketRays {
         origin: [of(|r| r.origin.x), of(|r| r.origin.y), of(|r| r.origin.z)],
@@ -142,7 +152,7 @@ fn packet(rays: &[Ray]) -> (Valid, PacketRays) {
         direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
         time: of(|r| r.time),
         t_max: of(|r| r.t_max),
-        mask: std::array::from_fn(|i| rays.get(i).map_or(0, mask_of)),
+        mask: std::array::from_fn(|i| rays.get(i).map_or(0, &mask)),
         id: std::array::from_fn(|i| i as u32),
         flags: [0; PACKET],
     };
@@ -172,7 +182,8 @@ fn arguments(context: &mut Context, flags: c_int, filter: api::Filter) -> QueryA
 impl BuiltScene {
     /// The nearest surface; `instance` is what it is of where the scene does not know it.
     pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: Option<u32>) -> Option<Hit> {
-        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
+        let raw = raw_ray(ray, mask_of(shapes, ray));
+        let mut ray_hit = RayHit { ray: raw, hit: NO_HIT, room: [api::INVALID_ID; 4] };
         let mut question = looking(shapes, instance, ray.through_glass);
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, 0, keep_surfaces);
@@ -181,8 +192,14 @@ impl BuiltScene {
         found(&ray_hit, instance)
     }
 
-    /// The nearest surfaces of up to [`PACKET`] rays that run alike.
-    pub(super) fn closest_packet(&self, shapes: &Shapes, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    /// The same of up to [`PACKET`] rays that run alike.
+    pub(super) fn closest_packet(
+        &self,
+        shapes: &Shapes,
+        rays: &[Ray],
+        instance: Option<u32>,
+        hits: &mut [Option<Hit>],
+    ) {
         const NONE: [u32; PACKET] = [api::INVALID_ID; PACKET];
         let nothing = PacketHits {
             normal: [[0.0; PACKET]; 3],
@@ -192,9 +209,9 @@ impl BuiltScene {
             geometry: NONE,
             instance: NONE,
         };
-        let (valid, ray) = packet(rays);
+        let (valid, ray) = packet(rays, |ray| mask_of(shapes, ray));
         let mut packet = Packet { ray, hit: nothing, room: NONE };
-        let mut question = looking(shapes, None, rays.iter().any(|ray| ray.through_glass));
+        let mut question = looking(shapes, instance, rays.iter().any(|ray| ray.through_glass));
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_surfaces);
         // SAFETY: as for `closest`; `valid` has a number for each ray and is as aligned as Embree demands.
@@ -202,13 +219,13 @@ impl BuiltScene {
         for (i, hit) in hits.iter_mut().enumerate() {
             let found = [packet.hit.primitive[i], packet.hit.geometry[i], packet.hit.instance[i]];
             *hit = (found[1] != api::INVALID_ID)
-                .then(|| hit_of(packet.ray.t_max[i], packet.hit.u[i], packet.hit.v[i], found, None));
+                .then(|| hit_of(packet.ray.t_max[i], packet.hit.u[i], packet.hit.v[i], found, instance));
         }
     }
 
     /// Which of up to [`PACKET`] rays that run alike meet a surface.
     pub(super) fn blocked_packet(&self, shapes: &Shapes, rays: &[Ray], blocked: &mut [bool]) {
-        let (valid, mut packet) = packet(rays);
+        let (valid, mut packet) = packet(rays, |ray| mask_of(shapes, ray));
         let mut question = looking(shapes, None, rays.iter().any(|ray| ray.through_glass));
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_surfaces);
@@ -219,7 +236,7 @@ impl BuiltScene {
 
     /// Whether a ray meets a surface.
     pub(super) fn blocked(&self, shapes: &Shapes, ray: &Ray) -> bool {
-        let mut raw = raw_ray(ray);
+        let mut raw = raw_ray(ray, mask_of(shapes, ray));
         let mut question = looking(shapes, None, ray.through_glass);
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, 0, keep_surfaces);
@@ -230,7 +247,7 @@ impl BuiltScene {
 
     /// What is left of the light along up to [`PACKET`] rays that run alike.
     pub(super) fn any_packet(&self, shapes: &Shapes, rays: &[Ray], light: &mut [Vec3]) {
-        let (valid, mut packet) = packet(rays);
+        let (valid, mut packet) = packet(rays, |_| u32::MAX);
         let mut question = Question { shapes, instance: None, rays, light, through_glass: false };
         let mut context = context(&mut question);
         let mut arguments = arguments(&mut context, api::QUERY_COHERENT, keep_blockers);
@@ -240,7 +257,7 @@ impl BuiltScene {
     }
 
     pub(super) fn any(&self, shapes: &Shapes, ray: &Ray, light: &mut Vec3) {
-        let mut raw = raw_ray(ray);
+        let mut raw = raw_ray(ray, u32::MAX);
         let (rays, light) = (std::slice::from_ref(ray), std::slice::from_mut(light));
         let mut question = Question { shapes, instance: None, rays, light, through_glass: false };
         let mut context = context(&mut question);
@@ -252,7 +269,7 @@ impl BuiltScene {
 
     /// Whether a ray meets a triangle, found as the nearest one with nothing judged.
     pub(super) fn bare_closest(&self, ray: &Ray) -> bool {
-        let mut ray_hit = RayHit { ray: raw_ray(ray), hit: NO_HIT, room: [api::INVALID_ID; 4] };
+        let mut ray_hit = RayHit { ray: raw_ray(ray, u32::MAX), hit: NO_HIT, room: [api::INVALID_ID; 4] };
         // SAFETY: as for `closest`; without arguments Embree takes its defaults.
         unsafe { (self.device.api.intersect1)(self.handle, &mut ray_hit, ptr::null_mut()) };
         found(&ray_hit, None).is_some()
@@ -260,7 +277,7 @@ impl BuiltScene {
 
     /// The same, found as any.
     pub(super) fn bare_any(&self, ray: &Ray) -> bool {
-        let mut raw = raw_ray(ray);
+        let mut raw = raw_ray(ray, u32::MAX);
         // SAFETY: as for `bare_closest`.
         unsafe { (self.device.api.occluded1)(self.handle, &mut raw, ptr::null_mut()) };
         raw.t_max == f32::NEG_INFINITY

@@ -54,8 +54,8 @@ fn shapes() -> Arc<Shapes> {
         ..Mesh::default()
     };
     let way = Motion { middle: DAffine3::IDENTITY, ends: None };
-    let placed = vec![Placed::new(InstanceId(1), Arc::new(mesh), 0.0, vec![0], &way, [true; 2])];
-    Arc::new(Shapes { placed, opacities: [Opacity::default()].into() })
+    let placed = vec![Placed::new(InstanceId(1), Arc::new(mesh), 0.0, vec![0], &way, [true; 2], false)];
+    Arc::new(Shapes::new(placed, [Opacity::default()].into()))
 }
 
 #[test]
