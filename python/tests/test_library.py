@@ -80,7 +80,7 @@ def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_pa
     vectors += ["scene_flow_forward", "scene_flow_backward"]
     names = ["class", "instance", "depth", "panoptic", "coverage", *scalars, *vectors]
     asked = recipe.with_name("asked.toml")
-    asked.write_text(f"{recipe.read_text()}[output]\nfiles = {json.dumps(names)}\n[labels]\nglass = \"behind\"\n")
+    asked.write_text(f'{recipe.read_text()}[output]\nfiles = {json.dumps(names)}\n[labels]\nglass = "behind"\n')
     library.generate(asked, tmp_path / "asked")
     rendered = library.build(asked, keyframe=1).render("ego.CAM_FRONT")
     for frame in library.open(tmp_path / "asked"):
