@@ -35,8 +35,10 @@ pub(crate) struct Made {
 impl Made {
     /// A frame of the front camera, with all files and the car 20 m ahead, standing on the road.
     pub(crate) fn new(keyframe: u32) -> Self {
-        let files =
-            FrameFile::ALL.into_iter().filter(|file| *file != FrameFile::Change && file.extra().is_none()).collect();
+        let files = FrameFile::ALL
+            .into_iter()
+            .filter(|file| (file.is_usual() && *file != FrameFile::Change) || *file == FrameFile::Radiance)
+            .collect();
         Self { view: "ego.CAM_FRONT", keyframe, car_m: [0.0, 20.0, CAR_M[2] / 2.0], has_vehicle: true, files }
     }
 }
