@@ -90,6 +90,7 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
         film: Film::default(),
         seed: Seed(1),
         carrier: None,
+        labels: trove_model::LabelSettings::default(),
     };
     let prepared = renderer.prepare(&scene).unwrap();
     let picture = renderer.render(&prepared, &shot, true, &|_| false).unwrap().color.unwrap().radiance;

@@ -45,7 +45,8 @@ impl<'a> Eye<'a> {
         let mut rays: Vec<SensorRay> = Vec::with_capacity(PACKET);
         let mut arrows: [Vec<(usize, Arrow)>; 2] = [Vec::with_capacity(PACKET), Vec::with_capacity(PACKET)];
         for first in (0..width).step_by(PACKET) {
-            (pixels.clear(), rays.clear());
+            pixels.clear();
+            rays.clear();
             for x in first..width.min(first + PACKET as u32) {
                 let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
                 let column = x as usize;

@@ -62,7 +62,7 @@ pub(crate) enum Then {
         mesh: Arc<Mesh>,
         world_from_mesh: DAffine3,
         /// Takes points from now to then, where the shape is the same.
-        then_from_now: Option<DAffine3>,
+        then_from_now: Option<Box<DAffine3>>,
     },
 }
 
@@ -173,7 +173,7 @@ impl PreparedInstance {
             Some(then) if then == instance.now() => Then::Stays,
             Some(Placement { mesh, world_from_mesh }) => {
                 let is_same = Arc::ptr_eq(&scene.meshes[mesh], &scene.meshes[instance.mesh]);
-                let then_from_now = is_same.then(|| world_from_mesh * mesh_from_world);
+                let then_from_now = is_same.then(|| Box::new(world_from_mesh * mesh_from_world));
                 Then::Moves { mesh: scene.meshes[mesh].clone(), world_from_mesh, then_from_now }
             }
         };
