@@ -74,9 +74,9 @@ fn lens() -> Lens {
     Lens { width_px: WIDTH, height_px: HEIGHT, fx_px: 200.0, fy_px: 200.0, cx_px, cy_px, distortion }
 }
 
-/// The cameras look along x, the second a little to the left.
+/// The cameras look along x and a little down, the second a little to the left.
 fn camera(view: usize, moment: usize) -> DAffine3 {
-    let turn = DMat3::from_rotation_z(0.2 * view as f64);
+    let turn = DMat3::from_rotation_z(0.2 * view as f64) * DMat3::from_rotation_y(0.1);
     let axes = DMat3::from_cols(DVec3::NEG_Y, DVec3::NEG_Z, DVec3::X);
     let place = DVec3::new(0.8 * moment as f64, 0.4 * view as f64, 1.6);
     DAffine3 { matrix3: turn * axes, translation: place }
@@ -105,7 +105,7 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
         let other = camera(view, to);
         let (there, point) = match hit {
             Some(hit) => {
-                let moved = solids(to).iter().zip(solids(moment)).find(|(s, _)| s.id == hit.id);
+                let moved = solids(to).into_iter().zip(solids(moment)).find(|(s, _)| s.id == hit.id);
                 let point = hit.point + moved.map_or(DVec3::ZERO, |(then, now)| then.middle - now.middle);
                 (other.inverse().transform_point3(point), Some(point))
             }
@@ -221,7 +221,7 @@ fn sweep(moment: usize) -> LabelledSweep {
     }
     let count = |solid: &Solid| points.iter().filter(|p| p.instance.0 == u32::from(solid.id)).count();
     let met = solids(moment);
-    let objects: Vec<_> = met.iter().filter(|solid| count(solid) > 0).map(|solid| {
+    let objects = met.iter().filter(|solid| count(solid) > 0).map(|solid| {
         let is_car = solid.id == CAR;
         json!({
             "id": solid.id, "class": solid.class.row().name, "kind": if is_car { "car" } else { "building" },
