@@ -8,6 +8,7 @@
 //! ```
 
 mod argoverse2;
+mod audits;
 mod datasets;
 mod elevation;
 mod frames;
@@ -145,6 +146,7 @@ pub const TARGETS: &[Target] = &[
     Target { name: "class_map", seeds: texts::class_map_seeds, prepare: |_| (), feed: texts::feed_class_map },
     Target { name: "frame_table", seeds: frames::table_seeds, prepare: frames::prepare, feed: frames::feed_table },
     Target { name: "frame_files", seeds: frames::picture_seeds, prepare: frames::prepare, feed: frames::feed_picture },
+    Target { name: "labels_of_others", seeds: audits::seeds, prepare: audits::prepare, feed: audits::feed },
     Target { name: "output_folder", seeds: texts::output_seeds, prepare: |_| (), feed: texts::feed_output },
 ];
 

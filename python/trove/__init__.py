@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from trove._trove import TroveError, __version__
 from trove.camera import Camera, look_at
-from trove.commands import curate, demo, evaluate, export, export_drives, generate, recolor, verify
+from trove.commands import curate, demo, evaluate, export, export_drives, generate, recolor, verify, verify_labels
 from trove.frames import Frame, Frames, open
 from trove.objects import Object
 from trove.overlay import Overlay
@@ -48,6 +48,7 @@ __all__ = [
     "render",
     "torch",
     "verify",
+    "verify_labels",
 ]
 
 

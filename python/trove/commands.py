@@ -17,7 +17,16 @@ from trove._trove import call
 from trove.packages import search
 
 if TYPE_CHECKING:
-    from trove.results import Curation, Evaluation, Exported, ExportedDrives, Findings, Recoloring, Summary
+    from trove.results import (
+        Curation,
+        Evaluation,
+        Exported,
+        ExportedDrives,
+        Findings,
+        LabelFindings,
+        Recoloring,
+        Summary,
+    )
 
 Progress = Callable[[float, int, str], object]
 AnyPath = str | PathLike[str]
@@ -61,6 +70,18 @@ def generate(
 def verify(folder: AnyPath, *, progress: Progress | None = None) -> Findings:
     """Checks every file of an output folder against its hash; nothing is changed."""
     findings: Findings = _run("verify", [folder], progress)
+    return findings
+
+
+def verify_labels(
+    folder: AnyPath, *, form: str | None = None, out: AnyPath | None = None, progress: Progress | None = None
+) -> LabelFindings:
+    """Checks what labels say of each other, the image and the cameras' poses, over views and times; nothing is changed.
+
+    `folder` is an output folder or a root of Cityscapes, KITTI, COCO, nuScenes or CamVid, in a `form` that is found out
+    where it is not given. `out` gets `audit.json` and images of the ten worst findings.
+    """
+    findings: LabelFindings = _run("verify", [folder], progress, labels=True, form=form, out=out)
     return findings
 
 

@@ -31,6 +31,33 @@ class Findings(TypedDict):
     unlisted: list[str]
 
 
+class LabelTally(TypedDict):
+    """How often a check was made, and how many findings it had."""
+
+    looked_at: int
+    findings: int
+
+
+class LabelFinding(TypedDict):
+    """What is wrong: the check, the file or folder, what was expected and found, the wrong share, the image that shows it."""
+
+    check: str
+    place: str
+    what: str
+    severity: float
+    image: str | None
+
+
+class LabelFindings(TypedDict):
+    """What was found in labels of a `form`; `checks` has those that could be made, by name."""
+
+    form: str
+    frames: int
+    sound: bool
+    checks: dict[str, LabelTally]
+    findings: list[LabelFinding]
+
+
 class Curation(TypedDict):
     """How many frames were kept and why others were not, and where the list and its page lie."""
 

@@ -19,7 +19,8 @@ pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeErr
     let all = files(root, &["png", "jpg", "jpeg"])?;
     let is_label = |path: &PathBuf| {
         let below = path.strip_prefix(root).unwrap_or(path);
-        let in_folder = below.components().any(|part| part.as_os_str().to_string_lossy().to_lowercase().contains("label"));
+        let in_folder =
+            below.components().any(|part| part.as_os_str().to_string_lossy().to_lowercase().contains("label"));
         in_folder || name(path).ends_with("_L.png")
     };
     let (labels, images): (Vec<PathBuf>, Vec<PathBuf>) = all.into_iter().partition(is_label);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use trove_files::{LARGEST_TEXT, read_text};
+use trove_files::{Budget, LARGEST_TEXT, read_text};
 use trove_model::{ClassMap, Raster};
 
 use super::finding::{Audit, Check, Notes};
@@ -77,7 +77,7 @@ fn look(path: &Path, image: Option<&PathBuf>, classes: &ClassMap, notes: &mut No
     if outlines.is_file() {
         let text = read_text(&outlines, LARGEST_TEXT).map_err(JudgeError::io(&outlines))?;
         match serde_json::from_str::<Outlines>(&text) {
-            Ok(outlines) => painted(&labels, &outlines, classes, notes),
+            Ok(outlines) => painted(&labels, &outlines, classes, &Budget::of_file(text.len() as u64), notes),
             Err(e) => notes.wrong(Check::Files, format!("{}: {e}", name(&outlines))),
         }
     }
@@ -92,7 +92,12 @@ fn look(path: &Path, image: Option<&PathBuf>, classes: &ClassMap, notes: &mut No
 pub(super) fn known(labels: &Labels, classes: &ClassMap, notes: &mut Notes) {
     notes.look(Check::Classes);
     let mut is_known = [false; 256];
-    classes.classes.iter().map(|class| class.id).chain(classes.ignored()).for_each(|id| is_known[usize::from(id)] = true);
+    classes
+        .classes
+        .iter()
+        .map(|class| class.id)
+        .chain(classes.ignored())
+        .for_each(|id| is_known[usize::from(id)] = true);
     let pixels = |i: usize| [i as u32 % labels.width, i as u32 / labels.width];
     let strange: Vec<_> = (0..labels.ids.len()).filter(|i| !is_known[usize::from(labels.ids[*i])]).collect();
     if let Some(first) = strange.first() {
@@ -131,7 +136,7 @@ fn trained(labels: &Labels, training: &Labels, classes: &ClassMap, notes: &mut N
     }
 }
 
-fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, notes: &mut Notes) {
+fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, steps: &Budget, notes: &mut Notes) {
     notes.look(Check::Outlines);
     let (width, height) = (labels.width, labels.height);
     if (outlines.img_width, outlines.img_height) != (width, height) {
@@ -141,13 +146,17 @@ fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, notes: &mut
     for outline in outlines.objects.iter().filter(|outline| outline.deleted == 0) {
         // A group of things is written with "group" behind.
         let label = outline.label.strip_suffix("group").unwrap_or(&outline.label);
-        let Some(class) = classes.classes.iter().find(|class| class.name == label || class.name == outline.label) else {
+        let Some(class) = classes.classes.iter().find(|class| class.name == label || class.name == outline.label)
+        else {
             if label != "license plate" {
                 notes.wrong(Check::Outlines, format!("polygons.json: expected a class of Cityscapes, found {label:?}"));
             }
             continue;
         };
-        paint(&mut canvas, &outline.polygon, class.id);
+        if paint(&mut canvas, &outline.polygon, class.id, steps).is_err() {
+            return notes
+                .wrong(Check::Outlines, "polygons.json: expected fewer outlines, found more than can be painted");
+        }
     }
     let wrong: Vec<_> = (0..labels.ids.len()).filter(|i| canvas.data[*i] != labels.ids[*i]).collect();
     let share = 1.0 - wrong.len() as f64 / labels.ids.len().max(1) as f64;

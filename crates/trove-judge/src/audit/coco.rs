@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use trove_files::{LARGEST_FILE, read_text};
+use trove_files::{Budget, Exceeded, LARGEST_FILE, read_text};
 use trove_model::Raster;
 
 use super::finding::{Audit, Check, Notes};
@@ -110,9 +110,12 @@ pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeErr
         match serde_json::from_str::<Dataset>(&text) {
             Ok(dataset) => {
                 audit.frames += dataset.images.len();
-                look(root, &dataset, &by_name, &below, progress, &mut audit)?;
+                let steps = Budget::of_file(text.len() as u64);
+                look(root, &dataset, &by_name, &below, &steps, progress, &mut audit)?;
             }
-            Err(e) => notes.wrong(Check::Files, format!("expected COCO's images, annotations and categories, found: {e}")),
+            Err(e) => {
+                notes.wrong(Check::Files, format!("expected COCO's images, annotations and categories, found: {e}"))
+            }
         }
         audit.add(notes);
     }
@@ -128,6 +131,7 @@ fn look(
     dataset: &Dataset,
     pictures: &BTreeMap<String, Vec<&PathBuf>>,
     list: &str,
+    steps: &Budget,
     progress: OnProgress,
     audit: &mut Audit,
 ) -> Result<(), JudgeError> {
@@ -166,7 +170,10 @@ fn look(
         let too_large = u64::from(image.width) * u64::from(image.height) > MOST_PIXELS;
         let annotations = of_image.remove(&image.id.to_string()).unwrap_or_default();
         for annotation in annotations.iter().filter(|_| !too_large) {
-            check(image, annotation, &categories, &mut notes);
+            if check(image, annotation, &categories, steps, &mut notes).is_err() {
+                notes.wrong(Check::Masks, "expected fewer masks, found more than can be painted; the rest is left out");
+                break;
+            }
             if let (Some(segments), Some(name)) = (&annotation.segments_info, &annotation.file_name) {
                 panoptic(image, segments, find(name), &categories, &mut notes);
             }
@@ -180,7 +187,13 @@ fn look(
     Ok(())
 }
 
-fn check(image: &ImageRow, annotation: &Annotation, categories: &BTreeSet<u64>, notes: &mut Notes) {
+fn check(
+    image: &ImageRow,
+    annotation: &Annotation,
+    categories: &BTreeSet<u64>,
+    steps: &Budget,
+    notes: &mut Notes,
+) -> Result<(), Exceeded> {
     let told = annotation.id.map_or_else(|| "annotation".to_owned(), |id| format!("annotation {id}"));
     notes.look(Check::Classes);
     if annotation.category_id.is_some_and(|id| !categories.contains(&id)) {
@@ -189,44 +202,24 @@ fn check(image: &ImageRow, annotation: &Annotation, categories: &BTreeSet<u64>, 
     if let Some(points) = &annotation.keypoints {
         keypoints(image, annotation, points, &told, notes);
     }
-    let (Some(segmentation), Some([x, y, width, height])) = (&annotation.segmentation, annotation.bbox) else { return };
+    let (Some(segmentation), Some([x, y, width, height])) = (&annotation.segmentation, annotation.bbox) else {
+        return Ok(());
+    };
     notes.look(Check::Masks);
-    let mut mask = Raster::filled(image.width, image.height, false);
-    match segmentation {
-        Segmentation::Polygons(polygons) => {
-            for polygon in polygons {
-                paint(&mut mask, polygon.as_chunks::<2>().0, true);
-            }
+    steps.take(image.width as usize, image.height as usize)?;
+    let mask = match mask(image, segmentation, steps)? {
+        Ok(mask) => mask,
+        Err(what) => {
+            notes.wrong(Check::Masks, format!("{told}: {what}"));
+            return Ok(());
         }
-        Segmentation::Runs { size, counts } => {
-            if *size != [image.height, image.width] {
-                return notes.wrong(Check::Masks, format!("{told}: expected a mask of the image's size, found {size:?}"));
-            }
-            let counts = match counts {
-                Runs::Counts(counts) => Some(counts.clone()),
-                Runs::Packed(text) => unpack(text),
-            };
-            let whole = counts.filter(|counts| counts.iter().map(|count| u64::from(*count)).sum::<u64>() == mask.data.len() as u64);
-            let Some(counts) = whole else {
-                return notes.wrong(Check::Masks, format!("{told}: expected runs that fill the image, found others"));
-            };
-            let mut at = 0;
-            for (i, count) in counts.iter().enumerate() {
-                let end = at + *count as usize;
-                // Columns first.
-                for pixel in (at..end).filter(|_| i % 2 == 1) {
-                    *mask.at_mut((pixel / image.height as usize) as u32, (pixel % image.height as usize) as u32) = true;
-                }
-                at = end;
-            }
-        }
-    }
+    };
     let Some(around) = around(&mask) else {
         // A polygon thinner than a pixel covers no centre.
         if annotation.area.is_some_and(|area| area > 4.0) {
             notes.wrong(Check::Masks, format!("{told}: expected a mask, found none"));
         }
-        return;
+        return Ok(());
     };
     let told_box = [x, y, x + width, y + height];
     let room = 1.5 + BOX * width.max(height);
@@ -240,6 +233,46 @@ fn check(image: &ImageRow, annotation: &Annotation, categories: &BTreeSet<u64>, 
         let area = annotation.area.unwrap_or_default();
         notes.wrong(Check::Masks, format!("{told}: area: expected {pixels} as the mask has, found {area}"));
     }
+    Ok(())
+}
+
+/// The pixels of a mask; what is wrong with it.
+fn mask(
+    image: &ImageRow,
+    segmentation: &Segmentation,
+    steps: &Budget,
+) -> Result<Result<Raster<bool>, String>, Exceeded> {
+    let mut mask = Raster::filled(image.width, image.height, false);
+    let (size, counts) = match segmentation {
+        Segmentation::Polygons(polygons) => {
+            for polygon in polygons {
+                paint(&mut mask, polygon.as_chunks::<2>().0, true, steps)?;
+            }
+            return Ok(Ok(mask));
+        }
+        Segmentation::Runs { size, counts } => (size, counts),
+    };
+    if *size != [image.height, image.width] {
+        return Ok(Err(format!("expected a mask of the image's size, found {size:?}")));
+    }
+    let counts = match counts {
+        Runs::Counts(counts) => Some(counts.clone()),
+        Runs::Packed(text) => unpack(text),
+    };
+    let all = |counts: &Vec<u32>| counts.iter().map(|count| u64::from(*count)).sum::<u64>();
+    let Some(counts) = counts.filter(|counts| all(counts) == mask.data.len() as u64) else {
+        return Ok(Err("expected runs that fill the image, found others".into()));
+    };
+    let mut at = 0;
+    for (i, count) in counts.iter().enumerate() {
+        let end = at + *count as usize;
+        // Columns first.
+        for pixel in (at..end).filter(|_| i % 2 == 1) {
+            *mask.at_mut((pixel / image.height as usize) as u32, (pixel % image.height as usize) as u32) = true;
+        }
+        at = end;
+    }
+    Ok(Ok(mask))
 }
 
 /// Left, top, right and bottom of what is true.
@@ -266,7 +299,8 @@ fn keypoints(image: &ImageRow, annotation: &Annotation, points: &[f64], told: &s
     let Some([x, y, box_width, box_height]) = annotation.bbox else { return };
     let room = 0.25 * box_width.max(box_height) + 2.0;
     let is_near = |[px, py, seen]: &[f64; 3]| {
-        *seen < 2.0 || ((x - room..=x + box_width + room).contains(px) && (y - room..=y + box_height + room).contains(py))
+        *seen < 2.0
+            || ((x - room..=x + box_width + room).contains(px) && (y - room..=y + box_height + room).contains(py))
     };
     if !labelled.clone().all(is_near) {
         notes.wrong(Check::Keypoints, format!("{told}: expected visible keypoints in the box, found others"));
@@ -310,7 +344,8 @@ fn panoptic(
         let expected = [x0, y0, x1 - x0, y1 - y0].map(f64::from);
         let is_off = |told: [f64; 4]| told.iter().zip(expected).any(|(a, b)| !((a - b).abs() <= 1.0));
         if segment.bbox.is_some_and(is_off) {
-            notes.wrong(Check::Panoptic, format!("segment {id}: bbox: expected {expected:?}, found {:?}", segment.bbox));
+            notes
+                .wrong(Check::Panoptic, format!("segment {id}: bbox: expected {expected:?}, found {:?}", segment.bbox));
         }
     }
     if let Some(id) = areas.keys().next() {

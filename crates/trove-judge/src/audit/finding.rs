@@ -236,13 +236,7 @@ impl Notes {
     }
 
     /// Something is wrong at pixels.
-    pub(super) fn found(
-        &mut self,
-        check: Check,
-        severity: f64,
-        what: impl Into<String>,
-        mut pixels: Vec<[u32; 2]>,
-    ) {
+    pub(super) fn found(&mut self, check: Check, severity: f64, what: impl Into<String>, mut pixels: Vec<[u32; 2]>) {
         if pixels.len() > MOST_PIXELS {
             pixels = pixels.iter().step_by(pixels.len().div_ceil(MOST_PIXELS)).copied().collect();
         }

@@ -24,7 +24,8 @@ impl<'a> Looked<'a> {
 
 /// The two ways of flow: to the next moment, and to the previous one.
 pub(super) const WAYS: [usize; 2] = [0, 1];
-const NAMES: [[&str; 2]; 2] = [["flow_forward.exr", "occluded_forward.png"], ["flow_backward.exr", "occluded_backward.png"]];
+const NAMES: [[&str; 2]; 2] =
+    [["flow_forward.exr", "occluded_forward.png"], ["flow_backward.exr", "occluded_backward.png"]];
 
 /// Flow of what stands still may differ from its projection by this, pixels: rounding of depth and flow.
 const STATIC_PX: f64 = 0.1;
@@ -130,7 +131,10 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
             ends.entry(id).or_default().tell(pixel, is_same);
         }
         if occlusion.is_some() && is_same {
-            if x % STEP == 0 && y % STEP == 0 && let Some(is_there) = is_at_depth(from, to, pixel, end) {
+            if x % STEP == 0
+                && y % STEP == 0
+                && let Some(is_there) = is_at_depth(from, to, pixel, end)
+            {
                 seen.tell(pixel, is_there);
             }
             if let Some(error) = returned(a, b, way, pixel) {
@@ -154,7 +158,9 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
     });
     notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
         let percent = 100.0 * share;
-        format!("{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %")
+        format!(
+            "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
+        )
     });
     notes.judge(Check::FlowReturns, &returns, RETURNS, |share| {
         let percent = 100.0 * share;
@@ -223,7 +229,8 @@ fn returned(a: &LabelledFrame, b: &LabelledFrame, way: usize, pixel: [u32; 2]) -
     let id = here.at(pixel[0], pixel[1]);
     let flow = DVec2::from_array(flow.at(pixel[0], pixel[1]).map(f64::from));
     let end = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + flow;
-    let is_inside = end.x >= 0.0 && end.y >= 0.0 && end.x < f64::from(back.width - 1) && end.y < f64::from(back.height - 1);
+    let is_inside =
+        end.x >= 0.0 && end.y >= 0.0 && end.x < f64::from(back.width - 1) && end.y < f64::from(back.height - 1);
     let [x, y] = is_inside.then_some([end.x as u32, end.y as u32])?;
     let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
     let vector = |[x, y]: [u32; 2]| glam::Vec3::from_array(*normal.at(x, y));

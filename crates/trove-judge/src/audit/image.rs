@@ -29,7 +29,8 @@ pub(super) fn check<T: PartialEq>(image: &Raster<[u8; 3]>, class: Option<&Raster
     }
     let blown = image.data.iter().filter(|rgb| rgb.iter().all(|value| *value >= 254)).count() as f64 / all;
     if blown > BLOWN {
-        notes.wrong(Check::Image, format!("expected an image that shows something, found {:.0} % white", 100.0 * blown));
+        notes
+            .wrong(Check::Image, format!("expected an image that shows something, found {:.0} % white", 100.0 * blown));
     }
     let Some(class) = class.filter(|class| (class.width, class.height) == (image.width, image.height)) else { return };
     let change = |x: u32, y: u32| {
@@ -59,14 +60,18 @@ pub(super) fn check<T: PartialEq>(image: &Raster<[u8; 3]>, class: Option<&Raster
     let others = elsewhere.1 as f64 / elsewhere.0.max(1) as f64;
     let here = moved_by(0, 0);
     if here < AT_EDGES * others {
-        let what = format!("expected edges where the labels have them, found {:.2} times the change there", here / others);
+        let what =
+            format!("expected edges where the labels have them, found {:.2} times the change there", here / others);
         notes.found(Check::Image, 1.0, what, Vec::new());
         return;
     }
     let ways = ASIDE_PX.into_iter().flat_map(|by| [(by, 0), (-by, 0), (0, by), (0, -by)]);
     let best = ways.map(|(dx, dy)| (moved_by(dx, dy), dx, dy)).max_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((there, dx, dy)) = best.filter(|(there, ..)| *there > BETTER * here) {
-        let what = format!("expected edges where the labels have them, found {:.2} times as many ({dx}, {dy}) px aside", there / here);
+        let what = format!(
+            "expected edges where the labels have them, found {:.2} times as many ({dx}, {dy}) px aside",
+            there / here
+        );
         notes.found(Check::Image, 1.0, what, Vec::new());
     }
 }

@@ -14,9 +14,8 @@ use crate::pictures::{each, files, name, read, read_labels};
 use crate::{JudgeError, OnProgress};
 
 /// KITTI's words for what it annotates.
-const TYPES: [&str; 10] = [
-    "Car", "Van", "Truck", "Pedestrian", "Person", "Person_sitting", "Cyclist", "Tram", "Misc", "DontCare",
-];
+const TYPES: [&str; 10] =
+    ["Car", "Van", "Truck", "Pedestrian", "Person", "Person_sitting", "Cyclist", "Tram", "Misc", "DontCare"];
 /// The observation angle is rotation minus bearing; annotators' angles are rounded, and some are a few degrees off, radians.
 const ANGLE_RAD: f64 = 0.35;
 /// Overlap of what was drawn with the projected 3D box, of whole objects that nothing hides.
@@ -103,7 +102,10 @@ fn seen(
         let wrong = labels.ids.iter().zip(instances.as_raw()).filter(|(id, pixel)| u16::from(**id) != **pixel / 256);
         match wrong.count() {
             0 => {}
-            count => notes.wrong(Check::Panoptic, format!("instance: expected semantic's classes, found others on {count} pixels")),
+            count => notes.wrong(
+                Check::Panoptic,
+                format!("instance: expected semantic's classes, found others on {count} pixels"),
+            ),
         }
     }
     match image {
@@ -136,7 +138,9 @@ fn look(boxes: &Boxes, notes: &mut Notes) -> Result<(), String> {
             continue;
         };
         check(&labelled, camera.as_ref(), number + 1, notes);
-        if let [frame, track] = head && labelled.kind != "DontCare" {
+        if let [frame, track] = head
+            && labelled.kind != "DontCare"
+        {
             let (Ok(frame), Ok(track)) = (frame.parse::<i64>(), track.parse::<i64>()) else {
                 notes.wrong(Check::Files, format!("line {}: expected frame and track, found {head:?}", number + 1));
                 continue;
@@ -171,7 +175,8 @@ fn camera(text: &str) -> Option<[DVec4; 3]> {
 fn parsed(words: &[&str]) -> Option<Labelled> {
     let [kind, numbers @ ..] = words else { return None };
     let numbers: Vec<f64> = numbers.iter().map(|word| word.parse().ok()).collect::<Option<_>>()?;
-    let [truncation, occlusion, alpha, x0, y0, x1, y1, height, width, length, x, y, z, rotation_y, ..] = numbers[..] else {
+    let [truncation, occlusion, alpha, x0, y0, x1, y1, height, width, length, x, y, z, rotation_y, ..] = numbers[..]
+    else {
         return None;
     };
     Some(Labelled {

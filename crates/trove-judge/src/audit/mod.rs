@@ -23,7 +23,7 @@ mod views;
 mod worst;
 
 pub use finding::{Audit, Check, Finding, Tally};
-pub use frame::{LabelledFrame, LabelledSweep};
 pub use form::{LabelForm, audit};
+pub use frame::{LabelledFrame, LabelledSweep};
 pub use moments::FrameReader;
 pub use worst::picture;

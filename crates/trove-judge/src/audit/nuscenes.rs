@@ -154,7 +154,9 @@ fn boxes(version: &Path, samples: &BTreeMap<&str, &Sample>, notes: &mut Notes) -
         if !instances.contains(&row.instance_token) {
             notes.wrong(Check::Ids, format!("{told}: instance {} is not listed", row.instance_token));
         }
-        for (name, token) in [("prev", &row.prev), ("next", &row.next)].into_iter().filter(|(_, token)| !token.is_empty()) {
+        for (name, token) in
+            [("prev", &row.prev), ("next", &row.next)].into_iter().filter(|(_, token)| !token.is_empty())
+        {
             let is_same = known.get(token.as_str()).is_some_and(|other| other.instance_token == row.instance_token);
             if !is_same {
                 notes.wrong(Check::Ids, format!("{told}: {name} is not a box of the same instance"));

@@ -1,15 +1,25 @@
 //! Polygons, painted.
 
+use trove_files::{Budget, Exceeded};
 use trove_model::Raster;
 
 /// Paints the pixels whose centres lie in a polygon, by the even-odd rule; corners are in pixels, with (0, 0) in the
 /// corner of the image.
-pub(super) fn paint<T: Copy>(canvas: &mut Raster<T>, polygon: &[[f64; 2]], value: T) {
+///
+/// # Errors
+/// A polygon that takes more steps than are left: a small file may hold many that cover everything.
+pub(super) fn paint<T: Copy>(
+    canvas: &mut Raster<T>,
+    polygon: &[[f64; 2]],
+    value: T,
+    steps: &Budget,
+) -> Result<(), Exceeded> {
     if polygon.iter().flatten().any(|number| !number.is_finite()) || polygon.len() < 3 {
-        return;
+        return Ok(());
     }
     let (low, high) = polygon.iter().fold((f64::MAX, f64::MIN), |(low, high), [_, y]| (low.min(*y), high.max(*y)));
     let rows = (low - 0.5).ceil().max(0.0) as u32..((high + 0.5).floor().max(0.0) as u32).min(canvas.height);
+    steps.take(rows.len(), polygon.len() + canvas.width as usize)?;
     let mut crossings = Vec::new();
     for row in rows {
         let y = f64::from(row) + 0.5;
@@ -26,6 +36,7 @@ pub(super) fn paint<T: Copy>(canvas: &mut Raster<T>, polygon: &[[f64; 2]], value
             (first..last).for_each(|x| *canvas.at_mut(x, row) = value);
         }
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -34,7 +45,7 @@ mod tests {
 
     fn area(polygon: &[[f64; 2]]) -> usize {
         let mut canvas = Raster::filled(20, 10, false);
-        paint(&mut canvas, polygon, true);
+        paint(&mut canvas, polygon, true, &Budget::of_file(0)).unwrap();
         canvas.data.iter().filter(|painted| **painted).count()
     }
 
@@ -44,6 +55,15 @@ mod tests {
         assert_eq!(area(&[[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]]), 45);
         // Beyond the image there is nothing to paint.
         assert_eq!(area(&[[-9.0, -9.0], [90.0, -9.0], [90.0, 90.0], [-9.0, 90.0]]), 200);
+        assert_eq!(area(&[[0.5, 0.5], [1.0, 1.0]]), 0);
         assert_eq!(area(&[[1.0, 1.0], [f64::NAN, 2.0], [3.0, 3.0]]), 0);
+    }
+
+    #[test]
+    fn polygons_do_not_choose_how_long_they_take() {
+        let everything = [[0.0, 0.0], [8192.0, 0.0], [8192.0, 8192.0], [0.0, 8192.0]];
+        let (mut canvas, steps) = (Raster::filled(8192, 8192, false), Budget::of_file(1000));
+        let painted = (0..1000).take_while(|_| paint(&mut canvas, &everything, true, &steps).is_ok()).count();
+        assert_eq!(painted, 3);
     }
 }

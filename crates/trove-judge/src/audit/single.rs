@@ -321,7 +321,8 @@ fn keypoints(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
         let (Some([x0, y0, x1, y1]), Some(instance)) = (object.visible_box, &frame.instance) else { continue };
         let wide = f64::from((x1 - x0).max(y1 - y0)) * 0.25 + 2.0;
         let near = |[x, y, _]: &&[f64; 3]| {
-            let (within_x, within_y) = (f64::from(x0) - wide..f64::from(x1) + wide, f64::from(y0) - wide..f64::from(y1) + wide);
+            let (within_x, within_y) =
+                (f64::from(x0) - wide..f64::from(x1) + wide, f64::from(y0) - wide..f64::from(y1) + wide);
             within_x.contains(x) && within_y.contains(y)
         };
         let visible: Vec<&[f64; 3]> = pixels.iter().filter(|[_, _, seen]| *seen == 2.0).collect();
@@ -336,7 +337,8 @@ fn keypoints(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
             on.tell(pixel, around(instance, pixel).any(|id| u32::from(id) == object.id));
         }
         if on.all > 2 && on.share() < 0.6 {
-            let what = format!("object {}: expected visible keypoints on it, found {:.0} %", object.id, 100.0 * on.share());
+            let what =
+                format!("object {}: expected visible keypoints on it, found {:.0} %", object.id, 100.0 * on.share());
             notes.wrong(Check::Keypoints, what);
         }
     }

@@ -68,7 +68,10 @@ impl Tracks {
             match known.at.last() {
                 Some((time, at)) if *time == now => {
                     if at.distance(position) > 0.01 {
-                        let what = format!("object {}: expected one place at one moment, found {at} and {position}", object.id);
+                        let what = format!(
+                            "object {}: expected one place at one moment, found {at} and {position}",
+                            object.id
+                        );
                         notes.wrong(Check::Tracks, what);
                     }
                     continue;

@@ -24,7 +24,9 @@ fn is_porous(class: Class) -> bool {
 /// What one camera sees is not transparent to another, and is the same there.
 pub(super) fn check(a: &Looked, b: &Looked, notes: &mut Notes) {
     let (Some(eye), Some(other)) = (&a.eye, &b.eye) else { return };
-    let (Some(depth), Some(instance), Some(class)) = (&a.frame.depth_m, &a.frame.instance, &a.frame.class) else { return };
+    let (Some(depth), Some(instance), Some(class)) = (&a.frame.depth_m, &a.frame.instance, &a.frame.class) else {
+        return;
+    };
     let (Some(depth_b), Some(instance_b)) = (&b.frame.depth_m, &b.frame.instance) else { return };
     let (mut opaque, mut same) = (Count::default(), Count::default());
     for pixel in grid(depth.width, depth.height, STEP) {
@@ -130,12 +132,13 @@ pub(super) fn occlusion(looked: &Looked, notes: &mut Notes) {
     for way in super::flow::WAYS {
         let (Some(flow), Some(occluded)) = (&looked.frame.flow[way], &looked.frame.occluded[way]) else { continue };
         notes.look(Check::Occlusion);
-        let wrong = super::single::pixels(flow).zip(&occluded.data).filter(|((_, flow), occlusion)| {
-            flow[0].is_nan() != (**occlusion == Occlusion::Undefined)
-        });
+        let wrong = super::single::pixels(flow)
+            .zip(&occluded.data)
+            .filter(|((_, flow), occlusion)| flow[0].is_nan() != (**occlusion == Occlusion::Undefined));
         let wrong: Vec<_> = wrong.map(|((pixel, _), _)| pixel).collect();
         if !wrong.is_empty() {
-            let what = format!("expected occlusion wherever flow is defined, found otherwise on {} pixels", wrong.len());
+            let what =
+                format!("expected occlusion wherever flow is defined, found otherwise on {} pixels", wrong.len());
             notes.found(Check::Occlusion, 1.0, what, wrong);
         }
     }

@@ -133,7 +133,9 @@ fn print(form: LabelForm, audit: &Audit, out: Option<&Path>) {
 
 /// Writes the answer, and the worst of each check in turn until there are enough.
 fn write(folder: &Path, out: &Path, audit: &Audit, json: &Value) -> Result<()> {
-    std::fs::create_dir_all(out).map_err(|e| anyhow::anyhow!("{}: expected a folder to write to, found \"{e}\"; choose another with --out", out.display()))?;
+    std::fs::create_dir_all(out).map_err(|e| {
+        anyhow::anyhow!("{}: expected a folder to write to, found \"{e}\"; choose another with --out", out.display())
+    })?;
     write_atomically(&out.join("audit.json"), &serde_json::to_vec_pretty(json)?)?;
     let of = |check: Check| audit.findings.iter().filter(move |finding| finding.check == check);
     let in_turn = (0..WORST).flat_map(|nth| Check::ALL.into_iter().filter_map(move |check| of(check).nth(nth)));

@@ -41,17 +41,31 @@ const FAULTS: [Fault; 33] = [
     ("the image is upside down", Check::Image, |f| f.rgb.as_mut().unwrap().data.reverse()),
     ("the image is 12 pixels aside", Check::Image, |f| shift(&mut f.rgb, 12)),
     ("an id is not listed", Check::Ids, |f| {
-        change(&mut f.instance, |id| if *id == CAR { *id = 99 });
+        change(&mut f.instance, |id| {
+            if *id == CAR {
+                *id = 99
+            }
+        });
     }),
     ("an id is listed twice", Check::Ids, |f| {
         let row = f.table.objects[0].clone();
         f.table.objects.insert(0, row);
     }),
     ("a car is labelled a truck", Check::Classes, |f| {
-        change(&mut f.class, |class| if *class == Class::Car { *class = Class::Truck });
+        change(&mut f.class, |class| {
+            if *class == Class::Car {
+                *class = Class::Truck
+            }
+        });
     }),
     ("classes are a pixel aside", Check::Classes, |f| shift(&mut f.class, 1)),
-    ("a car has no id", Check::Classes, |f| change(&mut f.instance, |id| if *id == CAR { *id = 0 })),
+    ("a car has no id", Check::Classes, |f| {
+        change(&mut f.instance, |id| {
+            if *id == CAR {
+                *id = 0
+            }
+        })
+    }),
     ("a class has another's id", Check::Classes, |f| f.table.objects[0].class_id = 5),
     ("a box is a pixel too wide", Check::Masks, |f| f.table.objects[0].visible_box.as_mut().unwrap()[2] += 1),
     ("pixels are counted wrongly", Check::Masks, |f| f.table.objects[0].visible_px -= 1),
@@ -81,14 +95,18 @@ const FAULTS: [Fault; 33] = [
     }),
     ("a 3D box stands 2 m aside", Check::Boxes, |f| f.table.objects[0].world_from_body[1][3] += 2.0),
     ("flow has its sign turned", Check::Flow, |f| change(&mut f.flow[0], |flow| *flow = flow.map(|part| -part))),
-    ("flow is that of half the scale", Check::Flow, |f| change(&mut f.flow[0], |flow| *flow = flow.map(|part| part / 2.0))),
+    ("flow is that of half the scale", Check::Flow, |f| {
+        change(&mut f.flow[0], |flow| *flow = flow.map(|part| part / 2.0))
+    }),
     ("flow takes rows for columns", Check::Flow, |f| change(&mut f.flow[0], |flow| flow.reverse())),
     ("the car's flow is the camera's alone", Check::FlowEnds, |f| {
-        let (eye, other) = (f.eye().unwrap(), super::frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
+        let (eye, other) =
+            (f.eye().unwrap(), super::frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
         let (depth, instance) = (f.depth_m.as_ref().unwrap(), f.instance.as_ref().unwrap());
         let flow = f.flow[0].as_mut().unwrap();
         for (pixel, _) in super::single::pixels(instance).filter(|(_, id)| **id == CAR) {
-            let point = eye.world_from_camera.transform_point3(eye.point(pixel, *depth.at(pixel[0], pixel[1])).unwrap());
+            let point =
+                eye.world_from_camera.transform_point3(eye.point(pixel, *depth.at(pixel[0], pixel[1])).unwrap());
             let end = eye.lens.project(other.inverse().transform_point3(point + DVec3::new(0.0, 2.0, 0.0))).unwrap();
             let start = glam::DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
             *flow.at_mut(pixel[0], pixel[1]) = (end - start).as_vec2().to_array();
@@ -161,27 +179,41 @@ fn faults_between_views_times_and_sensors_are_found() {
         street.frames.get_mut(FRAME).unwrap().table.objects[0].world_from_body[0][3] += 0.2;
     });
     expect("a house is another's in one view", Check::Views, &|street| {
-        change(&mut street.frames.get_mut(FRAME).unwrap().instance, |id| if *id == HOUSE { *id = 8 });
+        change(&mut street.frames.get_mut(FRAME).unwrap().instance, |id| {
+            if *id == HOUSE {
+                *id = 8
+            }
+        });
     });
     expect("one view's depth is too small", Check::Views, &|street| {
         change(&mut street.frames.get_mut(LATER).unwrap().depth_m, |depth| *depth *= 0.7);
     });
-    let sweep = |plant: fn(&mut LabelledSweep)| {
-        move |street: &mut Street| plant(street.sweeps.get_mut(SWEEP).unwrap())
-    };
-    expect("the LiDAR is turned", Check::Lidar, &sweep(|sweep| {
-        sweep.points.iter_mut().for_each(|point| point.position_m.y = -point.position_m.y);
-    }));
-    expect("ranges are too short", Check::Lidar, &sweep(|sweep| {
-        sweep.points.iter_mut().for_each(|point| point.position_m *= 0.7);
-    }));
-    expect("points have another class", Check::Lidar, &sweep(|sweep| {
-        sweep.points.iter_mut().for_each(|point| {
-            if point.class == Class::Road {
-                point.class = Class::Sidewalk;
-            }
-        });
-    }));
+    let sweep = |plant: fn(&mut LabelledSweep)| move |street: &mut Street| plant(street.sweeps.get_mut(SWEEP).unwrap());
+    expect(
+        "the LiDAR is turned",
+        Check::Lidar,
+        &sweep(|sweep| {
+            sweep.points.iter_mut().for_each(|point| point.position_m.y = -point.position_m.y);
+        }),
+    );
+    expect(
+        "ranges are too short",
+        Check::Lidar,
+        &sweep(|sweep| {
+            sweep.points.iter_mut().for_each(|point| point.position_m *= 0.7);
+        }),
+    );
+    expect(
+        "points have another class",
+        Check::Lidar,
+        &sweep(|sweep| {
+            sweep.points.iter_mut().for_each(|point| {
+                if point.class == Class::Road {
+                    point.class = Class::Sidewalk;
+                }
+            });
+        }),
+    );
     expect("a point too many is told", Check::Lidar, &sweep(|sweep| sweep.table.points += 1));
 }
 

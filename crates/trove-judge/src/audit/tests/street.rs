@@ -118,7 +118,9 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
         let towards = other.transform_vector3(there.normalize());
         let met = meet(to, other.translation, towards);
         let is_seen = match (point, met) {
-            (Some(point), Some(met)) => met.point.distance(other.translation) > point.distance(other.translation) - 1e-3,
+            (Some(point), Some(met)) => {
+                met.point.distance(other.translation) > point.distance(other.translation) - 1e-3
+            }
             (None, met) => met.is_none(),
             (Some(_), None) => true,
         };
