@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use trove_model::{Occlusion, Raster};
 
 use super::finding::{Check, Count, Notes};
-use super::frame::{Eye, LabelledFrame, around, grid, rigid};
+use super::frame::{Eye, LabelledFrame, around, grid, is_porous, rigid};
 use super::single::STEP;
 
 /// A frame with its camera, and which ids stand still.
@@ -38,7 +38,9 @@ const AT_DEPTH: f64 = 0.97;
 const RETURNS_PX: f64 = 1.0;
 const RETURNS: f64 = 0.95;
 /// Share of hidden ends that something nearer hides, as far as an image tells.
-const HIDDEN: f64 = 0.8;
+const HIDDEN: f64 = 0.6;
+/// What is as near as this share of the distance hides what is behind; less is the slope of a road within a pixel.
+const NEARER: f64 = 0.97;
 
 /// Holds flow of what stands still to depth and the two cameras' poses; needs no other frame.
 pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
@@ -207,10 +209,17 @@ fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Op
     Some(least * 0.97 - 0.05 < expected && expected < most * 1.03 + 0.05)
 }
 
-/// Whether something at the end of a hidden point's flow is nearer than the point.
+/// Whether something at the end of a hidden point's flow is nearer than the point, or another thing's edge is there;
+/// leaves hide each other within a pixel.
 fn is_nearer(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
     let expected = depth_there(from, to, pixel)?;
-    Some(extremes(to, end)?.0 < expected * 1.001)
+    let (depth, there) = (to.frame.depth_m.as_ref()?, to.frame.instance.as_ref()?);
+    if is_porous(*from.frame.class.as_ref()?.at(pixel[0], pixel[1])) {
+        return None;
+    }
+    let id = from.frame.instance.as_ref()?.at(pixel[0], pixel[1]);
+    let is_edge = around(there, end).any(|other| other != *id);
+    Some(is_edge || f64::from(*depth.at(end[0], end[1])) < expected * NEARER)
 }
 
 /// The least and the greatest depth around a pixel.

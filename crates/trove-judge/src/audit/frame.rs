@@ -132,6 +132,11 @@ impl Eye {
     }
 }
 
+/// Holes in leaves and wires are finer than pixels.
+pub(super) fn is_porous(class: Class) -> bool {
+    matches!(class, Class::Tree | Class::Bush | Class::Void | Class::Ground)
+}
+
 /// The 3 × 3 values around a pixel, as far as they are in the image.
 pub(super) fn around<T: Copy>(raster: &Raster<T>, [x, y]: [u32; 2]) -> impl Iterator<Item = T> + '_ {
     let columns = x.saturating_sub(1)..=(x + 1).min(raster.width - 1);

@@ -45,7 +45,7 @@ pub(super) fn check<T: PartialEq>(image: &Raster<[u8; 3]>, class: Option<&Raster
             elsewhere = (elsewhere.0 + 1, elsewhere.1 + change(x, y));
         }
     }
-    if edges.len() < 20 * ENOUGH {
+    if edges.len() < 8 * ENOUGH {
         return;
     }
     // How much the image changes at the classes' edges, moved by some pixels.

@@ -1,11 +1,11 @@
 //! Cameras and LiDARs of one moment see one place.
 
 use glam::DVec3;
-use trove_model::{Class, Occlusion};
+use trove_model::Occlusion;
 
 use super::finding::{Check, Count, Notes};
 use super::flow::Looked;
-use super::frame::{LabelledSweep, around, grid, rigid};
+use super::frame::{LabelledSweep, around, grid, is_porous, rigid};
 
 /// Every so manyeth column and row of a camera is held to another.
 const STEP: u32 = 4;
@@ -15,11 +15,6 @@ const NOT_LOOKED_THROUGH: f64 = 0.97;
 const SAME: f64 = 0.97;
 /// Share of LiDAR points that cameras do not look through, and that have the class of the pixel.
 const LIDAR: f64 = 0.95;
-
-/// Holes in leaves and wires are finer than pixels.
-fn is_porous(class: Class) -> bool {
-    matches!(class, Class::Tree | Class::Bush | Class::Void | Class::Ground)
-}
 
 /// What one camera sees is not transparent to another, and is the same there.
 pub(super) fn check(a: &Looked, b: &Looked, notes: &mut Notes) {

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use trove_model::Raster;
+use image::DynamicImage;
+use trove_model::{Class, Raster};
 
 use super::finding::Finding;
 use crate::JudgeError;
@@ -20,11 +21,16 @@ pub fn picture(root: &Path, finding: &Finding) -> Result<Option<Raster<[u8; 3]>>
     let Some(path) = finding.image.as_ref().map(|image| root.join(image)).filter(|path| path.is_file()) else {
         return Ok(None);
     };
-    let image = read(&path)?.into_rgb8();
-    // Numbers of classes are small, and would be black.
-    let brightness = if image.as_raw().iter().all(|value| *value < 64) { 4 } else { 1 };
-    let dim = |value: u8| (u16::from(value) * brightness / 2).min(255) as u8;
-    let mut raster = Raster::from_fn(image.width(), image.height(), |x, y| image.get_pixel(x, y).0.map(dim));
+    let image = read(&path)?;
+    // Numbers of classes would be all but black.
+    let is_numbers = matches!(image, DynamicImage::ImageLuma8(_));
+    let image = image.into_rgb8();
+    let color = |[r, g, b]: [u8; 3]| match Class::from_id(r).filter(|_| is_numbers) {
+        Some(class) => class.row().rgb,
+        None => [r, g, b],
+    };
+    let dim = |value: u8| value / 2;
+    let mut raster = Raster::from_fn(image.width(), image.height(), |x, y| color(image.get_pixel(x, y).0).map(dim));
     for [x, y] in &finding.pixels {
         for (dx, dy) in (-MARK..=MARK).flat_map(|dy| (-MARK..=MARK).map(move |dx| (dx, dy))) {
             let (x, y) = (i64::from(*x) + dx, i64::from(*y) + dy);

@@ -73,7 +73,7 @@ const FAULTS: [Fault; 33] = [
     ("occlusion is its opposite", Check::Masks, |f| f.table.objects[0].occlusion = 1.0),
     ("depth is negative", Check::Depth, |f| change(&mut f.depth_m, |depth| *depth = -*depth)),
     ("the sky has a depth", Check::Depth, |f| change(&mut f.depth_m, |depth| *depth = depth.min(1000.0))),
-    ("depth is range", Check::Surfaces, |f| {
+    ("depth is range", Check::Flow, |f| {
         let eye = f.eye().unwrap();
         let depth = f.depth_m.as_mut().unwrap();
         *depth = Raster::from_fn(depth.width, depth.height, |x, y| {
