@@ -24,7 +24,12 @@ demo: install
 install: $(VENV)/.installed
 
 $(VENV)/.installed: $(SOURCES) $(STAGED)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[test]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check .
+	touch $@
+
+# What tests and benchmarks use beside it, which nobody waits for before the first picture.
+$(VENV)/.test-installed: $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'trove-scenes[test]'
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps $(CITYSCAPES)
 	touch $@
 
@@ -55,7 +60,7 @@ test-rust: install
 	cargo test --locked --workspace --exclude trove-py --no-fail-fast -- \
 	    --include-ignored --skip the_references_are_written $(if $(TROVE_TEST_DATA),,--skip real_)
 
-test-python: install
+test-python: $(VENV)/.test-installed
 	$(BIN)/python -m pytest -q
 
 # The browser that pages are tested in, and what drives it; without them their tests are skipped, or fail in CI.
@@ -128,16 +133,16 @@ $(VENV)/.lint-installed: pyproject.toml
 	touch $@
 
 # Benchmarks on the real data in TROVE_TEST_DATA; see benches/README.md.
-bench-build bench-frame bench-frames bench-memory bench-city: bench-%: install
+bench-build bench-frame bench-frames bench-memory bench-city: bench-%: $(VENV)/.test-installed
 	$(BIN)/python benches/bench.py $*
 
 # A simulated LiDAR sweep beside the recorded one: LIDAR is nuscenes or kitti.
 LIDAR ?= nuscenes
-bench-lidar: install
+bench-lidar: $(VENV)/.test-installed
 	$(BIN)/python benches/lidar.py $(LIDAR) --trove $(BIN)/trove --picture lidar-$(LIDAR).png
 
 # Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.
-bench-cycles: install .venv-cycles/.installed
+bench-cycles: $(VENV)/.test-installed .venv-cycles/.installed
 	.venv-cycles/bin/python benches/cycles/bench.py --trove $(BIN)/trove $(CYCLES)
 
 .venv-cycles/.installed: benches/cycles/requirements.txt
@@ -157,7 +162,7 @@ bench-labels: install
 	cargo run --locked --release -p trove --example label_times
 
 # How many samples a clean picture needs, and how long they take.
-bench-clean: install
+bench-clean: $(VENV)/.test-installed
 	$(BIN)/python benches/cycles/clean.py --trove $(BIN)/trove $(CLEAN)
 
 # The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/experiment.md.
@@ -173,7 +178,7 @@ experiment-camvid: install .venv-train/.installed
 
 # The tests of training, which make test skips where PyTorch is missing. They run on the processor, in .venv with
 # PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
-test-train: install .torch/.installed
+test-train: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
 	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_torch.py \
 	    python/tests/test_export_torchvision.py
@@ -188,15 +193,15 @@ TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-too
 	touch $@
 
 # Frames a second that PyTorch gets, ours and plain reads'.
-bench-torch: install .torch/.installed
+bench-torch: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python benches/torch_frames.py $(OUT)
 
 # Evaluation and colour transfer on made-up pictures; needs no data.
-bench-judge: install
+bench-judge: $(VENV)/.test-installed
 	$(BIN)/python benches/judge.py --trove $(BIN)/trove
 
 # Finished frames as other datasets, on the demo's.
-bench-export: install
+bench-export: $(VENV)/.test-installed
 	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:

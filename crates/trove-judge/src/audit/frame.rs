@@ -25,6 +25,16 @@ pub struct LabelledFrame {
     pub flow: [Option<Raster<[f32; 2]>>; 2],
     /// Whether those images show the same.
     pub occluded: [Option<Raster<Occlusion>>; 2],
+    /// 65536 · class + object.
+    pub panoptic: Option<Raster<u32>>,
+    /// Metres along the ray; +inf: sky.
+    pub range_m: Option<Raster<f32>>,
+    /// Unit normals in World; 0: sky.
+    pub normal_world: Option<Raster<[f32; 3]>>,
+    /// Where a point is in its object's box, 0 to 1; NaN: no box.
+    pub object_coordinates: Option<Raster<[f32; 3]>>,
+    /// Metres in World to where the point is at the next and was at the previous moment; NaN: not defined.
+    pub scene_flow: [Option<Raster<[f32; 3]>>; 2],
     /// Files that cannot be read, each with what was expected and found.
     pub damage: Vec<String>,
 }

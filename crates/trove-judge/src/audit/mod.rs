@@ -5,6 +5,7 @@
 mod camvid;
 mod cityscapes;
 mod coco;
+mod extra;
 mod finding;
 mod flow;
 mod form;

@@ -11,7 +11,7 @@ use super::finding::{Audit, Check, Notes};
 use super::flow::{self, Looked, WAYS};
 use super::frame::{LabelledFrame, LabelledSweep};
 use super::tracks::Tracks;
-use super::{single, views};
+use super::{extra, single, views};
 use crate::{JudgeError, OnProgress};
 
 /// Who can read frames and sweeps: the folder, and its name below the dataset's.
@@ -150,6 +150,7 @@ fn look(
         single::check(looked.frame, looked.eye.as_ref(), &mut notes);
         views::occlusion(looked, &mut notes);
         flow::of_still(looked, &mut notes);
+        extra::check(looked, &mut notes);
         notes
     });
     let mut all: Vec<Notes> = alone.collect();

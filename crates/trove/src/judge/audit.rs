@@ -175,6 +175,13 @@ impl FrameReader for Stored {
                 read.file(FrameFile::OccludedForward, StoredFrame::occluded_forward),
                 read.file(FrameFile::OccludedBackward, StoredFrame::occluded_backward),
             ],
+            panoptic: read.file(FrameFile::Panoptic, StoredFrame::panoptic),
+            range_m: read.file(FrameFile::Range, |frame| frame.numbers(FrameFile::Range)),
+            normal_world: read.file(FrameFile::NormalWorld, |frame| frame.vectors(FrameFile::NormalWorld)),
+            object_coordinates: read
+                .file(FrameFile::ObjectCoordinates, |frame| frame.vectors(FrameFile::ObjectCoordinates)),
+            scene_flow: [FrameFile::SceneFlowForward, FrameFile::SceneFlowBackward]
+                .map(|file| read.file(file, |frame| frame.vectors(file))),
             place: place.to_owned(),
             table: frame.table.clone(),
             damage,

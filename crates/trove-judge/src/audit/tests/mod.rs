@@ -34,7 +34,7 @@ fn change<T>(raster: &mut Option<Raster<T>>, change: impl FnMut(&mut T)) {
 type Fault = (&'static str, Check, fn(&mut LabelledFrame));
 
 /// What may be wrong with a frame.
-const FAULTS: [Fault; 33] = [
+const FAULTS: [Fault; 38] = [
     ("a file is damaged", Check::Files, |f| f.damage.push("depth.exr: cut short".into())),
     ("the image is black", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [0; 3])),
     ("the image is blown", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [255; 3])),
@@ -128,6 +128,15 @@ const FAULTS: [Fault; 33] = [
         f.table.world_from_camera[0].iter_mut().take(3).for_each(|part| *part = -*part);
     }),
     ("a focal length is negative", Check::Camera, |f| f.table.intrinsics[1][1] *= -1.0),
+    ("panoptic labels are of another frame", Check::Panoptic, |f| shift(&mut f.panoptic, 1)),
+    ("range is depth", Check::Depth, |f| f.range_m = f.depth_m.clone()),
+    ("World's normals are the camera's", Check::Normals, |f| f.normal_world = f.normal.clone()),
+    ("object coordinates are mirrored", Check::Boxes, |f| {
+        change(&mut f.object_coordinates, |[x, _, _]| *x = 1.0 - *x);
+    }),
+    ("scene flow is the camera's", Check::Flow, |f| {
+        change(&mut f.scene_flow[0], |flow| flow[0] -= 0.8);
+    }),
     ("the next camera is elsewhere", Check::Camera, |f| f.table.world_from_camera_next.as_mut().unwrap()[0][3] += 0.1),
 ];
 
@@ -138,8 +147,8 @@ fn a_street_in_closed_form_has_no_fault_and_every_check_looks_at_it() {
     assert_eq!(audit.frames, 4);
     let made: BTreeSet<Check> = audit.tallies.keys().copied().collect();
     let not_made: Vec<Check> = Check::ALL.into_iter().filter(|check| !made.contains(check)).collect();
-    // Only other forms have outlines and panoptic labels; nobody is about who has keypoints.
-    assert_eq!(not_made, [Check::Outlines, Check::Panoptic, Check::Keypoints]);
+    // Only other forms have outlines; nobody is about who has keypoints.
+    assert_eq!(not_made, [Check::Outlines, Check::Keypoints]);
 }
 
 #[test]

@@ -90,6 +90,10 @@ fn rows(pose: DAffine3) -> [[f64; 4]; 4] {
     [x, y, z, [0.0, 0.0, 0.0, 1.0]]
 }
 
+fn one_number((class, id): (&Class, &u16)) -> u32 {
+    65_536 * u32::from(class.id()) + u32::from(*id)
+}
+
 /// A frame with every image, by rays through the pixels' centres.
 fn frame(view: usize, moment: usize) -> LabelledFrame {
     let (lens, pose) = (lens(), camera(view, moment));
@@ -151,6 +155,26 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
     let depth_m = hit.map(|hit| hit.as_ref().map_or(f32::INFINITY, depth_of));
     let normal_of = |hit: &Hit| camera_from_world.transform_vector3(hit.normal).as_vec3().to_array();
     let normal = hit.map(|hit| hit.as_ref().map_or([0.0; 3], normal_of));
+    let panoptic = Raster { data: class.data.iter().zip(&instance.data).map(one_number).collect(), ..class.map(|_| 0) };
+    let range_m = hit.map(|hit| hit.as_ref().map_or(f32::INFINITY, |h| h.point.distance(pose.translation) as f32));
+    let normal_world = hit.map(|hit| hit.as_ref().map_or([0.0; 3], |hit| hit.normal.as_vec3().to_array()));
+    let object_coordinates = hit.map(|hit| {
+        let inside = hit.as_ref().and_then(|hit| {
+            let solid = solids(moment).into_iter().find(|solid| solid.id == hit.id)?;
+            Some(((hit.point - solid.middle) / solid.size + 0.5).as_vec3().to_array())
+        });
+        inside.unwrap_or([f32::NAN; 3])
+    });
+    let scene_flow = neighbour.map(|to| {
+        let moved = |hit: &Option<Hit>| match (to, hit) {
+            (Some(to), Some(hit)) => {
+                let moved = solids(to).into_iter().zip(solids(moment)).find(|(solid, _)| solid.id == hit.id);
+                moved.map_or(DVec3::ZERO, |(then, now)| then.middle - now.middle).as_vec3().to_array()
+            }
+            _ => [f32::NAN; 3],
+        };
+        Some(hit.map(moved))
+    });
     let objects: Vec<_> = solids(moment).iter().filter_map(|solid| row(solid, &instance, pose)).collect();
     let name = ["ego.A", "ego.B"][view];
     let quaternion = glam::DQuat::from_mat3(&pose.matrix3);
@@ -177,6 +201,11 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
         normal: Some(normal),
         flow,
         occluded,
+        panoptic: Some(panoptic),
+        range_m: Some(range_m),
+        normal_world: Some(normal_world),
+        object_coordinates: Some(object_coordinates),
+        scene_flow,
         damage: Vec::new(),
     }
 }
