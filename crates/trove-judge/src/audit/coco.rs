@@ -224,12 +224,12 @@ fn check(
     let told_box = [x, y, x + width, y + height];
     let room = 1.5 + BOX * width.max(height);
     let apart = around.iter().zip(told_box).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    if annotation.iscrowd == 0 && !(apart <= room) {
+    if annotation.iscrowd == 0 && is_off(apart, room) {
         notes.wrong(Check::Masks, format!("{told}: bbox: expected {around:?} as the mask is, found {told_box:?}"));
     }
     let pixels = mask.data.iter().filter(|is_in| **is_in).count() as f64;
     let outline = 2.0 * (width + height);
-    if annotation.area.is_some_and(|area| !((area - pixels).abs() <= AREA * pixels + outline)) {
+    if annotation.area.is_some_and(|area| is_off((area - pixels).abs(), AREA * pixels + outline)) {
         let area = annotation.area.unwrap_or_default();
         notes.wrong(Check::Masks, format!("{told}: area: expected {pixels} as the mask has, found {area}"));
     }
@@ -273,6 +273,11 @@ fn mask(
         at = end;
     }
     Ok(Ok(mask))
+}
+
+/// Whether a difference is too large, or none that can be told.
+fn is_off(apart: f64, room: f64) -> bool {
+    apart.is_nan() || apart > room
 }
 
 /// Left, top, right and bottom of what is true.
@@ -342,8 +347,8 @@ fn panoptic(
             notes.wrong(Check::Panoptic, format!("segment {id}: area: expected {area}, found {:?}", segment.area));
         }
         let expected = [x0, y0, x1 - x0, y1 - y0].map(f64::from);
-        let is_off = |told: [f64; 4]| told.iter().zip(expected).any(|(a, b)| !((a - b).abs() <= 1.0));
-        if segment.bbox.is_some_and(is_off) {
+        let differs = |told: [f64; 4]| told.iter().zip(expected).any(|(a, b)| is_off((a - b).abs(), 1.0));
+        if segment.bbox.is_some_and(differs) {
             notes
                 .wrong(Check::Panoptic, format!("segment {id}: bbox: expected {expected:?}, found {:?}", segment.bbox));
         }

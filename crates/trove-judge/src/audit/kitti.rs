@@ -48,7 +48,7 @@ struct Boxes {
 /// Looks at all labels below a folder.
 pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeError> {
     let all = files(root, &["txt", "png"])?;
-    let folder = |path: &Path| path.parent().map(|folder| name(folder)).unwrap_or_default();
+    let folder = |path: &Path| path.parent().map(name).unwrap_or_default();
     let of = |names: &'static [&'static str]| all.iter().filter(move |path| names.contains(&folder(path).as_str()));
     let boxes = of(&["label_2", "label_02"]).map(|path| {
         let calibration = path.parent().and_then(Path::parent).map(|split| split.join("calib").join(name(path)));
