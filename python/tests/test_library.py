@@ -283,10 +283,14 @@ def test_judging_commands_answer_what_they_print(finished, tmp_path):
 
 
 def test_every_option_of_a_command_is_one_of_its_function():
-    for function in [library.demo, library.generate, library.verify, library.curate, library.recolor, library.evaluate]:
-        options = re.findall(r"^ +(?:-\w, )?--([a-z-]+)", trove(function.__name__, "--help").stdout, re.MULTILINE)
-        known = {name.replace("_", "-") for name in inspect.signature(function).parameters}
-        assert "help" in options and set(options) - known == {"json", "help"}, function.__name__
+    functions = {name: [getattr(library, name)] for name in ("demo", "generate", "curate", "recolor", "evaluate")}
+    functions["verify"] = [library.verify, library.verify_labels]
+    for command, ours in functions.items():
+        options = re.findall(r"^ +(?:-\w, )?--([a-z-]+)", trove(command, "--help").stdout, re.MULTILINE)
+        known = {name.replace("_", "-") for function in ours for name in inspect.signature(function).parameters}
+        # That labels are to be checked is said by the function's name.
+        known |= {"labels"} if command == "verify" else set()
+        assert "help" in options and set(options) - known == {"json", "help"}, command
 
 
 def test_export_writes_drives_in_the_plain_form(recipe, tmp_path):

@@ -9,7 +9,7 @@ use trove_model::{ClassMap, Raster};
 
 use super::finding::{Audit, Check, Notes};
 use super::image;
-use super::polygons::paint;
+use super::polygons::paint_with_rim;
 use crate::pictures::{Labels, each, files, name, read, read_labels};
 use crate::{JudgeError, OnProgress};
 
@@ -153,7 +153,7 @@ fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, steps: &Bud
             }
             continue;
         };
-        if paint(&mut canvas, &outline.polygon, class.id, steps).is_err() {
+        if paint_with_rim(&mut canvas, &outline.polygon, class.id, steps).is_err() {
             return notes
                 .wrong(Check::Outlines, "polygons.json: expected fewer outlines, found more than can be painted");
         }

@@ -302,7 +302,7 @@ fn keypoints(image: &ImageRow, annotation: &Annotation, points: &[f64], told: &s
         notes.wrong(Check::Keypoints, format!("{told}: expected keypoints in the image, found others"));
     }
     let Some([x, y, box_width, box_height]) = annotation.bbox else { return };
-    let room = 0.25 * box_width.max(box_height) + 2.0;
+    let room = 0.25 * box_width.max(box_height) + 4.0;
     let is_near = |[px, py, seen]: &[f64; 3]| {
         *seen < 2.0
             || ((x - room..=x + box_width + room).contains(px) && (y - room..=y + box_height + room).contains(py))

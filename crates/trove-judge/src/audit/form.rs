@@ -70,11 +70,10 @@ pub fn audit(
 
 /// The form that a folder's own files tell.
 fn found_out(root: &Path) -> Result<LabelForm, JudgeError> {
-    let is_ours = || root.join(Manifest::NAME).is_file() || root.join(".trove").is_dir();
     let versions = || fs::read_dir(root).into_iter().flatten().flatten();
     let has = |names: &[&str]| names.iter().any(|name| root.join(name).exists());
     let labels = || files(root, &["png"]).map(|all| all.iter().any(|path| name(path).ends_with("_labelIds.png")));
-    if is_ours() {
+    if has(&[Manifest::NAME]) {
         Ok(LabelForm::Trove)
     } else if versions().any(|entry| entry.path().join("sample_annotation.json").is_file()) {
         Ok(LabelForm::NuScenes)
@@ -86,6 +85,9 @@ fn found_out(root: &Path) -> Result<LabelForm, JudgeError> {
         Ok(LabelForm::Cityscapes)
     } else if has(&["labels", "LabeledApproved_full"]) {
         Ok(LabelForm::CamVid)
+    } else if has(&[".trove"]) {
+        // A run without a manifest is not finished; what is exported has such a folder too.
+        Ok(LabelForm::Trove)
     } else {
         let remedy = "name the form with --form, or give the folder that has it";
         let expected = "frames of trove generate or a root of Cityscapes, KITTI, COCO, nuScenes or CamVid";

@@ -39,6 +39,38 @@ pub(super) fn paint<T: Copy>(
     Ok(())
 }
 
+/// Paints a polygon whose corners are pixels, with its rim, as Cityscapes' tools do.
+///
+/// # Errors
+/// As for [`paint`].
+pub(super) fn paint_with_rim<T: Copy>(
+    canvas: &mut Raster<T>,
+    polygon: &[[f64; 2]],
+    value: T,
+    steps: &Budget,
+) -> Result<(), Exceeded> {
+    let centres: Vec<[f64; 2]> = polygon.iter().map(|corner| corner.map(|at| at + 0.5)).collect();
+    paint(canvas, &centres, value, steps)?;
+    let most = f64::from(canvas.width.max(canvas.height));
+    for (i, [x0, y0]) in polygon.iter().enumerate() {
+        let [x1, y1] = polygon[(i + 1) % polygon.len()];
+        let length = (x1 - x0).abs().max((y1 - y0).abs()).ceil();
+        // Outlines far outside of the image are nobody's.
+        if !(0.0..=4.0 * most).contains(&length) {
+            continue;
+        }
+        steps.take(length as usize + 1, 1)?;
+        for step in 0..=length as u32 {
+            let share = f64::from(step) / length.max(1.0);
+            let (x, y) = ((x0 + share * (x1 - x0)).round(), (y0 + share * (y1 - y0)).round());
+            if x >= 0.0 && y >= 0.0 && x < f64::from(canvas.width) && y < f64::from(canvas.height) {
+                *canvas.at_mut(x as u32, y as u32) = value;
+            }
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -57,6 +89,18 @@ mod tests {
         assert_eq!(area(&[[-9.0, -9.0], [90.0, -9.0], [90.0, 90.0], [-9.0, 90.0]]), 200);
         assert_eq!(area(&[[0.5, 0.5], [1.0, 1.0]]), 0);
         assert_eq!(area(&[[1.0, 1.0], [f64::NAN, 2.0], [3.0, 3.0]]), 0);
+    }
+
+    #[test]
+    fn corners_that_are_pixels_are_painted_with_the_rim() {
+        let mut canvas = Raster::filled(20, 10, 0);
+        let square = [[2.0, 1.0], [6.0, 1.0], [6.0, 4.0], [2.0, 4.0]];
+        paint_with_rim(&mut canvas, &square, 1, &Budget::of_file(0)).unwrap();
+        assert_eq!(canvas.data.iter().sum::<u32>(), 5 * 4);
+        // A single pixel, and a line.
+        paint_with_rim(&mut canvas, &[[9.0, 9.0]], 1, &Budget::of_file(0)).unwrap();
+        paint_with_rim(&mut canvas, &[[10.0, 0.0], [13.0, 0.0]], 1, &Budget::of_file(0)).unwrap();
+        assert_eq!(canvas.data.iter().sum::<u32>(), 5 * 4 + 1 + 4);
     }
 
     #[test]

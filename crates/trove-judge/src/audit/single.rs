@@ -299,6 +299,9 @@ pub(super) fn position(object: &ObjectRow) -> DVec3 {
     DVec3::new(x[3], y[3], z[3])
 }
 
+/// People of fewer pixels are too small for their points to be told from what is beside them.
+const TELLING_PX: u32 = 500;
+
 fn keypoints(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
     for object in &frame.table.objects {
         let (Some(pixels), Some(world)) = (&object.keypoints, &object.keypoints_world_m) else { continue };
@@ -318,8 +321,8 @@ fn keypoints(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
                 notes.wrong(Check::Keypoints, what);
             }
         }
-        let (Some([x0, y0, x1, y1]), Some(instance)) = (object.visible_box, &frame.instance) else { continue };
-        let wide = f64::from((x1 - x0).max(y1 - y0)) * 0.25 + 2.0;
+        let (Some([x0, y0, x1, y1]), Some(instance)) = (object.amodal_box, &frame.instance) else { continue };
+        let wide = f64::from((x1 - x0).max(y1 - y0)) * 0.25 + 4.0;
         let near = |[x, y, _]: &&[f64; 3]| {
             let (within_x, within_y) =
                 (f64::from(x0) - wide..f64::from(x1) + wide, f64::from(y0) - wide..f64::from(y1) + wide);
@@ -327,10 +330,14 @@ fn keypoints(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
         };
         let visible: Vec<&[f64; 3]> = pixels.iter().filter(|[_, _, seen]| *seen == 2.0).collect();
         if let Some([x, y, _]) = visible.iter().find(|point| !near(point)) {
-            let what = format!("object {}: a keypoint at ({x:.1}, {y:.1}) is far from what is seen of it", object.id);
+            let what = format!("object {}: a keypoint at ({x:.1}, {y:.1}) is far from it", object.id);
             notes.wrong(Check::Keypoints, what);
         }
-        // Joints lie inside the silhouette; those of the face and of thin limbs may lie a pixel beside it.
+        // Joints lie inside the silhouette; those of the face and of thin limbs may lie a pixel beside it, as may most of
+        // those of people who are a few pixels high.
+        if object.visible_px < TELLING_PX {
+            continue;
+        }
         let mut on = Count::default();
         for [x, y, _] in visible.into_iter().filter(near_in(instance)) {
             let pixel = [*x as u32, *y as u32];
