@@ -123,6 +123,12 @@ fn cityscapes_key(name: &str) -> Option<String> {
     (parts.len() > 3 && number(&parts[1]) && number(&parts[2])).then(|| parts[..3].join("_"))
 }
 
+/// Columns and rows of a picture, as its header tells; `None` for a file that is no picture.
+pub(crate) fn dimensions(path: &Path) -> Option<(u32, u32)> {
+    let file = BufReader::new(open_regular(path).ok()?);
+    ImageReader::new(file).with_guessed_format().ok()?.into_dimensions().ok()
+}
+
 /// A picture's pixels as its file has them.
 pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
     let bytes = read_regular(path, LARGEST_FILE).map_err(JudgeError::io(path))?;

@@ -10,7 +10,7 @@ use trove_model::Raster;
 use super::finding::{Audit, Check, Notes};
 use super::polygons::paint;
 use super::rle::unpack;
-use crate::pictures::{files, name, read};
+use crate::pictures::{dimensions, files, name, read};
 use crate::{JudgeError, OnProgress};
 
 /// Boxes and areas of polygons are rounded; shares of the box's longer side and of the area.
@@ -162,7 +162,7 @@ fn look(
         let shown = file.map(|file| file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned());
         let mut notes = Notes::of(format!("{list}: {}", image.file_name), shown);
         notes.look(Check::Files);
-        let size = file.and_then(|file| ::image::image_dimensions(file).ok());
+        let size = file.and_then(|file| dimensions(file));
         if size != Some((image.width, image.height)) {
             let expected = format!("an image of {}×{} pixels", image.width, image.height);
             notes.wrong(Check::Files, format!("expected {expected}, found {size:?}"));

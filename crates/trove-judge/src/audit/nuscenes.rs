@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use trove_files::{LARGEST_FILE, read_text};
+use trove_files::{LARGEST_FILE, OutputRoot, read_text};
 
 use super::finding::{Audit, Check, Notes};
 use super::tracks::jump;
+use crate::pictures::dimensions;
 use crate::{JudgeError, OnProgress};
 
 /// Bytes of a LiDAR point: x, y, z, intensity and ring as floats.
@@ -187,7 +188,7 @@ fn files(root: &Path, version: &Path, samples: &BTreeMap<&str, &Sample>, notes: 
         Ok(table::<Token>(version, name)?.into_iter().map(|row| row.token).collect())
     };
     let (poses, sensors) = (tokens("ego_pose")?, tokens("calibrated_sensor")?);
-    let mut files = BTreeMap::new();
+    let (below, mut files) = (OutputRoot::new(root), BTreeMap::new());
     for row in &data {
         let told = format!("sample_data {}", row.token);
         if !samples.contains_key(row.sample_token.as_str()) {
@@ -196,10 +197,13 @@ fn files(root: &Path, version: &Path, samples: &BTreeMap<&str, &Sample>, notes: 
         if !poses.contains(&row.ego_pose_token) || !sensors.contains(&row.calibrated_sensor_token) {
             notes.wrong(Check::Ids, format!("{told}: its pose or sensor is not listed"));
         }
+        let Ok(path) = below.at(&row.filename) else {
+            notes.wrong(Check::Files, format!("{told}: expected a file of the dataset, found {:?}", row.filename));
+            continue;
+        };
         // A copy of a dataset may be without its sweeps.
-        let path = root.join(&row.filename);
         if row.is_key_frame && path.is_file() {
-            let size = ::image::image_dimensions(&path).ok();
+            let size = dimensions(&path);
             if row.width > 0 && size != Some((row.width, row.height)) {
                 let expected = format!("{}×{} pixels", row.width, row.height);
                 notes.wrong(Check::Files, format!("{}: expected {expected}, found {size:?}", row.filename));
@@ -214,7 +218,7 @@ fn files(root: &Path, version: &Path, samples: &BTreeMap<&str, &Sample>, notes: 
     let length = |path: &Path| fs::metadata(path).map(|file| file.len()).ok();
     for row in table::<Lidarseg>(version, "lidarseg")? {
         let Some(points) = files.get(row.sample_data_token.as_str()).and_then(|path| length(path)) else { continue };
-        let labels = length(&root.join(&row.filename));
+        let labels = below.at(&row.filename).ok().and_then(|path| length(&path));
         if labels != Some(points / POINT_BYTES) {
             let what = format!("{}: expected a label for each of {} points", row.filename, points / POINT_BYTES);
             notes.wrong(Check::Lidar, format!("{what}, found {labels:?}"));
