@@ -1,7 +1,5 @@
 //! What flow says, held to depth, the cameras' poses and the neighbouring moment's labels.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3};
 use trove_model::{Occlusion, Raster};
 
@@ -108,7 +106,7 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
         return;
     }
     let [flow_name, occlusion_name] = NAMES[way];
-    let mut ends = BTreeMap::<u16, Count>::new();
+    let mut ends: Vec<Count> = (0..=u16::MAX).map(|_| Count::default()).collect();
     let (mut all, mut seen, mut hidden, mut returns) =
         (Count::default(), Count::default(), Count::default(), Count::default());
     for pixel in grid(flow.width, flow.height, 1) {
@@ -127,10 +125,10 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
             _ => {}
         }
         // Without occlusion nothing is known of any one pixel, but most ends are visible.
-        let is_same = around(there, end).any(|other| other == id);
+        let is_same = *there.at(end[0], end[1]) == id || around(there, end).any(|other| other == id);
         all.tell(pixel, is_same);
         if id > 0 {
-            ends.entry(id).or_default().tell(pixel, is_same);
+            ends[usize::from(id)].tell(pixel, is_same);
         }
         if occlusion.is_some() && is_same {
             if x % STEP == 0
@@ -148,8 +146,8 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
     notes.judge(Check::FlowEnds, &all, least, |share| {
         format!("{flow_name}: expected to end on the same object, found {:.1} % of pixels that do", 100.0 * share)
     });
-    for (id, count) in ends {
-        notes.judge(Check::FlowEnds, &count, least_object, |share| {
+    for (id, count) in (0..=u16::MAX).zip(&ends).filter(|(_, count)| count.all > 0) {
+        notes.judge(Check::FlowEnds, count, least_object, |share| {
             let (name, percent) = (a.object(id).map_or("?", |object| object.class.row().name), 100.0 * share);
             format!("{flow_name}: object {id} ({name}): expected to end on it, found {percent:.1} % of pixels that do")
         });
