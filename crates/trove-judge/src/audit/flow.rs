@@ -130,11 +130,8 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
         if id > 0 {
             ends[usize::from(id)].tell(pixel, is_same);
         }
-        if occlusion.is_some() && is_same {
-            if x % STEP == 0
-                && y % STEP == 0
-                && let Some(is_there) = is_at_depth(from, to, pixel, end)
-            {
+        if occlusion.is_some() && is_same && x % STEP == 0 && y % STEP == 0 {
+            if let Some(is_there) = is_at_depth(from, to, pixel, end) {
                 seen.tell(pixel, is_there);
             }
             if let Some(error) = returned(a, b, way, pixel) {
