@@ -142,9 +142,9 @@ impl Eye {
     }
 }
 
-/// Holes in leaves and wires are finer than pixels.
+/// Holes in leaves, fences and wires are finer than pixels.
 pub(super) fn is_porous(class: Class) -> bool {
-    matches!(class, Class::Tree | Class::Bush | Class::Void | Class::Ground)
+    matches!(class, Class::Tree | Class::Bush | Class::Barrier | Class::Void | Class::Ground)
 }
 
 /// The 3 × 3 values around a pixel, as far as they are in the image.

@@ -10,9 +10,9 @@ use super::frame::{LabelledSweep, around, grid, is_porous, rigid};
 /// Every so manyeth column and row of a camera is held to another.
 const STEP: u32 = 4;
 /// Share of points that another camera does not look through.
-const NOT_LOOKED_THROUGH: f64 = 0.97;
+const NOT_LOOKED_THROUGH: f64 = 0.95;
 /// Share of points seen at the same depth that are the same object.
-const SAME: f64 = 0.97;
+const SAME: f64 = 0.95;
 /// Share of LiDAR points that cameras do not look through, and that have the class of the pixel.
 const LIDAR: f64 = 0.95;
 
