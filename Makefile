@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -121,6 +121,7 @@ lint: .tools/bin/cargo-deny $(VENV)/.lint-installed
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+	for patch in tests/planted/*.patch; do git apply --check "$$patch" || exit 1; done
 
 # Tools of the lints, which nothing that is built needs. Unoptimised, cargo-deny builds in a third of the time.
 CARGO_DENY := 0.20.2
@@ -191,6 +192,17 @@ TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-too
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch $(TORCH_NEEDS)
 	PYTHONPATH=.torch $(BIN)/python python/tests/without_cuda.py
 	touch $@
+
+# The exports that ultralytics and mmsegmentation open, on the processor; 0.5 GB beside PyTorch.
+LOADERS := ultralytics==8.4.190 ultralytics-thop==2.2.3 mmsegmentation==1.2.2 mmengine==0.10.7 mmcv-lite==2.1.0
+LOADERS_NEED := opencv-python-headless==5.0.0.93 pyyaml psutil polars requests matplotlib addict termcolor rich yapf \
+	prettytable scipy ftfy regex
+test-loaders: $(VENV)/.test-installed .torch/.installed
+	rm -rf .torch/loaders
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders --no-deps $(LOADERS)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders $(LOADERS_NEED)
+	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -c 'import ultralytics, mmengine'
+	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -m pytest -q python/tests/test_export_loaders.py
 
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed

@@ -2,11 +2,14 @@
 
 #![allow(clippy::unwrap_used)] // all of this is tests
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use glam::DVec2;
 use trove_assets::Ingredients;
-use trove_build::{BuildSettings, LightChoice, Moments, OnDisagreement, SkyChoice, Weather, between, build_at};
+use trove_build::{
+    BuildSettings, LightChoice, Moments, OnDisagreement, Site, SkyChoice, Timeline, Weather, between, build_at,
+};
 use trove_model::{AssetLibrary, Cuboid, Drive, Instance, Kind, Pose, Report, Seed};
 use trove_read::{human_body, locale::Locales, nuscenes::NuScenes};
 
@@ -81,11 +84,8 @@ fn real_vehicles_of_nuscenes_roll_between_keyframes() {
     }
 }
 
-/// Where nuScenes' pedestrians stand: the site of a scene, with people alone, at some moments a second.
-fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64> {
-    let report = Report::default();
-    let timeline = between(drive, rate_hz, &report);
-    let moments = timeline.moments();
+/// The place of a drive, with road users alone.
+fn site(timeline: &Timeline, library: &AssetLibrary) -> Site {
     let settings = BuildSettings {
         seeds: Seed(7).into(),
         top_k: 3,
@@ -96,7 +96,13 @@ fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64>
         locale: Locales::built_in().country("US").unwrap().clone(),
         borders: None,
     };
-    let site = build_at(&timeline.recorded, moments, None, library, &settings, &report).unwrap();
+    build_at(&timeline.recorded, timeline.moments(), None, library, &settings, &Report::default()).unwrap()
+}
+
+/// How far soles of nuScenes' pedestrians slide while they stand, at some moments a second.
+fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64> {
+    let timeline = between(drive, rate_hz, &Report::default());
+    let (moments, site) = (timeline.moments(), site(&timeline, library));
     let mut slides_m = Vec::new();
     for moment in 0..moments.drive.keyframes.len() {
         let scene = site.scene(moments.drive, moment);
@@ -120,6 +126,48 @@ fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64>
         }
     }
     slides_m
+}
+
+#[test]
+#[ignore = "needs TROVE_TEST_DATA"]
+fn real_wheels_of_the_library_s_vehicles_stand_where_they_touch_the_road() {
+    let mut library = trove_assets::library(&Ingredients::default());
+    library.assets.retain(|asset| asset.kind.is_vehicle());
+    let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
+    let drive = dataset.unwrap().drive("scene-0103", &Report::default()).unwrap();
+    let timeline = between(drive, 30.0, &Report::default());
+    let (moments, site) = (timeline.moments(), site(&timeline, &library));
+    let (mut slips, mut stiff) = (Vec::new(), BTreeSet::new());
+    for moment in (0..moments.drive.keyframes.len()).step_by(5) {
+        let scene = site.scene(moments.drive, moment);
+        for vehicle in scene.instances.iter().filter(|i| i.object.as_ref().is_some_and(|o| o.origin.is_road_user())) {
+            let Some(next) = vehicle.next else { continue };
+            let step_m = vehicle.world_from_mesh.translation.distance(next.world_from_mesh.translation);
+            if !(0.02..0.12).contains(&step_m) {
+                continue;
+            }
+            let asset = vehicle.object.as_ref().and_then(|o| o.asset.clone()).unwrap();
+            if vehicle.mesh == next.mesh {
+                stiff.insert(asset);
+                continue;
+            }
+            // Of what touches the road, what moves least.
+            let [from, to] = [vehicle.mesh, next.mesh].map(|mesh| &scene.meshes[mesh].positions);
+            let low = from.iter().zip(to).filter(|(p, _)| p.z < 0.01);
+            let way = |(p, q): (&glam::Vec3, &glam::Vec3)| {
+                let [a, b] = [(vehicle.world_from_mesh, p), (next.world_from_mesh, q)]
+                    .map(|(world_from_mesh, p)| world_from_mesh.transform_point3(p.as_dvec3()).truncate());
+                a.distance(b)
+            };
+            slips.push(low.map(way).fold(f64::INFINITY, f64::min) / step_m);
+        }
+    }
+    let count = slips.len();
+    let [most, all] = extremes(slips);
+    println!("{count} steps: tyres slip by {most:.3} of the step in 99 %, {all:.3} at most; without wheels: {stiff:?}");
+    // Wheels that stand still would slip by all of it; slow vehicles slip as far as their annotated boxes ask them to.
+    assert!(count > 100 && all < 0.6, "{count} {all}");
+    assert!(stiff.is_empty(), "{stiff:?}");
 }
 
 #[test]

@@ -22,7 +22,7 @@ from nuscenes.eval.common.config import config_factory
 from nuscenes.eval.detection.evaluate import DetectionEval
 from nuscenes.eval.detection.utils import category_to_detection_name
 from nuscenes.nuscenes import NuScenes
-from nuscenes.utils.data_classes import LidarPointCloud
+from nuscenes.utils.data_classes import LidarPointCloud, RadarPointCloud
 from nuscenes.utils.data_io import load_bin_file
 from nuscenes.utils.geometry_utils import BoxVisibility, box_in_image, points_in_box, view_points
 from PIL import Image
@@ -125,6 +125,24 @@ def check_lidar(dataset):
     return checked
 
 
+def check_radar(dataset):
+    """The devkit reads every radar's file, and objects' rows count its detections; returns how many there are."""
+    checked = 0
+    RadarPointCloud.disable_filters()
+    for data in dataset.sample_data:
+        if data["sensor_modality"] != "radar":
+            continue
+        points = RadarPointCloud.from_file(str(Path(dataset.dataroot) / data["filename"])).points
+        x, y, z, *_, vx_comp, vy_comp = points[[0, 1, 2, 6, 7, 8, 9]]
+        assert (z == 0).all() and (x > 0).all(), data
+        # Along the line of sight.
+        assert np.allclose(x * vy_comp, y * vx_comp, atol=0.01 * (1 + np.hypot(x, y).max(initial=0))), data
+        checked += points.shape[1]
+    assert sum(row["num_radar_pts"] for row in dataset.sample_annotation) <= checked
+    RadarPointCloud.default_filters()
+    return checked
+
+
 def detections(dataset):
     """The annotations as a detector would hand them in."""
     results = {}
@@ -179,11 +197,11 @@ def main():
     dataset.list_scenes()
     check_tokens(dataset)
     checked = check_boxes(dataset, frames_by_picture(options.frames))
-    points = check_lidar(dataset)
+    points, echoes = check_lidar(dataset), check_radar(dataset)
     splits = json.loads((options.exported / VERSION / "splits.json").read_text())
     present = set.union(*(check_evaluation(dataset, split) for split in splits))
     print(f"{len(dataset.scene)} scenes, {len(dataset.sample_annotation)} boxes, {checked} of them held to pixels")
-    print(f"{points} LiDAR points with their labels")
+    print(f"{points} LiDAR points with their labels, {echoes} radar detections")
     print(f"classes judged: {', '.join(sorted(present))}")
     if not checked or not present:
         sys.exit(f"{options.exported}: expected boxes in view, found none")
