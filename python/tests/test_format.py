@@ -24,12 +24,17 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         "manifest": [finished / "manifest.json"],
         "report": [finished / "report.json"],
         "site": sorted(finished.glob("*/v*/site.json")),
+        "lanes": sorted(finished.glob("*/v*/lanes.json")),
+        "trajectory": sorted(finished.glob("*/v*/trajectory.json")),
         "frame": sorted(finished.glob("*/v*/k*/*/frame.json")),
         "run": [finished / ".trove" / "run.json"],
         "curated": [chosen],
     }
-    # The frames' journal is looked at below, sweeps in test_lidar.py, and what people write as a drive in test_plain_drive.py.
-    assert set(found) | {"frames", "drive", "sweep"} == {path.name.split(".")[0] for path in SCHEMAS.iterdir()}
+    # The frames' journal is looked at below, masks in test_library.py, sweeps in test_lidar.py, radars' cycles in
+    # test_radar.py, grids in test_grids.py, and what people write as a drive in test_plain_drive.py.
+    assert set(found) | {"frames", "drive", "masks", "sweep", "radar", "grid"} == {
+        path.name.split(".")[0] for path in SCHEMAS.iterdir()
+    }
     for name, paths in found.items():
         validator = jsonschema.Draft202012Validator(schema(name))
         assert paths, name
@@ -48,7 +53,17 @@ def test_every_file_is_as_its_schema_says(finished, tmp_path):
         (schema("manifest")["$defs"]["FrameRow"], form.FrameRow),
         (schema("frame"), form.FrameTable),
         (schema("frame")["$defs"]["ObjectRow"], form.ObjectRow),
+        (schema("grid"), form.GridTable),
+        (schema("grid")["$defs"]["GridClass"], form.GridClass),
+        (schema("grid")["$defs"]["GridObject"], form.GridObject),
+        (schema("lanes"), form.LanesTable),
+        (schema("lanes")["$defs"]["LaneRow"], form.LaneRow),
+        (schema("lanes")["$defs"]["LineRow"], form.LineRow),
+        (schema("trajectory"), form.TrajectoryTable),
+        (schema("trajectory")["$defs"]["EgoMoment"], form.EgoMoment),
+        (schema("trajectory")["$defs"]["EgoPose"], form.EgoPose),
         (schema("sweep"), form.SweepTable),
+        (schema("radar"), form.RadarTable),
         (schema("sweep")["$defs"]["SweptObject"], form.SweptObject),
     ],
 )

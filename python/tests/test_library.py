@@ -12,14 +12,18 @@ import sys
 import textwrap
 import threading
 import time
+from pathlib import Path
 
 import check_output
+import jsonschema
 import numpy as np
 import pytest
 import trove as library
 from conftest import trove
 from PIL import Image
 from trove.format import read_frame, read_manifest
+
+SCHEMA = Path(__file__).parents[2] / "docs" / "schema" / "masks.schema.json"
 
 
 @pytest.fixture(scope="session")
@@ -79,8 +83,9 @@ def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_pa
     scalars, vectors = ["range", "roughness"], ["normal_world", "albedo", "object_coordinates"]
     vectors += ["scene_flow_forward", "scene_flow_backward"]
     names = ["class", "instance", "depth", "panoptic", "coverage", *scalars, *vectors]
+    files = [*names, "masks"]
     asked = recipe.with_name("asked.toml")
-    asked.write_text(f'{recipe.read_text()}[output]\nfiles = {json.dumps(names)}\n[labels]\nglass = "behind"\n')
+    asked.write_text(f'{recipe.read_text()}[output]\nfiles = {json.dumps(files)}\n[labels]\nglass = "behind"\n')
     library.generate(asked, tmp_path / "asked")
     rendered = library.build(asked, keyframe=1).render("ego.CAM_FRONT")
     for frame in library.open(tmp_path / "asked"):
@@ -95,11 +100,26 @@ def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_pa
             assert array.ndim == (2 if name in scalars else 3)
         for label in ["panoptic", "coverage", *scalars, *vectors]:
             assert np.asarray(frame.overlay(label)).shape == (*frame.class_.shape, 3), label
+        check_masks(frame)
         if frame.name.endswith("k001/ego.CAM_FRONT"):
+            assert rendered.masks == frame.masks and pickle.loads(pickle.dumps(rendered)).masks == frame.masks
             for name in ["panoptic", "range_m", "albedo", "scene_flow_forward", "coverage"]:
                 assert np.array_equal(getattr(rendered, name), getattr(frame, name), equal_nan=True), name
             return
     raise AssertionError("no frame of the front camera")
+
+
+def check_masks(frame):
+    """The masks of a frame, as pycocotools decodes them, are its pixels, boxes and counts."""
+    mask = pytest.importorskip("pycocotools.mask")
+    jsonschema.validate(json.loads((frame.path / "masks.json").read_text()), json.loads(SCHEMA.read_text()))
+    assert list(frame.masks) == [thing.id for thing in frame.objects]
+    for thing in frame.objects:
+        visible, amodal = (mask.decode(frame.masks[thing.id][which]) > 0 for which in ("visible", "amodal"))
+        assert np.array_equal(visible, frame.mask(thing)) and np.array_equal(amodal, frame.amodal_mask(thing))
+        assert (visible <= amodal).all() and amodal.sum() == thing.amodal_px
+        rows, columns = np.nonzero(amodal)
+        assert (columns.min(), rows.min(), columns.max(), rows.max()) == thing.amodal_box
 
 
 def test_camera_and_objects_are_those_of_the_table(finished):
@@ -120,6 +140,17 @@ def test_camera_and_objects_are_those_of_the_table(finished):
             # The box's centre is as far as the table says.
             centre = thing.corners_world.mean(axis=0)
             assert np.isclose(np.linalg.norm(centre - camera.position_m), thing.range_m, rtol=1e-4)
+            # Forward, left and up from the vehicle is forward, left and down in its front camera.
+            in_camera, in_ego = frame.camera_from_body(thing), frame.ego_from_body(thing)
+            assert np.isclose(np.linalg.norm(in_camera[:3, 3]), thing.range_m, rtol=1e-4)
+            world = np.array(table["world_from_ego"]) @ np.vstack([thing.corners(in_ego).T, np.ones(8)])
+            assert np.allclose(world[:3].T, thing.corners_world)
+            if frame.name.endswith("ego.CAM_FRONT"):
+                assert np.allclose(in_camera[[2, 0, 1], 3], in_ego[:3, 3] * [1, -1, -1], atol=2.5)
+            if thing.asset and thing.origin == "recorded":
+                # Its foot is the middle of its box's bottom.
+                foot = np.linalg.inv(thing.world_from_body) @ thing.world_from_asset[:, 3]
+                assert np.abs(foot[:3] + np.array([0, 0, thing.size_m[2] / 2])).max() < 0.3, thing
             seen += thing.visible_px > 0
     assert seen > 0
 
@@ -370,3 +401,27 @@ def test_the_labels_of_a_panorama_are_those_of_its_directions(scene):
     sky = 1
     assert frame.class_[2, 0] == sky and np.isinf(frame.depth_m[2, 0])
     assert frame.class_[-2, width // 2] != sky
+
+
+def test_the_trajectory_goes_where_the_frames_are(finished):
+    frames = library.open(finished)
+    scene = frames[0].table["scene"]
+    way = frames.trajectory(scene)
+    assert len(way.times_ns) == len(way.world_from_ego) > 2, "moments that are not rendered are in it too"
+    for frame in frames:
+        if frame.table["view"].startswith("ego."):
+            k = frame.table["keyframe"]
+            assert way.times_ns[k] == frame.table["keyframe_time_ns"]
+            apart_s = (frame.table["time_ns"] - way.times_ns[k]) * 1e-9
+            then = way.world_from_ego[k, :3, 3] + way.velocity_mps[k] * apart_s
+            assert np.allclose(np.array(frame.table["world_from_ego"])[:3, 3], then, atol=0.05)
+            assert np.allclose(
+                np.array(frame.table["world_from_ego"])[:3, :3], way.world_from_ego[k, :3, :3], atol=0.02
+            )
+    step_s = (way.times_ns[2] - way.times_ns[1]) * 1e-9
+    ahead = way.waypoints(1, [0, step_s, 1e4])
+    assert np.allclose(ahead[0], 0, atol=1e-9)
+    assert np.allclose((way.world_from_ego[1] @ [*ahead[1], 1])[:3], way.world_from_ego[2, :3, 3])
+    assert np.isnan(ahead[2]).all(), "beyond the drive's end"
+    with pytest.raises(library.TroveError, match="keyframe: expected 0 to"):
+        way.waypoints(len(way.times_ns), [1.0])

@@ -17,10 +17,13 @@ from trove._trove import TroveError, __version__
 from trove.camera import Camera, look_at
 from trove.commands import curate, demo, evaluate, export, export_drives, generate, recolor, verify, verify_labels
 from trove.frames import Frame, Frames, open
+from trove.grids import Grid
 from trove.objects import Object
 from trove.overlay import Overlay
+from trove.radars import RadarCycle
 from trove.scene import Scene, build, render
 from trove.sweeps import Sweep
+from trove.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from trove import torch
@@ -29,10 +32,13 @@ __all__ = [
     "Camera",
     "Frame",
     "Frames",
+    "Grid",
     "Object",
     "Overlay",
+    "RadarCycle",
     "Scene",
     "Sweep",
+    "Trajectory",
     "TroveError",
     "__version__",
     "build",

@@ -54,7 +54,11 @@ ObjectRow = TypedDict(
         "asset": str,
         "world_from_body": Matrix4,
         "size_m": list[float],
+        "world_from_asset": Matrix4 | None,
+        "paint": list[int] | None,
         "velocity_mps": list[float] | None,
+        "yaw_rate_radps": float | None,
+        "states": list[str],
         "visible_px": int,
         "amodal_px": int,
         "visible_box": list[int] | None,
@@ -67,6 +71,27 @@ ObjectRow = TypedDict(
     },
 )
 """An object in `frame.json`."""
+
+
+class RunLengths(TypedDict):
+    """A mask of the whole image in COCO's compressed form, as `pycocotools.mask.decode` takes it."""
+
+    size: list[int]
+    counts: str
+
+
+class MaskRow(TypedDict):
+    """The masks of an object."""
+
+    id: int
+    visible: RunLengths
+    amodal: RunLengths
+
+
+class MaskTable(TypedDict):
+    """`masks.json`."""
+
+    objects: list[MaskRow]
 
 
 class FrameTable(TypedDict):
@@ -153,6 +178,144 @@ class SweepTable(TypedDict):
     objects: list[SweptObject]
 
 
+class RadarTable(TypedDict):
+    """`radar.json`."""
+
+    scene: str
+    dataset: str
+    place: str
+    variation: int
+    keyframe: int
+    keyframe_token: str
+    keyframe_time_ns: int
+    recorded_keyframe: int | None
+    view: str
+    time_ns: int
+    cycle_s: float
+    radar: str
+    stands_mps: float
+    detections: int
+    world_from_radar: Matrix4
+    world_from_ego: Matrix4
+    velocity_mps: list[float]
+    carrier: int | None
+    projection: dict[str, Any]
+    seed: int
+    objects: list[SweptObject]
+
+
+class GridClass(TypedDict):
+    """What a number of cells means, in `grid.json`."""
+
+    id: int
+    name: str
+    thing: bool
+    rgb: list[int]
+
+
+# In this form because `class` is a keyword.
+GridObject = TypedDict(
+    "GridObject",
+    {
+        "id": int,
+        "class": str,
+        "kind": str,
+        "origin": str,
+        "track_token": str,
+        "world_from_body": Matrix4,
+        "size_m": list[float],
+        "velocity_mps": list[float] | None,
+        "cells": int,
+    },
+)
+"""An object in `grid.json`."""
+
+
+class GridTable(TypedDict):
+    """`grid.json`."""
+
+    scene: str
+    dataset: str
+    place: str
+    variation: int
+    keyframe: int
+    keyframe_token: str
+    recorded_keyframe: int | None
+    view: str
+    time_ns: int
+    preset: str
+    form: str
+    solid: bool
+    low_m: list[float]
+    voxel_m: float
+    cells: list[int]
+    world_from_grid: Matrix4
+    world_from_ego: Matrix4
+    carrier: int | None
+    cameras: list[str]
+    lidars: list[str]
+    free: int
+    classes: list[GridClass]
+    projection: dict[str, Any]
+    objects: list[GridObject]
+
+
+class EgoPose(TypedDict):
+    """Where the vehicle is at a time, in `trajectory.json`."""
+
+    time_ns: int
+    world_from_ego_rotation_wxyz: list[float]
+    world_from_ego_translation_m: list[float]
+
+
+class EgoMoment(EgoPose):
+    """The vehicle at a moment of its drive, in `trajectory.json`."""
+
+    keyframe: int
+    recorded_keyframe: int | None
+    velocity_mps: list[float] | None
+    yaw_rate_radps: float | None
+
+
+class LaneRow(TypedDict):
+    """A lane, in `lanes.json`."""
+
+    id: int
+    usage: str
+    width_m: float
+    centreline_m: list[list[float]]
+
+
+class LineRow(TypedDict):
+    """A painted line, in `lanes.json`."""
+
+    id: int
+    paint: str
+    pattern: str
+    width_m: float
+    points_m: list[list[float]]
+
+
+class LanesTable(TypedDict):
+    """`lanes.json`."""
+
+    scene: str
+    dataset: str
+    projection: dict[str, Any]
+    lanes: list[LaneRow]
+    lines: list[LineRow]
+
+
+class TrajectoryTable(TypedDict):
+    """`trajectory.json`."""
+
+    scene: str
+    dataset: str
+    projection: dict[str, Any]
+    moments: list[EgoMoment]
+    path: list[EgoPose]
+
+
 def read_manifest(root: Path) -> Manifest:
     """The manifest of an output folder; another version of the format is an error."""
     path = root / "manifest.json"
@@ -170,9 +333,39 @@ def read_frame(folder: Path) -> FrameTable:
     return table
 
 
+def read_masks(folder: Path) -> MaskTable:
+    """The masks of the frame in `folder`."""
+    table: MaskTable = _read(folder / "masks.json")
+    return table
+
+
 def read_sweep(folder: Path) -> SweepTable:
     """The table of the LiDAR sweep in `folder`."""
     table: SweepTable = _read(folder / "sweep.json")
+    return table
+
+
+def read_grid(folder: Path) -> GridTable:
+    """The table of the grid in `folder`."""
+    table: GridTable = _read(folder / "grid.json")
+    return table
+
+
+def read_lanes(folder: Path) -> LanesTable:
+    """The lanes and painted lines of the variation in `folder`."""
+    table: LanesTable = _read(folder / "lanes.json")
+    return table
+
+
+def read_trajectory(folder: Path) -> TrajectoryTable:
+    """The way of the vehicle in the variation's `folder`."""
+    table: TrajectoryTable = _read(folder / "trajectory.json")
+    return table
+
+
+def read_radar(folder: Path) -> RadarTable:
+    """The table of the radar's cycle in `folder`."""
+    table: RadarTable = _read(folder / "radar.json")
     return table
 
 

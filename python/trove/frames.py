@@ -9,12 +9,27 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from trove._trove import StoredFrame, TroveError, image_names
+from trove._trove import StoredFrame, TroveError, image_names, painted
 from trove.camera import Camera
-from trove.format import FrameTable, Manifest, read_curated, read_frame, read_manifest
+from trove.format import (
+    FrameRow,
+    FrameTable,
+    LanesTable,
+    Manifest,
+    MaskRow,
+    MaskTable,
+    read_curated,
+    read_frame,
+    read_lanes,
+    read_manifest,
+    read_masks,
+)
+from trove.grids import Grid
 from trove.objects import Object
 from trove.overlay import Overlay, laid_over, with_boxes
+from trove.radars import RadarCycle
 from trove.sweeps import Sweep
+from trove.trajectory import Trajectory
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,9 +69,14 @@ class Frame:
     """
 
     def __init__(
-        self, read: Callable[[str], npt.NDArray[Any]], table: Callable[[], FrameTable], path: Path | None, name: str
+        self,
+        read: Callable[[str], npt.NDArray[Any]],
+        table: Callable[[], FrameTable],
+        masks: Callable[[], MaskTable],
+        path: Path | None,
+        name: str,
     ) -> None:
-        self._read, self._table = read, table
+        self._read, self._table, self._masks = read, table, masks
         self.path = path
         """Its folder; `None` where it was rendered in memory."""
         self.name = name
@@ -65,10 +85,10 @@ class Frame:
     @staticmethod
     def stored(path: Path, name: str) -> Frame:
         """The frame in a folder."""
-        return Frame(_Folder(path).read, lambda: read_frame(path), path, name)
+        return Frame(_Folder(path).read, lambda: read_frame(path), lambda: read_masks(path), path, name)
 
     @staticmethod
-    def rendered(table: str, images: dict[str, npt.NDArray[Any]]) -> Frame:
+    def rendered(table: str, images: dict[str, npt.NDArray[Any]], masks: str | None = None) -> Frame:
         """A frame that has no folder."""
         parsed: FrameTable = json.loads(table)
 
@@ -77,7 +97,15 @@ class Frame:
                 raise TroveError(f"{image}: expected one of {', '.join(images)}, which this frame was rendered with")
             return images[image]
 
-        return Frame(read, lambda: parsed, None, parsed["view"])
+        def read_masks() -> MaskTable:
+            if masks is None:
+                raise TroveError(
+                    "masks: expected masks in output.files of the recipe, which this frame was rendered with"
+                )
+            rows: MaskTable = json.loads(masks)
+            return rows
+
+        return Frame(read, lambda: parsed, read_masks, None, parsed["view"])
 
     def __repr__(self) -> str:
         return f"<trove.Frame {self.name}>"
@@ -85,7 +113,11 @@ class Frame:
     def __reduce__(self) -> tuple[Any, ...]:
         if self.path is None:
             images = {name: self._read(name) for name in self.images}
-            return Frame.rendered, (json.dumps(self.table), images)
+            try:
+                masks = json.dumps(self._masks())
+            except TroveError:
+                masks = None
+            return Frame.rendered, (json.dumps(self.table), images, masks)
         return Frame.stored, (self.path, self.name)
 
     @cached_property
@@ -219,6 +251,33 @@ class Frame:
         mask: npt.NDArray[np.bool_] = self.instance == thing.id
         return mask
 
+    @cached_property
+    def masks(self) -> dict[int, MaskRow]:
+        """`masks.json` by ids: of each object the `visible` and the `amodal` mask as pycocotools takes them."""
+        return {row["id"]: row for row in self._masks()["objects"]}
+
+    def amodal_mask(self, thing: Object) -> npt.NDArray[np.bool_]:
+        """The pixels that would show an object if nothing else were there: H × W, `bool`."""
+        amodal = self.masks[thing.id]["amodal"]
+        return painted(amodal["size"], amodal["counts"])
+
+    def camera_from_body(self, thing: Object) -> npt.NDArray[np.float64]:
+        """4 × 4, from the middle of an object's box (x forward, y left, z up) to Camera (x right, y down, z forward)."""
+        import numpy as np
+
+        pose: npt.NDArray[np.float64] = np.linalg.inv(self.table["world_from_camera"]) @ thing.world_from_body
+        return pose
+
+    def ego_from_body(self, thing: Object) -> npt.NDArray[np.float64] | None:
+        """4 × 4, from the middle of an object's box to Ego (both x forward, y left, z up); `None` where nothing drives.
+
+        Ego is where it is at `time_ns`, in the middle of the exposure, as the camera is.
+        """
+        import numpy as np
+
+        ego = self.table["world_from_ego"]
+        return None if ego is None else np.linalg.inv(ego) @ thing.world_from_body
+
     def overlay(self, label: str = "class", opacity: float = 2 / 3) -> Overlay:
         """A label in colours over the grey picture (alone where there is none), which notebooks show.
 
@@ -294,11 +353,32 @@ class Frames(Sequence[Frame]):
     @cached_property
     def sweeps(self) -> list[Sweep]:
         """The LiDAR sweeps of the same output folder, of an unfinished run those that are finished."""
-        if (self.root / "manifest.json").is_file():
-            names = [row["path"] for row in self.manifest.get("sweeps", [])]
-        else:
-            names = _finished(self.root, "sweep.json")
-        return [Sweep(self.root / name, name) for name in names]
+        return [Sweep(self.root / name, name) for name in self._beside("sweeps", "sweep.json")]
+
+    @cached_property
+    def radars(self) -> list[RadarCycle]:
+        """The radars' cycles of the same output folder, of an unfinished run those that are finished."""
+        return [RadarCycle(self.root / name, name) for name in self._beside("radars", "radar.json")]
+
+    @cached_property
+    def grids(self) -> list[Grid]:
+        """The grids around the vehicle of the same output folder, of an unfinished run those that are finished."""
+        return [Grid(self.root / name, name) for name in self._beside("grids", "grid.json")]
+
+    def _beside(self, kind: str, table: str) -> list[str]:
+        """Folders beside the frames' own, by the manifest, or of an unfinished run by their table."""
+        if not (self.root / "manifest.json").is_file():
+            return _finished(self.root, table)
+        rows: list[FrameRow] = self.manifest.get(kind, [])  # type: ignore[assignment]
+        return [row["path"] for row in rows]
+
+    def trajectory(self, scene: str, variation: int = 0) -> Trajectory:
+        """The way of the recording vehicle through a scene, at its moments that are rendered and those that are not."""
+        return Trajectory(self.root / scene / f"v{variation:02}")
+
+    def lanes(self, scene: str, variation: int = 0) -> LanesTable:
+        """The lanes and painted lines of a scene, in World."""
+        return read_lanes(self.root / scene / f"v{variation:02}")
 
     @cached_property
     def classes(self) -> dict[int, str]:

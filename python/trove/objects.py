@@ -36,8 +36,17 @@ class Object:
     """4 × 4, from Body (x forward, y left, z up, origin in the box's centre) to World, metres."""
     size_m: tuple[float, float, float]
     """Length, width and height of its box."""
+    world_from_asset: npt.NDArray[np.float64] | None
+    """4 × 4, from the model's own axes (x forward, y left, z up, origin on the ground in its middle) to World, with scale;
+    `None` for what was built for the place alone."""
+    paint: tuple[int, int, int] | None
+    """sRGB of its largest painted part; `None` where it has none."""
     velocity_mps: tuple[float, float, float] | None
     """In World; `None` where it is not known."""
+    yaw_rate_radps: float | None
+    """How fast its heading turns, to the left; `None` where it is not known."""
+    states: tuple[str, ...]
+    """Of `moving`, `stopped`, `parked`, `braking`, `riding`, `walking`, `running`, `standing`, `sitting`."""
     visible_px: int
     amodal_px: int
     visible_box: Box | None
@@ -57,7 +66,7 @@ class Object:
         """The object of a row in `frame.json`."""
         import numpy as np
 
-        velocity = row["velocity_mps"]
+        velocity, asset, paint = row["velocity_mps"], row.get("world_from_asset"), row.get("paint")
         return Object(
             id=row["id"],
             class_=row["class"],
@@ -70,7 +79,11 @@ class Object:
             asset=row["asset"],
             world_from_body=np.array(row["world_from_body"]),
             size_m=_three(row["size_m"]),
+            world_from_asset=None if asset is None else np.array(asset),
+            paint=None if paint is None else (paint[0], paint[1], paint[2]),
             velocity_mps=None if velocity is None else _three(velocity),
+            yaw_rate_radps=row.get("yaw_rate_radps"),
+            states=tuple(row.get("states", ())),
             visible_px=row["visible_px"],
             amodal_px=row["amodal_px"],
             visible_box=_box(row["visible_box"]),
@@ -85,11 +98,15 @@ class Object:
     @property
     def corners_world(self) -> npt.NDArray[np.float64]:
         """The eight corners of its box in World, (8, 3), metres: rear before front, right before left, low before high."""
+        return self.corners(self.world_from_body)
+
+    def corners(self, frame_from_body: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """The same corners where a pose from Body puts them, such as `Frame.camera_from_body` or `Frame.ego_from_body`."""
         import numpy as np
 
         signs = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-        corners: npt.NDArray[np.float64] = signs * self.size_m @ self.world_from_body[:3, :3].T
-        return corners + self.world_from_body[:3, 3]
+        corners: npt.NDArray[np.float64] = signs * self.size_m @ frame_from_body[:3, :3].T
+        return corners + frame_from_body[:3, 3]
 
 
 def _three(numbers: list[float]) -> tuple[float, float, float]:

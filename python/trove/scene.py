@@ -75,8 +75,8 @@ class Scene:
         else:
             lens, view = None, camera
         world_from_camera = None if pose is None else np.asarray(pose, float).tolist()
-        table, images = self._ready.picture(view, lens, world_from_camera, spp, seed, labels_only, progress)
-        return Frame.rendered(table, images)
+        table, images, masks = self._ready.picture(view, lens, world_from_camera, spp, seed, labels_only, progress)
+        return Frame.rendered(table, images, masks)
 
     def write_glb(self, path: str | PathLike[str]) -> None:
         """Writes the scene with the recipe's cameras and the sun as binary glTF 2.0, as `trove build` does."""

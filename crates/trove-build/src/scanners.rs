@@ -67,7 +67,7 @@ fn over(wanted: f64, sweep_s: f64) -> f64 {
 
 /// The vehicle some seconds after a keyframe: as its path says, else as between the keyframes, and on from one where the other
 /// is missing.
-fn world_from_ego(drive: &Drive, keyframe: usize, time_s: f64) -> Pose<World, Ego> {
+pub(crate) fn world_from_ego(drive: &Drive, keyframe: usize, time_s: f64) -> Pose<World, Ego> {
     let moment = &drive.keyframes[keyframe];
     let on_path = |time_s: f64| drive.path.at(moment.time_ns.saturating_add((time_s * 1e9) as i64));
     if let (Some(then), Some(now)) = (on_path(time_s), on_path(0.0)) {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 use trove_model::{
     AssetLibrary, Bounds, Cuboid, Drive, DriveOrigin, HeightField, Instance, InstanceId, Kind, Light, Locale, Origin,
-    Outcome, Polygon, Provenance, Report, Scene, SceneObject, Season, StreetMap,
+    Outcome, Polygon, Provenance, Report, RoadPlan, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed, assumed};
@@ -73,6 +73,7 @@ pub struct Site {
     /// Road users whom nobody recorded.
     added: Vec<Added>,
     footprints: Vec<Polygon>,
+    roads: RoadPlan,
     light: Light,
     season: Season,
     provenance: Vec<Provenance>,
@@ -210,6 +211,7 @@ pub fn build_at(
         actors,
         added,
         footprints: buildings.footprints,
+        roads: surfaces.plan.clone(),
         fits,
     })
 }
@@ -283,6 +285,9 @@ impl Site {
                 asset: Some(actor.asset(pose)),
                 cuboid: pose.cuboid,
                 velocity_mps: annotated.velocity_mps,
+                yaw_rate_radps: pose.movement.yaw_rate_radps,
+                states: pose.movement.states(annotated.kind, pose.posture, annotated.is_parked),
+                paint: actor.paint,
                 keypoints_world: pose.keypoints_world,
             };
             let id = track_id(annotated.track);
@@ -328,6 +333,9 @@ impl Site {
             asset: Some(ego.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: None,
+            yaw_rate_radps: pose.movement.yaw_rate_radps,
+            states: pose.movement.states(Kind::Car, None, None),
+            paint: ego.paint,
             keypoints_world: pose.keypoints_world,
         };
         ego.instance(self.ego_id(drive), keyframe, neighbours, meshes, Some(object))
@@ -363,6 +371,11 @@ impl Site {
         &self.fits
     }
 
+    /// What the roads are.
+    pub fn roads(&self) -> &RoadPlan {
+        &self.roads
+    }
+
     /// The box of a track as placed at a keyframe; `None` where it was not annotated or has no asset.
     pub(crate) fn placed(&self, track: usize, keyframe: usize) -> Option<Cuboid> {
         Some(self.actors.get(track)?.as_ref()?.at(keyframe)?.cuboid)
@@ -388,6 +401,9 @@ impl Added {
             asset: Some(self.actor.asset(pose)),
             cuboid: pose.cuboid,
             velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
+            yaw_rate_radps: pose.movement.yaw_rate_radps,
+            states: pose.movement.states(self.kind, pose.posture, None),
+            paint: self.actor.paint,
             keypoints_world: pose.keypoints_world,
         };
         self.actor.instance(self.id, keyframe, neighbours, meshes, Some(object))

@@ -178,6 +178,7 @@ pub(crate) fn drive() -> Drive {
                 token: format!("{}-{k}", member.0),
                 cuboid: cuboid(k, member),
                 velocity_mps: Some(member.3),
+                is_parked: None,
                 attributes: Vec::new(),
                 lidar_points: None,
                 visibility: None,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use trove_model::{Class, Distortion, GlassLabels, Keypoints, Kind, MapProjection, Origin};
+use trove_model::{Class, Distortion, GlassLabels, Keypoints, Kind, MapProjection, Origin, State};
 
 use crate::{FormatError, file, names, rows};
 
@@ -211,8 +211,23 @@ pub struct ObjectRow {
     pub world_from_body: Matrix4,
     /// Length, width and height of its box, metres.
     pub size_m: [f64; 3],
+    /// Takes the model's points (x forward, y left, z up, origin on the ground in its middle, metres) to World, with scale;
+    /// null for what was built for this place alone, and in folders of earlier versions.
+    #[serde(default)]
+    pub world_from_asset: Option<Matrix4>,
+    /// Its paint, sRGB: the colour of its largest painted part; null where nothing of it is painted one colour or another.
+    #[serde(default)]
+    pub paint: Option<[u8; 3]>,
     /// Its velocity in World, metres per second; null if unknown.
     pub velocity_mps: Option<[f64; 3]>,
+    /// How fast its heading turns, radians per second, positive to the left, from where it heads half a second before and
+    /// after; null if unknown.
+    #[serde(default)]
+    pub yaw_rate_radps: Option<f64>,
+    /// What it does, as far as the recording tells; empty if it does not.
+    #[serde(default, with = "names::states")]
+    #[cfg_attr(test, schemars(schema_with = "names::states::schema"))]
+    pub states: Vec<State>,
     /// How many pixels show it.
     pub visible_px: u32,
     /// How many pixels would show it if nothing else were there.
@@ -221,7 +236,8 @@ pub struct ObjectRow {
     pub visible_box: Option<[u32; 4]>,
     /// The same for pixels that would if nothing else were there; null if there are none.
     pub amodal_box: Option<[u32; 4]>,
-    /// Share of it that is outside the image, 0 to 1.
+    /// Share of it that is outside the image, 0 to 1: of the area of its box's outline as projected, which is the hull of its
+    /// corners before the camera.
     pub truncation: f32,
     /// Share of its amodal pixels hidden by other things, 0 to 1.
     pub occlusion: f32,

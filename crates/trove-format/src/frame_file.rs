@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 use trove_model::ExtraLabel;
 
-/// A picture of a frame's folder; recipes name them in `output.files`.
+use crate::MaskTable;
+
+/// A file of a frame's folder beside `frame.json`; recipes name them in `output.files`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs)] // docs/output.md says what they hold
@@ -28,11 +30,12 @@ pub enum FrameFile {
     SceneFlowBackward,
     ObjectCoordinates,
     Coverage,
+    Masks,
 }
 
 impl FrameFile {
     /// All that there are.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Radiance,
         Self::Rgb,
         Self::Class,
@@ -53,6 +56,7 @@ impl FrameFile {
         Self::SceneFlowBackward,
         Self::ObjectCoordinates,
         Self::Coverage,
+        Self::Masks,
     ];
 
     /// The file's name.
@@ -78,7 +82,13 @@ impl FrameFile {
             Self::SceneFlowBackward => "scene_flow_backward.exr",
             Self::ObjectCoordinates => "object_coordinates.exr",
             Self::Coverage => "coverage.png",
+            Self::Masks => MaskTable::NAME,
         }
+    }
+
+    /// Whether it is a picture.
+    pub fn is_picture(self) -> bool {
+        !matches!(self, Self::Masks)
     }
 
     /// Whether light has to be followed for it.
@@ -102,6 +112,7 @@ impl FrameFile {
             Self::SceneFlowBackward => Some(ExtraLabel::SceneFlowBackward),
             Self::ObjectCoordinates => Some(ExtraLabel::ObjectCoordinates),
             Self::Coverage => Some(ExtraLabel::Coverage),
+            Self::Masks => Some(ExtraLabel::AmodalMasks),
             Self::Radiance
             | Self::Rgb
             | Self::Class

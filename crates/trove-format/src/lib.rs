@@ -1,6 +1,6 @@
 //! The JSON files of an output folder, and of drives in the plain form, as types.
 //!
-//! Everything that writes or reads `manifest.json`, `report.json`, `site.json`, `frame.json`, `sweep.json`, `curated.json` or the files
+//! Everything that writes or reads `manifest.json`, `report.json`, `site.json`, `frame.json`, `sweep.json`, `radar.json`, `grid.json`, `trajectory.json`, `lanes.json`, `curated.json` or the files
 //! in `.trove/`, and the `drive.json` of a recording in the plain form, does it through these types. The schemas in `docs/schema` are generated from them:
 //! `TROVE_WRITE_SCHEMAS=1 cargo test -p trove-format schemas` writes them anew.
 //!
@@ -38,10 +38,14 @@ mod error;
 mod file;
 mod frame;
 mod frame_file;
+mod grid;
 mod journal;
+mod lanes;
 mod manifest;
+mod masks;
 mod names;
 mod plain_drive;
+mod radar;
 mod report;
 mod rows;
 #[cfg(test)]
@@ -50,6 +54,7 @@ mod site;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod trajectory;
 
 pub use class_map_file::ClassMapFile;
 pub use curated::Curated;
@@ -57,14 +62,19 @@ pub use error::FormatError;
 pub use file::FORMAT;
 pub use frame::{FrameTable, GlassPolicy, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
 pub use frame_file::FrameFile;
+pub use grid::{GridClass, GridObject, GridTable};
 pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
+pub use lanes::{LaneRow, LanesFile, LineRow};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
+pub use masks::{MaskRow, MaskTable, RunLengths};
 pub use plain_drive::{
     PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoPose, PlainGeoreference, PlainKeyframe, PlainLane,
     PlainLaneMap, PlainLaneMark, PlainLidar, PlainMoment, PlainPicture, PlainPolygon, PlainPose, PlainSweep,
 };
+pub use radar::RadarTable;
 pub use report::{EntryRow, ReportTable, RunReport, SceneReport};
 pub use site::{
     AssetFitRow, DriveProjection, DriveRow, Factors, FitRow, LightFactor, LocaleRow, ProjectionKind, SiteFile, Source,
 };
 pub use sweep::{SweepTable, SweptObject};
+pub use trajectory::{EgoMoment, EgoPose, TrajectoryFile};

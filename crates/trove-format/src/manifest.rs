@@ -32,6 +32,12 @@ pub struct Manifest {
     /// The finished LiDAR sweeps, likewise; missing in folders written by earlier versions.
     #[serde(default)]
     pub sweeps: Vec<FrameRow>,
+    /// The finished grids, likewise; missing where the recipe asks for none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grids: Vec<FrameRow>,
+    /// The radars' finished cycles, likewise; missing where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub radars: Vec<FrameRow>,
 }
 
 /// A class in every label set.
@@ -81,7 +87,7 @@ pub struct FrameRow {
     pub variation: u32,
     /// Index of the keyframe in its drive, from 0.
     pub keyframe: u32,
-    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`) or LiDAR (`ego.LIDAR_TOP`).
+    /// The camera (`ego.CAM_FRONT`, `v1.CAM_FRONT`), LiDAR (`ego.LIDAR_TOP`), radar (`ego.RADAR_FRONT`) or grid (`ego.OCC3D`).
     pub view: String,
     /// How its variation differs.
     pub factors: Factors,
@@ -140,7 +146,13 @@ impl Manifest {
         let manifest: Self = file::of_this_format(&path, &bytes, "a manifest of trove generate")?;
         // Whoever sends a folder does not choose which files are read elsewhere.
         let root = OutputRoot::new(folder);
-        match manifest.frames.iter().chain(&manifest.sweeps).find_map(|frame| root.at(&frame.path).err()) {
+        match manifest
+            .frames
+            .iter()
+            .chain(&manifest.sweeps)
+            .chain(&manifest.radars)
+            .find_map(|frame| root.at(&frame.path).err())
+        {
             Some(source) => Err(FormatError::Outside { path, source }),
             None => Ok(Some(manifest)),
         }

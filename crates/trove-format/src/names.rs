@@ -40,5 +40,30 @@ by_name!(class, trove_model::Class, trove_model::CLASSES.map(|row| row.class), |
     .name);
 by_name!(outcome, trove_model::Outcome, trove_model::Outcome::ALL, trove_model::Outcome::name);
 by_name!(season, trove_model::Season, trove_model::Season::ALL, trove_model::Season::name);
+by_name!(lane_usage, trove_model::LaneUsage, trove_model::LaneUsage::ALL, trove_model::LaneUsage::name);
 by_name!(paint, trove_model::Paint, trove_model::Paint::ALL, trove_model::Paint::name);
 by_name!(mark_pattern, trove_model::MarkPattern, trove_model::MarkPattern::ALL, trove_model::MarkPattern::name);
+by_name!(state, trove_model::State, trove_model::State::ALL, trove_model::State::name);
+
+/// A list of states.
+pub(crate) mod states {
+    use serde::de::{Deserialize, Deserializer};
+    use serde::ser::Serializer;
+    use trove_model::State;
+
+    #[derive(serde::Deserialize, serde::Serialize)]
+    struct Named(#[serde(with = "super::state")] State);
+
+    pub(crate) fn serialize<S: Serializer>(states: &[State], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(states.iter().map(|state| Named(*state)))
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<State>, D::Error> {
+        Ok(Vec::<Named>::deserialize(deserializer)?.into_iter().map(|Named(state)| state).collect())
+    }
+
+    #[cfg(test)]
+    pub(crate) fn schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "array", "items": super::state::schema(generator) })
+    }
+}

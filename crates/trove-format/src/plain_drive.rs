@@ -275,6 +275,9 @@ pub struct PlainBox {
     /// Velocity in World, metres per second; default: from where it is before and after.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_mps: Option<[f64; 3]>,
+    /// Whether it is a parked vehicle; default: unknown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parked: Option<bool>,
     /// Any words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attributes: Vec<String>,

@@ -6,7 +6,10 @@ use std::path::Path;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
-use crate::{Curated, FrameLine, FrameTable, Manifest, PlainDrive, RunIdentity, RunReport, SiteFile, SweepTable};
+use crate::{
+    Curated, FrameLine, FrameTable, GridTable, LanesFile, Manifest, MaskTable, PlainDrive, RadarTable, RunIdentity,
+    RunReport, SiteFile, SweepTable, TrajectoryFile,
+};
 
 /// The schema of a file as it is written: as a name and a text.
 fn schema<T: JsonSchema>(file: &str) -> (&str, String) {
@@ -32,7 +35,12 @@ fn the_schemas_are_those_of_the_types() {
         schema::<RunReport>(RunReport::NAME),
         schema::<SiteFile>(SiteFile::NAME),
         schema::<FrameTable>(FrameTable::NAME),
+        schema::<MaskTable>(MaskTable::NAME),
         schema::<SweepTable>(SweepTable::NAME),
+        schema::<GridTable>(GridTable::NAME),
+        schema::<LanesFile>(LanesFile::NAME),
+        schema::<TrajectoryFile>(TrajectoryFile::NAME),
+        schema::<RadarTable>(RadarTable::NAME),
         schema::<Curated>(Curated::NAME),
         schema::<RunIdentity>(RunIdentity::NAME),
         schema::<FrameLine>(FrameLine::JOURNAL),

@@ -37,6 +37,12 @@ pub struct SiteFile {
     /// The LiDAR sweeps that were planned, likewise (`ego.LIDAR_TOP`).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sweeps: Vec<(u32, String)>,
+    /// The grids that were planned, likewise (`ego.OCC3D`).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grids: Vec<(u32, String)>,
+    /// The radars' cycles that were planned, likewise (`ego.RADAR_FRONT`).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub radars: Vec<(u32, String)>,
 }
 
 /// Whose customs a place follows.

@@ -59,6 +59,8 @@ fn site() -> SiteFile {
         locale: Some(LocaleRow { country: Some("US".into()), driving_side: "right".into(), speed_unit: "mph".into() }),
         frames: vec![(0, "ego.CAM_FRONT".into())],
         sweeps: vec![],
+        grids: vec![],
+        radars: vec![],
     }
 }
 
@@ -154,6 +156,8 @@ fn a_manifest_of_another_version_is_refused() {
             counterfactual: None,
         }],
         sweeps: vec![],
+        grids: vec![],
+        radars: vec![],
     };
     assert_eq!(Manifest::read(dir.path()).unwrap(), None);
     let path = dir.path().join(Manifest::NAME);

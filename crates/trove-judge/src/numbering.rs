@@ -6,10 +6,10 @@ use std::path::Path;
 use image::DynamicImage;
 use png::{BitDepth, ColorType};
 use trove_format::FrameTable;
-use trove_model::{Class, ClassMap, InstanceCoding, Kind};
+use trove_model::{Class, ClassMap, InstanceCoding, Kind, Raster};
 
 use crate::JudgeError;
-use crate::pictures::{BY_ID, BY_TRAIN_ID, Labels, OURS, color_type, name, read, read_labels};
+use crate::pictures::{BY_ID, BY_TRAIN_ID, OURS, color_type, name, read, read_labels};
 
 /// The numbers of a folder's labels, and how that is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl Numbering {
 
 /// Labels in the numbers of the map that they are judged in, with the objects' numbers where the picture has them itself.
 pub(crate) struct Judged {
-    pub labels: Labels,
+    pub labels: Raster<u8>,
     pub objects: Option<Vec<u16>>,
 }
 
@@ -61,36 +61,36 @@ pub(crate) fn read_as(
     let (mut labels, objects) = read_coded(path, own)?;
     let mut known = [false; 256];
     own.classes.iter().map(|class| class.id).chain(own.ignored()).for_each(|id| known[usize::from(id)] = true);
-    if let Some(i) = labels.ids.iter().position(|id| !known[usize::from(*id)]) {
+    if let Some(i) = labels.data.iter().position(|id| !known[usize::from(*id)]) {
         return Err(unknown(path, own, &labels, i));
     }
     let refined = if own.name == "trove20" { finer(path, &labels, wanted)? } else { None };
-    labels.ids.iter_mut().for_each(|id| *id = numbers[usize::from(*id)]);
+    labels.data.iter_mut().for_each(|id| *id = numbers[usize::from(*id)]);
     for (i, id) in refined.into_iter().flatten() {
-        labels.ids[i] = id;
+        labels.data[i] = id;
     }
     Ok(Judged { labels, objects })
 }
 
-fn unknown(path: &Path, map: &ClassMap, labels: &Labels, i: usize) -> JudgeError {
+fn unknown(path: &Path, map: &ClassMap, labels: &Raster<u8>, i: usize) -> JudgeError {
     let listed = |ids: &mut dyn Iterator<Item = u8>| ids.map(|id| id.to_string()).collect::<Vec<_>>().join(" ");
     let known = listed(&mut map.counted().map(|class| class.id));
     let expected = format!("{}'s ids ({known}, ignored {})", map.name, listed(&mut map.ignored().into_iter()));
     let (x, y) = (i as u32 % labels.width, i as u32 / labels.width);
     let remedy =
         "choose the class map of both sides with --classes, or of one with --predicted-classes or --truth-classes";
-    JudgeError::unexpected(path, expected, format!("{} at x {x}, y {y}", labels.ids[i]), remedy)
+    JudgeError::unexpected(path, expected, format!("{} at x {x}, y {y}", labels.data[i]), remedy)
 }
 
 /// A picture's classes, and its objects where the map says that it has them itself.
-fn read_coded(path: &Path, map: &ClassMap) -> Result<(Labels, Option<Vec<u16>>), JudgeError> {
+fn read_coded(path: &Path, map: &ClassMap) -> Result<(Raster<u8>, Option<Vec<u16>>), JudgeError> {
     match (map.instances, color_type(path)?) {
         (InstanceCoding::GreenBlue, (ColorType::Rgb, BitDepth::Eight)) => {
             let picture = read(path)?.into_rgb8();
             let (width, height) = picture.dimensions();
             let ids = picture.pixels().map(|pixel| pixel.0[0]).collect();
             let objects = picture.pixels().map(|pixel| u16::from_be_bytes([pixel.0[1], pixel.0[2]])).collect();
-            Ok((Labels { width, height, ids }, Some(objects)))
+            Ok((Raster { width, height, data: ids }, Some(objects)))
         }
         (InstanceCoding::Divisor(divisor), (ColorType::Grayscale, BitDepth::Sixteen)) => {
             let DynamicImage::ImageLuma16(picture) = read(path)? else {
@@ -105,7 +105,7 @@ fn read_coded(path: &Path, map: &ClassMap) -> Result<(Labels, Option<Vec<u16>>),
             }
             let ids = pixels.iter().map(|pixel| (*pixel / divisor) as u8).collect();
             let objects = pixels.into_iter().map(|pixel| pixel % divisor).collect();
-            Ok((Labels { width, height, ids }, Some(objects)))
+            Ok((Raster { width, height, data: ids }, Some(objects)))
         }
         _ => Ok((read_labels(path)?, None)),
     }
@@ -113,7 +113,7 @@ fn read_coded(path: &Path, map: &ClassMap) -> Result<(Labels, Option<Vec<u16>>),
 
 /// Pixels of our own labels at which an object's kind says more than its class, with their numbers in a map that is finer;
 /// `None` where none is, or where there is no `instance.png`.
-fn finer(path: &Path, labels: &Labels, wanted: &ClassMap) -> Result<Option<Vec<(usize, u8)>>, JudgeError> {
+fn finer(path: &Path, labels: &Raster<u8>, wanted: &ClassMap) -> Result<Option<Vec<(usize, u8)>>, JudgeError> {
     let (Some(folder), instances) = (path.parent(), path.with_file_name(INSTANCES)) else { return Ok(None) };
     let says_more = |kind: &Kind| Class::ALL.iter().any(|class| wanted.object_id(*class, *kind) != wanted.id(*class));
     let is_there = || folder.join(FrameTable::NAME).is_file() && instances.is_file();
@@ -132,7 +132,7 @@ fn finer(path: &Path, labels: &Labels, wanted: &ClassMap) -> Result<Option<Vec<(
     let objects = read_objects(&instances, labels, path)?;
     let refined = objects.into_iter().enumerate().filter_map(|(i, object)| {
         let (class, id) = kinds.get(&u32::from(object))?;
-        (labels.ids[i] == class.id()).then_some((i, *id))
+        (labels.data[i] == class.id()).then_some((i, *id))
     });
     Ok(Some(refined.collect()))
 }
@@ -141,7 +141,7 @@ fn finer(path: &Path, labels: &Labels, wanted: &ClassMap) -> Result<Option<Vec<(
 pub(crate) const INSTANCES: &str = "instance.png";
 
 /// The numbers of objects beside some labels.
-pub(crate) fn read_objects(path: &Path, labels: &Labels, of: &Path) -> Result<Vec<u16>, JudgeError> {
+pub(crate) fn read_objects(path: &Path, labels: &Raster<u8>, of: &Path) -> Result<Vec<u16>, JudgeError> {
     let of = name(of);
     let bad = |expected: String, found: String| {
         JudgeError::unexpected(path, expected, found, "write the file again, or omit --panoptic")
@@ -155,8 +155,8 @@ pub(crate) fn read_objects(path: &Path, labels: &Labels, of: &Path) -> Result<Ve
         DynamicImage::ImageLuma8(numbers) => numbers.into_raw().into_iter().map(u16::from).collect(),
         other => return Err(bad(wanted(), format!("{:?}", other.color()))),
     };
-    if objects.len() != labels.ids.len() {
-        return Err(bad(format!("{} pixels, like {of}", labels.ids.len()), objects.len().to_string()));
+    if objects.len() != labels.data.len() {
+        return Err(bad(format!("{} pixels, like {of}", labels.data.len()), objects.len().to_string()));
     }
     Ok(objects)
 }

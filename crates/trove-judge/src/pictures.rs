@@ -161,15 +161,8 @@ pub fn thumbnail(path: &Path, width: u32) -> Result<Raster<[u8; 3]>, JudgeError>
     Ok(Raster::from_fn(width, height, |x, y| small.get_pixel(x, y).0))
 }
 
-/// A picture of labels: one number a pixel.
-pub(crate) struct Labels {
-    pub width: u32,
-    pub height: u32,
-    pub ids: Vec<u8>,
-}
-
-/// Reads labels: a PNG of greys, or of indices into a palette.
-pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
+/// Reads labels, one number a pixel: a PNG of greys, or of indices into a palette.
+pub(crate) fn read_labels(path: &Path) -> Result<Raster<u8>, JudgeError> {
     let bad =
         |found: String, remedy| JudgeError::unexpected(path, "8-bit labels, one class id per pixel", found, remedy);
     let broken = |e: png::DecodingError| bad(e.to_string(), "write the file again, as PNG");
@@ -203,7 +196,7 @@ pub(crate) fn read_labels(path: &Path) -> Result<Labels, JudgeError> {
         };
         ids = ids.chunks(line).flat_map(unpack).collect();
     }
-    Ok(Labels { width, height, ids })
+    Ok(Raster { width, height, data: ids })
 }
 
 /// What a PNG's header says of its pixels.
@@ -242,7 +235,7 @@ mod tests {
                 encoder.set_palette((0..16 * 3).map(|i| 200 - i).collect::<Vec<u8>>());
             }
             encoder.write_header().unwrap().write_image_data(bytes).unwrap();
-            read_labels(&path).map(|labels| labels.ids)
+            read_labels(&path).map(|labels| labels.data)
         };
         assert_eq!(write(ColorType::Indexed, BitDepth::Eight, 2, &[7, 8, 9, 10]).unwrap(), [7, 8, 9, 10]);
         // Three pixels of four bits take two bytes a row.

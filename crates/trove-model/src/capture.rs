@@ -68,6 +68,8 @@ pub enum ExtraLabel {
     SceneFlowBackward,
     ObjectCoordinates,
     Coverage,
+    /// Of each object: [`ObjectLabel::amodal_mask`].
+    AmodalMasks,
 }
 
 /// Labels that are made where they are asked for, each `None` otherwise.
@@ -144,6 +146,23 @@ pub struct PixelBox {
     pub max: [u32; 2],
 }
 
+/// Pixels of a picture that belong to one object, within a box around them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mask {
+    /// First column and first row of the box.
+    pub min: [u32; 2],
+    /// Whether each pixel of the box belongs to it.
+    pub pixels: Raster<bool>,
+}
+
+impl Mask {
+    /// Of pixels that all lie within bounds.
+    pub fn of(bounds: PixelBox, belongs: impl Fn(u32, u32) -> bool) -> Self {
+        let PixelBox { min: [x0, y0], max: [x1, y1] } = bounds;
+        Self { min: [x0, y0], pixels: Raster::from_fn(x1 + 1 - x0, y1 + 1 - y0, |x, y| belongs(x0 + x, y0 + y)) }
+    }
+}
+
 /// What one picture shows of one object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjectLabel {
@@ -157,6 +176,8 @@ pub struct ObjectLabel {
     pub amodal_px: u32,
     /// Smallest box around those.
     pub amodal_box: Option<PixelBox>,
+    /// Those pixels; `None` unless they were asked for ([`ExtraLabel::AmodalMasks`]).
+    pub amodal_mask: Option<Mask>,
     /// Share of it outside the image, 0 to 1, by the projected 3D box.
     pub truncation: f32,
     /// Share of its amodal pixels that other things hide, 0 to 1.

@@ -127,6 +127,8 @@ pub struct ObjectBox {
     pub cuboid: Cuboid,
     /// Velocity in World; `None` where it cannot be told.
     pub velocity_mps: Option<DVec3>,
+    /// Whether the annotator calls it parked; `None` where that is not told.
+    pub is_parked: Option<bool>,
     /// The dataset's attributes.
     pub attributes: Vec<String>,
     /// LiDAR points in the box; `None` where unknown.
@@ -291,6 +293,7 @@ mod tests {
             token: String::new(),
             cuboid,
             velocity_mps: Some(DVec3::X),
+            is_parked: None,
             attributes: Vec::new(),
             lidar_points: None,
             visibility: None,

@@ -36,6 +36,7 @@ mod class;
 mod class_map;
 mod cuboid;
 mod drive;
+mod ego_motion;
 mod facade;
 mod frames;
 mod height_field;
@@ -54,25 +55,29 @@ mod plant;
 mod point_cloud;
 mod polygon;
 mod projection;
+mod radar;
 mod raster;
 mod relief;
 mod report;
+mod road_plan;
 mod role;
 mod scanner;
 mod scene;
 mod seed;
 mod sensor;
 mod shot;
+mod state;
 mod street_map;
 mod surface_kind;
 mod tags;
 mod trajectory;
 mod variation;
+mod voxels;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
 pub use capture::{
-    Capture, CaptureStats, Color, ExtraLabel, ExtraLabels, GlassLabels, LabelSettings, Labels, ObjectLabel, Occlusion,
-    PixelBox, SeenKeypoint,
+    Capture, CaptureStats, Color, ExtraLabel, ExtraLabels, GlassLabels, LabelSettings, Labels, Mask, ObjectLabel,
+    Occlusion, PixelBox, SeenKeypoint,
 };
 pub use class::{CLASSES, Class, ClassRow, LABEL_TABLES, label_table};
 pub use class_map::{ClassMap, ClassMapEntry, ClassMapFault, InstanceCoding, MappedClass};
@@ -80,6 +85,7 @@ pub use cuboid::Cuboid;
 pub use drive::{
     Drive, DriveOrigin, EgoBody, Exposure, Keyframe, LidarClass, LidarSweep, ObjectBox, RigCamera, Sweep, Track,
 };
+pub use ego_motion::EgoMotion;
 pub use facade::{Course, FacadeDesign, Filling, Fixtures, Interior, Opening};
 pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
@@ -102,15 +108,18 @@ pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use point_cloud::{LidarPoint, PointCloud};
 pub use polygon::{Bounds, Polygon};
 pub use projection::{DatasetPlane, MapProjection};
+pub use radar::{Radar, RadarDetection, RadarDirection, RadarScan, RadarShot, RadarSurface, RadarSurfaces};
 pub use raster::Raster;
 pub use relief::Relief;
 pub use report::{Entry, Measurement, Outcome, Report};
+pub use road_plan::{LaneUsage, PaintedLine, PlannedLane, RoadPlan};
 pub use role::Role;
 pub use scanner::{LidarShot, RigLidar, Scanner, SweepPhase, ToldReturns};
 pub use scene::{Instance, InstanceId, Origin, Placement, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
 pub use shot::{CameraBeside, ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
+pub use state::State;
 pub use street_map::{
     BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
@@ -119,3 +128,4 @@ pub use street_map::{
 pub use surface_kind::SurfaceKind;
 pub use tags::Tags;
 pub use trajectory::{Disorder, Trajectory};
+pub use voxels::{GridForm, GridFrame, GridPlan, GridShot, Occupancy, VoxelGrid};

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 
-use crate::{Class, Keypoints, Kind, Light, Material, Mesh};
+use crate::{Class, Keypoints, Kind, Light, Material, Mesh, State};
 
 /// An object's number, unique in a scene over all its keyframes and views; 0 is no object (stuff).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -88,6 +88,13 @@ pub struct SceneObject {
     pub cuboid: crate::Cuboid,
     /// Velocity in World; `None` where unknown.
     pub velocity_mps: Option<DVec3>,
+    /// How fast its heading turns, radians per second, to the left; `None` where unknown.
+    pub yaw_rate_radps: Option<f64>,
+    /// What it does, in the order of [`State::ALL`]; empty where nothing is known.
+    pub states: Vec<State>,
+    /// Its paint, linear RGB: the base colour of the largest of its parts that are painted one colour or another; `None`
+    /// where there are none.
+    pub paint: Option<Vec3>,
     /// Points of the person that it is or carries, World; `None` where they are not known.
     pub keypoints_world: Option<Keypoints<DVec3>>,
 }

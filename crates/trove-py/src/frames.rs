@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use trove::{FrameFile, StoredFrame};
+use trove::{FrameFile, RunLengths, StoredFrame};
 
 use crate::arrays::{channels, occlusion, values};
 use crate::error::trove_error;
@@ -51,6 +51,7 @@ impl PyStoredFrame {
             | FrameFile::SceneFlowBackward
             | FrameFile::ObjectCoordinates) => channels(py, py.detach(|| frame.vectors(file)).map_err(trove_error)?),
             FrameFile::Change => values(py, py.detach(|| frame.change()).map_err(trove_error)?),
+            FrameFile::Masks => Err(unknown(name)),
         }
     }
 }
@@ -58,7 +59,7 @@ impl PyStoredFrame {
 /// The names of the images that a frame may have.
 #[pyfunction]
 pub(crate) fn image_names() -> Vec<&'static str> {
-    FrameFile::ALL.map(stem).to_vec()
+    FrameFile::ALL.into_iter().filter(|file| file.is_picture()).map(stem).collect()
 }
 
 /// A file's name without its ending.
@@ -67,8 +68,16 @@ fn stem(file: FrameFile) -> &'static str {
 }
 
 fn file_named(name: &str) -> PyResult<FrameFile> {
-    FrameFile::ALL
-        .into_iter()
-        .find(|file| stem(*file) == name)
-        .ok_or_else(|| trove_error(format!("expected one of {}, found {name:?}", image_names().join(", "))))
+    FrameFile::ALL.into_iter().find(|file| stem(*file) == name).ok_or_else(|| unknown(name))
+}
+
+fn unknown(name: &str) -> PyErr {
+    trove_error(format!("expected one of {}, found {name:?}", image_names().join(", ")))
+}
+
+/// The picture (H, W; `bool`) that run lengths in COCO's compressed form make up.
+#[pyfunction]
+pub(crate) fn painted(py: Python<'_>, size: [u32; 2], counts: String) -> PyResult<Bound<'_, PyAny>> {
+    let damaged = || trove_error("expected run lengths that fill the picture, found others");
+    values(py, trove::painted(&RunLengths { size, counts }).ok_or_else(damaged)?)
 }

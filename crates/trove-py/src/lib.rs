@@ -21,7 +21,7 @@ mod _trove {
     #[pymodule_export]
     use super::error::TroveError;
     #[pymodule_export]
-    use super::frames::{PyStoredFrame, image_names};
+    use super::frames::{PyStoredFrame, image_names, painted};
     #[pymodule_export]
     use super::scene::PyReadyScene;
 

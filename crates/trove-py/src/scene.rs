@@ -53,7 +53,7 @@ impl PyReadyScene {
         attended(py, None, move |_| scene.write_glb(&path))?.map_err(trove_error)
     }
 
-    /// Takes a picture: its table as JSON, and its images as arrays by their names.
+    /// Takes a picture: its table as JSON, its images as arrays by their names, and its masks as JSON where they were asked for.
     #[pyo3(signature = (view, camera, world_from_camera, spp, seed, labels_only, progress))]
     #[allow(clippy::too_many_arguments)] // trove.Scene.render names them
     fn picture<'py>(
@@ -66,7 +66,7 @@ impl PyReadyScene {
         seed: Option<u64>,
         labels_only: bool,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(String, Bound<'py, PyDict>)> {
+    ) -> PyResult<(String, Bound<'py, PyDict>, Option<String>)> {
         let camera = camera.map(|(size_px, intrinsics, lens_model, distortion)| FreeCamera {
             size_px,
             intrinsics,
@@ -84,6 +84,8 @@ impl PyReadyScene {
             images.set_item("radiance", channels(py, color.radiance)?)?;
         }
         let labels = frame.labels;
+        let masks = trove::mask_table(&labels).map(|table| String::from_utf8(table.to_json()));
+        let masks = masks.transpose().map_err(trove_error)?;
         // As in panoptic.png, which every frame can have.
         let pixels = labels.class.data.iter().zip(&labels.instance.data);
         let data = pixels.map(|(class, id)| u32::from(class.id()) << 16 | id).collect();
@@ -117,6 +119,6 @@ impl PyReadyScene {
         if let Some(coverage) = extra.coverage {
             images.set_item("coverage", values(py, coverage)?)?;
         }
-        Ok((table, images))
+        Ok((table, images, masks))
     }
 }

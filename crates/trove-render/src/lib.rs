@@ -1,4 +1,4 @@
-//! `Scene` + `Shot` → `Capture`; `Scene` + any other `Sensor` → `Points`.
+//! `Scene` + `Shot` → `Capture`; `Scene` + any other `Sensor` → `Points`; `Scene` + `GridShot` → `Occupancy`.
 //!
 //! What goes in: a virtual scene and what looks at it. What comes out: a camera's picture and its labels, or what a
 //! sensor's rays meet. This crate must not know where the scene came from, nor how a capture is written.
@@ -81,6 +81,7 @@ mod motion;
 mod path;
 mod placed;
 mod prepare;
+mod radar;
 mod ray;
 mod renderer;
 mod sampling;
@@ -89,6 +90,7 @@ mod shared_library;
 mod sight;
 mod surface;
 mod texture;
+mod voxels;
 
 pub use accel::KernelChoice;
 pub use denoise::Denoising;

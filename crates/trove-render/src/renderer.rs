@@ -3,13 +3,16 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use trove_model::{Capture, CaptureStats, Color, LidarShot, PointCloud, Points, Raster, Scene, Sensor, Shot};
+use trove_model::{
+    Capture, CaptureStats, Color, GridShot, LidarShot, Occupancy, PointCloud, Points, RadarDetection, RadarShot,
+    Raster, Scene, Sensor, Shot,
+};
 
 use crate::accel::{self, Kernel, KernelChoice};
 use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
-use crate::{PreparedScene, RayTimes, RenderError, film, labels, lidar, path, scan};
+use crate::{PreparedScene, RayTimes, RenderError, film, labels, lidar, path, radar, scan, voxels};
 
 /// How to set a renderer up.
 #[derive(Clone, Debug, Default)]
@@ -113,6 +116,16 @@ impl Renderer {
     /// Makes a LiDAR's sweep: docs/lidar.md says by which model.
     pub fn sweep(&self, scene: &PreparedScene, shot: &LidarShot) -> PointCloud {
         self.pool.install(|| lidar::sweep(scene, shot))
+    }
+
+    /// Fills the cells of a grid: docs/grids.md says how.
+    pub fn occupancy(&self, scene: &PreparedScene, shot: &GridShot) -> Occupancy {
+        self.pool.install(|| voxels::occupancy(scene, shot))
+    }
+
+    /// Makes a radar's cycle, nearest detections first: docs/radar.md says by which model.
+    pub fn detections(&self, scene: &PreparedScene, shot: &RadarShot) -> Vec<RadarDetection> {
+        self.pool.install(|| radar::detections(scene, shot))
     }
 
     /// Takes a picture with its labels, or with `light` false the labels alone.

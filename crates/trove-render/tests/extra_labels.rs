@@ -375,8 +375,17 @@ fn stuff(mesh: usize, place: DVec3) -> Instance {
 fn object(id: u32, mesh: usize, cuboid: Cuboid) -> Instance {
     let origin =
         Origin::Recorded { track_token: "t".into(), annotation_token: "a".into(), category: "vehicle.car".into() };
-    let object =
-        SceneObject { kind: Kind::Car, origin, asset: None, cuboid, velocity_mps: None, keypoints_world: None };
+    let object = SceneObject {
+        kind: Kind::Car,
+        origin,
+        asset: None,
+        cuboid,
+        velocity_mps: None,
+        yaw_rate_radps: None,
+        states: Vec::new(),
+        paint: None,
+        keypoints_world: None,
+    };
     Instance { id: InstanceId(id), class: Class::Car, object: Some(Arc::new(object)), ..stuff(mesh, PLACE) }
 }
 

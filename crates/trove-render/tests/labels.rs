@@ -9,9 +9,9 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
 use solids::{ball, cube};
 use trove_model::{
-    Body, Camera, CameraBeside, Class, Cuboid, Distortion, Environment, EnvironmentMap, Instance, InstanceId,
-    KEYPOINTS, Kind, Labels, Lens, Light, Material, Mesh, ObjectLabel, Origin, PixelBox, Placement, Pose, Raster,
-    Scene, SceneObject, Seed, Shot, Shutter, World,
+    Body, Camera, CameraBeside, Class, Cuboid, Distortion, Environment, EnvironmentMap, ExtraLabel, Instance,
+    InstanceId, KEYPOINTS, Kind, LabelSettings, Labels, Lens, Light, Material, Mesh, ObjectLabel, Origin, PixelBox,
+    Placement, Pose, Raster, Scene, SceneObject, Seed, Shot, Shutter, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -169,6 +169,38 @@ fn a_box_behind_another_is_hidden_and_keeps_its_amodal_extent() {
     assert!((hidden.range_m - 12.0).abs() < 1e-4);
     // The near face of the front box, 4.5 m away and 3 m wide, is 40 × 41.3 pixels around the principal point.
     assert_eq!(shown.amodal_box, Some(PixelBox { min: [21, 8], max: [60, 48] }));
+}
+
+#[test]
+fn a_box_half_behind_a_wall_is_half_hidden_and_its_amodal_mask_is_its_projection() {
+    // The near face of a cube of 2 m is 9 m away; a wall 5 m away ends at the middle of the picture.
+    let cube = object(3, PLACE + DVec3::Y * 10.0, 2.0);
+    let wall = object(7, PLACE + DVec3::new(-2.0, 7.0, 0.0), 4.0);
+    let wanted = LabelSettings { extra: [ExtraLabel::AmodalMasks].into(), ..LabelSettings::default() };
+    let shot = Shot { labels: wanted, ..shot(PLACE) };
+    for labels in by_all_kernels(&scene(vec![cube.clone(), wall.clone()]), &shot) {
+        let [cube, wall] = &labels.objects[..] else { panic!("{:?}", labels.objects) };
+        let half_px = LENS.fx_px / 9.0;
+        let face = |x: u32, y: u32| {
+            let off = DVec2::new(f64::from(x) + 0.5 - LENS.cx_px, f64::from(y) + 0.5 - LENS.cy_px).abs();
+            off.x < half_px && off.y < LENS.fy_px / 9.0
+        };
+        let mask = cube.amodal_mask.as_ref().unwrap();
+        let mut expected = (0, 0);
+        for (x, y, centre) in centres() {
+            let [column, row] = [x.wrapping_sub(mask.min[0]), y.wrapping_sub(mask.min[1])];
+            let is_in = column < mask.pixels.width && row < mask.pixels.height && *mask.pixels.at(column, row);
+            assert_eq!(is_in, face(x, y), "({x}, {y})");
+            assert_eq!(*labels.instance.at(x, y) == 3, face(x, y) && centre.x > LENS.cx_px);
+            expected.0 += u32::from(face(x, y));
+            expected.1 += u32::from(face(x, y) && centre.x > LENS.cx_px);
+        }
+        assert_eq!((cube.amodal_px, cube.visible_px), expected);
+        assert!((cube.occlusion - 0.5).abs() < 0.05, "{}", cube.occlusion);
+        let seen = wall.amodal_mask.as_ref().unwrap().pixels.data.iter().filter(|is_in| **is_in).count();
+        assert_eq!((seen as u32, wall.occlusion), (wall.visible_px, 0.0));
+    }
+    assert!(objects(vec![cube, wall]).iter().all(|object| object.amodal_mask.is_none()), "nobody asked");
 }
 
 #[test]
@@ -481,6 +513,9 @@ fn object(id: u32, place: DVec3, side_m: f64) -> Instance {
         asset: Some("cube".into()),
         cuboid: Cuboid { world_from_body: Pose::<World, Body>::from_yaw(0.0, place), size_m: DVec3::splat(side_m) },
         velocity_mps: None,
+        yaw_rate_radps: None,
+        states: Vec::new(),
+        paint: None,
         keypoints_world: None,
     };
     let cube = Instance { id: InstanceId(id), class: Class::Car, world_from_mesh, ..stuff(CUBE, place) };

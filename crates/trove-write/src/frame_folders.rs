@@ -9,7 +9,7 @@ use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
 use trove_model::{Class, InstanceId, Labels, Occlusion, Raster};
 
 use crate::files::FolderInTheMaking;
-use crate::{Frame, Sweep, WriteError, contact_sheet, exr_file, png_file, write_atomically};
+use crate::{Frame, Grid, RadarCycle, Sweep, WriteError, contact_sheet, exr_file, masks, png_file, write_atomically};
 
 const CONTACT_SHEET: &str = "contact_sheet.png";
 
@@ -71,14 +71,39 @@ impl FrameFolders {
     /// # Errors
     /// A file system that refuses, or a sweep that is there already.
     pub fn sweep(&self, sweep: &Sweep) -> Result<Vec<WrittenFile>, WriteError> {
-        let dir = self.root.at(&sweep.path)?;
-        let replaces = lies_unfinished(&dir, &Sweep::FILES, &Sweep::FILES)?;
+        self.folder(&sweep.path, &Sweep::FILES, sweep.encoded())
+    }
+
+    /// Writes a grid, as [`FrameFolders::frame`] writes a frame.
+    ///
+    /// # Errors
+    /// A file system that refuses, or a grid that is there already.
+    pub fn grid(&self, grid: &Grid) -> Result<Vec<WrittenFile>, WriteError> {
+        self.folder(&grid.path, Grid::files(grid.form), grid.encoded())
+    }
+
+    /// Writes a radar's cycle, as [`FrameFolders::frame`] writes a frame.
+    ///
+    /// # Errors
+    /// A file system that refuses, or a cycle that is there already.
+    pub fn radar(&self, cycle: &RadarCycle) -> Result<Vec<WrittenFile>, WriteError> {
+        self.folder(&cycle.path, &RadarCycle::FILES, cycle.encoded())
+    }
+
+    fn folder(
+        &self,
+        path: &str,
+        names: &[&str],
+        files: impl IntoIterator<Item = Vec<u8>>,
+    ) -> Result<Vec<WrittenFile>, WriteError> {
+        let dir = self.root.at(path)?;
+        let replaces = lies_unfinished(&dir, names, names)?;
         let mut folder = FolderInTheMaking::start(&dir)?;
-        for (name, bytes) in Sweep::FILES.into_iter().zip(sweep.encoded()) {
+        for (name, bytes) in names.iter().zip(files) {
             folder.add(name, &bytes)?;
         }
         if replaces {
-            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished sweep"))?;
+            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished folder"))?;
         }
         folder.finish()
     }
@@ -136,6 +161,7 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
             exr_file::encode(name, made(name, &labels.extra.object_coordinates)?, ["R", "G", "B"])
         }
         FrameFile::Coverage => png_file::grey(name, width, height, &made(name, &labels.extra.coverage)?.data),
+        FrameFile::Masks => Ok(masks::mask_table(labels).ok_or_else(|| not_asked(name))?.to_json()),
         FrameFile::Change => {
             let change = frame.change.as_ref();
             let change =
@@ -147,7 +173,11 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
 
 /// A label that the shot asked for.
 fn made<'a, T>(name: &str, raster: &'a Option<Raster<T>>) -> Result<&'a Raster<T>, WriteError> {
-    raster.as_ref().ok_or_else(|| WriteError::Mismatch(format!("{name} without the shot asking for it")))
+    raster.as_ref().ok_or_else(|| not_asked(name))
+}
+
+fn not_asked(name: &str) -> WriteError {
+    WriteError::Mismatch(format!("{name} without the shot asking for it"))
 }
 
 fn values(occlusion: &Raster<Occlusion>) -> Vec<u8> {

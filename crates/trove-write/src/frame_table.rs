@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::DAffine3;
+use glam::{DAffine3, Vec3};
 use trove_format::{FrameTable, Matrix4, ObjectRow};
 use trove_model::{Capture, Instance, MapProjection, ObjectLabel, Origin, PixelBox, Scene, SeenKeypoint, Shot};
 
@@ -95,8 +95,8 @@ fn row(label: &ObjectLabel, instances: &BTreeMap<u32, &Instance>) -> Result<Obje
     if id > u32::from(u16::MAX) {
         return Err(WriteError::TooManyObjects(label.id));
     }
-    let found = instances.get(&id).and_then(|i| i.object.as_ref().map(|o| (i.class, o)));
-    let (class, object) =
+    let found = instances.get(&id).and_then(|i| i.object.as_ref().map(|o| (i.class, o, i.world_from_mesh)));
+    let (class, object, world_from_asset) =
         found.ok_or_else(|| WriteError::Mismatch(format!("a label of object {id}, which the scene does not have")))?;
     let [category, token, track_token] = match &object.origin {
         Origin::Recorded { category, annotation_token, track_token } => {
@@ -116,7 +116,11 @@ fn row(label: &ObjectLabel, instances: &BTreeMap<u32, &Instance>) -> Result<Obje
         asset: object.asset.clone().unwrap_or_default(),
         world_from_body: matrix(object.cuboid.world_from_body.affine()),
         size_m: object.cuboid.size_m.to_array(),
+        world_from_asset: object.asset.as_ref().map(|_| matrix(world_from_asset)),
+        paint: object.paint.map(srgb),
         velocity_mps: object.velocity_mps.map(|v| v.to_array()),
+        yaw_rate_radps: object.yaw_rate_radps,
+        states: object.states.clone(),
         visible_px: label.visible_px,
         amodal_px: label.amodal_px,
         visible_box: label.visible_box.map(pixel_box),
@@ -133,6 +137,12 @@ pub(crate) fn matrix(transform: DAffine3) -> Matrix4 {
     let (m, t) = (transform.matrix3.transpose(), transform.translation);
     let row = |r: glam::DVec3, t: f64| [r.x, r.y, r.z, t];
     [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z), [0.0, 0.0, 0.0, 1.0]]
+}
+
+/// A linear colour, 8-bit sRGB (IEC 61966-2-1).
+fn srgb(linear: Vec3) -> [u8; 3] {
+    let encoded = |c: f32| if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    linear.to_array().map(|c| (encoded(c.clamp(0.0, 1.0)) * 255.0).round() as u8)
 }
 
 fn keypoint(seen: Option<SeenKeypoint>) -> [f64; 3] {

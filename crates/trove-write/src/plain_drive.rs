@@ -158,6 +158,7 @@ fn plain_box(object: &ObjectBox, track: &str) -> PlainBox {
         world_from_body: Some(pose(&object.cuboid.world_from_body)),
         ego_from_body: None,
         velocity_mps: object.velocity_mps.map(|v| v.to_array()),
+        parked: object.is_parked,
         attributes: object.attributes.clone(),
         lidar_points: object.lidar_points,
         visibility: object.visibility,

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use trove_model::{Class, InstanceId, LidarPoint};
 
-const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
-/// Names and NumPy's types of a record's fields, in their order; little-endian, packed.
+use crate::npy;
+
+/// Names and NumPy's types of a record's fields, in their order.
 const FIELDS: [(&str, &str); 9] = [
     ("x", "<f4"),
     ("y", "<f4"),
@@ -17,17 +18,10 @@ const FIELDS: [(&str, &str); 9] = [
     ("return", "|u1"),
 ];
 const RECORD_BYTES: usize = 25;
-/// NumPy aligns what follows the header to it.
-const ALIGNED: usize = 64;
 
 /// The file's bytes.
 pub(crate) fn encode(points: &[LidarPoint]) -> Vec<u8> {
-    let header = format!("{}({},), }}", described(), points.len());
-    let length = (MAGIC.len() + 2 + header.len() + 1).next_multiple_of(ALIGNED) - MAGIC.len() - 2;
-    let mut bytes = Vec::with_capacity(MAGIC.len() + 2 + length + points.len() * RECORD_BYTES);
-    bytes.extend_from_slice(MAGIC);
-    bytes.extend_from_slice(&(length as u16).to_le_bytes());
-    bytes.extend_from_slice(format!("{header:<width$}\n", width = length - 1).as_bytes());
+    let mut bytes = Vec::with_capacity(points.len() * RECORD_BYTES);
     for point in points {
         let numbers = [point.position_m.x, point.position_m.y, point.position_m.z, point.time_s];
         numbers.iter().for_each(|number| bytes.extend_from_slice(&(*number as f32).to_le_bytes()));
@@ -35,26 +29,12 @@ pub(crate) fn encode(points: &[LidarPoint]) -> Vec<u8> {
         bytes.extend_from_slice(&point.ring.to_le_bytes());
         bytes.extend_from_slice(&[point.intensity, point.class.id(), point.number]);
     }
-    bytes
-}
-
-/// The header as far as it is the same in all files.
-fn described() -> String {
-    let fields = FIELDS.map(|(name, kind)| format!("('{name}', '{kind}'), ")).concat();
-    format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ")
+    npy::encode_records(&FIELDS, points.len(), &bytes)
 }
 
 /// The points of bytes that [`encode`] wrote; what is wrong with others.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Vec<LidarPoint>, String> {
-    let length = bytes.get(8..10).map(|length| usize::from(u16::from_le_bytes([length[0], length[1]])) + 10);
-    let (header, records) = length.and_then(|at| bytes.split_at_checked(at)).ok_or("no header")?;
-    if !header.starts_with(MAGIC) || !header[10..].starts_with(described().as_bytes()) {
-        return Err("an array of other records".into());
-    }
-    if records.len() % RECORD_BYTES != 0 {
-        return Err(format!("{} bytes, not a multiple of {RECORD_BYTES}", records.len()));
-    }
-    records.as_chunks::<RECORD_BYTES>().0.iter().map(point).collect()
+    npy::records::<RECORD_BYTES>(&FIELDS, bytes)?.iter().map(point).collect()
 }
 
 fn point(record: &[u8; RECORD_BYTES]) -> Result<LidarPoint, String> {

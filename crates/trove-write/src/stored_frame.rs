@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use trove_files::{Budget, open_regular};
-use trove_format::{FrameFile, FrameTable, ObjectRow};
+use trove_format::{FrameFile, FrameTable, MaskTable, ObjectRow, RunLengths};
 use trove_model::{Class, Occlusion, Raster};
 
-use crate::{WriteError, exr_file};
+use crate::{WriteError, exr_file, masks};
 
 /// The folder of a finished frame; its files are read when they are asked for.
 #[derive(Clone, Debug)]
@@ -78,6 +78,26 @@ impl StoredFrame {
         let picture = self.png(FrameFile::Rgb)?.into_rgb8();
         let data = picture.as_raw().as_chunks().0.to_vec();
         Ok(Raster { width: picture.width(), height: picture.height(), data })
+    }
+
+    /// The masks of its objects, as they are coded.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn masks(&self) -> Result<MaskTable, WriteError> {
+        let path = self.needed(FrameFile::Masks)?;
+        Ok(MaskTable::read(path.parent().unwrap_or(&self.folder))?)
+    }
+
+    /// The pixels of a mask of its own.
+    ///
+    /// # Errors
+    /// Run lengths that do not fill the picture.
+    pub fn painted(&self, mask: &RunLengths) -> Result<Raster<bool>, WriteError> {
+        let [rows, columns] = mask.size;
+        let fits = [columns, rows] == [self.table.width_px, self.table.height_px];
+        let picture = fits.then(|| masks::painted(mask)).flatten();
+        picture.ok_or_else(|| self.damaged(FrameFile::Masks, "run lengths that do not fill the picture".into()))
     }
 
     /// What each pixel shows.

@@ -48,7 +48,7 @@ impl Sweep {
             carrier: shot.carrier.map(|id| id.0),
             projection: (&meta.projection).into(),
             seed: shot.seed.0,
-            objects: objects(scene, &cloud.points),
+            objects: objects(scene, cloud.points.iter().map(|point| point.instance)),
         };
         Self { path, table, cloud }
     }
@@ -62,13 +62,10 @@ impl Sweep {
     }
 }
 
-/// Rows of the objects that have points.
-fn objects(scene: &Scene, points: &[LidarPoint]) -> Vec<SweptObject> {
+/// Rows of the objects that have points, of which these are the objects; 0 for none.
+pub(crate) fn objects(scene: &Scene, points: impl Iterator<Item = InstanceId>) -> Vec<SweptObject> {
     let mut counts: BTreeMap<InstanceId, u32> = BTreeMap::new();
-    points
-        .iter()
-        .filter(|point| point.instance.0 != 0)
-        .for_each(|point| *counts.entry(point.instance).or_default() += 1);
+    points.filter(|id| id.0 != 0).for_each(|id| *counts.entry(id).or_default() += 1);
     let mut rows: BTreeMap<InstanceId, SweptObject> = BTreeMap::new();
     for instance in &scene.instances {
         let (Some(object), Some(points)) = (&instance.object, counts.get(&instance.id)) else { continue };

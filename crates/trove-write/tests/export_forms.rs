@@ -13,7 +13,7 @@ use exr::prelude::{
 };
 use glam::{DMat3, DQuat, DVec3};
 use made::{ANCHOR_M, CAR, CAR_M, EYE_M, FOCAL_PX, HEIGHT, Made, WIDTH, finished, rear_px};
-use serde_json::Value;
+use serde_json::{Value, json};
 use trove_format::FrameFile;
 use trove_write::{Choice, DatasetFormat, Exported, WriteError, export};
 
@@ -152,7 +152,12 @@ fn a_camera_that_no_vehicle_carries_has_no_scene_of_nuscenes() {
 
 #[test]
 fn bop_has_the_car_in_millimetres_and_depth_in_steps() {
-    let (root, exported) = of("bop", &[Made::new(0)]);
+    let with_masks = || {
+        let mut made = Made::new(0);
+        made.files.push(FrameFile::Masks);
+        made
+    };
+    let (root, exported) = of("bop", &[with_masks()]);
     assert_eq!(exported.clipped, BTreeMap::new());
     let scene = root.path().join("out/train/000000");
     let pose = &json(&scene.join("scene_gt.json"))["0"][0];
@@ -170,6 +175,12 @@ fn bop_has_the_car_in_millimetres_and_depth_in_steps() {
     let mask = image::open(scene.join("mask_visib/000000_000000.png")).unwrap().into_luma8();
     let info = &json(&scene.join("scene_gt_info.json"))["0"][0];
     assert_eq!(info["px_count_visib"], mask.pixels().filter(|p| p.0[0] == 255).count());
+    // Nothing hides it.
+    assert_eq!(image::open(scene.join("mask/000000_000000.png")).unwrap().into_luma8(), mask);
+    let (root, _) = of("coco", &[with_masks()]);
+    let car = &json(&root.path().join("out/annotations/instances_train.json"))["annotations"][0];
+    assert_eq!((&car["a_segm"], &car["a_area"], &car["a_bbox"]), (&car["segmentation"], &car["area"], &car["bbox"]));
+    assert!(car["a_segm"]["counts"].as_str().unwrap().len() > 4);
 }
 
 #[test]
@@ -182,7 +193,9 @@ fn depth_beyond_the_form_is_counted() {
         ("vkitti2", "Scene01/v00/frames/depth/Camera_0/depth_00000.png", u16::MAX),
     ] {
         let (root, exported) = of(name, &[made()]);
-        assert_eq!(exported.clipped.into_values().collect::<Vec<_>>(), [1], "{name}");
+        let mut clipped = exported.clipped;
+        clipped.retain(|what, _| !what.contains("masks.json"));
+        assert_eq!(clipped.into_values().collect::<Vec<_>>(), [1], "{name}");
         let depth = image::open(root.path().join("out").join(path)).unwrap().into_luma16();
         assert_eq!(depth.get_pixel(WIDTH / 2, HEIGHT / 2).0[0], expected, "{name}");
     }
@@ -287,4 +300,44 @@ fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
         }
     }
     found
+}
+
+#[test]
+fn openlane_has_lines_where_its_loaders_put_them_and_tells_what_hides_them() {
+    let root = tempfile::tempdir().unwrap();
+    finished(&root.path().join("run"), &[Made::new(0)]);
+    // North along World's y: 2 m to the left, and below the car that stands 18 to 22 m ahead.
+    let line = |id: u32, x: f64, paint: &str, pattern: &str| json!({ "id": id, "paint": paint, "pattern": pattern, "width_m": 0.15, "points_m": [[x, 60.0, 0.0], [x, -5.0, 0.0]] });
+    let projection = json!({ "origin_lat_deg": 0.0, "origin_lon_deg": 0.0, "anchor_m": [0.0, 0.0] });
+    let lines = [line(3, -2.0, "white", "dashed"), line(5, 0.5, "yellow", "solid_dashed")];
+    let lanes = json!({ "scene": "s", "dataset": "d", "projection": projection, "lanes": [], "lines": lines });
+    fs::write(root.path().join("run/scene-0001/v00/lanes.json"), lanes.to_string()).unwrap();
+    exported("openlane", &root.path().join("run"), &root.path().join("out")).unwrap();
+    let frame = "training/segment-scene-0001_v00_ego.CAM_FRONT/000";
+    let file = json(&root.path().join(format!("out/lane3d_1000/{frame}.json")));
+    assert_eq!(file["file_path"], format!("{frame}.jpg"));
+    assert!(root.path().join(format!("out/images/{frame}.jpg")).is_file());
+    let rows = file["lane_lines"].as_array().unwrap();
+    let told = |key: &str| rows.iter().map(|row| row[key].as_u64().unwrap()).collect::<Vec<_>>();
+    // Both run southward, away from the camera's view, so that the sides of a pattern change.
+    assert_eq!((told("track_id"), told("category"), told("attribute")), (vec![3, 5], vec![1, 11], vec![2, 3]));
+    for (row, x) in rows.iter().zip([-2.0, 0.5]) {
+        let list = |value: &Value| value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
+        let [xyz, uv] = ["xyz", "uv"].map(|key| row[key].as_array().unwrap().iter().map(list).collect::<Vec<_>>());
+        let visibility = list(&row["visibility"]);
+        assert!(visibility.len() == xyz[0].len() && visibility.len() == uv[1].len() && visibility.len() > 50);
+        for i in 0..visibility.len() {
+            // Waymo's camera: forward, left, up.
+            let [ahead, left, up] = [xyz[0][i], xyz[1][i], xyz[2][i]];
+            assert!((left + x).abs() < 1e-4 && (up + EYE_M).abs() < 1e-4);
+            let [u, v] =
+                [f64::from(WIDTH) / 2.0 + FOCAL_PX * x / ahead, f64::from(HEIGHT) / 2.0 + FOCAL_PX * EYE_M / ahead];
+            assert!((uv[0][i] - u).abs() < 1e-3 && (uv[1][i] - v).abs() < 1e-3);
+            if x < 0.0 || ahead < 15.0 {
+                assert_eq!(visibility[i], 1.0, "{x} {ahead}");
+            } else if (22.0..27.0).contains(&ahead) {
+                assert_eq!(visibility[i], 0.0, "{x} {ahead}");
+            }
+        }
+    }
 }

@@ -5,12 +5,12 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3, Vec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
     CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, ExtraLabels, Instance, InstanceId,
-    Kind, Labels, Lens, Light, MapProjection, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose,
-    Raster, Scene, SceneObject, Seed, Shot,
+    Kind, Labels, Lens, Light, MapProjection, Mask, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose,
+    Raster, Scene, SceneObject, Seed, Shot, State,
 };
 use trove_write::{Frame, FrameFolders, FrameMeta, StoredFrame, WriteError, sha256_file, write_atomically};
 
@@ -31,6 +31,9 @@ fn scene() -> Scene {
             size_m: DVec3::new(1.8, 0.6, 1.7),
         },
         velocity_mps: Some(DVec3::new(0.1, 0.2, 0.0)),
+        yaw_rate_radps: Some(0.1),
+        states: vec![State::Moving, State::Riding],
+        paint: Some(Vec3::new(1.0, 0.0, 0.5)),
         keypoints_world: None,
     };
     let instance = Instance {
@@ -81,6 +84,7 @@ fn capture() -> Capture {
         visible_box: Some(PixelBox { min: [3, 4], max: [5, 5] }),
         amodal_px: 8,
         amodal_box: Some(PixelBox { min: [2, 4], max: [5, 5] }),
+        amodal_mask: Some(Mask::of(PixelBox { min: [2, 4], max: [5, 5] }, |_, _| true)),
         truncation: 0.1,
         occlusion: 0.25,
         range_m: 12.5,
@@ -154,7 +158,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
     let files = write(&dir, &capture).unwrap();
 
-    assert_eq!(names(&dir).len(), 20);
+    assert_eq!(names(&dir).len(), 21);
     assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
     for file in &files {
         assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
@@ -218,6 +222,12 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     assert_eq!(stored.numbers(FrameFile::Range).unwrap(), extra.range_m.clone().unwrap());
     assert_eq!(stored.vectors(FrameFile::SceneFlowForward).unwrap(), extra.scene_flow_forward.clone().unwrap());
 
+    let masks = stored.masks().unwrap().objects;
+    assert_eq!((masks.len(), masks[0].id, masks[0].amodal.size), (1, 700, [H, W]));
+    let amodal = stored.painted(&masks[0].amodal).unwrap();
+    assert_eq!(amodal, Raster::from_fn(W, H, |x, y| (2..=5).contains(&x) && (4..=5).contains(&y)));
+    assert!(!stored.painted(&masks[0].visible).unwrap().data.contains(&true), "no pixel has its id");
+
     let flow = planes("flow_forward.exr");
     assert_eq!(flow.iter().find(|(n, _)| n == "R").unwrap().1[W as usize * 4 + 7], 7f32.to_bits());
 }
@@ -240,6 +250,9 @@ fn the_table_says_where_camera_and_objects_are() {
     assert_eq!((object.class, object.kind), (Class::CycleRider, Kind::BicycleWithRider));
     assert_eq!(object.visible_box, Some([3, 4, 5, 5]));
     assert!((object.world_from_body[1][0] - 1.0).abs() < 1e-12, "the bicycle faces north");
+    assert_eq!((object.paint, object.yaw_rate_radps), (Some([255, 0, 188]), Some(0.1)));
+    assert!(text.contains(r#""states":["moving","riding"]"#), "{text}");
+    assert_eq!(object.world_from_asset.unwrap()[3], [0.0, 0.0, 0.0, 1.0]);
     assert!(text.contains(r#""class":"cycle_rider","class_id":12,"kind":"bicycle_with_rider""#), "{text}");
     assert!(text.contains(r#""truncation":0.1,"occlusion":0.25,"range_m":12.5"#), "floats are as short as they can be");
     assert_eq!(text.lines().count(), 37, "one line a field and an object:\n{text}");
@@ -258,7 +271,7 @@ fn labels_alone_leave_no_picture() {
     let dir = root.path().join("frame");
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
     assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
-    assert_eq!(names(&dir).len(), 18);
+    assert_eq!(names(&dir).len(), 19);
 }
 
 #[test]
@@ -304,6 +317,7 @@ fn what_does_not_fit_is_an_error_and_leaves_nothing() {
     assert!(refused(|c| c.labels.objects[0].id = InstanceId(3)).contains("object 3"));
     assert!(refused(|c| c.labels.extra.coverage = Some(Raster::filled(2, 2, 1))).contains("coverage of 2×2"));
     assert!(refused(|c| c.labels.extra.range_m = None).contains("range.exr without"));
+    assert!(refused(|c| c.labels.objects[0].amodal_mask = None).contains("masks.json without"));
 }
 
 #[test]

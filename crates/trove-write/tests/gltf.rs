@@ -42,6 +42,9 @@ fn instance(id: u32, class: Class, mesh: usize, materials: &[usize], world_from_
         asset: Some("car/sedan".into()),
         cuboid: Cuboid { world_from_body: Pose::IDENTITY, size_m: DVec3::ONE },
         velocity_mps: None,
+        yaw_rate_radps: None,
+        states: Vec::new(),
+        paint: None,
         keypoints_world: None,
     };
     Instance {

@@ -37,8 +37,8 @@ fn assert_same_names(drive: &Drive, found: &Drive) {
         assert_eq!(pictures(a), pictures(b));
         for (a, b) in a.boxes.iter().zip(&b.boxes) {
             assert_eq!(
-                (a.track, &a.category, &a.token, &a.attributes),
-                (b.track, &b.category, &b.token, &b.attributes)
+                (a.track, &a.category, &a.token, &a.attributes, a.is_parked),
+                (b.track, &b.category, &b.token, &b.attributes, b.is_parked)
             );
             assert_eq!((a.lidar_points, a.visibility), (b.lidar_points, b.visibility));
         }

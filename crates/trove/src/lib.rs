@@ -52,9 +52,9 @@ mod watch;
 
 pub use cli::{call, main};
 pub use ready_scene::{FreeCamera, PictureRequest, ReadyScene};
-pub use trove_format::FrameFile;
+pub use trove_format::{FrameFile, RunLengths};
 pub use trove_model::{Occlusion, Raster, label_table};
-pub use trove_write::{StoredFrame, colors, encode_picture};
+pub use trove_write::{StoredFrame, colors, encode_picture, mask_table, painted};
 pub use watch::{Follower, Watch};
 
 /// Name of the built-in asset library in recipes.

@@ -2,8 +2,10 @@
 
 mod camera;
 mod check;
+mod grids;
 mod labels;
 mod light;
+mod place;
 mod season;
 mod sensors;
 mod standpoint;
@@ -29,8 +31,10 @@ use trove_write::DatasetFormat;
 use self::check::check;
 pub(crate) use self::check::nearest;
 pub use camera::CameraSection;
+pub use grids::{GridSection, GridsSection};
 pub use labels::LabelsSection;
 pub use light::LightSection;
+pub use place::PlaceSection;
 pub use season::SeasonChoice;
 pub use sensors::{SensorKind, SensorSection, SensorsSection};
 pub use standpoint::Standpoint;
@@ -63,6 +67,9 @@ pub struct Recipe {
     /// What measures beside the cameras.
     #[serde(default, skip_serializing_if = "SensorsSection::is_empty")]
     pub sensors: SensorsSection,
+    /// Cells around the vehicle.
+    #[serde(default, skip_serializing_if = "GridsSection::is_empty")]
+    pub grids: GridsSection,
     /// What the pictures are taken with.
     #[serde(default)]
     pub camera: CameraSection,
@@ -156,19 +163,6 @@ pub enum Keyframes {
 pub struct EveryNth {
     /// Distance of one keyframe to the next.
     pub every: usize,
-}
-
-/// `[place]`
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlaceSection {
-    /// Latitude of the middle.
-    pub lat_deg: f64,
-    /// Longitude of the middle.
-    pub lon_deg: f64,
-    /// Side of the square.
-    #[serde(default = "default_place_size_m")]
-    pub size_m: f64,
 }
 
 /// `[map]`
@@ -421,10 +415,6 @@ impl Default for RenderSection {
     }
 }
 
-fn default_place_size_m() -> f64 {
-    400.0
-}
-
 /// The word `"all"` in place of a list.
 mod all {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
@@ -535,6 +525,7 @@ impl Recipe {
         );
         self.camera.check()?;
         sensors::check_all(&self.sensors)?;
+        grids::check_all(&self.grids, &self.sensors)?;
         self.light.check()?;
         for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
             check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;

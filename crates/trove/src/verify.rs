@@ -64,7 +64,9 @@ fn look(folder: &Path, watch: &Watch) -> Result<Findings> {
     progress.finish();
     // An unfinished run has no manifest yet.
     let manifest = Manifest::read(folder)?;
-    let rows: Vec<_> = manifest.iter().flat_map(|manifest| manifest.frames.iter().chain(&manifest.sweeps)).collect();
+    let lists =
+        manifest.iter().flat_map(|manifest| [&manifest.frames, &manifest.sweeps, &manifest.radars, &manifest.grids]);
+    let rows: Vec<_> = lists.flatten().collect();
     let told_alike = |row: &&&trove_format::FrameRow| {
         let files = journal.get(&row.path).map_or(&[][..], Vec::as_slice);
         files.len() == row.files.len() && files.iter().all(|file| row.files.get(&file.name) == Some(&file.sha256))

@@ -1,11 +1,16 @@
 //! A scene of a recipe, built as one of its variations.
 
-use anyhow::Result;
-use trove_build::{Moments, MountedLidar, Seeds, Site, Timeline, ViewPlan, ViewSettings};
-use trove_format::Factors;
-use trove_model::{AssetLibrary, Drive, LidarShot, Locale, Report, Scene, Shot, StreetMap};
+use std::sync::Arc;
 
-use crate::recipe::{Recipe, SensorSection};
+use anyhow::Result;
+use trove_build::{Moments, MountedLidar, MountedRadar, Seeds, Site, Timeline, ViewPlan, ViewSettings};
+use trove_format::Factors;
+use trove_model::{
+    AssetLibrary, Drive, GridFrame, GridPlan, GridShot, LidarShot, Locale, Outcome, RadarShot, Report, Scene, Shot,
+    StreetMap,
+};
+
+use crate::recipe::{GridSection, Recipe, SensorKind, SensorSection};
 use crate::sources::Sources;
 use crate::variation::Variation;
 
@@ -20,6 +25,8 @@ pub(crate) struct VirtualScene<'a> {
     pub(crate) locale: Locale,
     views: ViewPlan,
     lidars: Vec<MountedLidar>,
+    radars: Vec<MountedRadar>,
+    grids: Vec<(String, Arc<GridPlan>)>,
     seeds: Seeds,
 }
 
@@ -41,8 +48,10 @@ impl<'a> VirtualScene<'a> {
         let site = trove_build::build_at(&there, moments, map, library, &settings, report)?;
         let factors = variation.factors(recipe, &site);
         let views = ViewPlan::new(moments.drive, &site, views, settings.seeds, report);
-        let lidars = lidars(recipe, drive, report)?;
-        Ok(Self { moments, site, factors, locale: settings.locale, views, lidars, seeds: settings.seeds })
+        let (lidars, radars) = (lidars(recipe, drive, report)?, radars(recipe, drive, report)?);
+        let grids = grids(recipe, drive, report)?;
+        let (locale, seeds) = (settings.locale, settings.seeds);
+        Ok(Self { moments, site, factors, locale, views, lidars, radars, grids, seeds })
     }
 
     /// The scene at a moment.
@@ -59,6 +68,16 @@ impl<'a> VirtualScene<'a> {
     pub(crate) fn lidar_shots(&self, moment: usize) -> Vec<LidarShot> {
         trove_build::lidar_shots(self.moments.drive, &self.site, moment, &self.lidars, &self.seeds)
     }
+
+    /// The radars' cycles of a moment.
+    pub(crate) fn radar_shots(&self, moment: usize) -> Vec<RadarShot> {
+        trove_build::radar_shots(self.moments.drive, &self.site, moment, &self.radars, &self.seeds)
+    }
+
+    /// The grids of a moment, into which its shots and sweeps look.
+    pub(crate) fn grid_shots(&self, moment: usize, shots: &[Shot], sweeps: &[LidarShot]) -> Vec<GridShot> {
+        trove_build::grid_shots(self.moments.drive, &self.site, moment, &self.grids, shots, sweeps)
+    }
 }
 
 /// The LiDARs that a recipe puts on the vehicle.
@@ -66,7 +85,32 @@ fn lidars(recipe: &Recipe, drive: &Drive, report: &Report) -> Result<Vec<Mounted
     let mounted = |(name, sensor): (&String, &SensorSection)| {
         Ok(sensor.mounted(name, sensor.scanner(|file| recipe.at(file))?, drive, report))
     };
-    recipe.sensors.iter().map(mounted).collect()
+    of_kind(recipe, SensorKind::Lidar).map(mounted).collect()
+}
+
+/// The grids that a recipe lays around the vehicle, with their names.
+fn grids(recipe: &Recipe, drive: &Drive, report: &Report) -> Result<Vec<(String, Arc<GridPlan>)>> {
+    let plan = |(name, section): (&String, &GridSection)| {
+        let plan = section.plan(|file| recipe.at(file))?;
+        if plan.frame == GridFrame::Lidar && drive.lidars.is_empty() {
+            let what = "axes of a LiDAR that the recording does not tell of, replaced by the vehicle's";
+            report.note(Outcome::Substituted, what, format!("{} {name}", drive.id));
+        }
+        Ok((name.clone(), Arc::new(plan)))
+    };
+    recipe.grids.iter().map(plan).collect()
+}
+
+/// The radars.
+fn radars(recipe: &Recipe, drive: &Drive, report: &Report) -> Result<Vec<MountedRadar>> {
+    let mounted = |(name, sensor): (&String, &SensorSection)| {
+        Ok(sensor.mounted_radar(name, sensor.radar(|file| recipe.at(file))?, drive, report))
+    };
+    of_kind(recipe, SensorKind::Radar).map(mounted).collect()
+}
+
+fn of_kind(recipe: &Recipe, kind: SensorKind) -> impl Iterator<Item = (&String, &SensorSection)> {
+    recipe.sensors.iter().filter(move |(_, sensor)| sensor.kind == kind)
 }
 
 /// The views that a recipe asks for.

@@ -1,8 +1,10 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
+mod movement;
 mod postures;
 mod stock;
 mod weather;
+mod wheels;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -10,17 +12,20 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trove_model::{
     Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Keypoints, Kind, Mesh, Origin, Placement, Pose,
-    Provenance, SceneObject, StreetMap,
+    Posture, Provenance, SceneObject, StreetMap,
 };
 
 use crate::between::{Moments, is_tremor};
 use crate::pieces::{Piece, Scenery};
 use crate::placement::{Role, Shown};
 
+pub(crate) use movement::Movement;
+use movement::movements;
 pub(crate) use postures::MeshesNow;
 use postures::Posed;
 pub(crate) use stock::Stock;
 pub use weather::Weather;
+use wheels::{Wheel, ways_m};
 
 /// What gets farther than this does not stand.
 const LEAVES_M: f64 = 1.0;
@@ -34,6 +39,10 @@ pub(crate) struct Actor {
     assets: Vec<String>,
     /// Of each slot.
     pub materials: Vec<usize>,
+    /// As in [`SceneObject::paint`].
+    pub paint: Option<Vec3>,
+    /// What turns as it drives.
+    wheels: Arc<[Wheel]>,
     /// By moment, in the order of time.
     poses: Vec<(usize, ActorPose)>,
 }
@@ -47,10 +56,16 @@ pub(crate) struct ActorPose {
     pub cuboid: Cuboid,
     /// Its shape.
     posed: Posed,
+    /// How far its wheels have rolled, metres of its mesh.
+    rolled_m: f64,
     /// Index of its asset among the actor's.
     asset: usize,
     /// Points of the person whom it shows, World.
     pub keypoints_world: Option<Keypoints<DVec3>>,
+    /// What the person does whom it shows.
+    pub posture: Option<Posture>,
+    /// How it moves.
+    pub movement: Movement,
 }
 
 impl Actor {
@@ -81,8 +96,8 @@ impl Actor {
         object: Option<SceneObject>,
     ) -> Option<Instance> {
         let mut placement = |k: Option<usize>| {
-            let &ActorPose { posed, world_from_mesh, .. } = self.at(k?)?;
-            Some(Placement { mesh: meshes.index(posed), world_from_mesh })
+            let &ActorPose { posed, rolled_m, world_from_mesh, .. } = self.at(k?)?;
+            Some(Placement { mesh: meshes.rolled(posed, &self.wheels, rolled_m), world_from_mesh })
         };
         let Placement { mesh, world_from_mesh } = placement(Some(keyframe))?;
         Some(Instance {
@@ -132,7 +147,9 @@ impl Assembly {
     pub(crate) fn actor(&mut self, role: &Role, moments: Moments) -> Actor {
         let mut assets: Vec<String> = Vec::new();
         let mut poses = Vec::with_capacity(role.placements.len());
-        for ((k, placement), &Shown { asset: shown, towards, shift_m }) in role.placements.iter().zip(&role.postures) {
+        for ((k, placement), &Shown { asset: shown, towards, shift_m, turn_rad }) in
+            role.placements.iter().zip(&role.postures)
+        {
             self.credit(shown);
             let known = assets.iter().position(|id| *id == shown.id);
             let asset = known.unwrap_or_else(|| {
@@ -144,7 +161,7 @@ impl Assembly {
                 self.credit(other);
                 (other, self.stock.individual(other, role.is_driven, role.seed), share)
             });
-            let world_from_mesh = role.world_from_mesh(placement) * DAffine3::from_translation(shift_m);
+            let world_from_mesh = role.world_from_mesh(placement, turn_rad) * DAffine3::from_translation(shift_m);
             let world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3());
             let keypoints = match towards.and_then(|(other, _, share)| Some((other.keypoints?, share))) {
                 Some((others, share)) => {
@@ -154,10 +171,28 @@ impl Assembly {
             };
             let posed = Posed { mesh, towards: towards.map(|(_, mesh, share)| (mesh, share)) };
             let keypoints_world = keypoints.map(|points| points.map(world));
-            poses.push((*k, ActorPose { world_from_mesh, cuboid: placement.cuboid, posed, asset, keypoints_world }));
+            let posture = shown.figure.as_ref().map(|figure| figure.posture);
+            let cuboid = placement.cuboid;
+            let (movement, rolled_m) = (Movement::default(), 0.0);
+            let pose =
+                ActorPose { world_from_mesh, cuboid, posed, rolled_m, asset, keypoints_world, posture, movement };
+            poses.push((*k, pose));
         }
         hold_still(&mut poses, moments);
-        Actor { class: role.asset.class, assets, materials: self.stock.painted(role.asset, role.seed), poses }
+        let cuboids: Vec<(usize, Cuboid)> = poses.iter().map(|(moment, pose)| (*moment, pose.cuboid)).collect();
+        for (movement, (_, pose)) in movements(&cuboids, moments).into_iter().zip(&mut poses) {
+            pose.movement = movement;
+        }
+        let drives = role.is_driven && role.asset.kind.is_vehicle();
+        let wheels = if drives { self.stock.wheels(role.asset) } else { Arc::new([]) };
+        if !wheels.is_empty() {
+            for (way_m, (_, pose)) in ways_m(&cuboids, moments).into_iter().zip(&mut poses) {
+                pose.rolled_m = way_m / role.fit.scale.x;
+            }
+        }
+        let (class, materials) = (role.asset.class, self.stock.painted(role.asset, role.seed));
+        let paint = largest_painted(role.asset).map(|slot| role.asset.materials(role.seed)[slot].base_color);
+        Actor { class, assets, materials, paint, wheels, poses }
     }
 
     /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
@@ -215,6 +250,17 @@ impl Assembly {
     }
 }
 
+/// The slot with the largest area among those that are drawn in one colour or another.
+fn largest_painted(asset: &Asset) -> Option<usize> {
+    let mut areas = vec![0.0; asset.slots.len()];
+    for (triangle, corners) in asset.mesh.triangles.iter().enumerate() {
+        let [a, b, c] = corners.map(|i| asset.mesh.positions[i as usize].as_dvec3());
+        areas[usize::from(asset.mesh.slot(triangle))] += (b - a).cross(c - a).length();
+    }
+    let painted = (0..areas.len()).filter(|slot| !asset.slots[*slot].paints.is_empty());
+    painted.max_by(|a, b| areas[*a].total_cmp(&areas[*b]).then(b.cmp(a)))
+}
+
 fn take(next_id: &mut u32) -> InstanceId {
     *next_id += 1;
     InstanceId(*next_id - 1)
@@ -222,7 +268,17 @@ fn take(next_id: &mut u32) -> InstanceId {
 
 fn scene_object(kind: Kind, asset: Option<&str>, cuboid: Cuboid) -> SceneObject {
     let asset = asset.map(str::to_owned);
-    SceneObject { kind, origin: Origin::Scenery, asset, cuboid, velocity_mps: None, keypoints_world: None }
+    SceneObject {
+        kind,
+        origin: Origin::Scenery,
+        asset,
+        cuboid,
+        velocity_mps: None,
+        yaw_rate_radps: None,
+        states: Vec::new(),
+        paint: None,
+        keypoints_world: None,
+    }
 }
 
 /// The box of a mesh where it stands.
@@ -249,8 +305,11 @@ mod tests {
                 world_from_mesh,
                 cuboid,
                 posed: Posed { mesh: 0, towards: None },
+                rolled_m: 0.0,
                 asset: 0,
                 keypoints_world: None,
+                posture: None,
+                movement: Movement::default(),
             }
         };
         let mut poses: Vec<(usize, ActorPose)> =

@@ -1,10 +1,13 @@
-//! Shapes between two postures, made for the scenes that show them: over a clip there are many.
+//! Shapes between two postures, and of vehicles whose wheels have turned, made for the scenes that show them: over a clip there
+//! are many.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::Vec3;
 use trove_model::Mesh;
+
+use super::wheels::{Wheel, rolled};
 
 /// A shape: a mesh, or one on the way to another of the same triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,12 +23,13 @@ pub(crate) struct MeshesNow {
     meshes: Vec<Arc<Mesh>>,
     // Only ever looked up, so the order inside does not reach the scene.
     known: HashMap<(usize, usize, u32), usize>,
+    rolled: HashMap<(usize, u64), usize>,
 }
 
 impl MeshesNow {
     /// Those of a stock alone.
     pub(crate) fn new(stock: &[Arc<Mesh>]) -> Self {
-        Self { meshes: stock.to_vec(), known: HashMap::new() }
+        Self { meshes: stock.to_vec(), known: HashMap::new(), rolled: HashMap::new() }
     }
 
     /// The index of a shape.
@@ -34,6 +38,19 @@ impl MeshesNow {
         let meshes = &mut self.meshes;
         *self.known.entry((mesh, other, share.to_bits())).or_insert_with(|| {
             meshes.push(Arc::new(between(&meshes[mesh], &meshes[other], share)));
+            meshes.len() - 1
+        })
+    }
+
+    /// The index of a shape some of which has rolled so far, metres.
+    pub(super) fn rolled(&mut self, posed: Posed, wheels: &[Wheel], way_m: f64) -> usize {
+        let mesh = self.index(posed);
+        if wheels.is_empty() || way_m == 0.0 {
+            return mesh;
+        }
+        let meshes = &mut self.meshes;
+        *self.rolled.entry((mesh, way_m.to_bits())).or_insert_with(|| {
+            meshes.push(Arc::new(rolled(&meshes[mesh], wheels, way_m)));
             meshes.len() - 1
         })
     }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use trove_model::{Asset, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
+use super::wheels::{Wheel, wheels};
+
 /// Meshes and materials, numbered in the order of their first use.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stock {
@@ -17,6 +19,8 @@ pub(crate) struct Stock {
     material_index: HashMap<MaterialKey, usize>,
     // By the asset's mesh and the extras that join it.
     individuals: HashMap<(usize, Vec<usize>), usize>,
+    // By the asset's mesh.
+    wheels: HashMap<usize, Arc<[Wheel]>>,
 }
 
 /// Two materials with the same key are the same; images are told apart by where they lie.
@@ -49,6 +53,12 @@ impl Stock {
         let mesh = self.mesh(&asset.with_extras(&key.1));
         self.individuals.insert(key, mesh);
         mesh
+    }
+
+    /// The wheels of an asset, with the vertices of all of its individuals: extras come behind its own.
+    pub(crate) fn wheels(&mut self, asset: &Asset) -> Arc<[Wheel]> {
+        let found = self.wheels.entry(Arc::as_ptr(&asset.mesh).addr());
+        found.or_insert_with(|| wheels(&asset.mesh).into()).clone()
     }
 
     /// The index of the mesh of what stands at a distance: the individual, or a coarser shape that carries nothing.

@@ -3,6 +3,7 @@
 mod course;
 mod ego;
 mod moments;
+mod parked;
 mod sight;
 #[cfg(test)]
 mod tests;
@@ -20,13 +21,16 @@ use times::{When, times};
 use tracks::boxes_between;
 
 /// A drive with moments between its keyframes, about so many a second: the time between two keyframes is divided evenly, so
-/// that every keyframe stays a moment, with its poses and boxes untouched. Where keyframes are more than two seconds apart,
-/// and for a rate of 0, there are none between them.
+/// that every keyframe stays a moment, with its poses and boxes. Where keyframes are more than two seconds apart, and for a
+/// rate of 0, there are none between them.
+///
+/// At any rate parked vehicles, whose boxes wander, stand in one place for as long as they are parked, which is reported.
 ///
 /// The vehicle follows its recorded path where there is one. It and other vehicles roll along their headings, so that their
 /// rear axles slip sideways by at most a few centimetres (what their annotated boxes ask for beyond that is reported), and
 /// whatever stands at two keyframes stands between them. An object is there from its first keyframe to its last.
-pub fn between(recorded: Drive, rate_hz: f64, report: &Report) -> Timeline {
+pub fn between(mut recorded: Drive, rate_hz: f64, report: &Report) -> Timeline {
+    parked::settle(&mut recorded, report);
     if rate_hz <= 0.0 {
         return Timeline::of_keyframes(recorded);
     }
@@ -69,10 +73,9 @@ fn object_boxes(
     when: &When,
     cuboid: impl Fn(usize) -> Option<Cuboid>,
 ) -> Vec<ObjectBox> {
-    let nearer =
-        |a: &ObjectBox, b: &ObjectBox| if when.share < 0.5 { a.attributes.clone() } else { b.attributes.clone() };
     let there = |before: &ObjectBox| {
         let after = next.boxes.iter().find(|b| b.track == before.track)?;
+        let nearer = if when.share < 0.5 { before } else { after };
         Some(ObjectBox {
             track: before.track,
             kind: before.kind,
@@ -80,7 +83,8 @@ fn object_boxes(
             token: String::new(),
             cuboid: cuboid(before.track)?,
             velocity_mps: before.velocity_mps.zip(after.velocity_mps).map(|(a, b)| a.lerp(b, when.share)),
-            attributes: nearer(before, after),
+            is_parked: nearer.is_parked,
+            attributes: nearer.attributes.clone(),
             lidar_points: None,
             visibility: None,
         })

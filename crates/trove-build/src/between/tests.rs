@@ -1,6 +1,6 @@
 use glam::{DVec3, Vec3};
 use trove_model::{
-    Asset, AssetLibrary, Drive, Ego, Figure, Instance, Kind, Mesh, Origin, Pose, Posture, Report, Scene, Seed,
+    Asset, AssetLibrary, Body, Drive, Ego, Figure, Instance, Kind, Mesh, Origin, Pose, Posture, Report, Scene, Seed,
     Trajectory, World,
 };
 
@@ -233,4 +233,51 @@ fn a_foot_on_the_ground_stays_there_from_moment_to_moment() {
     }
     assert!(planted > 100 && lifted > 60, "{planted} {lifted}");
     assert!(most_m < 0.005, "{most_m}");
+}
+
+/// The made-up drive with the boxes of the parked car somewhere at each keyframe, as the annotator calls it there.
+fn parked(at: impl Fn(usize) -> (DVec3, f64, Option<bool>)) -> Drive {
+    let mut drive = testing::drive();
+    for (k, cuboid) in &mut drive.tracks[0].boxes {
+        let (off, yaw_rad, is_parked) = at(*k);
+        cuboid.world_from_body = Pose::from_yaw(yaw_rad, DVec3::new(20.0, 6.0, 0.8) + off);
+        let object = &mut drive.keyframes[*k].boxes[0];
+        (object.cuboid, object.is_parked, object.velocity_mps) = (*cuboid, is_parked, Some(DVec3::X));
+    }
+    drive
+}
+
+#[test]
+fn a_parked_car_stands_in_the_middle_of_its_boxes_and_what_drives_off_does_not() {
+    let wander = |k: usize| (DVec3::new(0.05 * k as f64 - 0.2, 0.0, 0.02 * k as f64), 0.01 * (k % 3) as f64);
+    let middle: Pose<World, Body> = Pose::from_yaw(0.01, DVec3::new(20.05, 6.0, 0.9));
+    for told in [Some(true), None] {
+        let report = Report::default();
+        let drive = parked(|k| (wander(k).0, wander(k).1, told));
+        for rate_hz in [0.0, 10.0] {
+            let timeline = between(drive.clone(), rate_hz, &report);
+            for keyframe in &timeline.moments().drive.keyframes {
+                let object = &keyframe.boxes[0];
+                assert!(object.cuboid.world_from_body.translation.distance(middle.translation) < 1e-9);
+                assert!(object.cuboid.world_from_body.rotation.angle_between(middle.rotation) < 1e-9);
+                assert_eq!(object.velocity_mps, Some(DVec3::ZERO));
+            }
+        }
+        assert!(report.entries()[0].examples[0].contains("parked (car), 0.25 m"), "{:?}", report.entries());
+    }
+    // It stands at the lights, or moves off, or its boxes are of a car that moves: as annotated.
+    for (told, step_m) in [(Some(false), 0.05), (Some(true), 0.5), (None, 0.1)] {
+        let drive = parked(|k| (DVec3::X * step_m * k as f64, 0.0, told));
+        assert_eq!(dense(&drive, 0.0).recorded, drive);
+    }
+    // Parked until the sixth keyframe.
+    let leaves = parked(|k| match k {
+        2 => (wander(k).0, 0.0, None),
+        0..6 => (wander(k).0, 0.0, Some(true)),
+        _ => (DVec3::X * (k - 5) as f64, 0.0, Some(false)),
+    });
+    let settled = dense(&leaves, 0.0).recorded;
+    let at = |drive: &Drive, k: usize| drive.tracks[0].boxes[k].1.world_from_body.translation;
+    assert!((0..6).all(|k| at(&settled, k) == at(&settled, 0)) && at(&settled, 0).x == 20.0 - 0.2 + 0.15);
+    assert!((6..10).all(|k| at(&settled, k) == at(&leaves, k)));
 }

@@ -37,9 +37,9 @@ pub(crate) struct Role<'a> {
 }
 
 impl Role<'_> {
-    /// From the asset's mesh to World where it was placed.
-    pub(crate) fn world_from_mesh(&self, placement: &Placement) -> DAffine3 {
-        placement.world_from_base * self.fit.body_from_mesh()
+    /// From the asset's mesh to World where it was placed, turned to the left in its box.
+    pub(crate) fn world_from_mesh(&self, placement: &Placement, turn_rad: f64) -> DAffine3 {
+        placement.world_from_base * DAffine3::from_rotation_z(turn_rad) * self.fit.body_from_mesh()
     }
 }
 
@@ -292,7 +292,7 @@ mod tests {
         for (track, role) in roles(&library, 3, Seed(1), &Report::default()).iter().enumerate() {
             let role = role.as_ref().unwrap();
             for (k, placement) in &role.placements {
-                let foot_world = role.world_from_mesh(placement).transform_point3(DVec3::ZERO);
+                let foot_world = role.world_from_mesh(placement, 0.0).transform_point3(DVec3::ZERO);
                 let kerb_m = if role.asset.kind == Kind::Adult { crate::roads::KERB_M } else { 0.0 };
                 let surface_m = ground.height_m(foot_world.truncate()) + kerb_m;
                 assert!((foot_world.z - surface_m).abs() < 1e-3, "{} at {k}: {foot_world}", role.asset.id);

@@ -1,7 +1,7 @@
 //! In which posture people are seen at every keyframe: who walks is in the phase to which the way so far has led.
 
-use glam::DVec3;
-use trove_model::{Asset, Class, Cuboid, Drive, Kind, Posture, Seed};
+use glam::{DQuat, DVec2, DVec3};
+use trove_model::{Asset, Class, Cuboid, Drive, Kind, Pose, Posture, Seed};
 
 use super::cycle::Cycle;
 use super::shown::Shown;
@@ -15,6 +15,12 @@ const RUNS_MPS: f64 = 2.2;
 const SITS_M: f64 = 1.3;
 /// A box longer than this share of its height is of someone who takes a step, where nothing else tells.
 const STRIDE_SHARE: f64 = 0.5;
+
+/// Who walks looks along the way where that is no farther from the annotated heading, radians; from twice as far on it is no
+/// walking ahead.
+const LOOKS_AHEAD_RAD: f64 = 0.6;
+/// A way of less does not say whither it leads, metres.
+const LEAST_STEP_M: f64 = 0.01;
 
 /// What someone does, whatever the phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +53,8 @@ pub(super) struct Gait {
     modes: Vec<Mode>,
     /// Way along its own heading since the first box, metres, for each of its boxes.
     way_m: Vec<f64>,
+    /// How far its way is to the left of its heading, radians, for each of its boxes: 0 for who goes sideways or backwards.
+    turns_rad: Vec<f64>,
     /// Only the box itself tells the posture, so whose fits it best stays.
     by_size: bool,
     /// Whether the boxes are so dense that phases are wanted as they are, not as the nearest of the library's.
@@ -84,7 +92,8 @@ impl Gait {
             v if v < RUNS_MPS => Mode::Walking,
             _ => Mode::Running,
         };
-        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, by_size, flows: false }
+        let turns_rad = vec![0.0; boxes.len()];
+        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, turns_rad, by_size, flows: false }
     }
 
     /// The same at all moments, of which the track's boxes there are: who walks to a keyframe walks up to it.
@@ -96,14 +105,16 @@ impl Gait {
     ) -> Self {
         let mut modes = Vec::with_capacity(at_moments.len());
         let mut way_m = Vec::with_capacity(at_moments.len());
+        let turns_rad = turns_rad(at_moments);
         let starts: Vec<usize> = boxes.iter().map(|(k, _)| moments.of_keyframe(*k)).collect();
         for (i, (moment, now)) in at_moments.iter().enumerate() {
             let next = starts.partition_point(|start| start < moment).min(self.modes.len().saturating_sub(1));
             modes.push(self.modes.get(next).copied().unwrap_or(Mode::Standing));
-            let before = i.checked_sub(1).map(|i| (way_m[i], &at_moments[i].1));
-            way_m.push(before.map_or(0.0, |(way_m, before): (f64, _)| way_m + step_m(before, now).0));
+            let before = i.checked_sub(1).map(|i| (way_m[i], faced(&at_moments[i].1, turns_rad[i])));
+            let now = faced(now, turns_rad[i]);
+            way_m.push(before.map_or(0.0, |(way_m, before): (f64, _)| way_m + step_m(&before, &now).0));
         }
-        Self { modes, way_m, by_size: self.by_size, flows: true }
+        Self { modes, way_m, turns_rad, by_size: self.by_size, flows: true }
     }
 
     /// Whether it is ever on its way.
@@ -153,7 +164,11 @@ impl Gait {
             };
             found.unwrap_or(chosen.into())
         };
-        self.modes.iter().zip(&self.way_m).map(posture).collect()
+        let turned = |((mode, way_m), turn_rad): ((&Mode, &f64), &f64)| {
+            let goes = matches!(mode, Mode::Walking | Mode::Running);
+            Shown { turn_rad: if goes { *turn_rad } else { 0.0 }, ..posture((mode, way_m)) }
+        };
+        self.modes.iter().zip(&self.way_m).zip(&self.turns_rad).map(turned).collect()
     }
 }
 
@@ -164,6 +179,30 @@ fn shows_the_same(a: &Asset, b: &Asset) -> bool {
         asset.slots.iter().map(|slot| slot.material.name.as_str())
     }
     a.mesh.triangles == b.mesh.triangles && a.mesh.slots == b.mesh.slots && materials(a).eq(materials(b))
+}
+
+/// How far the way through boxes leads to the left of the heading of each.
+fn turns_rad(boxes: &[(usize, Cuboid)]) -> Vec<f64> {
+    let place = |i: usize| boxes[i].1.world_from_body.translation.truncate();
+    let mut turns_rad: Vec<f64> = Vec::with_capacity(boxes.len());
+    for (i, (_, cuboid)) in boxes.iter().enumerate() {
+        let way = place((i + 1).min(boxes.len() - 1)) - place(i.saturating_sub(1));
+        let turn_rad = DVec2::from_angle(cuboid.world_from_body.yaw_rad()).angle_to(way);
+        let off = (turn_rad.abs() - LOOKS_AHEAD_RAD).max(0.0) / LOOKS_AHEAD_RAD;
+        turns_rad.push(match i.checked_sub(1) {
+            _ if way.length() > LEAST_STEP_M => turn_rad * (1.0 - off).max(0.0),
+            Some(before) => turns_rad[before],
+            None => 0.0,
+        });
+    }
+    turns_rad
+}
+
+/// A box turned to the left on its spot.
+fn faced(cuboid: &Cuboid, turn_rad: f64) -> Cuboid {
+    let Cuboid { world_from_body, size_m } = cuboid;
+    let rotation = DQuat::from_rotation_z(turn_rad) * world_from_body.rotation;
+    Cuboid { world_from_body: Pose::new(rotation, world_from_body.translation), size_m: *size_m }
 }
 
 /// How far a box is from another, metres: along that one's heading, and in all.
@@ -177,7 +216,7 @@ fn step_m(a: &Cuboid, b: &Cuboid) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::testing;
-    use trove_model::{Figure, Mesh, Pose};
+    use trove_model::{Figure, Mesh};
 
     const SIZE_M: DVec3 = DVec3::new(0.6, 0.6, 1.75);
 

@@ -16,6 +16,8 @@ pub(crate) struct Shown<'a> {
     pub towards: Option<(&'a Asset, f32)>,
     /// How far its mesh is moved in its own axes, metres.
     pub shift_m: DVec3,
+    /// How far it is turned to the left in its box: who walks looks along the way.
+    pub turn_rad: f64,
 }
 
 impl<'a> Shown<'a> {
@@ -23,12 +25,12 @@ impl<'a> Shown<'a> {
     pub(super) fn between((before, from): (&'a Asset, DVec3), (after, to): (&'a Asset, DVec3), share: f64) -> Self {
         let is_one = before.id == after.id || share < LEAST;
         let towards = (!is_one).then_some((after, share as f32));
-        Self { asset: before, towards, shift_m: from.lerp(to, share) }
+        Self { asset: before, towards, shift_m: from.lerp(to, share), turn_rad: 0.0 }
     }
 }
 
 impl<'a> From<&'a Asset> for Shown<'a> {
     fn from(asset: &'a Asset) -> Self {
-        Self { asset, towards: None, shift_m: DVec3::ZERO }
+        Self { asset, towards: None, shift_m: DVec3::ZERO, turn_rad: 0.0 }
     }
 }

@@ -12,13 +12,14 @@ mod layout;
 mod markings;
 mod network;
 mod path;
+mod plan;
 mod seed_name;
 #[cfg(test)]
 mod tests;
 mod wear;
 
 use glam::DVec2;
-use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, SurfaceKind};
+use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, RoadPlan, SurfaceKind};
 
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
@@ -57,6 +58,8 @@ pub(crate) struct RoadSurfaces {
     pub driving_side: DrivingSide,
     /// Height of a kerb: sidewalks and land lie this much above the carriageway, but for ramps, metres.
     pub kerb_m: f64,
+    /// What is told of them.
+    pub plan: RoadPlan,
     ramps: Ramps,
     footings: Footings,
     /// Below roads above the ground.
@@ -196,6 +199,7 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
 
     let lawns = covers.into_iter().filter(|c| c.kind == SurfaceKind::Grass).flat_map(|c| c.area).collect();
     let lanes = course::lanes(&layout.courses);
+    let plan = plan::plan(&layout, &markings, &lanes, &drape);
     let driving_side = locale.driving_side;
     RoadSurfaces {
         driving_side,
@@ -205,6 +209,7 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
         lawns,
         lawn,
         kerb_m,
+        plan,
         ramps,
         footings,
         below,

@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use ::image::DynamicImage;
-use trove_model::ClassMap;
+use trove_model::{ClassMap, Raster};
 
-use super::cityscapes::{known, shows};
 use super::finding::{Audit, Check, Notes};
-use crate::pictures::{Labels, each, files, name, read, read_labels};
+use super::label_image::{check_all, known};
+use crate::pictures::{files, name, read, read_labels};
 use crate::{JudgeError, OnProgress};
 
 /// CamVid's 32 colours.
@@ -32,17 +32,11 @@ pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeErr
     let images: BTreeMap<String, &PathBuf> = images.iter().map(|path| (stem(path), path)).collect();
     let colors: BTreeSet<[u8; 3]> = COLORS.lines().skip(1).filter_map(color).collect();
     let classes = ClassMap::named("camvid").expect("a built-in map");
-    let one = |path: &PathBuf| {
-        let below = |path: &Path| path.strip_prefix(root).unwrap_or(path).to_string_lossy().into_owned();
-        let image = images.get(&stem(path)).copied();
-        let mut notes = Notes::of(below(path), Some(image.map_or_else(|| below(path), |image| below(image))));
-        if let Err(damage) = look(path, image, &classes, &colors, &mut notes) {
-            notes.wrong(Check::Files, damage.to_string());
-        }
-        Ok(notes)
-    };
+    let image_of = |path: &Path| images.get(&stem(path)).map(|image| (*image).clone());
+    let look = |path: &Path, notes: &mut Notes| look(path, &classes, &colors, notes);
+    let labels: Vec<&PathBuf> = labels.iter().collect();
     let mut audit = Audit { frames: labels.len(), ..Audit::default() };
-    each(&labels, progress, one)?.into_iter().for_each(|notes| audit.add(notes));
+    check_all(root, &labels, image_of, look, progress)?.into_iter().for_each(|notes| audit.add(notes));
     Ok(audit.finish())
 }
 
@@ -54,13 +48,11 @@ fn color(line: &str) -> Option<[u8; 3]> {
 
 fn look(
     path: &Path,
-    image: Option<&PathBuf>,
     classes: &ClassMap,
     colors: &BTreeSet<[u8; 3]>,
     notes: &mut Notes,
-) -> Result<(), JudgeError> {
-    notes.look(Check::Files);
-    let labels = match read(path)? {
+) -> Result<Raster<u8>, JudgeError> {
+    Ok(match read(path)? {
         DynamicImage::ImageRgb8(picture) => {
             notes.look(Check::Classes);
             // Colours of a table become numbers, in the order in which they are met.
@@ -80,17 +72,12 @@ fn look(
                 let what = format!("expected CamVid's colours, found {found:?} and the like on {count} pixels");
                 notes.found(Check::Classes, 1.0, what, strange);
             }
-            Labels { width: picture.width(), height: picture.height(), ids }
+            Raster { width: picture.width(), height: picture.height(), data: ids }
         }
         _ => {
             let labels = read_labels(path)?;
             known(&labels, classes, notes);
             labels
         }
-    };
-    match image {
-        Some(image) => shows(&labels, image, notes)?,
-        None => notes.wrong(Check::Files, "expected the image of these labels, found none"),
-    }
-    Ok(())
+    })
 }

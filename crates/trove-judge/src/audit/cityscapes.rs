@@ -8,9 +8,10 @@ use trove_files::{Budget, LARGEST_TEXT, read_text};
 use trove_model::{ClassMap, Raster};
 
 use super::finding::{Audit, Check, Notes};
-use super::image;
+use super::frame::pixels;
+use super::label_image::{agree, check_all, known, read_ids};
 use super::polygons::paint_with_rim;
-use crate::pictures::{Labels, each, files, name, read, read_labels};
+use crate::pictures::{files, name, read_labels};
 use crate::{JudgeError, OnProgress};
 
 const LABELS: &str = "_labelIds.png";
@@ -45,33 +46,30 @@ pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeErr
     let key = |path: &Path| name(path).splitn(4, '_').take(3).collect::<Vec<_>>().join("_");
     let images: BTreeMap<String, &PathBuf> = images.map(|path| (key(path), path)).collect();
     let classes = ClassMap::named("cityscapes").expect("a built-in map");
-    let one = |path: &&PathBuf| {
-        let below = |path: &Path| path.strip_prefix(root).unwrap_or(path).to_string_lossy().into_owned();
-        let image = images.get(&key(path)).copied();
-        let shown = image.map_or_else(|| below(path), |image| below(image));
-        let mut notes = Notes::of(below(path), Some(shown));
-        if let Err(damage) = look(path, image, &classes, &mut notes) {
-            notes.wrong(Check::Files, damage.to_string());
-        }
-        Ok(notes)
-    };
+    let image_of = |path: &Path| images.get(&key(path)).map(|image| (*image).clone());
+    let look = |path: &Path, notes: &mut Notes| look(path, &classes, notes);
     let mut audit = Audit { frames: labels.len(), ..Audit::default() };
-    each(&labels, progress, one)?.into_iter().for_each(|notes| audit.add(notes));
+    check_all(root, &labels, image_of, look, progress)?.into_iter().for_each(|notes| audit.add(notes));
     Ok(audit.finish())
 }
 
-fn look(path: &Path, image: Option<&PathBuf>, classes: &ClassMap, notes: &mut Notes) -> Result<(), JudgeError> {
-    notes.look(Check::Files);
+fn look(path: &Path, classes: &ClassMap, notes: &mut Notes) -> Result<Raster<u8>, JudgeError> {
     let labels = read_labels(path)?;
     known(&labels, classes, notes);
     let beside = |ending: &str| path.with_file_name(name(path).replace(LABELS, ending));
     let instances = beside("_instanceIds.png");
     if instances.is_file() {
-        agree(&labels, &read(&instances)?.into_luma16(), notes);
+        let class = |instance: u16| if instance < 1000 { instance } else { instance / 1000 };
+        let is_right = |id: u8, instance: &u16| class(*instance) == u16::from(id);
+        let said = ["instanceIds", "the classes of labelIds"];
+        agree(&labels, &read_ids(&instances)?, is_right, Check::Panoptic, said, notes);
     }
     let training = beside("_labelTrainIds.png");
     if training.is_file() {
-        trained(&labels, &read_labels(&training)?, classes, notes);
+        let train_ids = classes.train_ids();
+        let is_right = |id: u8, train_id: &u8| train_ids[usize::from(id)].unwrap_or(255) == *train_id;
+        let said = ["labelTrainIds", "those of labelIds"];
+        agree(&labels, &read_labels(&training)?, is_right, Check::Classes, said, notes);
     }
     let outlines = beside("_polygons.json");
     if outlines.is_file() {
@@ -81,62 +79,10 @@ fn look(path: &Path, image: Option<&PathBuf>, classes: &ClassMap, notes: &mut No
             Err(e) => notes.wrong(Check::Files, format!("{}: {e}", name(&outlines))),
         }
     }
-    match image {
-        Some(image) => shows(&labels, image, notes)?,
-        None => notes.wrong(Check::Files, "expected the image of these labels (…_leftImg8bit.png), found none"),
-    }
-    Ok(())
+    Ok(labels)
 }
 
-/// Every number is in the table of classes.
-pub(super) fn known(labels: &Labels, classes: &ClassMap, notes: &mut Notes) {
-    notes.look(Check::Classes);
-    let mut is_known = [false; 256];
-    classes
-        .classes
-        .iter()
-        .map(|class| class.id)
-        .chain(classes.ignored())
-        .for_each(|id| is_known[usize::from(id)] = true);
-    let pixels = |i: usize| [i as u32 % labels.width, i as u32 / labels.width];
-    let strange: Vec<_> = (0..labels.ids.len()).filter(|i| !is_known[usize::from(labels.ids[*i])]).collect();
-    if let Some(first) = strange.first() {
-        let (count, id, map) = (strange.len(), labels.ids[*first], &classes.name);
-        let what = format!("expected ids of {map}, found {id} and the like on {count} pixels");
-        notes.found(Check::Classes, 1.0, what, strange.into_iter().map(pixels).collect());
-    }
-}
-
-fn agree(labels: &Labels, instances: &::image::ImageBuffer<::image::Luma<u16>, Vec<u16>>, notes: &mut Notes) {
-    notes.look(Check::Panoptic);
-    if instances.dimensions() != (labels.width, labels.height) {
-        return notes.wrong(Check::Files, "instanceIds: expected the labels' size, found another");
-    }
-    let class = |id: u16| if id < 1000 { id } else { id / 1000 };
-    let wrong = (0..labels.ids.len()).filter(|i| class(instances.as_raw()[*i]) != u16::from(labels.ids[*i]));
-    let wrong: Vec<_> = wrong.map(|i| [i as u32 % labels.width, i as u32 / labels.width]).collect();
-    if !wrong.is_empty() {
-        let what = format!("instanceIds: expected the classes of labelIds, found others on {} pixels", wrong.len());
-        notes.found(Check::Panoptic, 1.0, what, wrong);
-    }
-}
-
-fn trained(labels: &Labels, training: &Labels, classes: &ClassMap, notes: &mut Notes) {
-    notes.look(Check::Classes);
-    if (labels.width, labels.height) != (training.width, training.height) {
-        return notes.wrong(Check::Files, "labelTrainIds: expected the labels' size, found another");
-    }
-    let train_ids = classes.train_ids();
-    let right = |i: &usize| train_ids[usize::from(labels.ids[*i])].unwrap_or(255) == training.ids[*i];
-    let wrong: Vec<_> = (0..labels.ids.len()).filter(|i| !right(i)).collect();
-    if !wrong.is_empty() {
-        let what = format!("labelTrainIds: expected those of labelIds, found others on {} pixels", wrong.len());
-        let pixels = wrong.into_iter().map(|i| [i as u32 % labels.width, i as u32 / labels.width]).collect();
-        notes.found(Check::Classes, 1.0, what, pixels);
-    }
-}
-
-fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, steps: &Budget, notes: &mut Notes) {
+fn painted(labels: &Raster<u8>, outlines: &Outlines, classes: &ClassMap, steps: &Budget, notes: &mut Notes) {
     notes.look(Check::Outlines);
     let (width, height) = (labels.width, labels.height);
     if (outlines.img_width, outlines.img_height) != (width, height) {
@@ -158,26 +104,11 @@ fn painted(labels: &Labels, outlines: &Outlines, classes: &ClassMap, steps: &Bud
                 .wrong(Check::Outlines, "polygons.json: expected fewer outlines, found more than can be painted");
         }
     }
-    let wrong: Vec<_> = (0..labels.ids.len()).filter(|i| canvas.data[*i] != labels.ids[*i]).collect();
-    let share = 1.0 - wrong.len() as f64 / labels.ids.len().max(1) as f64;
+    let wrong = pixels(labels).zip(&canvas.data).filter(|((_, id), painted)| id != painted);
+    let wrong: Vec<_> = wrong.map(|((pixel, _), _)| pixel).collect();
+    let share = 1.0 - wrong.len() as f64 / labels.data.len().max(1) as f64;
     if share < PAINTED {
         let what = format!("polygons.json: expected labelIds when painted, found them on {:.1} %", 100.0 * share);
-        let pixels = wrong.into_iter().map(|i| [i as u32 % width, i as u32 / width]).collect();
-        notes.found(Check::Outlines, 1.0 - share, what, pixels);
+        notes.found(Check::Outlines, 1.0 - share, what, wrong);
     }
-}
-
-/// An image is there, as large as its labels, and shows something.
-pub(super) fn shows(labels: &Labels, path: &Path, notes: &mut Notes) -> Result<(), JudgeError> {
-    let picture = read(path)?.into_rgb8();
-    if picture.dimensions() != (labels.width, labels.height) {
-        let (width, height) = picture.dimensions();
-        let expected = format!("{}×{} pixels as in its labels", labels.width, labels.height);
-        notes.wrong(Check::Files, format!("{}: expected {expected}, found {width}×{height}", name(path)));
-        return Ok(());
-    }
-    let raster = Raster { width: labels.width, height: labels.height, data: picture.as_raw().as_chunks().0.to_vec() };
-    let classes = Raster { width: labels.width, height: labels.height, data: labels.ids.clone() };
-    image::check(&raster, Some(&classes), notes);
-    Ok(())
 }

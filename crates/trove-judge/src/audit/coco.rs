@@ -283,7 +283,7 @@ fn is_off(apart: f64, room: f64) -> bool {
 /// Left, top, right and bottom of what is true.
 fn around(mask: &Raster<bool>) -> Option<[f64; 4]> {
     let mut around = None::<[u32; 4]>;
-    for ([x, y], _) in super::single::pixels(mask).filter(|(_, is_in)| **is_in) {
+    for ([x, y], _) in super::frame::pixels(mask).filter(|(_, is_in)| **is_in) {
         let [x0, y0, x1, y1] = around.unwrap_or([x, y, x + 1, y + 1]);
         around = Some([x0.min(x), y0.min(y), x1.max(x + 1), y1.max(y + 1)]);
     }

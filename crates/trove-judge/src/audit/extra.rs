@@ -5,8 +5,7 @@ use trove_model::Raster;
 
 use super::finding::{Check, Count, Notes};
 use super::flow::{Looked, WAYS};
-use super::frame::{Eye, LabelledFrame, grid, rigid};
-use super::single::{STEP, pixels};
+use super::frame::{Eye, LabelledFrame, SAMPLES, pixels, rigid, spread};
 
 /// Share of pixels that have to agree.
 const AGREE: f64 = 0.999;
@@ -41,7 +40,7 @@ fn panoptic(frame: &LabelledFrame, notes: &mut Notes) {
 fn range(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
     let (Some(range), Some(depth)) = (&frame.range_m, &frame.depth_m) else { return };
     let mut count = Count::default();
-    for pixel in grid(range.width, range.height, STEP) {
+    for pixel in spread(range.width, range.height, SAMPLES) {
         let (range_m, depth_m) = (f64::from(*range.at(pixel[0], pixel[1])), *depth.at(pixel[0], pixel[1]));
         let expected = eye.point(pixel, depth_m).map(DVec3::length);
         let Some(expected) = expected.or((depth_m == f32::INFINITY).then_some(f64::INFINITY)) else { continue };
@@ -56,7 +55,7 @@ fn normals(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
     let (Some(world), Some(camera)) = (&frame.normal_world, &frame.normal) else { return };
     let vector = |raster: &Raster<[f32; 3]>, [x, y]: [u32; 2]| Vec3::from_array(*raster.at(x, y)).as_dvec3();
     let mut count = Count::default();
-    for pixel in grid(world.width, world.height, STEP) {
+    for pixel in spread(world.width, world.height, SAMPLES) {
         let expected = eye.world_from_camera.transform_vector3(vector(camera, pixel));
         count.tell(pixel, expected.distance(vector(world, pixel)) < 1e-3);
     }
@@ -79,7 +78,7 @@ fn coordinates(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
         }
     }
     let mut count = Count::default();
-    for pixel in grid(depth.width, depth.height, STEP) {
+    for pixel in spread(depth.width, depth.height, SAMPLES) {
         let [x, y] = pixel;
         let found = Vec3::from_array(*coordinates.at(x, y)).as_dvec3();
         let Some((world_from_body, size)) = boxes[usize::from(*instance.at(x, y))] else { continue };
@@ -99,7 +98,7 @@ fn scene_flow(looked: &Looked, notes: &mut Notes) {
     for way in WAYS {
         let Some(flow) = &looked.frame.scene_flow[way] else { continue };
         let mut count = Count::default();
-        for pixel in grid(flow.width, flow.height, STEP) {
+        for pixel in spread(flow.width, flow.height, SAMPLES) {
             let moved = Vec3::from_array(*flow.at(pixel[0], pixel[1]));
             if looked.still[usize::from(*instance.at(pixel[0], pixel[1]))] && !moved.is_nan() {
                 count.tell(pixel, moved.length() < 1e-3);

@@ -4,8 +4,7 @@ use glam::{DVec2, DVec3};
 use trove_model::{Occlusion, Raster};
 
 use super::finding::{Check, Count, Notes};
-use super::frame::{Eye, LabelledFrame, around, grid, is_porous, rigid};
-use super::single::STEP;
+use super::frame::{DENSE, Eye, LabelledFrame, SAMPLES, around, extremes, is_porous, pixels, rigid, spread};
 
 /// A frame with its camera, and which ids stand still.
 pub(super) struct Looked<'a> {
@@ -39,7 +38,9 @@ const RETURNS: f64 = 0.95;
 const HIDDEN: f64 = 0.6;
 /// What is as near as this share of the distance hides what is behind; less is the slope of a road within a pixel.
 const NEARER: f64 = 0.97;
-/// What is told as hidden is judged from this part of the image on.
+/// Normals of one face, as a cosine.
+const SAME_FACE: f64 = 0.9;
+/// What is told as hidden is judged from this part of what is told as visible on.
 const MUCH: usize = 50;
 
 /// Holds flow of what stands still to depth and the two cameras' poses; needs no other frame.
@@ -51,7 +52,7 @@ pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
         let Some(flow) = &frame.flow[way] else { continue };
         let Some(matrix) = to[way] else {
             notes.look(Check::Flow);
-            let defined = super::single::pixels(flow).filter(|(_, flow)| !flow[0].is_nan());
+            let defined = pixels(flow).filter(|(_, flow)| !flow[0].is_nan());
             let defined: Vec<_> = defined.map(|(pixel, _)| pixel).collect();
             if !defined.is_empty() {
                 let what = format!("{}: expected NaN without a neighbouring moment, found numbers", NAMES[way][0]);
@@ -67,7 +68,7 @@ pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
             }
         };
         let mut count = Count::default();
-        for pixel in grid(depth.width, depth.height, STEP) {
+        for pixel in spread(depth.width, depth.height, SAMPLES) {
             let [x, y] = pixel;
             let (metres, flow) = (*depth.at(x, y), *flow.at(x, y));
             if !still[usize::from(*instance.at(x, y))] {
@@ -102,78 +103,99 @@ fn moved_to(eye: &Eye, point: DVec3) -> Option<DVec2> {
 /// Holds two neighbouring moments of one view to each other, by the flow from one to the other and back.
 pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     poses(from, to, way, notes);
-    let (a, b) = (from.frame, to.frame);
-    let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &b.instance) else { return };
+    let (Some(flow), Some(there)) = (&from.frame.flow[way], &to.frame.instance) else { return };
     if (flow.width, flow.height) != (there.width, there.height) {
         return;
     }
-    let [flow_name, occlusion_name] = NAMES[way];
-    let mut ends: Vec<Count> = (0..=u16::MAX).map(|_| Count::default()).collect();
-    let (mut all, mut seen, mut hidden, mut returns) =
-        (Count::default(), Count::default(), Count::default(), Count::default());
-    let mut is_thin = vec![false; ends.len()];
-    for object in a.table.objects.iter().filter(|object| is_porous(object.class)) {
-        if let Some(is_thin) = is_thin.get_mut(object.id as usize) {
-            *is_thin = true;
+    ends(from, to, way, notes);
+    surfaces(from, to, way, notes);
+}
+
+/// Flow that nothing hides ends on its own object.
+fn ends(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
+    let a = from.frame;
+    let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &to.frame.instance) else { return };
+    let mut of_object: Vec<Count> = (0..=u16::MAX).map(|_| Count::default()).collect();
+    let mut all = Count::default();
+    let is_thin = a.ids(|object| is_porous(object.class));
+    for pixel in spread(flow.width, flow.height, DENSE) {
+        let Some(end) = end(flow, pixel) else { continue };
+        // Without occlusion nothing is known of any one pixel, but most ends are visible.
+        if matches!(occlusion(a, way, pixel), Some(Occlusion::Hidden | Occlusion::Undefined)) {
+            continue;
+        }
+        let id = *instance.at(pixel[0], pixel[1]);
+        let is_same = is_shown(there, end, id);
+        all.tell(pixel, is_same);
+        if id > 0 && !is_thin[usize::from(id)] {
+            of_object[usize::from(id)].tell(pixel, is_same);
         }
     }
-    for pixel in grid(flow.width, flow.height, 1) {
-        let [x, y] = pixel;
+    let name = NAMES[way][0];
+    let [least_object, least] = if a.occluded[way].is_some() { ENDS } else { [0.3, 0.6] };
+    notes.judge(Check::FlowEnds, &all, least, |share| {
+        format!("{name}: expected to end on the same object, found {:.1} % of pixels that do", 100.0 * share)
+    });
+    for (id, count) in (0..=u16::MAX).zip(&of_object).filter(|(_, count)| count.all > 0) {
+        notes.judge(Check::FlowEnds, count, least_object, |share| {
+            let (class, percent) = (a.object(id).map_or("?", |object| object.class.row().name), 100.0 * share);
+            format!("{name}: object {id} ({class}): expected to end on it, found {percent:.1} % of pixels that do")
+        });
+    }
+}
+
+/// What is told as visible is seen at its depth and leads back, and what is told as hidden is behind something.
+fn surfaces(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
+    let (a, b) = (from.frame, to.frame);
+    let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &b.instance) else { return };
+    let [mut seen, mut hidden, mut returns] = [(); 3].map(|()| Count::default());
+    for pixel in spread(flow.width, flow.height, SAMPLES) {
         let Some(end) = end(flow, pixel) else { continue };
-        let occlusion = a.occluded[way].as_ref().map(|occluded| *occluded.at(x, y));
-        let id = *instance.at(x, y);
-        match occlusion {
+        match occlusion(a, way, pixel) {
             Some(Occlusion::Hidden) => {
                 if let Some(is_hidden) = is_nearer(from, to, pixel, end) {
                     hidden.tell(pixel, is_hidden);
                 }
-                continue;
             }
-            Some(Occlusion::Undefined) => continue,
+            Some(Occlusion::Seen) if is_shown(there, end, *instance.at(pixel[0], pixel[1])) => {
+                if let Some(is_there) = is_at_depth(from, to, pixel, end) {
+                    seen.tell(pixel, is_there);
+                }
+                if let Some(error) = returned(a, b, way, pixel) {
+                    returns.tell(pixel, error < RETURNS_PX);
+                }
+            }
             _ => {}
         }
-        // Without occlusion nothing is known of any one pixel, but most ends are visible.
-        let is_same = *there.at(end[0], end[1]) == id || around(there, end).any(|other| other == id);
-        all.tell(pixel, is_same);
-        if id > 0 && !is_thin[usize::from(id)] {
-            ends[usize::from(id)].tell(pixel, is_same);
-        }
-        if occlusion.is_some() && is_same && x % STEP == 0 && y % STEP == 0 {
-            if let Some(is_there) = is_at_depth(from, to, pixel, end) {
-                seen.tell(pixel, is_there);
-            }
-            if let Some(error) = returned(a, b, way, pixel) {
-                returns.tell(pixel, error < RETURNS_PX);
-            }
-        }
     }
-    let [least_object, least] = if a.occluded[way].is_some() { ENDS } else { [0.3, 0.6] };
-    notes.judge(Check::FlowEnds, &all, least, |share| {
-        format!("{flow_name}: expected to end on the same object, found {:.1} % of pixels that do", 100.0 * share)
-    });
-    for (id, count) in (0..=u16::MAX).zip(&ends).filter(|(_, count)| count.all > 0) {
-        notes.judge(Check::FlowEnds, count, least_object, |share| {
-            let (name, percent) = (a.object(id).map_or("?", |object| object.class.row().name), 100.0 * share);
-            format!("{flow_name}: object {id} ({name}): expected to end on it, found {percent:.1} % of pixels that do")
-        });
-    }
+    let [flow_name, occlusion_name] = NAMES[way];
     notes.judge(Check::Occlusion, &seen, AT_DEPTH, |share| {
         let percent = 100.0 * share;
         format!("{occlusion_name}: expected points told as visible to be seen at their depth, found {percent:.1} %")
     });
     // Reveals and pilasters hide their own wall from no distance; they are few.
-    let is_much = hidden.all * MUCH >= flow.data.len();
-    let least = if is_much { HIDDEN } else { 0.0 };
-    notes.judge(Check::Occlusion, &hidden, least, |share| {
-        let percent = 100.0 * share;
-        format!(
-            "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
-        )
-    });
+    if hidden.all * MUCH >= seen.all {
+        notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
+            let percent = 100.0 * share;
+            format!(
+                "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
+            )
+        });
+    }
     notes.judge(Check::FlowReturns, &returns, RETURNS, |share| {
         let percent = 100.0 * share;
         format!("{flow_name}: expected to be undone by the flow back, found {percent:.1} % within {RETURNS_PX} px")
     });
+}
+
+/// Whether the neighbouring image shows what a pixel shows; `None` where that is not told.
+fn occlusion(frame: &LabelledFrame, way: usize, [x, y]: [u32; 2]) -> Option<Occlusion> {
+    frame.occluded[way].as_ref().map(|occluded| *occluded.at(x, y))
+}
+
+/// Whether an id is at a pixel or beside it.
+fn is_shown(instance: &Raster<u16>, pixel: [u32; 2], id: u16) -> bool {
+    *instance.at(pixel[0], pixel[1]) == id || around(instance, pixel).any(|other| other == id)
 }
 
 /// The poses that a frame tells of its neighbours are theirs.
@@ -189,11 +211,11 @@ fn poses(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     }
 }
 
-/// The pixel in which flow ends.
+/// The pixel in which flow ends, unless that is at the rim, whose neighbours are not seen.
 fn end(flow: &Raster<[f32; 2]>, [x, y]: [u32; 2]) -> Option<[u32; 2]> {
     let [u, v] = *flow.at(x, y);
     let (x, y) = (f64::from(x) + 0.5 + f64::from(u), f64::from(y) + 0.5 + f64::from(v));
-    let is_inside = x >= 0.0 && y >= 0.0 && x < f64::from(flow.width) && y < f64::from(flow.height);
+    let is_inside = x >= 1.0 && y >= 1.0 && x + 1.0 < f64::from(flow.width) && y + 1.0 < f64::from(flow.height);
     is_inside.then_some([x as u32, y as u32])
 }
 
@@ -211,12 +233,12 @@ fn depth_there(from: &Looked, to: &Looked, [x, y]: [u32; 2]) -> Option<f64> {
 /// Whether what stands still is seen where its flow ends; `None` where that cannot be told.
 fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
     let expected = depth_there(from, to, pixel)?;
-    let (least, most) = extremes(to, end)?;
+    let (least, most) = extremes(to.frame.depth_m.as_ref()?, end);
     Some(least * 0.97 - 0.05 < expected && expected < most * 1.03 + 0.05)
 }
 
-/// Whether something at the end of a hidden point's flow is nearer than the point, or another thing's edge is there;
-/// leaves hide each other within a pixel.
+/// Whether at the end of a hidden point's flow something is nearer than the point, or another thing or face is beside it,
+/// as at the reveals and pilasters of a wall; leaves hide each other within a pixel.
 fn is_nearer(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
     let expected = depth_there(from, to, pixel)?;
     let (depth, there) = (to.frame.depth_m.as_ref()?, to.frame.instance.as_ref()?);
@@ -225,14 +247,14 @@ fn is_nearer(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Opti
     }
     let id = from.frame.instance.as_ref()?.at(pixel[0], pixel[1]);
     let is_edge = around(there, end).any(|other| other != *id);
-    Some(is_edge || f64::from(*depth.at(end[0], end[1])) < expected * NEARER)
+    let is_other_face = faces(from, pixel).zip(faces(to, end)).is_some_and(|(a, b)| a.dot(b) < SAME_FACE);
+    Some(is_edge || is_other_face || f64::from(*depth.at(end[0], end[1])) < expected * NEARER)
 }
 
-/// The least and the greatest depth around a pixel.
-fn extremes(looked: &Looked, pixel: [u32; 2]) -> Option<(f64, f64)> {
-    let depth = looked.frame.depth_m.as_ref()?;
-    let fold = |(least, most): (f64, f64), depth: f32| (least.min(f64::from(depth)), most.max(f64::from(depth)));
-    Some(around(depth, pixel).fold((f64::INFINITY, f64::NEG_INFINITY), fold))
+/// The normal of what a pixel shows, in World.
+fn faces(looked: &Looked, [x, y]: [u32; 2]) -> Option<DVec3> {
+    let normal = glam::Vec3::from_array(*looked.frame.normal.as_ref()?.at(x, y)).as_dvec3();
+    Some(looked.eye.as_ref()?.world_from_camera.transform_vector3(normal))
 }
 
 /// How far flow there and back ends from where it began, pixels; `None` where flow back is not defined, or where the four

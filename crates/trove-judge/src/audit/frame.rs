@@ -84,15 +84,21 @@ impl LabelledFrame {
         self.table.objects.iter().find(|object| object.id == u32::from(id))
     }
 
-    /// Whether each id stands still: what no object is, and scenery.
-    pub(super) fn stands_still(&self) -> Vec<bool> {
-        let mut still = vec![false; usize::from(u16::MAX) + 1];
-        still[0] = true;
-        for object in self.table.objects.iter().filter(|object| object.origin == ObjectOrigin::Scenery) {
-            if let Some(still) = still.get_mut(object.id as usize) {
-                *still = true;
+    /// By id, whether something holds of the object; not of ids that no object has.
+    pub(super) fn ids(&self, holds: impl Fn(&ObjectRow) -> bool) -> Vec<bool> {
+        let mut ids = vec![false; usize::from(u16::MAX) + 1];
+        for object in self.table.objects.iter().filter(|object| holds(object)) {
+            if let Some(slot) = ids.get_mut(object.id as usize) {
+                *slot = true;
             }
         }
+        ids
+    }
+
+    /// By id, what stands still: what no object is, and scenery.
+    pub(super) fn stands_still(&self) -> Vec<bool> {
+        let mut still = self.ids(|object| object.origin == ObjectOrigin::Scenery);
+        still[0] = true;
         still
     }
 }
@@ -147,6 +153,12 @@ pub(super) fn is_porous(class: Class) -> bool {
     matches!(class, Class::Tree | Class::Bush | Class::Barrier | Class::Void | Class::Ground)
 }
 
+/// Pixels with their values.
+pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
+    let width = raster.width.max(1);
+    raster.data.iter().enumerate().map(move |(i, value)| ([i as u32 % width, i as u32 / width], value))
+}
+
 /// The 3 × 3 values around a pixel, as far as they are in the image.
 pub(super) fn around<T: Copy>(raster: &Raster<T>, [x, y]: [u32; 2]) -> impl Iterator<Item = T> + '_ {
     let columns = x.saturating_sub(1)..=(x + 1).min(raster.width - 1);
@@ -154,8 +166,22 @@ pub(super) fn around<T: Copy>(raster: &Raster<T>, [x, y]: [u32; 2]) -> impl Iter
     rows.flat_map(move |y| columns.clone().map(move |x| *raster.at(x, y)))
 }
 
-/// Pixels of every so manyeth column and row, not counting the rim.
-pub(super) fn grid(width: u32, height: u32, step: u32) -> impl Iterator<Item = [u32; 2]> {
-    let rows = (1..height.saturating_sub(1)).step_by(step as usize);
-    rows.flat_map(move |y| (1..width.saturating_sub(1)).step_by(step as usize).map(move |x| [x, y]))
+/// The least and the greatest depth around a pixel, metres.
+pub(super) fn extremes(depth_m: &Raster<f32>, pixel: [u32; 2]) -> (f64, f64) {
+    around(depth_m, pixel).fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), depth| {
+        (least.min(f64::from(depth)), most.max(f64::from(depth)))
+    })
+}
+
+/// Pixels that are compared where a share of them tells enough.
+pub(super) const SAMPLES: u32 = 30_000;
+
+/// Pixels that are compared where each of many small things has its own share.
+pub(super) const DENSE: u32 = 400_000;
+
+/// Pixels spread evenly over an image, not counting the rim: all of a small one, at most about so many of a large one.
+pub(super) fn spread(width: u32, height: u32, most: u32) -> impl Iterator<Item = [u32; 2]> {
+    let step = (f64::from(width) * f64::from(height) / f64::from(most)).sqrt().ceil().max(1.0) as usize;
+    let rows = (1..height.saturating_sub(1)).step_by(step);
+    rows.flat_map(move |y| (1..width.saturating_sub(1)).step_by(step).map(move |x| [x, y]))
 }

@@ -3,7 +3,7 @@
 use trove_model::Raster;
 
 use super::finding::{Check, ENOUGH, Notes};
-use super::frame::grid;
+use super::frame::{DENSE, spread};
 
 /// A darker mean than that is black, a brighter one blown, of 255.
 const MEAN: std::ops::RangeInclusive<f64> = 2.0..=250.0;
@@ -38,7 +38,7 @@ pub(super) fn check<T: PartialEq>(image: &Raster<[u8; 3]>, class: Option<&Raster
         u64::from(across.min(64))
     };
     let (mut edges, mut elsewhere) = (Vec::new(), (0usize, 0u64));
-    for [x, y] in grid(image.width, image.height, 1) {
+    for [x, y] in spread(image.width, image.height, DENSE) {
         if class.at(x - 1, y) != class.at(x + 1, y) || class.at(x, y - 1) != class.at(x, y + 1) {
             edges.push([x, y]);
         } else {

@@ -7,10 +7,10 @@ use glam::{DMat3, DVec3, DVec4};
 use trove_files::{LARGEST_TEXT, read_text};
 use trove_model::ClassMap;
 
-use super::cityscapes::{known, shows};
 use super::finding::{Audit, Check, Notes};
+use super::label_image::{agree, check_all, known, read_ids};
 use super::tracks::jump;
-use crate::pictures::{each, files, name, read, read_labels};
+use crate::pictures::{each, files, name, read_labels};
 use crate::{JudgeError, OnProgress};
 
 /// KITTI's words for what it annotates.
@@ -71,52 +71,26 @@ pub(super) fn audit(root: &Path, progress: OnProgress) -> Result<Audit, JudgeErr
         Ok(notes)
     };
     let classes = ClassMap::named("cityscapes").expect("a built-in map");
-    let pixels = |path: &&PathBuf| {
-        let beside = |other: &str| path.parent().and_then(Path::parent).map(|split| split.join(other).join(name(path)));
-        let image = beside("image_2").filter(|path| path.is_file());
-        let shown = image.as_ref().map_or_else(|| below(path), |image| below(image));
-        let mut notes = Notes::of(below(path), Some(shown));
-        if let Err(damage) = seen(path, image, beside("instance"), &classes, &mut notes) {
-            notes.wrong(Check::Files, damage.to_string());
-        }
-        Ok(notes)
+    let beside = |path: &Path, other: &str| {
+        let beside = path.parent().and_then(Path::parent).map(|split| split.join(other).join(name(path)));
+        beside.filter(|path| path.is_file())
     };
+    let seen = |path: &Path, notes: &mut Notes| {
+        let labels = read_labels(path)?;
+        known(&labels, &classes, notes);
+        if let Some(instance) = beside(path, "instance") {
+            // Instances are class · 256 + number.
+            let is_right = |id: u8, instance: &u16| u16::from(id) == *instance / 256;
+            let said = ["instance", "semantic's classes"];
+            agree(&labels, &read_ids(&instance)?, is_right, Check::Panoptic, said, notes);
+        }
+        Ok(labels)
+    };
+    let image_of = |path: &Path| beside(path, "image_2");
     let mut audit = Audit { frames: boxes.len() + semantic.len(), ..Audit::default() };
     each(&boxes, progress, one)?.into_iter().for_each(|notes| audit.add(notes));
-    each(&semantic, progress, pixels)?.into_iter().for_each(|notes| audit.add(notes));
+    check_all(root, &semantic, image_of, seen, progress)?.into_iter().for_each(|notes| audit.add(notes));
     Ok(audit.finish())
-}
-
-/// Pixels in Cityscapes' ids, with instances as class · 256 + number.
-fn seen(
-    path: &Path,
-    image: Option<PathBuf>,
-    instance: Option<PathBuf>,
-    classes: &ClassMap,
-    notes: &mut Notes,
-) -> Result<(), JudgeError> {
-    notes.look(Check::Files);
-    let labels = read_labels(path)?;
-    known(&labels, classes, notes);
-    if let Some(instance) = instance.filter(|path| path.is_file()) {
-        notes.look(Check::Panoptic);
-        let instances = read(&instance)?.into_luma16();
-        let wrong = labels.ids.iter().zip(instances.as_raw()).filter(|(id, pixel)| u16::from(**id) != **pixel / 256);
-        match wrong.count() {
-            0 => {}
-            count => notes.wrong(
-                Check::Panoptic,
-                format!("instance: expected semantic's classes, found others on {count} pixels"),
-            ),
-        }
-    }
-    match image {
-        Some(image) => shows(&labels, &image, notes),
-        None => {
-            notes.wrong(Check::Files, "expected the image of these labels in image_2, found none");
-            Ok(())
-        }
-    }
 }
 
 fn look(boxes: &Boxes, notes: &mut Notes) -> Result<(), String> {
@@ -253,7 +227,7 @@ fn project(labelled: &Labelled, camera: &[DVec4; 3]) -> Option<[f64; 4]> {
 }
 
 /// Intersection over union.
-pub(super) fn overlap(a: [f64; 4], b: [f64; 4]) -> f64 {
+fn overlap(a: [f64; 4], b: [f64; 4]) -> f64 {
     let area = |[x0, y0, x1, y1]: [f64; 4]| (x1 - x0).max(0.0) * (y1 - y0).max(0.0);
     let both = area([a[0].max(b[0]), a[1].max(b[1]), a[2].min(b[2]), a[3].min(b[3])]);
     both / (area(a) + area(b) - both).max(f64::MIN_POSITIVE)

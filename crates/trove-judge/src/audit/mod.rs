@@ -12,6 +12,7 @@ mod form;
 mod frame;
 mod image;
 mod kitti;
+mod label_image;
 mod moments;
 mod nuscenes;
 mod polygons;

@@ -7,10 +7,7 @@ use trove_format::{ObjectOrigin, ObjectRow};
 use trove_model::{CLASSES, Class, Raster};
 
 use super::finding::{Check, Count, Notes};
-use super::frame::{Eye, LabelledFrame, around, grid, rigid};
-
-/// Every so manyeth column and row where points are reckoned with.
-pub(super) const STEP: u32 = 3;
+use super::frame::{Eye, LabelledFrame, SAMPLES, around, pixels, rigid, spread};
 
 /// Makes every check that needs no other frame.
 pub(super) fn check(frame: &LabelledFrame, eye: Option<&Eye>, notes: &mut Notes) {
@@ -62,12 +59,6 @@ fn ids(frame: &LabelledFrame, instance: &Raster<u16>, notes: &mut Notes) {
         let what = format!("instance.png: {} pixels of object {id}, which frame.json does not list", pixels.len());
         notes.found(Check::Ids, 1.0, what, pixels);
     }
-}
-
-/// Pixels with their values.
-pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
-    let width = raster.width.max(1);
-    raster.data.iter().enumerate().map(move |(i, value)| ([i as u32 % width, i as u32 / width], value))
 }
 
 fn classes(frame: &LabelledFrame, class: &Raster<Class>, instance: &Raster<u16>, notes: &mut Notes) {
@@ -212,7 +203,7 @@ fn normals(frame: &LabelledFrame, normal: &Raster<[f32; 3]>, eye: &Eye, notes: &
         notes.found(Check::Normals, 1.0, what, wrong);
     }
     let mut facing = Count::default();
-    for pixel in grid(normal.width, normal.height, STEP) {
+    for pixel in spread(normal.width, normal.height, SAMPLES) {
         let (n, Some(direction)) = (vector(pixel), eye.direction(pixel)) else { continue };
         if n != DVec3::ZERO {
             facing.tell(pixel, n.dot(direction) < 0.01);
@@ -223,7 +214,7 @@ fn normals(frame: &LabelledFrame, normal: &Raster<[f32; 3]>, eye: &Eye, notes: &
     });
     let (Some(depth), Some(instance)) = (&frame.depth_m, &frame.instance) else { return };
     let mut smooth = Count::default();
-    for pixel in grid(normal.width, normal.height, STEP) {
+    for pixel in spread(normal.width, normal.height, SAMPLES) {
         let Some(surface) = surface(depth, instance, eye, pixel) else { continue };
         let n = vector(pixel);
         if n != DVec3::ZERO {

@@ -1,14 +1,13 @@
 //! Cameras and LiDARs of one moment see one place.
 
 use glam::DVec3;
+use trove_format::ObjectOrigin;
 use trove_model::Occlusion;
 
 use super::finding::{Check, Count, Notes};
 use super::flow::Looked;
-use super::frame::{LabelledSweep, around, grid, is_porous, rigid};
+use super::frame::{LabelledSweep, SAMPLES, around, extremes, is_porous, pixels, rigid, spread};
 
-/// Every so manyeth column and row of a camera is held to another.
-const STEP: u32 = 4;
 /// Share of points that another camera does not look through.
 const NOT_LOOKED_THROUGH: f64 = 0.95;
 /// Share of points seen at the same depth that are the same object.
@@ -23,20 +22,20 @@ pub(super) fn check(a: &Looked, b: &Looked, notes: &mut Notes) {
         return;
     };
     let (Some(depth_b), Some(instance_b)) = (&b.frame.depth_m, &b.frame.instance) else { return };
+    // A camera does not see the vehicle that carries it, which others may see.
+    let of = [a.frame.table.carrier, b.frame.table.carrier];
+    let carries = a.frame.ids(|object| object.origin == ObjectOrigin::Carrier || of.contains(&Some(object.id)));
     let (mut opaque, mut same) = (Count::default(), Count::default());
-    for pixel in grid(depth.width, depth.height, STEP) {
+    for pixel in spread(depth.width, depth.height, SAMPLES) {
         let [x, y] = pixel;
         let (id, metres) = (*instance.at(x, y), *depth.at(x, y));
-        let is_own = [a.frame.table.carrier, b.frame.table.carrier].contains(&Some(u32::from(id)));
-        // A camera does not see the vehicle that carries it, which the other may see.
-        let is_hidden = is_own || (id > 0 && a.frame.object(id).is_some_and(|object| object.origin == CARRIER));
-        if is_porous(*class.at(x, y)) || is_hidden || around(instance, pixel).any(|other| other != id) {
+        if is_porous(*class.at(x, y)) || carries[usize::from(id)] || around(instance, pixel).any(|other| other != id) {
             continue;
         }
         let Some(point) = eye.point(pixel, metres) else { continue };
         let point_world = eye.world_from_camera.transform_point3(point);
         let Some((at, expected)) = other.sees(point_world) else { continue };
-        let (least, most) = extremes(around(depth_b, at));
+        let (least, most) = extremes(depth_b, at);
         opaque.tell(pixel, least < expected * 1.05 + 0.3);
         let within = 0.02 * expected;
         if least > expected - within && most < expected + within {
@@ -52,14 +51,6 @@ pub(super) fn check(a: &Looked, b: &Looked, notes: &mut Notes) {
     });
 }
 
-const CARRIER: trove_format::ObjectOrigin = trove_format::ObjectOrigin::Carrier;
-
-fn extremes(depths: impl Iterator<Item = f32>) -> (f64, f64) {
-    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), depth| {
-        (least.min(f64::from(depth)), most.max(f64::from(depth)))
-    })
-}
-
 /// What a LiDAR of the moment met is where a camera sees it, as far as it stands still.
 pub(super) fn lidar(sweep: &LabelledSweep, looked: &Looked, notes: &mut Notes) {
     let Some(eye) = &looked.eye else { return };
@@ -69,7 +60,7 @@ pub(super) fn lidar(sweep: &LabelledSweep, looked: &Looked, notes: &mut Notes) {
         Err(what) => return notes.wrong(Check::Lidar, what),
     };
     let moves: Vec<u32> = (sweep.table.objects.iter())
-        .filter(|object| object.origin != trove_format::ObjectOrigin::Scenery)
+        .filter(|object| object.origin != ObjectOrigin::Scenery)
         .map(|object| object.id)
         .collect();
     let (mut opaque, mut same) = (Count::default(), Count::default());
@@ -79,7 +70,7 @@ pub(super) fn lidar(sweep: &LabelledSweep, looked: &Looked, notes: &mut Notes) {
         if is_at_rim(at, looked) {
             continue;
         }
-        let (least, most) = extremes(around(depth, at));
+        let (least, most) = extremes(depth, at);
         opaque.tell(at, least < expected * 1.05 + 0.3);
         let within = 0.02 * expected + 0.05;
         if least > expected - within && most < expected + within {
@@ -127,7 +118,7 @@ pub(super) fn occlusion(looked: &Looked, notes: &mut Notes) {
     for way in super::flow::WAYS {
         let (Some(flow), Some(occluded)) = (&looked.frame.flow[way], &looked.frame.occluded[way]) else { continue };
         notes.look(Check::Occlusion);
-        let wrong = super::single::pixels(flow)
+        let wrong = pixels(flow)
             .zip(&occluded.data)
             .filter(|((_, flow), occlusion)| flow[0].is_nan() != (**occlusion == Occlusion::Undefined));
         let wrong: Vec<_> = wrong.map(|((pixel, _), _)| pixel).collect();

@@ -55,7 +55,7 @@ impl CandidateFrame {
         let file = folder.join(FrameFile::Class.name());
         let labels = read_labels(&file)?;
         let mut counts = [0; 256];
-        labels.ids.iter().for_each(|id| counts[usize::from(*id)] += 1);
+        labels.data.iter().for_each(|id| counts[usize::from(*id)] += 1);
         let mut pixels = [0; 20];
         pixels.copy_from_slice(&counts[..20]);
         if let Some(id) = (20..256).find(|id| counts[*id] > 0) {
@@ -67,7 +67,7 @@ impl CandidateFrame {
         let hash = if has_picture {
             difference_hash(&crate::pictures::read(&picture)?.into_luma8())
         } else {
-            let grey = labels.ids.iter().map(|id| luma(CLASSES[usize::from(*id)].rgb)).collect();
+            let grey = labels.data.iter().map(|id| luma(CLASSES[usize::from(*id)].rgb)).collect();
             image::GrayImage::from_raw(labels.width, labels.height, grey).map_or(0, |grey| difference_hash(&grey))
         };
         let [x, y, _] = frame.world_from_camera_translation_m;

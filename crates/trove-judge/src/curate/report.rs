@@ -109,7 +109,7 @@ fn thumbnail(root: &Path, frame: &CandidateFrame) -> Result<String, JudgeError> 
         read(&folder.join("rgb.png"))?.into_rgb8()
     } else {
         let labels = read_labels(&folder.join("class.png"))?;
-        let color = |x: u32, y: u32| CLASSES[usize::from(labels.ids[(y * labels.width + x) as usize]).min(19)].rgb;
+        let color = |x: u32, y: u32| CLASSES[usize::from(*labels.at(x, y)).min(19)].rgb;
         image::RgbImage::from_fn(labels.width, labels.height, |x, y| image::Rgb(color(x, y)))
     };
     let height = (picture.height() * THUMBNAIL_PX / picture.width().max(1)).max(1);

@@ -198,7 +198,7 @@ fn judge(predicted: &Path, truth: &Path, sides: &Sides, settings: &Settings) -> 
             "scale it with nearest-neighbour sampling",
         ));
     }
-    let (p_ids, t_ids) = (&p.labels.ids, &t.labels.ids);
+    let (p_ids, t_ids) = (&p.labels.data, &t.labels.data);
     let mut counts = Counts { confusion: Confusion::of(map, p_ids, t_ids), ..Counts::none(map.counted().count()) };
     if settings.boundary {
         counts.boundary = Boundary::of(map, p_ids, t_ids, t.labels.width as usize);
@@ -235,7 +235,7 @@ fn segments(path: &Path, picture: &Judged, map: &ClassMap) -> Result<Vec<Segment
         let countable = things[usize::from(class)] && (!cityscapes || *object >= CITYSCAPES_OBJECTS_FROM);
         Some(u32::from(class) << 16 | if countable { u32::from(*object) } else { 0 })
     };
-    Ok(picture.labels.ids.iter().zip(objects).map(segment).collect())
+    Ok(picture.labels.data.iter().zip(objects).map(segment).collect())
 }
 
 /// Counts of sets of as many pictures, drawn with replacement.

@@ -247,7 +247,7 @@ fn ids(labels: &Path, picture: &RgbImage) -> Result<Vec<u8>, JudgeError> {
     let found = read_labels(labels)?;
     let (width, height) = picture.dimensions();
     match (found.width, found.height) == (width, height) {
-        true => Ok(found.ids),
+        true => Ok(found.data),
         false => {
             let (expected, size) = (format!("{width}×{height} pixels, like the image"), (found.width, found.height));
             let found = format!("{}×{}", size.0, size.1);

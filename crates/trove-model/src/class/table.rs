@@ -1,7 +1,8 @@
 //! Label sets as tables: a line a class, fields apart by tabs, the first line names the columns.
 
 /// Every label set that has a table.
-pub const LABEL_TABLES: [&str; 7] = ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "waymo"];
+pub const LABEL_TABLES: [&str; 8] =
+    ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "waymo", "occ3d"];
 /// What stands under `train_id` for a class that does not count.
 pub(crate) const IGNORED: u8 = 255;
 
@@ -18,6 +19,7 @@ pub fn label_table(set: &str) -> Option<&'static str> {
         "coco" => include_str!("coco.tsv"),
         "camvid" => include_str!("camvid.tsv"),
         "waymo" => include_str!("waymo.tsv"),
+        "occ3d" => include_str!("occ3d.tsv"),
         _ => return None,
     })
 }
@@ -75,6 +77,7 @@ mod tests {
             ("coco", 134, 133),
             ("camvid", 12, 11),
             ("waymo", 29, 27),
+            ("occ3d", 18, 17),
         ] {
             let table = Table::new(label_table(set).unwrap());
             assert_eq!(table.len(), rows, "{set}");

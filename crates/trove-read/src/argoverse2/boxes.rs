@@ -102,6 +102,7 @@ pub(super) fn place(
                 token,
                 cuboid,
                 velocity_mps: None,
+                is_parked: None,
                 attributes: Vec::new(),
                 lidar_points: annotation.lidar_points,
                 visibility: None,

@@ -113,6 +113,7 @@ mod tests {
             token: String::new(),
             cuboid: Cuboid { world_from_body: Pose::from_yaw(0.3, centre), size_m },
             velocity_mps: None,
+            is_parked: None,
             attributes: Vec::new(),
             lidar_points: None,
             visibility: None,

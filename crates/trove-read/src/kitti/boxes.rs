@@ -55,6 +55,7 @@ pub(super) fn place(mut annotations: Vec<Annotation>, keyframes: &mut [Keyframe]
             cuboid,
             velocity_mps: None,
             visibility: occlusion.parse().ok().and_then(|number| FACTS.visibility(number)),
+            is_parked: None,
             attributes: vec![format!("truncation={truncation}"), format!("occlusion={occlusion}")],
             lidar_points: None,
         });

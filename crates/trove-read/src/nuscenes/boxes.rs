@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::{DVec2, DVec3};
 use trove_model::{Cuboid, Keyframe, Kind, ObjectBox, Outcome, Report, Track};
 
-use super::kinds::{WITH_RIDER, WITHOUT_RIDER, with_rider};
+use super::kinds::{PARKED, VEHICLE, WITH_RIDER, WITHOUT_RIDER, with_rider};
 use super::poses;
 use super::records::AnnotationRecord;
 use super::tables::Tables;
@@ -37,6 +37,7 @@ pub(super) fn place(
                 object.velocity_mps = velocity_mps(tables, &by_token, annotation, report);
                 object.visibility = visibility(tables, annotation, report);
                 object.attributes = attributes(tables, annotation, report);
+                object.is_parked = is_parked(&object.attributes);
                 found.push((keyframe, annotation.instance_token.as_str(), object));
             }
             Err(why) => {
@@ -86,6 +87,7 @@ fn object(tables: &Tables, annotation: &AnnotationRecord, anchor_m: DVec2) -> Re
         token: annotation.token.clone(),
         cuboid: Cuboid { world_from_body, size_m },
         velocity_mps: None,
+        is_parked: None,
         attributes: Vec::new(),
         lidar_points: annotation.num_lidar_pts.and_then(|n| u32::try_from(n).ok()),
         visibility: None,
@@ -136,6 +138,12 @@ fn attributes(tables: &Tables, annotation: &AnnotationRecord, report: &Report) -
         found
     };
     annotation.attribute_tokens.iter().filter_map(name).collect()
+}
+
+/// What a vehicle's attribute tells; only vehicles have one that begins so.
+fn is_parked(attributes: &[String]) -> Option<bool> {
+    let told = attributes.iter().find(|name| name.starts_with(VEHICLE))?;
+    Some(told == PARKED)
 }
 
 /// Cycles by their attribute: the box's own, else what most of the track's say, else whether it ever moves.

@@ -7,6 +7,11 @@ pub(super) const WITH_RIDER: &str = "cycle.with_rider";
 /// Attribute of a cycle that stands or is pushed.
 pub(super) const WITHOUT_RIDER: &str = "cycle.without_rider";
 
+/// How attributes of vehicles other than cycles begin, all of which tell whether they are parked.
+pub(super) const VEHICLE: &str = "vehicle.";
+/// The one of those that are.
+pub(super) const PARKED: &str = "vehicle.parked";
+
 /// The same cycle with a rider; `None` for what is no cycle.
 pub(super) fn with_rider(kind: Kind) -> Option<Kind> {
     match kind {

@@ -76,6 +76,7 @@ fn object(given: &PlainBox, world_from_ego: Pose<World, Ego>, earth: &Earth) -> 
         token: given.token.clone(),
         cuboid: Cuboid { world_from_body, size_m },
         velocity_mps: velocity.map(|v| earth.vector(v)),
+        is_parked: given.parked,
         attributes: given.attributes.clone(),
         lidar_points: given.lidar_points,
         visibility: given.visibility,

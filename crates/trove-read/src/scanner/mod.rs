@@ -11,12 +11,13 @@ use crate::ReadError;
 use crate::toml_fault;
 
 /// LiDARs that need no file, by name.
-const PRESETS: [(&str, &str); 6] = [
+const PRESETS: [(&str, &str); 7] = [
     ("hdl-32e", include_str!("presets/hdl-32e.toml")),
     ("hdl-64e", include_str!("presets/hdl-64e.toml")),
     ("os1-128", include_str!("presets/os1-128.toml")),
     ("rs-m1", include_str!("presets/rs-m1.toml")),
     ("vlp-16", include_str!("presets/vlp-16.toml")),
+    ("vlp-32c", include_str!("presets/vlp-32c.toml")),
     ("vls-128", include_str!("presets/vls-128.toml")),
 ];
 /// More beams than any LiDAR sends in a sweep.
@@ -192,6 +193,7 @@ mod tests {
             ("os1-128", 2.62),
             ("rs-m1", 0.75),
             ("vlp-16", 0.29),
+            ("vlp-32c", 0.58),
             ("vls-128", 2.4),
         ];
         assert_eq!(rate, expect);
@@ -201,6 +203,12 @@ mod tests {
         let vls = preset("vls-128", &ScannerChoice::default()).unwrap();
         assert_eq!(vls.elevations_rad.len(), 128);
         assert!(vls.elevations_rad.is_sorted());
+        let vlp = preset("vlp-32c", &ScannerChoice::default()).unwrap();
+        assert_eq!(vlp.elevations_rad.len(), 32);
+        assert!(vlp.elevations_rad.is_sorted());
+        // Its table has thirds of a degree about the horizon.
+        let level = vlp.elevations_rad.iter().filter(|rad| rad.to_degrees().abs() < 1e-3).count();
+        assert_eq!(level, 1);
         assert!(preset("hdl-32", &ScannerChoice::default()).is_none());
     }
 

@@ -92,6 +92,7 @@ fn object(keyframe: &Keyframe, label: &LabelRecord, token: String) -> Result<Obj
         token,
         cuboid: Cuboid { world_from_body: keyframe.world_from_ego * ego_from_body, size_m: label.size_m },
         velocity_mps: label.velocity_mps.filter(|v| v.abs().cmplt(DVec3::splat(FASTEST_MPS)).all()),
+        is_parked: None,
         attributes: Vec::new(),
         lidar_points: label.lidar_points.and_then(|points| u32::try_from(points).ok()),
         visibility: None,

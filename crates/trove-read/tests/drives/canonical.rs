@@ -189,6 +189,7 @@ fn keyframe(k: usize, rig: &[RigCamera], tracks: &mut [Track]) -> Keyframe {
             token: format!("box-{k}-{i}"),
             cuboid,
             velocity_mps: Some(velocity_mps),
+            is_parked: None,
             attributes: Vec::new(),
             lidar_points: Some(10 * i as u32),
             visibility: None,

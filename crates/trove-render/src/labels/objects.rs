@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use trove_model::{Cuboid, GlassLabels, ObjectLabel, PixelBox, Pose, SceneObject, Shot};
+use trove_model::{Cuboid, ExtraLabel, GlassLabels, Mask, ObjectLabel, PixelBox, Pose, SceneObject, Shot};
 
 use super::keypoints;
 use super::outline;
@@ -21,10 +21,6 @@ struct Extent {
 }
 
 impl Extent {
-    fn of(x: u32, y: u32) -> Self {
-        Self::run([x, x], y)
-    }
-
     /// From one column to another.
     fn run([x0, x1]: [u32; 2], y: u32) -> Self {
         Self { count: x1 + 1 - x0, around: Some(PixelBox { min: [x0, y], max: [x1, y] }) }
@@ -89,7 +85,9 @@ fn label(
     (index, object): (usize, &SceneObject),
     visible: Extent,
 ) -> Option<ObjectLabel> {
-    let amodal = visible.and(hidden(scene, shot, shown, index));
+    let hidden = hidden(scene, shot, shown, index);
+    let amodal = hidden.iter().fold(visible, |extent, row| extent.and(row.extent()));
+    let wanted = shot.labels.extra.contains(&ExtraLabel::AmodalMasks);
     let camera_from_world = shot.world_from_camera.inverse();
     let corners_camera = object.cuboid.corners_world().map(|corner| camera_from_world.point(corner));
     let range_m = object.cuboid.world_from_body.translation.distance(shot.world_from_camera.translation);
@@ -99,6 +97,7 @@ fn label(
         visible_box: visible.around,
         amodal_px: amodal.count,
         amodal_box: amodal.around,
+        amodal_mask: amodal.around.filter(|_| wanted).map(|around| mask(index as u32, around, shown, &hidden)),
         truncation: outline::truncation(&shot.lens, outline::project(&shot.lens, &corners_camera)) as f32,
         occlusion: 1.0 - visible.count as f32 / amodal.count as f32,
         range_m: range_m as f32,
@@ -106,13 +105,34 @@ fn label(
     })
 }
 
+/// Pixels of a row.
+struct Row {
+    y: u32,
+    /// In their order.
+    columns: Vec<u32>,
+}
+
+impl Row {
+    fn extent(&self) -> Extent {
+        let (Some(&first), Some(&last)) = (self.columns.first(), self.columns.last()) else { return Extent::default() };
+        Extent { count: self.columns.len() as u32, ..Extent::run([first, last], self.y) }
+    }
+}
+
+/// The pixels of an instance, seen and hidden.
+fn mask(index: u32, around: PixelBox, shown: &Shown, hidden: &[Row]) -> Mask {
+    let mut mask = Mask::of(around, |x, y| shown.at(x, y).0 == index);
+    for Row { y, columns } in hidden {
+        columns.iter().for_each(|x| *mask.pixels.at_mut(x - mask.min[0], y - mask.min[1]) = true);
+    }
+    mask
+}
+
 /// The pixels that would show an instance if other things did not hide it.
-fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Extent {
-    let Some((corners_camera, farthest_m)) = bounds_camera(scene, index, shot) else {
-        return Extent::default();
-    };
+fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Vec<Row> {
+    let Some((corners_camera, farthest_m)) = bounds_camera(scene, index, shot) else { return Vec::new() };
     let Some(around) = outline::pixels_around(&shot.lens, &outline::project(&shot.lens, &corners_camera)) else {
-        return Extent::default();
+        return Vec::new();
     };
     // Where something farther than all of it is seen, the instance is not: no ray is needed.
     let may_hide = |(instance, range_m): (u32, f64)| instance != index as u32 && range_m <= farthest_m;
@@ -127,10 +147,10 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Ex
         .map(|y| {
             let columns = (around.min[0]..=around.max[0]).filter(|&x| may_hide(shown.at(x, y)));
             let (columns, rays): (Vec<u32>, Vec<Ray>) = columns.filter_map(|x| Some((x, ray(x, y)?))).unzip();
-            let met = columns.iter().zip(scene.meets(index as u32, &rays)).filter(|(_, is_met)| *is_met);
-            met.fold(Extent::default(), |extent, (&x, _)| extent.and(Extent::of(x, y)))
+            let met = columns.into_iter().zip(scene.meets(index as u32, &rays));
+            Row { y, columns: met.filter(|(_, is_met)| *is_met).map(|(x, _)| x).collect() }
         })
-        .reduce(Extent::default, Extent::and)
+        .collect()
 }
 
 /// Corners of the box around an instance's mesh in Camera, and the greatest distance among them; `None` for an empty mesh.

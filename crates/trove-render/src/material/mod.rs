@@ -3,7 +3,7 @@
 mod albedo;
 mod bsdf;
 mod diffuse;
-mod ggx;
+pub(crate) mod ggx;
 mod opacity;
 mod sheen;
 mod texturing;
@@ -146,6 +146,11 @@ impl PreparedMaterial {
     /// How much of a sensor's own light goes straight back to it, 0 to 1.
     pub(crate) fn retroreflection(&self) -> f32 {
         self.retroreflection
+    }
+
+    /// Whether it is more metal than not at a point: bare, or below paint full of flakes.
+    pub(crate) fn is_metal(&self, surface: &Surface) -> bool {
+        self.parameters(surface, 0.0, 0.5).0.metalness > 0.5
     }
 
     /// How it scatters light at a point; `width_m` is the width of what one sample covers there,

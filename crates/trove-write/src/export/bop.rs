@@ -9,12 +9,12 @@ use trove_format::{FrameFile, ObjectOrigin, ObjectRow};
 use super::dataset::{Dataset, Finished};
 use super::geometry::{camera_from_body, camera_from_world};
 use super::kitti::note_distortion;
-use super::masks::Mask;
 use super::plan::{Plan, PlannedFrame};
 use super::unit::Unit;
+use crate::masks::{run_lengths, within};
 use crate::{StoredFrame, WriteError, png_file};
 
-/// `<split>/<sequence>/{rgb,depth,mask_visib}` with `scene_*.json`, and `models/models_info.json`.
+/// `<split>/<sequence>/{rgb,depth,mask_visib,mask}` with `scene_*.json`, and `models/models_info.json`.
 pub(super) struct Bop;
 
 /// Millimetres in a step of depth: 16 bits reach 655.35 m.
@@ -148,11 +148,20 @@ fn objects(frame: &StoredFrame, planned: &PlannedFrame, unit: &mut Unit<'_>) -> 
     let instance = frame.instance()?;
     let (width, height) = (instance.width, instance.height);
     let has_model = |object: &&ObjectRow| object.origin != ObjectOrigin::Scenery && !object.asset.is_empty();
+    let whole = if frame.has(FrameFile::Masks) { frame.masks()?.objects } else { Vec::new() };
+    if whole.is_empty() && frame.table.objects.iter().any(|object| has_model(&object)) {
+        unit.clip("frames without masks.json, whose objects have no whole masks (mask)", 1);
+    }
     let (mut poses, mut infos, mut masks) = (Vec::new(), Vec::new(), Vec::new());
     for (i, object) in frame.table.objects.iter().filter(has_model).enumerate() {
         let path = format!("{}/mask_visib/{:06}_{i:06}.png", folder(planned), planned.index);
         let pixels: Vec<u8> = instance.data.iter().map(|id| 255 * u8::from(u32::from(*id) == object.id)).collect();
         unit.write(&path, &png_file::grey(&path, width, height, &pixels)?)?;
+        if let Some(row) = whole.iter().find(|row| row.id == object.id) {
+            let path = format!("{}/mask/{:06}_{i:06}.png", folder(planned), planned.index);
+            let pixels: Vec<u8> = frame.painted(&row.amodal)?.data.iter().map(|is_in| 255 * u8::from(*is_in)).collect();
+            unit.write(&path, &png_file::grey(&path, width, height, &pixels)?)?;
+        }
         let [rotation, translation] = pose_mm(&camera_from_body(&frame.table, object));
         let [x, y, z] = object.size_m.map(|side| (side * 1000.0).round() as u64);
         poses.push(json!({ "cam_R_m2c": rotation, "cam_t_m2c": translation, "model": [object.asset, x, y, z] }));
@@ -166,7 +175,7 @@ fn objects(frame: &StoredFrame, planned: &PlannedFrame, unit: &mut Unit<'_>) -> 
         }));
         let runs = object.visible_box.map_or_else(
             || vec![width * height],
-            |bounds| Mask::of(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id).run_lengths(width, height),
+            |bounds| run_lengths(&within(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id), width, height),
         );
         masks.push(runs);
     }

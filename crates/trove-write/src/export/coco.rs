@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 use trove_format::FrameFile;
-use trove_model::{ClassMap, KEYPOINTS, Keypoints};
+use trove_model::{ClassMap, KEYPOINTS, Keypoints, Mask};
 
 use super::dataset::{Dataset, Finished};
 use super::labels::{Extent, MappedLabels, Segment, things};
-use super::masks::{Mask, packed};
 use super::plan::Plan;
 use super::tables::write_tables;
 use super::unit::Unit;
+use crate::masks::{packed, run_lengths, within};
 use crate::{StoredFrame, WriteError, png_file};
 
 /// `<split>/*.png`, `annotations/instances_<split>.json` and `annotations/person_keypoints_<split>.json`.
@@ -40,12 +40,13 @@ impl Dataset for CocoInstances {
     fn write(&self, plan: &Plan, frames: &[usize], unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for &number in frames {
             let (frame, labels) = image(plan, number, &self.map, unit)?;
+            let masks = if frame.has(FrameFile::Masks) { frame.masks()?.objects } else { Vec::new() };
             for (segment, extent) in labels.segments(&self.map) {
                 if segment.object == 0 {
                     continue;
                 }
                 let mask = mask(&labels, segment, extent.bounds);
-                let runs = mask.run_lengths(labels.ids.width, labels.ids.height);
+                let runs = run_lengths(&mask, labels.ids.width, labels.ids.height);
                 let mut annotation = json!({
                     "id": number as u64 * 65536 + u64::from(segment.object),
                     "image_id": number,
@@ -56,8 +57,16 @@ impl Dataset for CocoInstances {
                     "iscrowd": 0,
                     "track_id": segment.object,
                 });
-                unit.row(ANNOTATIONS, &annotation)?;
                 let object = frame.table.objects.iter().find(|object| object.id == u32::from(segment.object));
+                if let Some(object) = object
+                    && let Some(masks) = masks.iter().find(|masks| masks.id == object.id)
+                {
+                    // As KINS names them.
+                    annotation["a_segm"] = json!(masks.amodal);
+                    annotation["a_area"] = json!(object.amodal_px);
+                    annotation["a_bbox"] = json!(object.amodal_box.map(|bounds| Extent { area: 0, bounds }.xywh()));
+                }
+                unit.row(ANNOTATIONS, &annotation)?;
                 if let Some(points) = object.and_then(|object| object.keypoints) {
                     annotation["category_id"] = json!(PERSON);
                     annotation["keypoints"] = keypoints(&points);
@@ -162,7 +171,7 @@ fn keypoints(points: &Keypoints<[f64; 3]>) -> Value {
 }
 
 fn mask(labels: &MappedLabels, segment: Segment, bounds: [u32; 4]) -> Mask {
-    Mask::of(bounds, |x, y| *labels.instance.at(x, y) == segment.object && *labels.ids.at(x, y) == segment.id)
+    within(bounds, |x, y| *labels.instance.at(x, y) == segment.object && *labels.ids.at(x, y) == segment.id)
 }
 
 fn info(finished: &Finished<'_>) -> serde_json::Value {

@@ -15,6 +15,7 @@ use super::mcap::Mcap;
 use super::nuimages::NuImages;
 use super::nuscenes::NuScenes;
 use super::openlabel::OpenLabel;
+use super::openlane::OpenLane;
 use super::video::Video;
 use super::virtual_kitti::VirtualKitti2;
 use super::web_dataset::WebDataset;
@@ -41,7 +42,7 @@ enum Kind {
 
 use Kind::{Classes, Plain};
 
-static FORMS: [Form; 21] = [
+static FORMS: [Form; 22] = [
     Form { name: "bop", kind: Plain(|| Box::new(Bop)) },
     Form { name: "cityscapes", kind: Classes("cityscapes", |map| Box::new(Cityscapes { map })) },
     Form { name: "coco", kind: Classes("coco", |map| Box::new(CocoInstances { map })) },
@@ -57,6 +58,7 @@ static FORMS: [Form; 21] = [
     Form { name: "nuimages", kind: Plain(|| Box::new(NuImages)) },
     Form { name: "nuscenes", kind: Plain(|| Box::new(NuScenes)) },
     Form { name: "openlabel", kind: Plain(|| Box::new(OpenLabel)) },
+    Form { name: "openlane", kind: Plain(|| Box::new(OpenLane)) },
     Form { name: "paper13", kind: Classes("paper13", |map| Box::new(LabelPictures { map })) },
     Form { name: "video", kind: Plain(|| Box::new(Video)) },
     Form { name: "vkitti2", kind: Plain(|| Box::new(VirtualKitti2)) },

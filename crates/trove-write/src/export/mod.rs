@@ -20,15 +20,15 @@ mod kitti_dense;
 mod kitti_step;
 mod label_pictures;
 mod labels;
-mod masks;
 mod mcap;
 mod mcap_file;
-mod npz;
 mod nuimages;
 mod nuscenes;
 mod nuscenes_lidar;
+mod nuscenes_radar;
 mod nuscenes_rows;
 mod openlabel;
+mod openlane;
 mod plan;
 mod protobuf;
 mod stereo;
@@ -174,7 +174,7 @@ fn name(plan: &Plan, frames: &[usize]) -> String {
         hasher.update(frame.split.as_bytes());
         hasher.update([*number as u32, frame.sequence, frame.index].map(u32::to_le_bytes).as_flattened());
         hasher.update(frame.content);
-        plan.sweep(frame).iter().for_each(|sweep| hasher.update(sweep.content));
+        plan.sweep(frame).into_iter().chain(plan.radars(frame)).for_each(|sweep| hasher.update(sweep.content));
     }
     files::hexadecimal(&hasher.finalize()[..16])
 }

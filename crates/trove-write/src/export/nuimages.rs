@@ -5,12 +5,11 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use trove_format::{FrameFile, FrameTable, LensModel, ObjectOrigin};
-use trove_model::{Class, Raster};
+use trove_model::{Class, Mask, Raster};
 
 use super::dataset::{Dataset, Finished};
 use super::geometry::affine;
 use super::kinds;
-use super::masks::{Mask, packed};
 use super::nuscenes_rows::{
     ATTRIBUTES, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows, sensor, speed_mps,
     token, world_from_ego,
@@ -18,6 +17,7 @@ use super::nuscenes_rows::{
 use super::plan::Plan;
 use super::tables::write_list;
 use super::unit::Unit;
+use crate::masks::{packed, run_lengths, within};
 use crate::{StoredFrame, WriteError};
 
 /// `v1.0-trove/*.json` and `samples/<camera>/*.png`.
@@ -101,7 +101,7 @@ fn annotations(frame: &StoredFrame, name: &str, data: &str, unit: &mut Unit<'_>)
     let (class, instance) = (frame.class()?, frame.instance()?);
     for object in frame.table.objects.iter().filter(|object| object.origin != ObjectOrigin::Scenery) {
         let (Some(category), Some(bounds)) = (kinds::nuscenes(object.kind), object.visible_box) else { continue };
-        let mask = Mask::of(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id);
+        let mask = within(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id);
         // One picture does not tell what stands for a moment from what is parked.
         let attribute = attribute(object.kind, speed_mps(object), false).filter(|name| *name != "vehicle.parked");
         let [x0, y0, x1, y1] = bounds;
@@ -116,7 +116,7 @@ fn annotations(frame: &StoredFrame, name: &str, data: &str, unit: &mut Unit<'_>)
         unit.row("object_ann", &row)?;
     }
     if class.data.contains(&Class::Road) {
-        let mask = Mask::of([0, 0, class.width - 1, class.height - 1], |x, y| *class.at(x, y) == Class::Road);
+        let mask = within([0, 0, class.width - 1, class.height - 1], |x, y| *class.at(x, y) == Class::Road);
         let row = json!({
             "token": token("surface_ann", name),
             "sample_data_token": data,
@@ -130,7 +130,7 @@ fn annotations(frame: &StoredFrame, name: &str, data: &str, unit: &mut Unit<'_>)
 
 /// COCO's string once more in base64, as nuImages has it.
 fn encoded(mask: &Mask, picture: &Raster<u16>) -> Value {
-    let counts = packed(&mask.run_lengths(picture.width, picture.height));
+    let counts = packed(&run_lengths(mask, picture.width, picture.height));
     json!({ "size": [picture.height, picture.width], "counts": STANDARD.encode(counts) })
 }
 

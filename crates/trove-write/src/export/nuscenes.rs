@@ -13,6 +13,7 @@ use super::geometry::{affine, quaternion_wxyz};
 use super::kinds;
 use super::kitti::note_distortion;
 use super::nuscenes_lidar::{self, PanopticNumbers};
+use super::nuscenes_radar;
 use super::nuscenes_rows::{
     ATTRIBUTES, STANDS_MPS, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows,
     sensor, speed_mps, token, world_from_ego,
@@ -20,7 +21,7 @@ use super::nuscenes_rows::{
 use super::plan::{Plan, PlannedFrame};
 use super::tables::write_list;
 use super::unit::Unit;
-use crate::{StoredSweep, WriteError, png_file};
+use crate::{StoredRadarCycle, StoredSweep, WriteError, png_file};
 
 /// `v1.0-trove/*.json`, `samples/<camera>/*.png` and `maps/*.png`; a variation seen from one vehicle is a scene.
 pub(super) struct NuScenes;
@@ -73,7 +74,8 @@ impl Dataset for NuScenes {
                 Entry::Occupied(mut moment) => moment.get_mut().look(table, world_from_ego),
                 Entry::Vacant(moment) => {
                     let sweep = plan.sweep(planned).map(|sweep| plan.open_sweep(sweep)).transpose()?;
-                    moment.insert(Moment { sweep, ..Moment::new(table, world_from_ego) });
+                    let radars = plan.radars(planned).map(|cycle| plan.open_radar(cycle)).collect::<Result<_, _>>()?;
+                    moment.insert(Moment { sweep, radars, ..Moment::new(table, world_from_ego) });
                 }
             }
             tracks.look(planned.keyframe, table);
@@ -109,6 +111,8 @@ impl Dataset for NuScenes {
         }
         let channels: BTreeSet<&str> = finished.plan.frames.iter().map(|frame| channel(&frame.view)).collect();
         let cameras = channels.into_iter().map(|channel| sensor(channel, "camera"));
+        let radars: BTreeSet<&str> = finished.plan.radar_views().into_iter().map(channel).collect();
+        let radars = radars.into_iter().map(|channel| sensor(channel, "radar"));
         let levels = LEVELS
             .iter()
             .zip(1..)
@@ -126,7 +130,7 @@ impl Dataset for NuScenes {
             ("category", nuscenes_lidar::categories()),
             ("attribute", named_rows("attribute", &ATTRIBUTES)),
             ("visibility", levels.collect()),
-            ("sensor", cameras.chain([sensor(LIDAR, "lidar")]).collect()),
+            ("sensor", cameras.chain([sensor(LIDAR, "lidar")]).chain(radars).collect()),
             ("map", vec![map_row]),
         ];
         for (table, rows) in fixed {
@@ -167,18 +171,25 @@ struct Moment {
     table: FrameTable,
     world_from_ego: DAffine3,
     sweep: Option<StoredSweep>,
+    radars: Vec<StoredRadarCycle>,
 }
 
 impl Moment {
     fn new(table: &FrameTable, world_from_ego: DAffine3) -> Self {
-        Self { table: FrameTable { objects: Vec::new(), ..table.clone() }, world_from_ego, sweep: None }
+        Self {
+            table: FrameTable { objects: Vec::new(), ..table.clone() },
+            world_from_ego,
+            sweep: None,
+            radars: Vec::new(),
+        }
     }
 
     /// Keeps the pose of the camera whose picture is nearest to the moment.
     fn look(&mut self, table: &FrameTable, world_from_ego: DAffine3) {
         let apart = |table: &FrameTable| table.time_ns.abs_diff(table.keyframe_time_ns);
         if apart(table) < apart(&self.table) {
-            *self = Self { sweep: self.sweep.take(), ..Self::new(table, world_from_ego) };
+            let (sweep, radars) = (self.sweep.take(), std::mem::take(&mut self.radars));
+            *self = Self { sweep, radars, ..Self::new(table, world_from_ego) };
         }
     }
 }
@@ -191,6 +202,12 @@ impl Moment {
             Some((table.time_ns, world_from_ego, world_from_ego.inverse() * affine(&table.world_from_lidar)))
         });
         of_sweep.unwrap_or((self.table.time_ns, self.world_from_ego, DAffine3::IDENTITY))
+    }
+
+    /// Detections of an object by all radars.
+    fn radar_points(&self, id: u32) -> u32 {
+        let objects = self.radars.iter().flat_map(|cycle| &cycle.table.objects);
+        objects.filter(|object| object.id == id).map(|object| object.points).sum()
     }
 
     /// Points on an object: as the sweep tells, or one on what a camera sees.
@@ -207,6 +224,7 @@ fn scene_rows(scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>)
     let numbers = PanopticNumbers::of(moments.values().filter_map(|moment| moment.sweep.as_ref()));
     let mut calibrations = BTreeSet::new();
     let (mut samples, mut sweeps) = (Vec::new(), Vec::new());
+    let mut radars: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
     for (keyframe, moment) in moments {
         samples.push(json!({
             "token": sample_token(scene, *keyframe),
@@ -240,6 +258,36 @@ fn scene_rows(scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>)
         }));
         let plane_from_ego = in_plane(&moment.table, &world_from_ego);
         unit.row("ego_pose", &ego_pose(&name, time_ns, plane_from_ego))?;
+        for cycle in &moment.radars {
+            let channel = channel(&cycle.table.view);
+            let path = format!("samples/{channel}/{scene}__{channel}__{keyframe:06}.pcd");
+            unit.write(&path, &nuscenes_radar::file(cycle)?)?;
+            let name = format!("{scene}/{keyframe}/{channel}");
+            let world_from_ego = affine(&cycle.table.world_from_ego);
+            let ego_from_radar = world_from_ego.inverse() * affine(&cycle.table.world_from_radar);
+            let calibrated = calibrated_sensor(scene, channel, ego_from_radar, None);
+            if calibrations.insert(calibrated["token"].to_string()) {
+                unit.row("calibrated_sensor", &calibrated)?;
+            }
+            let plane_from_ego = in_plane(&moment.table, &world_from_ego);
+            unit.row("ego_pose", &ego_pose(&name, cycle.table.time_ns, plane_from_ego))?;
+            radars.entry(channel).or_default().push(json!({
+                "token": token("sample_data", &name),
+                "sample_token": sample_token(scene, *keyframe),
+                "ego_pose_token": token("ego_pose", &name),
+                "calibrated_sensor_token": calibrated["token"],
+                "timestamp": cycle.table.time_ns / 1000,
+                "fileformat": "pcd",
+                "is_key_frame": true,
+                "height": 0,
+                "width": 0,
+                "filename": path,
+            }));
+        }
+    }
+    for mut cycles in radars.into_values() {
+        link(&mut cycles);
+        cycles.iter().try_for_each(|row| unit.row("sample_data", row))?;
     }
     for (table, rows) in [("sample", &mut samples), ("sample_data", &mut sweeps)] {
         link(rows);
@@ -315,7 +363,7 @@ impl Tracks {
                     "rotation": quaternion_wxyz(&sighting.plane_from_body),
                     // Boxes without points are neither trained nor judged on.
                     "num_lidar_pts": moments[keyframe].lidar_points(*id, sighting.visible_px),
-                    "num_radar_pts": 0,
+                    "num_radar_pts": moments[keyframe].radar_points(*id),
                 }));
             }
             link(&mut annotations);

@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use trove_format::{ObjectOrigin, SweptObject};
 use trove_model::{Class, LidarPoint};
 
+use super::kinds;
 use super::nuscenes_rows::{VERSION, token};
 use super::unit::Unit;
-use super::{kinds, npz};
-use crate::{StoredSweep, WriteError};
+use crate::{StoredSweep, WriteError, npy, npz};
 
 /// nuScenes' categories of points, by the numbers that lidarseg gives them; the first 23 after noise are those of boxes.
 const CATEGORIES: [&str; 32] = [
@@ -97,9 +97,9 @@ pub(super) fn points(
         .collect();
     let crowded = numbers.0.values().filter(|number| **number >= PANOPTIC).count();
     unit.clip("objects of a category beyond 999, which share a panoptic number", crowded as u64);
-    for (table, ending, bytes) in
-        [("lidarseg", "lidarseg.bin", categories), ("panoptic", "panoptic.npz", npz::of_u16(&panoptic))]
-    {
+    let numbers: Vec<u8> = panoptic.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let panoptic = npz::archive(&[("data", npy::encode("'<u2'", &[panoptic.len()], &numbers))]);
+    for (table, ending, bytes) in [("lidarseg", "lidarseg.bin", categories), ("panoptic", "panoptic.npz", panoptic)] {
         let path = format!("{table}/{VERSION}/{sample_data}_{ending}");
         unit.write(&path, &bytes)?;
         unit.row(table, &json!({ "token": sample_data, "sample_data_token": sample_data, "filename": path }))?;

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 use serde_json::{Value, json};
 use trove_format::{FrameTable, ObjectRow};
-use trove_model::Kind;
+use trove_model::{Kind, State};
 
 use super::geometry::{affine, quaternion_wxyz};
 use super::unit::Unit;
@@ -12,7 +12,7 @@ use crate::files;
 /// Folder of the tables, and the version that the devkit is asked for.
 pub(crate) const VERSION: &str = "v1.0-trove";
 /// Slower than this, a road user stands.
-pub(crate) const STANDS_MPS: f64 = 0.2;
+pub(crate) const STANDS_MPS: f64 = State::STANDS_MPS;
 
 /// nuScenes' attributes.
 pub(crate) const ATTRIBUTES: [&str; 8] = [

@@ -1,13 +1,13 @@
 //! Which frames go into a dataset, on which side, under which numbers.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use trove_format::{Curated, FrameRow, Manifest};
 
-use crate::{StoredFrame, StoredSweep, WriteError};
+use crate::{StoredFrame, StoredRadarCycle, StoredSweep, WriteError};
 
 /// The side that all frames are on where nobody has split them.
 const UNSPLIT: &str = "train";
@@ -23,6 +23,8 @@ pub(crate) struct Plan {
     pub frames: Vec<PlannedFrame>,
     /// LiDAR sweeps by drive, variation and keyframe.
     sweeps: HashMap<(String, u32, u32), Vec<PlannedSweep>>,
+    /// Radars' cycles likewise.
+    radars: HashMap<(String, u32, u32), Vec<PlannedSweep>>,
     /// Places in `frames` by what [`moment`] makes of them.
     moments: HashMap<u64, Vec<usize>>,
 }
@@ -50,13 +52,13 @@ pub(crate) struct PlannedFrame {
     pub content: [u8; 32],
 }
 
-/// A LiDAR's sweep.
+/// A LiDAR's sweep, or a radar's cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlannedSweep {
     /// Its folder below the source's.
     path: String,
-    /// The LiDAR on its vehicle (`ego.LIDAR_TOP`).
-    view: String,
+    /// The sensor on its vehicle (`ego.LIDAR_TOP`).
+    pub view: String,
     /// SHA-256 over the hashes of its files.
     pub content: [u8; 32],
 }
@@ -87,11 +89,14 @@ impl Plan {
         })?;
         let splits = curated.map(splits).transpose()?;
         let mut rows: BTreeMap<_, Vec<FrameRow>> = BTreeMap::new();
-        let mut sweeps: HashMap<_, Vec<PlannedSweep>> = HashMap::new();
-        for row in std::mem::take(&mut manifest.sweeps) {
-            let sweep = PlannedSweep { content: content(&row), path: row.path, view: row.view };
-            sweeps.entry((row.scene, row.variation, row.keyframe)).or_default().push(sweep);
-        }
+        let [sweeps, radars] = [&mut manifest.sweeps, &mut manifest.radars].map(|rows| {
+            let mut of_moments: HashMap<_, Vec<PlannedSweep>> = HashMap::new();
+            for row in std::mem::take(rows) {
+                let sweep = PlannedSweep { content: content(&row), path: row.path, view: row.view };
+                of_moments.entry((row.scene, row.variation, row.keyframe)).or_default().push(sweep);
+            }
+            of_moments
+        });
         let mut unlisted = splits.clone().unwrap_or_default();
         for row in std::mem::take(&mut manifest.frames) {
             unlisted.remove(&row.path);
@@ -109,8 +114,14 @@ impl Plan {
             let remedy = "give the list that trove curate wrote for this folder";
             return Err(unfit("every frame of the split's list", format!("no {path}"), remedy));
         }
-        let mut plan =
-            Self { source: source.to_owned(), splits: Vec::new(), frames: Vec::new(), sweeps, moments: HashMap::new() };
+        let mut plan = Self {
+            source: source.to_owned(),
+            splits: Vec::new(),
+            frames: Vec::new(),
+            sweeps,
+            radars,
+            moments: HashMap::new(),
+        };
         for (sequence, ((split, ..), mut members)) in (0..).zip(rows) {
             if plan.splits.last() != Some(&split) {
                 plan.splits.push(split.clone());
@@ -151,11 +162,24 @@ impl Plan {
         StoredFrame::open(&self.source.join(&frame.path))
     }
 
+    /// The folder of a frame's variation, which tells of its scene.
+    pub(crate) fn variation(&self, frame: &PlannedFrame) -> PathBuf {
+        self.source.join(format!("{}/v{:02}", frame.scene, frame.variation))
+    }
+
     /// The first LiDAR's sweep of a frame's moment from its vehicle; `None` where there is none.
     pub(crate) fn sweep(&self, frame: &PlannedFrame) -> Option<&PlannedSweep> {
-        let sweeps = self.sweeps.get(&(frame.scene.clone(), frame.variation, frame.keyframe))?;
-        let vehicle = |view: &str| view.split('.').next().map(str::to_owned);
-        sweeps.iter().find(|sweep| vehicle(&sweep.view) == vehicle(&frame.view))
+        of_vehicle(&self.sweeps, frame).next()
+    }
+
+    /// The radars' cycles of a frame's moment from its vehicle.
+    pub(crate) fn radars(&self, frame: &PlannedFrame) -> impl Iterator<Item = &PlannedSweep> {
+        of_vehicle(&self.radars, frame)
+    }
+
+    /// The radars of all moments, by their views.
+    pub(crate) fn radar_views(&self) -> BTreeSet<&str> {
+        self.radars.values().flatten().map(|cycle| cycle.view.as_str()).collect()
     }
 
     /// Whether there is any sweep.
@@ -169,6 +193,14 @@ impl Plan {
     /// A table that cannot be read.
     pub(crate) fn open_sweep(&self, sweep: &PlannedSweep) -> Result<StoredSweep, WriteError> {
         StoredSweep::open(&self.source.join(&sweep.path))
+    }
+
+    /// Opens a radar's cycle.
+    ///
+    /// # Errors
+    /// A table that cannot be read.
+    pub(crate) fn open_radar(&self, cycle: &PlannedSweep) -> Result<StoredRadarCycle, WriteError> {
+        StoredRadarCycle::open(&self.source.join(&cycle.path))
     }
 
     /// Other frames of a frame's moment, variation and split.
@@ -208,6 +240,17 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// What a frame's vehicle measured at its moment.
+fn of_vehicle<'a>(
+    measured: &'a HashMap<(String, u32, u32), Vec<PlannedSweep>>,
+    frame: &PlannedFrame,
+) -> impl Iterator<Item = &'a PlannedSweep> {
+    let vehicle = |view: &str| view.split('.').next().map(str::to_owned);
+    let own = vehicle(&frame.view);
+    let of_moment = measured.get(&(frame.scene.clone(), frame.variation, frame.keyframe));
+    of_moment.into_iter().flatten().filter(move |one| vehicle(&one.view) == own)
 }
 
 /// A hash of a frame's drive, variation and keyframe.

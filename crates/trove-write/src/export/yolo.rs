@@ -57,7 +57,8 @@ impl Dataset for Yolo {
     }
 
     fn finish(&self, finished: &Finished<'_>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
-        let mut text = String::from("path: .\n");
+        // Without a path, folders are taken as below this file's; a relative one would be below the reader's.
+        let mut text = String::new();
         let splits = &finished.plan.splits;
         let first = splits.first().map_or("train", String::as_str);
         for split in ["train", "val"] {

@@ -7,7 +7,9 @@ use trove_format::{
     ClassEntry, Factors, FrameFile, FrameRow, FrameTable, GlassPolicy, LensModel, LightFactor, Manifest, Matrix4,
     ObjectOrigin, ObjectRow, Projection, Source, Versions,
 };
-use trove_model::{Class, Color, ExtraLabels, Kind, Labels, Occlusion, Raster, Season};
+use trove_model::{
+    Class, Color, ExtraLabels, InstanceId, Kind, Labels, Mask, ObjectLabel, Occlusion, PixelBox, Raster, Season, State,
+};
 use trove_write::{Frame, FrameFolders};
 
 pub(crate) const WIDTH: u32 = 64;
@@ -76,7 +78,11 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         asset: "car/made".into(),
         world_from_body: heading_north(made.car_m),
         size_m: CAR_M,
+        world_from_asset: Some(heading_north([made.car_m[0], made.car_m[1], 0.0])),
+        paint: Some([200, 0, 0]),
         velocity_mps: Some([0.0, 5.0, 0.0]),
+        yaw_rate_radps: Some(0.0),
+        states: vec![State::Moving],
         visible_px: pixels,
         amodal_px: pixels,
         visible_box: Some(bounds),
@@ -135,6 +141,7 @@ fn frame(made: &Made, path: String) -> Frame {
     // Pixels whose centres lie in it.
     let bounds = [x0, y0].map(|v| (v - 0.5).ceil() as u32);
     let last = [x1, y1].map(|v| (v - 0.5).floor() as u32);
+    let around = PixelBox { min: bounds, max: last };
     let bounds = [bounds[0], bounds[1], last[0], last[1]];
     let is_car = |x: u32, y: u32| (bounds[0]..=bounds[2]).contains(&x) && (bounds[1]..=bounds[3]).contains(&y);
     let is_sky = |x: u32, y: u32| !is_car(x, y) && y < HEIGHT / 2;
@@ -173,7 +180,18 @@ fn frame(made: &Made, path: String) -> Frame {
         }),
         occluded_backward: Raster::filled(WIDTH, HEIGHT, Occlusion::Undefined),
         extra: ExtraLabels::default(),
-        objects: vec![],
+        objects: vec![ObjectLabel {
+            id: InstanceId(CAR),
+            visible_px: 0,
+            visible_box: Some(around),
+            amodal_px: 0,
+            amodal_box: Some(around),
+            amodal_mask: Some(Mask::of(around, |_, _| true)),
+            truncation: 0.0,
+            occlusion: 0.0,
+            range_m: 20.0,
+            keypoints: None,
+        }],
     };
     let color = Color {
         radiance: Raster::filled(WIDTH, HEIGHT, [0.5; 3]),
@@ -217,6 +235,8 @@ pub(crate) fn finished(root: &Path, frames: &[Made]) {
         licences: vec![Source { source: "made".into(), licence: "CC0-1.0".into() }],
         frames: rows.collect(),
         sweeps: vec![],
+        grids: vec![],
+        radars: vec![],
     };
     fs::write(root.join(Manifest::NAME), manifest.to_json()).unwrap();
 }

@@ -6,15 +6,19 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail, ensure};
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
-use trove_build::MountedLidar;
+use trove_build::{MountedLidar, MountedRadar};
 use trove_files::PathComponent;
-use trove_model::{Drive, Outcome, Pose, Report, RigLidar, Scanner, SweepPhase};
+use trove_model::{Drive, Outcome, Pose, Radar, Report, RigLidar, Scanner, SweepPhase};
+use trove_read::radar;
 use trove_read::scanner::{self, Returns, ScannerChoice};
 
 use super::check::{check, nearest};
 
 /// How far a LiDAR that nobody placed stands above the roof's middle, metres.
 const ABOVE_ROOF_M: f64 = 0.3;
+
+/// How high above the ground a radar that nobody placed is in the middle of the front, metres.
+const RADAR_HEIGHT_M: f64 = 0.5;
 
 /// Sensors by their names.
 pub type SensorsSection = BTreeMap<String, SensorSection>;
@@ -25,15 +29,15 @@ pub type SensorsSection = BTreeMap<String, SensorSection>;
 pub struct SensorSection {
     /// What it is.
     pub kind: SensorKind,
-    /// A maker's LiDAR, or a path that ends in `.toml`.
+    /// A maker's LiDAR or radar, or a path that ends in `.toml`.
     pub preset: String,
-    /// Sweeps a second; without it the preset's.
+    /// Sweeps a second of a LiDAR; without it the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
-    /// Which returns are told; without it the preset's.
+    /// Which returns a LiDAR tells; without it the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub returns: Option<Returns>,
-    /// Where it is in Ego; without it where the recording has it, else on the roof.
+    /// Where it is in Ego; without it a LiDAR is where the recording has it, else on the roof, and a radar in the front.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position_m: Option<[f64; 3]>,
     /// To the left of straight ahead, up, and leaning to its right; with `position_m`.
@@ -53,6 +57,8 @@ pub struct SensorSection {
 pub enum SensorKind {
     /// Laser pulses.
     Lidar,
+    /// Millimetre waves.
+    Radar,
 }
 
 /// Checks names and numbers.
@@ -74,8 +80,19 @@ pub(super) fn check_all(sensors: &SensorsSection) -> Result<()> {
             let near = position_m.iter().all(|m| m.abs() <= 100.0);
             check(&key("position_m"), format!("{position_m:?}"), near, "three numbers of at most 100")?;
         }
-        if sensor.file().is_none() && scanner::preset(&sensor.preset, &sensor.choice()).is_none() {
-            let known: Vec<&str> = scanner::presets().collect();
+        if sensor.kind == SensorKind::Radar {
+            let of_lidars = [("rate_hz", sensor.rate_hz.is_some()), ("returns", sensor.returns.is_some())];
+            if let Some((name, _)) = of_lidars.into_iter().find(|(_, is_set)| *is_set) {
+                bail!("{}: expected none for a radar; its file says its cycle", key(name));
+            }
+        }
+        let (is_known, known): (bool, Vec<&str>) = match sensor.kind {
+            SensorKind::Lidar => {
+                (scanner::preset(&sensor.preset, &sensor.choice()).is_some(), scanner::presets().collect())
+            }
+            SensorKind::Radar => (radar::preset(&sensor.preset).is_some(), radar::presets().collect()),
+        };
+        if sensor.file().is_none() && !is_known {
             let hint = nearest(&sensor.preset, &known);
             bail!(
                 "{}: expected one of {}, or a path that ends in .toml, found {:?}{hint}",
@@ -112,6 +129,26 @@ impl SensorSection {
         }
     }
 
+    /// The radar itself; `at` is where its file lies.
+    ///
+    /// # Errors
+    /// A file that cannot be read or makes no radar.
+    pub fn radar(&self, at: impl Fn(&Path) -> PathBuf) -> Result<Radar> {
+        match self.file() {
+            Some(file) => Ok(radar::read(&at(file))?),
+            None => match radar::preset(&self.preset) {
+                Some(radar) => Ok(radar),
+                None => bail!("sensors: {:?} is no radar", self.preset),
+            },
+        }
+    }
+
+    /// The radar on a drive's vehicle.
+    pub fn mounted_radar(&self, name: &str, radar: Radar, drive: &Drive, report: &Report) -> MountedRadar {
+        let position_m = self.position_m.map_or_else(|| in_front(drive, name, report), DVec3::from_array);
+        MountedRadar { name: name.into(), radar, ego_from_radar: Pose::new(self.rotation(), position_m) }
+    }
+
     /// The LiDAR on a drive's vehicle.
     pub fn mounted(&self, name: &str, scanner: Scanner, drive: &Drive, report: &Report) -> MountedLidar {
         let recorded = drive.lidars.iter().find(|lidar| lidar.name == name).or(drive.lidars.first());
@@ -131,6 +168,12 @@ impl SensorSection {
         let [yaw, pitch, roll] = [self.yaw_deg, self.pitch_deg, self.roll_deg].map(f64::to_radians);
         DQuat::from_rotation_z(yaw) * DQuat::from_rotation_y(-pitch) * DQuat::from_rotation_x(roll)
     }
+}
+
+fn in_front(drive: &Drive, name: &str, report: &Report) -> DVec3 {
+    report.note(Outcome::Guessed, "place of a radar, in the middle of the front", format!("{} {name}", drive.id));
+    let body = drive.ego_body;
+    DVec3::new(body.centre_ego.x + body.size_m.x / 2.0, body.centre_ego.y, RADAR_HEIGHT_M)
 }
 
 fn on_roof(drive: &Drive, name: &str, report: &Report) -> DVec3 {
@@ -165,7 +208,12 @@ mod tests {
     fn what_makes_no_sensor_is_told() {
         for (text, expect) in [
             ("[A]\nkind = \"lidar\"\npreset = \"hdl-32\"", "did you mean `hdl-32e`?"),
-            ("[A]\nkind = \"radar\"\npreset = \"a\"", "radar"),
+            ("[A]\nkind = \"sonar\"\npreset = \"a\"", "sonar"),
+            ("[A]\nkind = \"radar\"\npreset = \"hdl-32e\"", "expected one of ars408"),
+            (
+                "[A]\nkind = \"radar\"\npreset = \"ars408\"\nrate_hz = 10",
+                "sensors.A.rate_hz: expected none for a radar",
+            ),
             ("[A]\nkind = \"lidar\"\npreset = \"vlp-16\"\nrate_hz = 0", "sensors.A.rate_hz: expected 1 to 200"),
             ("[A]\nkind = \"lidar\"\npreset = \"vlp-16\"\nyaw_deg = 3", "position_m beside it"),
             ("[\"a/b\"]\nkind = \"lidar\"\npreset = \"vlp-16\"", "names that folders can have"),

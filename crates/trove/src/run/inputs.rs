@@ -28,6 +28,10 @@ pub(super) fn of_run(recipe: &Recipe, sources: &Sources, contents: &mut Contents
     for (name, sensor) in &recipe.sensors {
         sensor.file().into_iter().for_each(|path| add(&format!("sensors.{name}"), path));
     }
+    for (name, grid) in &recipe.grids {
+        let files = grid.files(|file| recipe.at(file));
+        files.iter().for_each(|path| add(&format!("grids.{name}"), path));
+    }
     if recipe.light.is_file() {
         add("light.environment", Path::new(&recipe.light.environment));
     }

@@ -38,6 +38,10 @@ pub(super) enum Sensed {
     Frame,
     /// A LiDAR's sweep.
     Sweep,
+    /// A grid.
+    Grid,
+    /// A radar's cycle.
+    Radar,
 }
 
 impl FrameKey {
@@ -67,7 +71,7 @@ pub(super) struct SiteSummary {
     pub(super) file: SiteFile,
 }
 
-/// The frames and sweeps that were planned for a variation of a scene, keyframe by keyframe.
+/// What was planned for a variation of a scene, keyframe by keyframe.
 pub(super) fn planned(scene: &str, variation: u32, file: &SiteFile) -> Vec<FrameKey> {
     let of = |sensed: Sensed, planned: &[(u32, String)]| -> Vec<FrameKey> {
         let key = |(keyframe, view): &(u32, String)| FrameKey {
@@ -79,17 +83,23 @@ pub(super) fn planned(scene: &str, variation: u32, file: &SiteFile) -> Vec<Frame
         };
         planned.iter().map(key).collect()
     };
-    let mut keys = [of(Sensed::Frame, &file.frames), of(Sensed::Sweep, &file.sweeps)].concat();
+    let mut keys = [
+        of(Sensed::Frame, &file.frames),
+        of(Sensed::Sweep, &file.sweeps),
+        of(Sensed::Radar, &file.radars),
+        of(Sensed::Grid, &file.grids),
+    ]
+    .concat();
     keys.sort_by_key(|key| key.keyframe);
     keys
 }
 
-/// The manifest of finished frames and sweeps.
+/// The manifest of what is finished.
 pub(super) fn manifest(
     seed: u64,
     identity: RunIdentity,
     sites: &[SiteSummary],
-    [frames, sweeps]: [Vec<FrameRow>; 2],
+    [frames, sweeps, radars, grids]: [Vec<FrameRow>; 4],
 ) -> Manifest {
     let mut drives: Vec<ManifestDrive> = Vec::new();
     for SiteSummary { file, .. } in sites {
@@ -111,6 +121,8 @@ pub(super) fn manifest(
         licences,
         frames,
         sweeps,
+        radars,
+        grids,
     }
 }
 

@@ -7,7 +7,7 @@ mod manifest;
 mod output;
 mod read;
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
@@ -16,14 +16,19 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 use rayon::Scope;
 use trove_build::Moments;
-use trove_format::{Counterfactual, FrameFile, FrameRow, RunIdentity, SiteFile, WrittenFile};
-use trove_model::{AssetLibrary, Capture, LidarShot, Outcome, PointCloud, Report, Scene, Shot, Viewpoint};
+use trove_format::{
+    Counterfactual, FrameFile, FrameRow, LanesFile, RunIdentity, SiteFile, TrajectoryFile, WrittenFile,
+};
+use trove_model::{
+    AssetLibrary, Capture, GridForm, GridShot, LidarShot, Occupancy, Outcome, PointCloud, RadarDetection, RadarShot,
+    Report, Scene, Shot, Viewpoint,
+};
 use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
-use trove_write::{Frame, FrameFolders, FrameMeta, Sweep, WriteError};
+use trove_write::{Frame, FrameFolders, FrameMeta, Grid, RadarCycle, Sweep, WriteError};
 
 use crate::contents::Contents;
 use crate::progress::Progress;
-use crate::recipe::Recipe;
+use crate::recipe::{GridSection, Recipe};
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::watch::Watch;
@@ -114,6 +119,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         library: library::gather(recipe, &options.search, &mut contents, &report)?,
         contents,
         planned: keyframes_and_cameras,
+        grid_forms: grid_forms(recipe)?,
         output,
         folders: Arc::new(FrameFolders::new(out)),
         writing: VecDeque::new(),
@@ -150,12 +156,19 @@ fn frames_hints(recipe: &Recipe, scene: &str, keyframes: usize, frames: Option<&
         Some(drive) => drive.keyframes.of(keyframes).map_or(0, |chosen| chosen.len()),
         None => keyframes,
     };
-    let all = chosen * (cameras * (1 + recipe.views.other_vehicles) + recipe.sensors.len());
+    let all = chosen * (cameras * (1 + recipe.views.other_vehicles) + recipe.sensors.len() + recipe.grids.len());
     let listed = |frames: &BTreeSet<String>, variation| {
         let folder = variation_folder(scene, variation);
         frames.iter().filter(|frame| Path::new(frame).starts_with(&folder)).count()
     };
     (0..recipe.variations.count).map(|variation| frames.map_or(all, |frames| listed(frames, variation))).collect()
+}
+
+/// How the grids of a recipe are written, by their views.
+fn grid_forms(recipe: &Recipe) -> Result<BTreeMap<String, GridForm>> {
+    let form =
+        |(name, grid): (&String, &GridSection)| Ok((format!("ego.{name}"), grid.plan(|file| recipe.at(file))?.form));
+    recipe.grids.iter().map(form).collect()
 }
 
 /// Why a run ends early.
@@ -179,6 +192,8 @@ struct Run<'a> {
     contents: Contents,
     /// Which keyframes and cameras the recipe asks for.
     planned: serde_json::Value,
+    /// How the grids of views are written.
+    grid_forms: BTreeMap<String, GridForm>,
     output: OutputFolder,
     folders: Arc<FrameFolders>,
     /// Frames that are encoded and written while the next ones are rendered, in the order of rendering.
@@ -191,7 +206,7 @@ struct Run<'a> {
     rendered: Vec<RenderedFrame>,
 }
 
-/// A rendered frame or a sweep, to be written.
+/// What was taken of a moment, to be written.
 struct Job {
     /// Below the output folder.
     path: String,
@@ -204,6 +219,8 @@ struct Job {
 enum Taken {
     Frame { shot: Box<Shot>, capture: Box<Capture>, pictures: BTreeSet<FrameFile> },
     Sweep { shot: Box<LidarShot>, cloud: PointCloud },
+    Radar { shot: Box<RadarShot>, detections: Vec<RadarDetection> },
+    Grid { shot: Box<GridShot>, cells: Occupancy },
 }
 
 /// A frame's path and files.
@@ -214,7 +231,11 @@ fn write(folders: &FrameFolders, Job { path, scene, meta, taken }: Job) -> Writt
         Taken::Frame { shot, capture, pictures } => {
             folders.frame(&Frame::of(path.clone(), &scene, &shot, *capture, &meta)?, &pictures)?
         }
+        Taken::Grid { shot, cells } => folders.grid(&Grid::of(path.clone(), &scene, &shot, cells, &meta))?,
         Taken::Sweep { shot, cloud } => folders.sweep(&Sweep::of(path.clone(), &scene, &shot, cloud, &meta))?,
+        Taken::Radar { shot, detections } => {
+            folders.radar(&RadarCycle::of(path.clone(), &scene, &shot, detections, &meta))?
+        }
     };
     Ok((path, files))
 }
@@ -226,6 +247,10 @@ struct Built<'a> {
     shots: Vec<(u32, Vec<Shot>)>,
     /// Sweeps of each chosen moment.
     sweeps: Vec<(u32, Vec<LidarShot>)>,
+    /// Radars' cycles of each chosen moment.
+    radars: Vec<(u32, Vec<RadarShot>)>,
+    /// Grids of each chosen moment.
+    grids: Vec<(u32, Vec<GridShot>)>,
 }
 
 /// A moment's scene, made ready.
@@ -259,7 +284,10 @@ impl Run<'_> {
                     self.progress.say(&format!("building {scene} v{variation:02}"));
                     match self.build(&read, variation) {
                         Ok((file, built)) => {
-                            self.output.write_site(&folder, &file)?;
+                            let moments = built.scene.moments;
+                            let way = TrajectoryFile::new(moments.drive, |moment| moments.keyframe(moment));
+                            let lanes = LanesFile::new(moments.drive, built.scene.site.roads());
+                            self.output.write_site(&folder, &file, &way, &lanes)?;
                             (file, Some(built))
                         }
                         Err(error) => {
@@ -306,6 +334,12 @@ impl Run<'_> {
         let files = match key.sensed {
             Sensed::Frame => FrameFolders::files(&self.recipe.pictures(key.variation)),
             Sensed::Sweep => Sweep::FILES.to_vec(),
+            Sensed::Radar => RadarCycle::FILES.to_vec(),
+            Sensed::Grid => {
+                let form =
+                    self.grid_forms.get(&key.view).with_context(|| format!("{}: a grid of no recipe", key.path()))?;
+                Grid::files(*form).to_vec()
+            }
         };
         self.output.finished(&key.path(), &files)
     }
@@ -322,6 +356,10 @@ impl Run<'_> {
         let moments = timeline.moments().chosen(&keyframes);
         let shots: Vec<(u32, Vec<Shot>)> = moments.iter().map(|&k| (k as u32, built.shots(k, &report))).collect();
         let sweeps: Vec<(u32, Vec<LidarShot>)> = moments.iter().map(|&k| (k as u32, built.lidar_shots(k))).collect();
+        let radars: Vec<(u32, Vec<RadarShot>)> = moments.iter().map(|&k| (k as u32, built.radar_shots(k))).collect();
+        let grids = shots.iter().zip(&sweeps);
+        let grids: Vec<(u32, Vec<GridShot>)> =
+            grids.map(|((k, shots), (_, sweeps))| (*k, built.grid_shots(*k as usize, shots, sweeps))).collect();
         ensure!(shots.iter().any(|(_, shots)| !shots.is_empty()), "expected at least one view, found none");
         let file = SiteFile {
             drive: (&timeline.recorded).into(),
@@ -334,8 +372,10 @@ impl Run<'_> {
             planned: self.planned.clone(),
             frames: shots.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
             sweeps: sweeps.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
+            radars: radars.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
+            grids: grids.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
-        Ok((file, Built { scene: built, shots, sweeps }))
+        Ok((file, Built { scene: built, shots, sweeps, radars, grids }))
     }
 
     /// Renders what is missing of a scene; `base` is what its pictures are compared with.
@@ -387,7 +427,27 @@ impl Run<'_> {
                     let prepare_s = std::mem::take(&mut prepare_s);
                     let job = match key.sensed {
                         Sensed::Frame => self.frame(key, built, &photographed, before.as_ref(), prepare_s)?,
-                        Sensed::Sweep => self.sweep(key, built, &photographed, prepare_s)?,
+                        Sensed::Sweep => {
+                            let shot = key.of(&built.sweeps, |shot| &shot.view)?;
+                            self.beside(key, built, &photographed, prepare_s, |renderer, scene| Taken::Sweep {
+                                shot: Box::new(shot.clone()),
+                                cloud: renderer.sweep(scene, shot),
+                            })?
+                        }
+                        Sensed::Radar => {
+                            let shot = key.of(&built.radars, |shot| &shot.view)?;
+                            self.beside(key, built, &photographed, prepare_s, |renderer, scene| Taken::Radar {
+                                shot: Box::new(shot.clone()),
+                                detections: renderer.detections(scene, shot),
+                            })?
+                        }
+                        Sensed::Grid => {
+                            let shot = key.of(&built.grids, |shot| &shot.view)?;
+                            self.beside(key, built, &photographed, prepare_s, |renderer, scene| Taken::Grid {
+                                shot: Box::new(shot.clone()),
+                                cells: renderer.occupancy(scene, shot),
+                            })?
+                        }
                     };
                     self.write(threads, job)?;
                     self.progress.frame_done();
@@ -436,22 +496,21 @@ impl Run<'_> {
         Ok(Job { path, scene: scene.clone(), meta, taken })
     }
 
-    /// Makes one sweep.
-    fn sweep(
+    /// Makes what lies beside frames: a sweep, a radar's cycle or a grid.
+    fn beside(
         &mut self,
         key: &FrameKey,
         built: &Built<'_>,
         photographed: &Photographed,
         prepare_s: f64,
+        take: impl FnOnce(&Renderer, &PreparedScene) -> Taken,
     ) -> Result<Job, Stop> {
-        let (shot, moments) = (key.of(&built.sweeps, |shot| &shot.view)?, built.scene.moments);
         let path = key.path();
         self.progress.say(&path);
         let started = Instant::now();
-        let cloud = self.renderer.sweep(&photographed.prepared, shot);
+        let taken = take(self.renderer, &photographed.prepared);
         self.rendered.push(RenderedFrame { path: path.clone(), prepare_s, render_s: started.elapsed().as_secs_f64() });
-        let taken = Taken::Sweep { shot: Box::new(shot.clone()), cloud };
-        Ok(Job { path, scene: photographed.scene.clone(), meta: meta(key, moments), taken })
+        Ok(Job { path, scene: photographed.scene.clone(), meta: meta(key, built.scene.moments), taken })
     }
 
     /// Lets one of the renderer's threads write a frame, once there is room for it.
@@ -482,9 +541,9 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The manifest's rows of all frames, and of all sweeps.
-    fn rows(&mut self) -> Result<[Vec<FrameRow>; 2]> {
-        let [mut frames, mut sweeps] = [Vec::new(), Vec::new()];
+    /// The manifest's rows of all frames, of all sweeps, of all radars' cycles and of all grids.
+    fn rows(&mut self) -> Result<[Vec<FrameRow>; 4]> {
+        let [mut frames, mut sweeps, mut radars, mut grids] = [const { Vec::new() }; 4];
         for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
             for key in planned(&scene, variation, &file) {
                 if self.wants(&key) {
@@ -493,6 +552,8 @@ impl Run<'_> {
                     let (rows, is_compared) = match key.sensed {
                         Sensed::Frame => (&mut frames, variation > 0),
                         Sensed::Sweep => (&mut sweeps, false),
+                        Sensed::Radar => (&mut radars, false),
+                        Sensed::Grid => (&mut grids, false),
                     };
                     let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
                     rows.push(FrameRow {
@@ -512,7 +573,7 @@ impl Run<'_> {
             }
             self.sites.push(SiteSummary { scene, variation, file });
         }
-        Ok([frames, sweeps])
+        Ok([frames, sweeps, radars, grids])
     }
 
     /// Writes what sums the run up.

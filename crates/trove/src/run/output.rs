@@ -7,7 +7,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use trove_files::{FolderLock, OutputRoot};
-use trove_format::{FrameLine, Journal, RunIdentity, SiteFile, WrittenFile};
+use trove_format::{FrameLine, Journal, LanesFile, RunIdentity, SiteFile, TrajectoryFile, WrittenFile};
 use trove_write::{sha256_file, write_atomically};
 
 use super::identity::differences;
@@ -51,11 +51,19 @@ impl OutputFolder {
         Ok(SiteFile::read(&self.root.at(folder)?)?)
     }
 
-    /// Writes down what was built for a variation of a scene.
-    pub(super) fn write_site(&self, folder: &str, site: &SiteFile) -> Result<()> {
+    /// Writes down what was built for a variation of a scene, its lanes, and the way of the vehicle in it.
+    pub(super) fn write_site(
+        &self,
+        folder: &str,
+        site: &SiteFile,
+        way: &TrajectoryFile,
+        lanes: &LanesFile,
+    ) -> Result<()> {
         let folder = self.root.at(folder)?;
         std::fs::create_dir_all(&folder)
             .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
+        write_atomically(&folder.join(TrajectoryFile::NAME), &way.to_json())?;
+        write_atomically(&folder.join(LanesFile::NAME), &lanes.to_json())?;
         Ok(write_atomically(&folder.join(SiteFile::NAME), &site.to_json())?)
     }
 

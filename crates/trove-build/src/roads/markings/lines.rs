@@ -30,15 +30,20 @@ pub(super) struct Stroke {
 }
 
 impl Stroke {
-    /// What of it gets paint, where nothing has been painted yet.
-    pub(super) fn painted(&self, painted: &mut PlaneRaster) -> Vec<Polygon> {
+    /// The parts of it where nothing has been painted yet; they count as painted from now on.
+    pub(super) fn fresh(&self, painted: &mut PlaneRaster) -> Vec<Vec<DVec2>> {
+        fresh(&self.line, painted)
+    }
+
+    /// What of its fresh parts gets paint.
+    pub(super) fn painted(&self, fresh: &[Vec<DVec2>]) -> Vec<Polygon> {
         let half_m = self.width_m / 2.0;
         let solid = |line: &[DVec2]| strip(line, half_m);
         let broken =
             |line: &[DVec2], dash| dashes(line, dash).iter().flat_map(|d| strip(d, half_m)).collect::<Vec<_>>();
         let beside = |line: &[DVec2], side: f64| shifted(line, side * DOUBLE / 2.0 * self.width_m);
         let both = |left: Vec<Polygon>, right: Vec<Polygon>| [left, right].concat();
-        fresh(&self.line, painted)
+        fresh
             .iter()
             .flat_map(|line| {
                 let (left, right) = (beside(line, 1.0), beside(line, -1.0));
@@ -144,7 +149,7 @@ fn fresh(line: &[DVec2], painted: &mut PlaneRaster) -> Vec<Vec<DVec2>> {
 }
 
 /// Ranges of at least two indices for which `holds`.
-fn runs(len: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
+pub(super) fn runs(len: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut runs = Vec::new();
     let mut start = None;
     for i in 0..=len {
@@ -204,7 +209,7 @@ mod tests {
             let stroke = Stroke { line, paint: Paint::Yellow, pattern, width_m: 0.1 };
             let mut raster = PlaneRaster::new(Bounds::square(DVec2::ZERO, 60.0), 0.25);
             let (left, right): (Vec<_>, Vec<_>) =
-                stroke.painted(&mut raster).into_iter().partition(|p| p.centroid().y > 0.0);
+                stroke.painted(&stroke.fresh(&mut raster)).into_iter().partition(|p| p.centroid().y > 0.0);
             [left, right].map(|side| (side.iter().map(Polygon::area_m2).sum::<f64>() / 0.1).round())
         };
         assert_eq!(painted_m(LinePattern::SolidDashed(dash)), [48.0, 12.0]);

@@ -44,6 +44,8 @@ const COAT_SHARE: f64 = 0.4;
 const SHORTEST_COAT_M: f64 = 15.0;
 /// Share of the slow streets that have their limit painted at their entrances.
 const LIMIT_SHARE: f64 = 0.5;
+/// A line so near to the edge of the carriageway or to a crossing is painted in part at most, metres.
+const WHOLE_M: f64 = 0.2;
 /// Limits of speed that are painted, km/h.
 const PAINTED_LIMIT_KMH: f64 = 30.0;
 
@@ -53,6 +55,21 @@ pub(super) struct Markings {
     pub paints: BTreeMap<Paint, Vec<Polygon>>,
     /// Coated asphalt below the paint, with its tint.
     pub coats: Vec<(Vec3, Vec<Polygon>)>,
+    /// The lines along lanes among the paint.
+    pub lines: Vec<Line>,
+    /// Where people cross.
+    pub crossings: Vec<Polygon>,
+}
+
+/// A line along lanes, or two side by side, as far as nothing else is painted over it.
+pub(super) struct Line {
+    /// Its middle; along dashes and gaps alike.
+    pub line: Vec<DVec2>,
+    pub paint: Paint,
+    /// The left side first as seen along the line.
+    pub pattern: MarkPattern,
+    /// Of one of two.
+    pub width_m: f64,
 }
 
 /// Everything that is painted on the road of a place.
@@ -75,9 +92,13 @@ pub(super) fn markings(
 
     let mut areas: BTreeMap<Paint, Vec<Polygon>> = BTreeMap::new();
     let mut painted = PlaneRaster::new(bounds, 0.2);
+    let mut lines: Vec<Line> = Vec::new();
     let mapped = legs.iter().flat_map(|leg| lines::strokes(leg, customs)).filter(|s| is_unrecorded(&s.line, layout));
     for stroke in recorded_strokes(drive, customs).into_iter().chain(mapped) {
-        areas.entry(stroke.paint).or_default().extend(stroke.painted(&mut painted));
+        let fresh = stroke.fresh(&mut painted);
+        areas.entry(stroke.paint).or_default().extend(stroke.painted(&fresh));
+        let Stroke { paint, pattern, width_m, .. } = stroke;
+        lines.extend(fresh.into_iter().map(|line| Line { line, paint, pattern: mark_pattern(pattern), width_m }));
     }
     let detailed: Vec<(Vec<Polygon>, Vec<Polygon>)> =
         legs.par_iter().map(|leg| details(leg, &control, &crossings, customs, on_left, seed, report)).collect();
@@ -129,7 +150,18 @@ pub(super) fn markings(
     } else {
         vec![(Vec3::from_array(customs.cycle_coat), intersection(&union(&coated), &layout.carriageway))]
     };
-    Markings { paints, coats }
+    let mut free = PlaneRaster::new(bounds, 0.2);
+    free.fill(&layout.carriageway, 1);
+    free.fill(&clear, 0);
+    let is_free = |p: DVec2| {
+        [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y].iter().all(|way| free.at(p + way * WHOLE_M) != 0)
+    };
+    let lines = lines.into_iter().flat_map(|whole| {
+        let parts = lines::runs(whole.line.len(), |i| is_free(whole.line[i]));
+        parts.into_iter().map(move |part| Line { line: whole.line[part].to_vec(), ..whole })
+    });
+    let crossings = crossings.iter().flat_map(|crossing| crossing.area.clone()).collect();
+    Markings { paints, coats, lines: lines.collect(), crossings }
 }
 
 /// What is painted on a leg besides its lines, white, and what is coated.
@@ -195,6 +227,17 @@ fn line_pattern(pattern: MarkPattern, dash: Dash) -> LinePattern {
         MarkPattern::DoubleDashed => LinePattern::DoubleDashed(dash),
         MarkPattern::SolidDashed => LinePattern::SolidDashed(dash),
         MarkPattern::DashedSolid => LinePattern::DashedSolid(dash),
+    }
+}
+
+fn mark_pattern(pattern: LinePattern) -> MarkPattern {
+    match pattern {
+        LinePattern::Solid => MarkPattern::Solid,
+        LinePattern::Dashed(_) => MarkPattern::Dashed,
+        LinePattern::Double => MarkPattern::DoubleSolid,
+        LinePattern::DoubleDashed(_) => MarkPattern::DoubleDashed,
+        LinePattern::SolidDashed(_) => MarkPattern::SolidDashed,
+        LinePattern::DashedSolid(_) => MarkPattern::DashedSolid,
     }
 }
 

@@ -122,3 +122,28 @@ fn cycle_lanes_have_a_line_and_bicycles() {
     let with = area_m2(&all(&painted(UNITED_STATES, &map).0));
     assert!(with > without + 15.0, "{with} {without}");
 }
+
+#[test]
+fn lines_that_are_told_are_painted_where_they_are_told() {
+    let (markings, _) = painted(UNITED_STATES, &junction());
+    let mut told = 0;
+    for line in &markings.lines {
+        // The two of a double line are so far to its sides.
+        let aside_m = match line.pattern {
+            MarkPattern::Solid => 0.0,
+            MarkPattern::DoubleSolid => 1.1 * line.width_m,
+            _ => continue,
+        };
+        for pair in line.line.windows(2) {
+            let side = (pair[1] - pair[0]).normalize().perp() * aside_m;
+            for p in [pair[0].midpoint(pair[1]) + side, pair[0].midpoint(pair[1]) - side] {
+                assert!(markings.paints[&line.paint].iter().any(|area| area.contains(p)), "{p}");
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 100, "{told}");
+    let centre = |line: &&Line| line.paint == Paint::Yellow && line.line.iter().all(|p| p.y.abs() < 0.5 && p.x < 0.0);
+    let centre: Vec<&Line> = markings.lines.iter().filter(centre).collect();
+    assert_eq!(centre.iter().map(|line| line.pattern).collect::<Vec<_>>(), [MarkPattern::DoubleSolid]);
+}

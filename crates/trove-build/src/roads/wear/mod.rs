@@ -38,7 +38,7 @@ const STRETCH_M: f64 = 0.0015;
 const PATCH_M: f64 = 0.003;
 const TRACE_M: f64 = 0.0045;
 const COAT_M: f64 = 0.006;
-const PAINT_M: f64 = 0.0075;
+pub(super) const PAINT_M: f64 = 0.0075;
 const COVER_M: f64 = 0.009;
 /// A piece of kerb at least this long is straight enough to lay paving along.
 const STRAIGHT_M: f64 = 3.0;

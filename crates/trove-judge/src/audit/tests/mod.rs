@@ -104,7 +104,7 @@ const FAULTS: [Fault; 38] = [
             (f.eye().unwrap(), super::frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
         let (depth, instance) = (f.depth_m.as_ref().unwrap(), f.instance.as_ref().unwrap());
         let flow = f.flow[0].as_mut().unwrap();
-        for (pixel, _) in super::single::pixels(instance).filter(|(_, id)| **id == CAR) {
+        for (pixel, _) in super::frame::pixels(instance).filter(|(_, id)| **id == CAR) {
             let point =
                 eye.world_from_camera.transform_point3(eye.point(pixel, *depth.at(pixel[0], pixel[1])).unwrap());
             let end = eye.lens.project(other.inverse().transform_point3(point + DVec3::new(0.0, 2.0, 0.0))).unwrap();

@@ -1,0 +1,69 @@
+//! What the roads of a place are, as they were built.
+
+use glam::DVec3;
+
+use crate::{MarkPattern, Paint, Polygon};
+
+/// Areas and lines of the carriageways on the ground; those on bridges and in tunnels are not told.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RoadPlan {
+    /// Carriageways; polygons do not overlap.
+    pub drivable: Vec<Polygon>,
+    /// Sidewalks with their kerbs.
+    pub walkways: Vec<Polygon>,
+    /// Where people cross, on the carriageway, painted or not.
+    pub crossings: Vec<Polygon>,
+    /// What each part of the carriageway is for, but for junctions that no recorded lane passes.
+    pub lanes: Vec<PlannedLane>,
+    /// Lines painted along lanes: no stop lines, crossings and symbols, and no lines along kerbs.
+    pub lines: Vec<PaintedLine>,
+}
+
+/// A lane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedLane {
+    /// Its middle on the road's surface in the direction in which it is driven, World; at least two points.
+    pub centreline: Vec<DVec3>,
+    /// From edge to edge.
+    pub width_m: f64,
+    /// What it is for.
+    pub usage: LaneUsage,
+}
+
+/// What a lane is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaneUsage {
+    /// Cars, and whoever rides among them.
+    Driving,
+    /// Bicycles alone.
+    Cycling,
+    /// Vehicles stand here.
+    Parking,
+}
+
+impl LaneUsage {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Driving, Self::Cycling, Self::Parking];
+
+    /// Its name in files (`driving`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Driving => "driving",
+            Self::Cycling => "cycling",
+            Self::Parking => "parking",
+        }
+    }
+}
+
+/// A painted line, or two side by side; where it is broken, along its dashes and gaps alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaintedLine {
+    /// Its middle on the paint, World; at least two points.
+    pub points: Vec<DVec3>,
+    /// Its paint.
+    pub paint: Paint,
+    /// Its pattern, the left side first as seen along the points.
+    pub pattern: MarkPattern,
+    /// Width of one line.
+    pub width_m: f64,
+}
