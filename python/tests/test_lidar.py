@@ -4,7 +4,9 @@ import json
 from pathlib import Path
 
 import jsonschema
+import laspy
 import numpy as np
+import pypcd4
 import pytest
 import trove as package
 from conftest import files, trove
@@ -89,11 +91,62 @@ def test_threads_and_a_second_run_change_nothing_and_what_is_lost_is_made_again(
     assert trove("verify", out).returncode == 0
 
 
-def test_nuscenes_and_kitti_have_the_points(lidar_recipe, tmp_path):
-    out = tmp_path / "out"
-    lit = tmp_path / "lit.toml"
-    lit.write_text(lidar_recipe.read_text().replace("light = false", "spp = 1"))
-    assert trove("generate", lit, "--out", out).returncode == 0
+@pytest.fixture(scope="module")
+def lit(lidar_recipe, tmp_path_factory):
+    """Frames whose images an export can take, and their sweeps."""
+    folder = tmp_path_factory.mktemp("lit")
+    (folder / "lit.toml").write_text(lidar_recipe.read_text().replace("light = false", "spp = 1"))
+    done = trove("generate", folder / "lit.toml", "--out", folder / "out")
+    assert done.returncode == 0, done.stderr
+    return folder / "out"
+
+
+def test_pcd_and_las_hold_every_point(lit, tmp_path):
+    sweeps = {sweep.name.split("/")[2]: sweep for sweep in package.open(lit).sweeps}
+    for form in ("pcd", "las"):
+        done = trove("export", lit, "--format", form, "--out", tmp_path / form)
+        assert done.returncode == 0, done.stderr
+        assert len(list((tmp_path / form / "train").iterdir())) == len(sweeps) == 2
+    for keyframe, sweep in sweeps.items():
+        points = sweep.points
+        (path,) = (tmp_path / "pcd/train").glob(f"*_{keyframe}_ego.LIDAR_TOP.pcd")
+        cloud = pypcd4.PointCloud.from_path(path)
+        told = dict(zip(cloud.fields, cloud.numpy(cloud.fields).T))
+        same = {"return": "return", "label": "class", "time": "time_s"}
+        for field in ("x", "y", "z", "intensity", "ring", "time", "return", "label", "instance"):
+            assert np.array_equal(told[field], points[same.get(field, field)].astype("<f4")), field
+        pose = np.asarray(sweep.table["world_from_lidar"])
+        place, (w, x, y, z) = cloud.metadata.viewpoint[:3], cloud.metadata.viewpoint[3:]
+        assert np.allclose(place, pose[:3, 3])
+        left = [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)]
+        assert np.allclose(left, pose[:3, 1])
+
+        (path,) = (tmp_path / "las/train").glob(f"*_{keyframe}_ego.LIDAR_TOP.las")
+        las = laspy.read(path)
+        assert np.abs(las.xyz - sweep.xyz).max() <= 0.0005 + 1e-9
+        assert las.header.parse_crs() is None or las.header.parse_crs().axis_info[0].unit_name == "metre"
+        for field, expected in {
+            "ring": points["ring"],
+            "instance": points["instance"],
+            "intensity": points["intensity"].astype(int) * 257,
+            "return_number": points["return"] + 1,
+        }.items():
+            assert np.array_equal(las[field], expected), field
+        seconds = las.gps_time + 1e9 + 315964800 - 18 - sweep.table["time_ns"] * 1e-9
+        assert np.abs(seconds - points["time_s"]).max() < 1e-5
+        assert set(las.classification[points["class"] == 9]) == {11}
+        assert (np.asarray(las.number_of_returns)[points["return"] == 1] == 2).all()
+        assert (las.number_of_returns == 2).sum() == 2 * (points["return"] == 1).sum()
+
+
+def test_a_run_without_a_lidar_has_no_point_clouds(finished, tmp_path):
+    done = trove("export", finished, "--format", "las", "--out", tmp_path / "las")
+    assert done.returncode != 0
+    assert "[sensors.NAME]" in done.stderr
+
+
+def test_nuscenes_and_kitti_have_the_points(lit, tmp_path):
+    out = lit
     sweep = package.open(out).sweeps[0]
     for form in ("nuscenes", "kitti"):
         done = trove("export", out, "--format", form, "--out", tmp_path / form)

@@ -9,9 +9,7 @@ use trove_model::{
 };
 
 use crate::agreement::{OnDisagreement, agreed, assumed};
-use crate::assembly::Stock;
-use crate::assembly::Weather;
-use crate::assembly::{Actor, Assembly, MeshesNow};
+use crate::assembly::{Actor, Assembly, MeshesNow, Movement, Stock, Weather};
 use crate::between::Moments;
 use crate::error::BuildError;
 use crate::furniture::furniture;
@@ -395,6 +393,9 @@ impl Site {
 impl Added {
     fn instance(&self, keyframe: usize, neighbours: [Option<usize>; 2], meshes: &mut MeshesNow) -> Option<Instance> {
         let pose = self.actor.at(keyframe)?;
+        // Nobody waits in a lane: a vehicle that was added and stands is parked.
+        let parks = self.speed_mps == 0.0;
+        let movement = Movement { speed_mps: pose.movement.speed_mps.or(Some(self.speed_mps)), ..pose.movement };
         let object = SceneObject {
             kind: self.kind,
             origin: Origin::Added,
@@ -402,7 +403,7 @@ impl Added {
             cuboid: pose.cuboid,
             velocity_mps: Some(pose.cuboid.world_from_body.vector(DVec3::X) * self.speed_mps),
             yaw_rate_radps: pose.movement.yaw_rate_radps,
-            states: pose.movement.states(self.kind, pose.posture, None),
+            states: movement.states(self.kind, pose.posture, Some(parks)),
             paint: self.actor.paint,
             keypoints_world: pose.keypoints_world,
         };

@@ -3,7 +3,7 @@ use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
 use crate::{LightChoice, OnDisagreement, Weather, testing};
 use room::Outline;
-use trove_model::{AssetLibrary, Instance, Origin, Scene, SceneObject};
+use trove_model::{AssetLibrary, Instance, Origin, Scene, SceneObject, State};
 
 const RIDER: &str = "bicycle/rider";
 
@@ -148,4 +148,26 @@ fn cyclists_are_as_common_as_asked_for() {
     assert_eq!(riders(0.0).0, 0);
     let (some, many) = (riders(1.0), riders(100.0));
     assert!(many.0 > some.0 && many.0 * 2 > many.1, "{some:?} {many:?}");
+}
+
+#[test]
+fn added_vehicles_that_stand_are_parked_and_the_others_move() {
+    let drive = testing::drive();
+    let site = site_with(Traffic { density: 6.0, ..Traffic::default() }, 1, &Report::default());
+    let added = |keyframe| {
+        let instances = site.scene(&drive, keyframe).instances;
+        let of = |i: &Instance| Some((i.id, i.object.as_deref().filter(|o| o.origin == Origin::Added)?.clone()));
+        instances.iter().filter_map(of).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let (now, next) = (added(5), added(6));
+    let mut seen = [0, 0];
+    for (id, object) in now.iter().filter(|(_, object)| object.kind.is_vehicle()) {
+        let Some(later) = next.get(id) else { continue };
+        let place = |object: &SceneObject| object.cuboid.world_from_body.translation;
+        let moves = place(object).distance(place(later)) > 0.1;
+        let expected = if moves { State::Moving } else { State::Parked };
+        assert!(object.states.contains(&expected), "{object:?}");
+        seen[usize::from(moves)] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
 }

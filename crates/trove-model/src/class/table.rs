@@ -1,8 +1,8 @@
 //! Label sets as tables: a line a class, fields apart by tabs, the first line names the columns.
 
 /// Every label set that has a table.
-pub const LABEL_TABLES: [&str; 8] =
-    ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "waymo", "occ3d"];
+pub const LABEL_TABLES: [&str; 9] =
+    ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "waymo", "occ3d", "asprs"];
 /// What stands under `train_id` for a class that does not count.
 pub(crate) const IGNORED: u8 = 255;
 
@@ -20,6 +20,7 @@ pub fn label_table(set: &str) -> Option<&'static str> {
         "camvid" => include_str!("camvid.tsv"),
         "waymo" => include_str!("waymo.tsv"),
         "occ3d" => include_str!("occ3d.tsv"),
+        "asprs" => include_str!("asprs.tsv"),
         _ => return None,
     })
 }

@@ -33,6 +33,8 @@ fn our_classes_have_the_numbers_that_each_dataset_documents() {
         ("camvid", [11, 0, 8, 8, 8, 8, 8, 9, 1, 3, 7, 5, 10, 8, 5, 5, 11, 11, 6, 4]),
         ("waymo", [0, 25, 2, 4, 2, 3, 2, 9, 19, 20, 28, 26, 10, 5, 24, 24, 11, 14, 17, 23]),
         ("occ3d", [0, 17, 4, 3, 4, 10, 4, 7, 15, 11, 1, 14, 2, 5, 16, 16, 6, 8, 15, 13]),
+        // ASPRS LAS 1.4, table 17; from 64 on, which users define, docs/judge.md.
+        ("asprs", [1, 0, 64, 65, 64, 66, 64, 68, 6, 11, 72, 2, 69, 67, 4, 5, 70, 72, 73, 71]),
     ] {
         assert_eq!(numbers(name), expected, "{name}");
     }
@@ -52,6 +54,7 @@ fn every_built_in_map_numbers_what_counts_from_0_and_knows_what_does_not() {
         ("camvid", 11, vec![11, 255], InstanceCoding::Beside),
         ("waymo", 27, vec![0, 1, 255], InstanceCoding::Divisor(NonZero::new(1000).unwrap())),
         ("occ3d", 17, vec![17, 255], InstanceCoding::Beside),
+        ("asprs", 16, vec![0, 1, 255], InstanceCoding::Beside),
     ] {
         let map = map(name);
         assert_eq!((map.name.as_str(), map.instances), (name, instances));

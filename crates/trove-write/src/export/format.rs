@@ -16,6 +16,7 @@ use super::nuimages::NuImages;
 use super::nuscenes::NuScenes;
 use super::openlabel::OpenLabel;
 use super::openlane::OpenLane;
+use super::point_clouds::{self, PointClouds};
 use super::video::Video;
 use super::virtual_kitti::VirtualKitti2;
 use super::web_dataset::WebDataset;
@@ -42,7 +43,7 @@ enum Kind {
 
 use Kind::{Classes, Plain};
 
-static FORMS: [Form; 22] = [
+static FORMS: [Form; 24] = [
     Form { name: "bop", kind: Plain(|| Box::new(Bop)) },
     Form { name: "cityscapes", kind: Classes("cityscapes", |map| Box::new(Cityscapes { map })) },
     Form { name: "coco", kind: Classes("coco", |map| Box::new(CocoInstances { map })) },
@@ -53,6 +54,7 @@ static FORMS: [Form; 22] = [
     Form { name: "kitti-flow", kind: Plain(|| Box::new(KittiFlow)) },
     Form { name: "kitti-step", kind: Classes("kitti-step", |map| Box::new(KittiStep { map })) },
     Form { name: "kitti-tracking", kind: Plain(|| Box::new(KittiTracking)) },
+    Form { name: "las", kind: Classes("asprs", |map| Box::new(PointClouds { map, form: point_clouds::Form::Las })) },
     Form { name: "mcap", kind: Plain(|| Box::new(Mcap)) },
     Form { name: "mmseg", kind: Classes("cityscapes", |map| Box::new(MmSegmentation { map })) },
     Form { name: "nuimages", kind: Plain(|| Box::new(NuImages)) },
@@ -60,6 +62,7 @@ static FORMS: [Form; 22] = [
     Form { name: "openlabel", kind: Plain(|| Box::new(OpenLabel)) },
     Form { name: "openlane", kind: Plain(|| Box::new(OpenLane)) },
     Form { name: "paper13", kind: Classes("paper13", |map| Box::new(LabelPictures { map })) },
+    Form { name: "pcd", kind: Classes("trove20", |map| Box::new(PointClouds { map, form: point_clouds::Form::Pcd })) },
     Form { name: "video", kind: Plain(|| Box::new(Video)) },
     Form { name: "vkitti2", kind: Plain(|| Box::new(VirtualKitti2)) },
     Form { name: "webdataset", kind: Plain(|| Box::new(WebDataset)) },

@@ -6,6 +6,7 @@
 
 mod bop;
 mod cityscapes;
+mod cloud;
 mod coco;
 mod contours;
 mod dataset;
@@ -20,6 +21,7 @@ mod kitti_dense;
 mod kitti_step;
 mod label_pictures;
 mod labels;
+mod las;
 mod mcap;
 mod mcap_file;
 mod nuimages;
@@ -29,7 +31,9 @@ mod nuscenes_radar;
 mod nuscenes_rows;
 mod openlabel;
 mod openlane;
+mod pcd;
 mod plan;
+mod point_clouds;
 mod protobuf;
 mod stereo;
 mod tables;
@@ -174,7 +178,7 @@ fn name(plan: &Plan, frames: &[usize]) -> String {
         hasher.update(frame.split.as_bytes());
         hasher.update([*number as u32, frame.sequence, frame.index].map(u32::to_le_bytes).as_flattened());
         hasher.update(frame.content);
-        plan.sweep(frame).into_iter().chain(plan.radars(frame)).for_each(|sweep| hasher.update(sweep.content));
+        plan.sweeps(frame).iter().chain(plan.radars(frame)).for_each(|sweep| hasher.update(sweep.content));
     }
     files::hexadecimal(&hasher.finalize()[..16])
 }

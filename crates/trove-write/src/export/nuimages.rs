@@ -11,8 +11,8 @@ use super::dataset::{Dataset, Finished};
 use super::geometry::affine;
 use super::kinds;
 use super::nuscenes_rows::{
-    ATTRIBUTES, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows, sensor, speed_mps,
-    token, world_from_ego,
+    ATTRIBUTES, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows, sensor, token,
+    world_from_ego,
 };
 use super::plan::Plan;
 use super::tables::write_list;
@@ -102,8 +102,7 @@ fn annotations(frame: &StoredFrame, name: &str, data: &str, unit: &mut Unit<'_>)
     for object in frame.table.objects.iter().filter(|object| object.origin != ObjectOrigin::Scenery) {
         let (Some(category), Some(bounds)) = (kinds::nuscenes(object.kind), object.visible_box) else { continue };
         let mask = within(bounds, |x, y| u32::from(*instance.at(x, y)) == object.id);
-        // One picture does not tell what stands for a moment from what is parked.
-        let attribute = attribute(object.kind, speed_mps(object), false).filter(|name| *name != "vehicle.parked");
+        let attribute = attribute(object.kind, &object.states);
         let [x0, y0, x1, y1] = bounds;
         let row = json!({
             "token": token("object_ann", &format!("{name}/{}", object.id)),

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DAffine3;
 use serde_json::{Value, json};
 use trove_format::{FrameFile, FrameTable, ObjectOrigin};
-use trove_model::Kind;
+use trove_model::{Kind, State};
 
 use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, quaternion_wxyz};
@@ -15,8 +15,8 @@ use super::kitti::note_distortion;
 use super::nuscenes_lidar::{self, PanopticNumbers};
 use super::nuscenes_radar;
 use super::nuscenes_rows::{
-    ATTRIBUTES, STANDS_MPS, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows,
-    sensor, speed_mps, token, world_from_ego,
+    ATTRIBUTES, VERSION, attribute, calibrated_sensor, channel, ego_pose, in_plane, log, named_rows, sensor, token,
+    world_from_ego,
 };
 use super::plan::{Plan, PlannedFrame};
 use super::tables::write_list;
@@ -321,7 +321,7 @@ struct Track {
 struct Sighting {
     plane_from_body: DAffine3,
     size_m: [f64; 3],
-    speed_mps: Option<f64>,
+    states: Vec<State>,
     visible_px: u64,
     amodal_px: u64,
 }
@@ -335,7 +335,7 @@ impl Tracks {
             let sighting = sightings.entry(keyframe).or_insert_with(|| Sighting {
                 plane_from_body: in_plane(table, &affine(&object.world_from_body)),
                 size_m: object.size_m,
-                speed_mps: speed_mps(object),
+                states: object.states.clone(),
                 visible_px: 0,
                 amodal_px: 0,
             });
@@ -347,10 +347,9 @@ impl Tracks {
     fn rows(&self, scene: &str, moments: &BTreeMap<u32, Moment>, unit: &mut Unit<'_>) -> Result<(), WriteError> {
         for (id, Track { kind, category, sightings }) in &self.0 {
             let instance = token("instance", &format!("{scene}/{id}"));
-            let ever_moves = sightings.values().any(|s| s.speed_mps.is_some_and(|speed| speed > STANDS_MPS));
             let mut annotations = Vec::new();
             for (keyframe, sighting) in sightings {
-                let attribute = attribute(*kind, sighting.speed_mps, ever_moves);
+                let attribute = attribute(*kind, &sighting.states);
                 let [length, width, height] = sighting.size_m;
                 annotations.push(json!({
                     "token": token("sample_annotation", &format!("{scene}/{id}/{keyframe}")),

@@ -2,10 +2,11 @@
 
 use trove_model::{Class, RadarDetection};
 
+use super::pcd::{self, Field};
 use crate::{StoredRadarCycle, WriteError};
 
 /// Names, bytes and types of a record's fields.
-const FIELDS: [(&str, u8, char); 18] = [
+const FIELDS: [Field; 18] = [
     ("x", 4, 'F'),
     ("y", 4, 'F'),
     ("z", 4, 'F'),
@@ -43,15 +44,7 @@ const PERHAPS: u8 = 3;
 /// A cycle's file; without detections it has one record that is not a number, as nuScenes marks that.
 pub(super) fn file(cycle: &StoredRadarCycle) -> Result<Vec<u8>, WriteError> {
     let detections = cycle.detections()?;
-    let column = |of: fn(&(&str, u8, char)) -> String| FIELDS.iter().map(of).collect::<Vec<_>>().join(" ");
-    let (names, sizes, types) =
-        (column(|field| field.0.into()), column(|field| field.1.to_string()), column(|field| field.2.to_string()));
-    let (ones, count) = (column(|_| "1".into()), detections.len().max(1));
-    let mut bytes = format!(
-        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {names}\nSIZE {sizes}\nTYPE {types}\nCOUNT {ones}\n\
-         WIDTH {count}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {count}\nDATA binary\n"
-    )
-    .into_bytes();
+    let mut bytes = pcd::header(&FIELDS, detections.len().max(1), pcd::UNMOVED);
     for (id, told) in (0..).zip(&detections) {
         bytes.extend(record(id, told, cycle.table.stands_mps));
     }

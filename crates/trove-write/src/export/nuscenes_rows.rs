@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 use serde_json::{Value, json};
-use trove_format::{FrameTable, ObjectRow};
+use trove_format::FrameTable;
 use trove_model::{Kind, State};
 
 use super::geometry::{affine, quaternion_wxyz};
@@ -11,8 +11,6 @@ use crate::files;
 
 /// Folder of the tables, and the version that the devkit is asked for.
 pub(crate) const VERSION: &str = "v1.0-trove";
-/// Slower than this, a road user stands.
-pub(crate) const STANDS_MPS: f64 = State::STANDS_MPS;
 
 /// nuScenes' attributes.
 pub(crate) const ATTRIBUTES: [&str; 8] = [
@@ -103,29 +101,22 @@ pub(crate) fn log(scene: &str, table: &FrameTable) -> Value {
     })
 }
 
-/// The attribute of an object, as far as its motion and kind tell it.
-pub(crate) fn attribute(kind: Kind, speed_mps: Option<f64>, ever_moves: bool) -> Option<&'static str> {
+/// The attribute of an object, as far as its kind and what it does tell it.
+pub(crate) fn attribute(kind: Kind, states: &[State]) -> Option<&'static str> {
     match kind {
         Kind::BicycleWithRider | Kind::MotorcycleWithRider => return Some("cycle.with_rider"),
         Kind::Bicycle | Kind::Motorcycle => return Some("cycle.without_rider"),
         _ => {}
     }
-    let moves = speed_mps? > STANDS_MPS;
-    match kind {
-        Kind::Adult | Kind::Child | Kind::ConstructionWorker | Kind::PoliceOfficer if moves => {
-            Some("pedestrian.moving")
-        }
-        Kind::Adult | Kind::Child | Kind::ConstructionWorker | Kind::PoliceOfficer => Some("pedestrian.standing"),
-        kind if !kind.is_car() => None,
-        _ if moves => Some("vehicle.moving"),
-        _ if ever_moves => Some("vehicle.stopped"),
-        _ => Some("vehicle.parked"),
-    }
-}
-
-/// Speed over the ground.
-pub(crate) fn speed_mps(object: &ObjectRow) -> Option<f64> {
-    object.velocity_mps.map(|[x, y, _]| x.hypot(y))
+    states.iter().find_map(|state| match state {
+        State::Moving => Some("vehicle.moving"),
+        State::Stopped => Some("vehicle.stopped"),
+        State::Parked => Some("vehicle.parked"),
+        State::Walking | State::Running => Some("pedestrian.moving"),
+        State::Standing => Some("pedestrian.standing"),
+        State::Sitting => Some("pedestrian.sitting_lying_down"),
+        State::Braking | State::Riding => None,
+    })
 }
 
 /// The day of a time, in UTC, by the civil calendar.
@@ -154,17 +145,17 @@ mod tests {
     }
 
     #[test]
-    fn motion_and_kind_decide_the_attribute() {
-        assert_eq!(attribute(Kind::Car, Some(3.0), true), Some("vehicle.moving"));
-        assert_eq!(attribute(Kind::Car, Some(0.0), true), Some("vehicle.stopped"));
-        assert_eq!(attribute(Kind::Bus, Some(0.1), false), Some("vehicle.parked"));
-        assert_eq!(attribute(Kind::Car, None, true), None);
-        assert_eq!(attribute(Kind::Adult, Some(1.3), true), Some("pedestrian.moving"));
-        assert_eq!(attribute(Kind::BicycleWithRider, None, false), Some("cycle.with_rider"));
-        assert_eq!(attribute(Kind::TrafficCone, Some(0.0), false), None);
-        for kind in Kind::ALL {
-            let of = |speed| attribute(kind, Some(speed), false);
-            assert!([0.0, 1.0].into_iter().filter_map(of).all(|name| ATTRIBUTES.contains(&name)), "{kind:?}");
-        }
+    fn kind_and_states_decide_the_attribute() {
+        let of = |kind, states: &[State]| attribute(kind, states);
+        assert_eq!(of(Kind::Car, &[State::Moving, State::Braking]), Some("vehicle.moving"));
+        assert_eq!(of(Kind::Car, &[State::Stopped]), Some("vehicle.stopped"));
+        assert_eq!(of(Kind::Bus, &[State::Parked]), Some("vehicle.parked"));
+        assert_eq!(of(Kind::Car, &[]), None);
+        assert_eq!(of(Kind::Adult, &[State::Walking]), Some("pedestrian.moving"));
+        assert_eq!(of(Kind::Adult, &[State::Sitting]), Some("pedestrian.sitting_lying_down"));
+        assert_eq!(of(Kind::BicycleWithRider, &[State::Moving, State::Riding]), Some("cycle.with_rider"));
+        assert_eq!(of(Kind::TrafficCone, &[]), None);
+        let named = State::ALL.iter().filter_map(|state| of(Kind::Car, &[*state]));
+        assert!(named.chain(of(Kind::Bicycle, &[])).all(|name| ATTRIBUTES.contains(&name)));
     }
 }

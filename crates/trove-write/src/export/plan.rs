@@ -66,7 +66,12 @@ pub(crate) struct PlannedSweep {
 impl PlannedFrame {
     /// A name that no other frame has, for folders that hold all frames.
     pub(crate) fn flat_name(&self) -> String {
-        let Self { scene, variation, keyframe, view, .. } = self;
+        self.flat_name_of(&self.view)
+    }
+
+    /// Such a name for what another sensor measured at the frame's moment.
+    pub(crate) fn flat_name_of(&self, view: &str) -> String {
+        let Self { scene, variation, keyframe, .. } = self;
         format!("{scene}_v{variation:02}_k{keyframe:03}_{view}")
     }
 }
@@ -170,6 +175,12 @@ impl Plan {
     /// The first LiDAR's sweep of a frame's moment from its vehicle; `None` where there is none.
     pub(crate) fn sweep(&self, frame: &PlannedFrame) -> Option<&PlannedSweep> {
         of_vehicle(&self.sweeps, frame).next()
+    }
+
+    /// All LiDARs' sweeps of a frame's moment, whatever carries them.
+    pub(crate) fn sweeps(&self, frame: &PlannedFrame) -> &[PlannedSweep] {
+        let of_moment = self.sweeps.get(&(frame.scene.clone(), frame.variation, frame.keyframe));
+        of_moment.map_or(&[], Vec::as_slice)
     }
 
     /// The radars' cycles of a frame's moment from its vehicle.

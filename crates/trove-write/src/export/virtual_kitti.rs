@@ -7,12 +7,11 @@ use std::sync::LazyLock;
 
 use glam::{DAffine3, DMat3, DVec3, EulerRot};
 use trove_format::{FrameTable, ObjectRow};
-use trove_model::{Kind, Raster};
+use trove_model::{Kind, Raster, State};
 
 use super::dataset::{Dataset, Finished};
 use super::geometry::{affine, camera_from_body, camera_from_world};
 use super::kitti::{note_distortion, wrapped};
-use super::nuscenes_rows::{STANDS_MPS, speed_mps};
 use super::plan::{Plan, PlannedFrame};
 use super::unit::Unit;
 use crate::{StoredFrame, WriteError, jpeg, png_file};
@@ -234,7 +233,7 @@ impl Texts {
         for object in table.objects.iter().filter(|object| is_tracked(object)) {
             let Some(number) = tracks.keys().position(|id| *id == object.id) else { continue };
             let Some([left, top, right, bottom]) = object.visible_box else { continue };
-            let moves = speed_mps(object).is_some_and(|speed| speed > STANDS_MPS);
+            let moves = object.states.contains(&State::Moving);
             let _ = writeln!(
                 self.boxes,
                 "{index} {camera} {number} {left} {right} {top} {bottom} {} {} {} {}",
