@@ -124,7 +124,7 @@ def test_pcd_and_las_hold_every_point(lit, tmp_path):
         (path,) = (tmp_path / "las/train").glob(f"*_{keyframe}_ego.LIDAR_TOP.las")
         las = laspy.read(path)
         assert np.abs(las.xyz - sweep.xyz).max() <= 0.0005 + 1e-9
-        assert las.header.parse_crs() is None or las.header.parse_crs().axis_info[0].unit_name == "metre"
+        assert {axis.unit_name for axis in las.header.parse_crs().axis_info} == {"metre"}
         for field, expected in {
             "ring": points["ring"],
             "instance": points["instance"],
