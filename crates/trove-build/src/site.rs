@@ -472,10 +472,8 @@ mod tests {
             let mut at_once = std::collections::BTreeSet::new();
             for instance in &scene.instances {
                 let Some(object) = instance.object.as_deref() else { continue };
-                let name = match &object.origin {
-                    Origin::Recorded { track_token, .. } => track_token.clone(),
-                    origin => format!("{origin:?} {:?}", object.asset),
-                };
+                let nameless = || format!("{:?} {:?}", object.origin, object.asset);
+                let name = object.origin.track_token().map_or_else(nameless, str::to_owned);
                 assert!(at_once.insert(instance.id), "{:?} is there twice at {k}", instance.id);
                 assert_eq!(names.entry(instance.id).or_insert_with(|| name.clone()), &name, "at {k}");
             }

@@ -130,6 +130,14 @@ impl Origin {
         }
     }
 
+    /// The dataset's token of its track; `None` for what the dataset did not annotate.
+    pub fn track_token(&self) -> Option<&str> {
+        match self {
+            Self::Recorded { track_token, .. } => Some(track_token),
+            Self::Carrier | Self::Added | Self::Scenery => None,
+        }
+    }
+
     /// Whether it is a road user other than the vehicle that carried the cameras.
     pub fn is_road_user(&self) -> bool {
         matches!(self, Self::Recorded { .. } | Self::Added)

@@ -47,10 +47,7 @@ pub(crate) fn frame_table(
         instances.entry(instance.id.0).or_insert(instance);
     }
     let carrier = shot.carrier.and_then(|id| instances.get(&id.0)?.object.as_deref());
-    let carrier_track_token = carrier.and_then(|object| match &object.origin {
-        Origin::Recorded { track_token, .. } => Some(track_token.clone()),
-        Origin::Carrier | Origin::Added | Origin::Scenery => None,
-    });
+    let carrier_track_token = carrier.and_then(|object| object.origin.track_token()).unwrap_or_default();
     let (lens, pose) = (&shot.lens, &shot.world_from_camera);
     Ok(FrameTable {
         scene: meta.scene.clone(),
@@ -79,7 +76,7 @@ pub(crate) fn frame_table(
         world_from_camera_next: shot.world_from_camera_next.map(|p| matrix(p.affine())),
         world_from_ego: shot.world_from_ego.map(|p| matrix(p.affine())),
         carrier: shot.carrier.map(|id| id.0),
-        carrier_track_token: carrier_track_token.unwrap_or_default(),
+        carrier_track_token: carrier_track_token.into(),
         projection: (&meta.projection).into(),
         glass: shot.labels.glass.into(),
         exposure_ev: capture.color.as_ref().map(|c| c.exposure_ev),

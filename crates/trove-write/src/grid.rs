@@ -1,10 +1,9 @@
 //! A grid around the vehicle as it is written.
 
-use std::collections::BTreeMap;
-
 use trove_format::{GridClass, GridObject, GridTable};
-use trove_model::{Class, ClassMap, GridForm, GridShot, InstanceId, Occupancy, Origin, Scene};
+use trove_model::{Class, ClassMap, GridForm, GridShot, InstanceId, Occupancy, Scene};
 
+use crate::counted::{Counted, counted};
 use crate::frame_table::{FrameMeta, matrix};
 use crate::{npy, npz};
 
@@ -139,27 +138,18 @@ fn from_above(column: &[u8], classes: &ClassMap) -> u8 {
 
 /// Rows of the objects that fill cells.
 fn objects(scene: &Scene, cells: &[InstanceId]) -> Vec<GridObject> {
-    let mut counts: BTreeMap<InstanceId, u32> = BTreeMap::new();
-    cells.iter().filter(|id| id.0 != 0).for_each(|id| *counts.entry(*id).or_default() += 1);
-    let mut rows: BTreeMap<InstanceId, GridObject> = BTreeMap::new();
-    for instance in &scene.instances {
-        let (Some(object), Some(cells)) = (&instance.object, counts.get(&instance.id)) else { continue };
-        rows.entry(instance.id).or_insert_with(|| GridObject {
-            id: instance.id.0,
-            class: instance.class,
-            kind: object.kind,
-            origin: (&object.origin).into(),
-            track_token: match &object.origin {
-                Origin::Recorded { track_token, .. } => track_token.clone(),
-                _ => String::new(),
-            },
-            world_from_body: matrix(object.cuboid.world_from_body.affine()),
-            size_m: object.cuboid.size_m.to_array(),
-            velocity_mps: object.velocity_mps.map(|velocity| velocity.to_array()),
-            cells: *cells,
-        });
-    }
-    rows.into_values().collect()
+    let row = |found: Counted| GridObject {
+        id: found.id.0,
+        class: found.class,
+        kind: found.object.kind,
+        origin: (&found.object.origin).into(),
+        track_token: found.object.origin.track_token().unwrap_or_default().into(),
+        world_from_body: matrix(found.object.cuboid.world_from_body.affine()),
+        size_m: found.object.cuboid.size_m.to_array(),
+        velocity_mps: found.object.velocity_mps.map(|velocity| velocity.to_array()),
+        cells: found.count,
+    };
+    counted(scene, cells.iter().copied()).map(row).collect()
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@
 
 pub mod colors;
 pub mod contact_sheet;
+mod counted;
 mod detections_file;
 mod error;
 mod export;

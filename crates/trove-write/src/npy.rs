@@ -1,5 +1,11 @@
 //! NumPy's arrays as files (format 1.0), in C order.
 
+use std::path::PathBuf;
+
+use trove_files::{LARGEST_FILE, read_regular};
+
+use crate::WriteError;
+
 const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 /// NumPy aligns what follows the header to it.
 const ALIGNED: usize = 64;
@@ -49,6 +55,12 @@ pub(crate) fn records<'b, const BYTES: usize>(fields: &Fields, bytes: &'b [u8]) 
         return Err(format!("{} bytes, not a multiple of {BYTES}", records.len()));
     }
     Ok(records.as_chunks::<BYTES>().0)
+}
+
+/// What `decode` makes of a file; an error that names the file where it cannot be read or is damaged.
+pub(crate) fn read<T>(path: PathBuf, decode: impl FnOnce(&[u8]) -> Result<T, String>) -> Result<T, WriteError> {
+    let bytes = read_regular(&path, LARGEST_FILE).map_err(WriteError::storage(&path, "read the file"))?;
+    decode(&bytes).map_err(|found| WriteError::Damaged { path, found })
 }
 
 #[cfg(test)]

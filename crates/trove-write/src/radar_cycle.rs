@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use trove_files::{LARGEST_FILE, read_regular};
 use trove_format::RadarTable;
 use trove_model::{RadarDetection, RadarShot, Scene};
 
 use crate::frame_table::{FrameMeta, matrix};
-use crate::{WriteError, detections_file, sweep};
+use crate::{WriteError, detections_file, npy, sweep};
 
 /// A cycle: its table and what was told.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +86,6 @@ impl StoredRadarCycle {
     /// # Errors
     /// A file that cannot be read, or that holds other records than are written.
     pub fn detections(&self) -> Result<Vec<RadarDetection>, WriteError> {
-        let path = self.folder.join(RadarTable::DETECTIONS);
-        let bytes = read_regular(&path, LARGEST_FILE).map_err(WriteError::storage(&path, "read the file"))?;
-        detections_file::decode(&bytes).map_err(|found| WriteError::Damaged { path, found })
+        npy::read(self.folder.join(RadarTable::DETECTIONS), detections_file::decode)
     }
 }

@@ -1,14 +1,13 @@
 //! A LiDAR's sweep as it is written and read back.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use trove_files::{LARGEST_FILE, read_regular};
 use trove_format::{SweepTable, SweptObject};
-use trove_model::{InstanceId, LidarPoint, LidarShot, Origin, PointCloud, Scene};
+use trove_model::{InstanceId, LidarPoint, LidarShot, PointCloud, Scene};
 
+use crate::counted::{Counted, counted};
 use crate::frame_table::{FrameMeta, matrix};
-use crate::{WriteError, points_file};
+use crate::{WriteError, npy, points_file};
 
 /// A sweep: its table and its points.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,26 +63,17 @@ impl Sweep {
 
 /// Rows of the objects that have points, of which these are the objects; 0 for none.
 pub(crate) fn objects(scene: &Scene, points: impl Iterator<Item = InstanceId>) -> Vec<SweptObject> {
-    let mut counts: BTreeMap<InstanceId, u32> = BTreeMap::new();
-    points.filter(|id| id.0 != 0).for_each(|id| *counts.entry(id).or_default() += 1);
-    let mut rows: BTreeMap<InstanceId, SweptObject> = BTreeMap::new();
-    for instance in &scene.instances {
-        let (Some(object), Some(points)) = (&instance.object, counts.get(&instance.id)) else { continue };
-        rows.entry(instance.id).or_insert_with(|| SweptObject {
-            id: instance.id.0,
-            class: instance.class,
-            kind: object.kind,
-            origin: (&object.origin).into(),
-            track_token: match &object.origin {
-                Origin::Recorded { track_token, .. } => track_token.clone(),
-                _ => String::new(),
-            },
-            world_from_body: matrix(object.cuboid.world_from_body.affine()),
-            size_m: object.cuboid.size_m.to_array(),
-            points: *points,
-        });
-    }
-    rows.into_values().collect()
+    let row = |found: Counted| SweptObject {
+        id: found.id.0,
+        class: found.class,
+        kind: found.object.kind,
+        origin: (&found.object.origin).into(),
+        track_token: found.object.origin.track_token().unwrap_or_default().into(),
+        world_from_body: matrix(found.object.cuboid.world_from_body.affine()),
+        size_m: found.object.cuboid.size_m.to_array(),
+        points: found.count,
+    };
+    counted(scene, points).map(row).collect()
 }
 
 /// The folder of a finished sweep; its points are read when they are asked for.
@@ -109,8 +99,6 @@ impl StoredSweep {
     /// # Errors
     /// A file that cannot be read, or that holds other records than are written.
     pub fn points(&self) -> Result<Vec<LidarPoint>, WriteError> {
-        let path = self.folder.join(SweepTable::POINTS);
-        let bytes = read_regular(&path, LARGEST_FILE).map_err(WriteError::storage(&path, "read the file"))?;
-        points_file::decode(&bytes).map_err(|found| WriteError::Damaged { path, found })
+        npy::read(self.folder.join(SweepTable::POINTS), points_file::decode)
     }
 }
