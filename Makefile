@@ -137,9 +137,10 @@ $(VENV)/.lint-installed: pyproject.toml
 bench-build bench-frame bench-frames bench-memory bench-city: bench-%: $(VENV)/.test-installed
 	$(BIN)/python benches/bench.py $*
 
-# A simulated LiDAR sweep beside the recorded one: LIDAR is nuscenes or kitti.
+# A simulated LiDAR sweep beside the recorded one: LIDAR is nuscenes, kitti, kitti-object or argoverse2.
 LIDAR ?= nuscenes
 bench-lidar: $(VENV)/.test-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'pyarrow>=17'
 	$(BIN)/python benches/lidar.py $(LIDAR) --trove $(BIN)/trove --picture lidar-$(LIDAR).png
 
 # Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.
@@ -193,16 +194,18 @@ TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-too
 	PYTHONPATH=.torch $(BIN)/python python/tests/without_cuda.py
 	touch $@
 
-# The exports that ultralytics and mmsegmentation open, on the processor; 0.5 GB beside PyTorch.
-LOADERS := ultralytics==8.4.190 ultralytics-thop==2.2.3 mmsegmentation==1.2.2 mmengine==0.10.7 mmcv-lite==2.1.0
+# The exports that ultralytics, mmsegmentation and datumaro open, on the processor; 0.8 GB beside PyTorch.
+LOADERS := ultralytics==8.4.190 ultralytics-thop==2.2.3 mmsegmentation==1.2.2 mmengine==0.10.7 mmcv-lite==2.1.0 \
+	datumaro==1.13.12
 LOADERS_NEED := opencv-python-headless==5.0.0.93 pyyaml psutil polars requests matplotlib addict termcolor rich yapf \
-	prettytable scipy ftfy regex
+	prettytable scipy ftfy regex cachetools defusedxml imagesize json-stream lxml orjson pandas pyarrow ruamel.yaml shapely
 test-loaders: $(VENV)/.test-installed .torch/.installed
 	rm -rf .torch/loaders
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders --no-deps $(LOADERS)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders $(LOADERS_NEED)
 	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -c 'import ultralytics, mmengine'
-	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -m pytest -q python/tests/test_export_loaders.py
+	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -m pytest -q python/tests/test_export_loaders.py \
+	    python/tests/test_export_datumaro.py
 
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed

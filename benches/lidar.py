@@ -1,9 +1,10 @@
 """Compares a simulated LiDAR sweep with the recorded one of the same moment (the folder in TROVE_TEST_DATA).
 
 `lidar.py nuscenes` makes keyframe 0 of scene-0061 with an HDL-32E, `lidar.py kitti` frame 0 of drive 0005 with an
-HDL-64E. It prints shares of beams that bring something back, ranges, intensities and how near recorded points are to
-simulated surfaces (points of a second sweep of eight times as many rings and four times as many columns), and draws both
-from above, coloured by height.
+HDL-64E, `lidar.py kitti-object` object frame 000001 likewise, to which nothing was fitted, and `lidar.py argoverse2` the
+first recorded sweep of the log with two VLP-32Cs. It prints shares of beams that bring something back, ranges,
+intensities and how near recorded points are to simulated surfaces (points of a second sweep of eight times as many rings
+and four times as many columns), and draws both from above, coloured by height.
 """
 
 import argparse
@@ -29,20 +30,37 @@ SCENES = {
     "nuscenes": {
         "recipe": 'dataset = "nuscenes"\nroot = "{data}/nuscenes"\nscenes = ["scene-0061"]\nkeyframes = [0]\n'
         '[map]\nosm = "{data}/osm/singapore-onenorth.osm"\n[views]\nrig = ["CAM_FRONT"]',
-        "preset": "hdl-32e",
+        "lidars": {"LIDAR_TOP": "hdl-32e"},
         "beams": 34_688,
         "file": "nuscenes/samples/LIDAR_TOP/*.pcd.bin",
         "columns": 5,
-        "intensity": 1.0,
+        "ahead": [0.0, 1.0, 0.0],
     },
     "kitti": {
         "recipe": 'dataset = "kitti"\nroot = "{data}/kitti/raw"\nscenes = ["2011_09_26_drive_0005_sync"]\n'
         'keyframes = [0]\n[views]\nrig = ["image_02"]',
-        "preset": "hdl-64e",
+        "lidars": {"velodyne": "hdl-64e"},
         "beams": 133_312,
         "file": "kitti/raw/2011_09_26/*0005*/velodyne_points/data/0000000000.bin",
         "columns": 4,
         "intensity": 255.0,
+    },
+    "kitti-object": {
+        "recipe": 'dataset = "kitti"\nroot = "{data}/kitti/object"\nscenes = ["000001"]\n[views]\nrig = ["image_02"]',
+        "lidars": {"velodyne": "hdl-64e"},
+        "beams": 133_312,
+        "file": "kitti/object/training/velodyne/000001.bin",
+        "columns": 4,
+        "intensity": 255.0,
+    },
+    "argoverse2": {
+        "recipe": 'dataset = "argoverse2"\nroot = "{data}/argoverse2"\nkeyframes = [116]\n[map]\n'
+        'geojson_frame = "dataset"\nosm = "{data}/argoverse2/osm_roads_PIT_cityframe.geojson"\n'
+        '[views]\nrig = ["ring_front_center"]',
+        "lidars": {"up_lidar": "vlp-32c", "down_lidar": "vlp-32c"},
+        "beams": 115_712,
+        "file": "argoverse2/*/sensors/lidar/315966265259836000.feather",
+        "frame": "world_from_ego",
     },
 }
 
@@ -57,15 +75,28 @@ def dense(folder):
     return path
 
 
+def recorded(scene):
+    """Rows of x, y, z and intensity (0 to 255) of a recorded sweep."""
+    (file,) = DATA.glob(scene["file"])
+    if file.suffix == ".feather":
+        from pyarrow import feather
+
+        table = feather.read_table(file)
+        return np.stack([table[name].to_numpy().astype(np.float64) for name in ("x", "y", "z", "intensity")], axis=1)
+    real = np.fromfile(file, "<f4").reshape(-1, scene["columns"])[:, :4].astype(np.float64)
+    real[:, 3] *= scene.get("intensity", 1.0)
+    return real
+
+
 def simulated(trove, scene, folder):
-    """The sweep, and the dense one, of a run in a folder."""
+    """The points of all LiDARs, and those of the dense ones, in the frame of the recorded sweep, and the run's timings."""
+    lidars = scene["lidars"] | {"DENSE": dense(folder)}
     recipe = folder / "recipe.toml"
     recipe.write_text(
         "seed = 7\n[drive]\n"
         + scene["recipe"].format(data=DATA.resolve())
         + "\n[render]\nscale = 0.25\nlight = false\n"
-        + f'[sensors.TOP]\nkind = "lidar"\npreset = "{scene["preset"]}"\n'
-        f'[sensors.DENSE]\nkind = "lidar"\npreset = "{dense(folder)}"\n'
+        + "".join(f'[sensors.{name}]\nkind = "lidar"\npreset = "{preset}"\n' for name, preset in lidars.items())
     )
     command = [*trove, "generate", str(recipe), "--out", str(folder / "out"), "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -73,9 +104,16 @@ def simulated(trove, scene, folder):
         raise SystemExit(done.stderr)
     timings = json.loads(done.stdout)["timings"]
     found = {}
-    for path in (folder / "out").glob("*/v00/k000/ego.*/points.npy"):
-        found[path.parent.name.removeprefix("ego.")] = np.load(path)
-    return found["TOP"], found["DENSE"], timings
+    for path in (folder / "out").glob("*/v00/k*/ego.*/points.npy"):
+        table = json.loads((path.parent / "sweep.json").read_text())
+        points = np.load(path)
+        points = points[points["instance"] != (table["carrier"] or -1)]
+        own = np.linalg.inv(table[scene.get("frame", "world_from_lidar")]) @ table["world_from_lidar"]
+        for axis, values in zip("xyz", (xyz(points) @ own[:3, :3].T + own[:3, 3]).T, strict=True):
+            points[axis] = values
+        found[path.parent.name.removeprefix("ego.")] = points
+    dense_points = found.pop("DENSE")
+    return np.concatenate(list(found.values())), dense_points, timings
 
 
 def xyz(points):
@@ -131,9 +169,7 @@ def main():
     parser.add_argument("--picture", type=Path, help="where to draw both from above (PNG)")
     arguments = parser.parse_args()
     scene = SCENES[arguments.dataset]
-    (file,) = DATA.glob(scene["file"])
-    real = np.fromfile(file, "<f4").reshape(-1, scene["columns"])[:, :4].astype(np.float64)
-    real[:, 3] *= scene["intensity"]
+    real = recorded(scene)
     with tempfile.TemporaryDirectory() as folder:
         points, surfaces, timings = simulated(arguments.trove, scene, Path(folder))
         classes = json.loads((Path(folder) / "out/manifest.json").read_text())["classes"]
@@ -151,7 +187,7 @@ def main():
     for row in timings:
         print(row)
     if arguments.picture:
-        forward = np.array([0.0, 1.0, 0.0] if arguments.dataset == "nuscenes" else [1.0, 0.0, 0.0])
+        forward = np.array(scene.get("ahead", [1.0, 0.0, 0.0]))
         pictures = [from_above(p[:, :3], forward) for p in (real, own)]
         sheet = Image.new("RGB", (2 * pictures[0].width + 8, pictures[0].height + 16), (255, 255, 255))
         for i, (picture, title) in enumerate(zip(pictures, ("recorded", "simulated"), strict=True)):

@@ -91,6 +91,27 @@ def test_occ3d_s_loaders_read_it(gridded):
     assert (semantics[105:110, 98:102, 5] == 17).all() and 11 in semantics[105:110, 98:102]
 
 
+@pytest.mark.parametrize("view", ["ego.OCC3D", "ego.OPENOCC"])
+def test_the_map_is_of_the_road_that_cells_show(gridded, view):
+    grid = by_name(gridded)[view]
+    layers = grid.map
+    assert list(layers) == ["drivable", "walkway", "crossing", "line", "kerb"]
+    assert all(layer.shape == grid.bev.shape and layer.dtype == bool and layer.any() for layer in layers.values())
+    # Of what shows road or sidewalk from above, but for cells that their edge crosses.
+    for number, name in ((11, "drivable"), (13, "walkway")):
+        shown = grid.bev == number
+        assert shown.sum() > 500 and layers[name][shown].mean() > 0.9
+    assert not (layers["drivable"] & layers["walkway"]).any()
+    assert (layers["crossing"] & ~layers["drivable"]).sum() < 0.05 * layers["crossing"].sum()
+    # Kerbs run where carriageway ends.
+    edge = np.zeros_like(layers["kerb"])
+    for axis in (0, 1):
+        for step in (-1, 1):
+            edge |= layers["drivable"] != np.roll(layers["drivable"], step, axis)
+    inner = np.s_[1:-1, 1:-1]
+    assert edge[inner][layers["kerb"][inner]].mean() > 0.95
+
+
 def test_openoccupancy_s_loader_reads_it(gridded):
     grid = by_name(gridded)["ego.OPENOCC"]
     # As its LoadOccupancy does.

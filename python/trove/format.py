@@ -256,6 +256,7 @@ class GridTable(TypedDict):
     lidars: list[str]
     free: int
     classes: list[GridClass]
+    map_layers: list[str]
     projection: dict[str, Any]
     objects: list[GridObject]
 
@@ -296,6 +297,13 @@ class LineRow(TypedDict):
     points_m: list[list[float]]
 
 
+class KerbRow(TypedDict):
+    """A kerb, in `lanes.json`."""
+
+    id: int
+    points_m: list[list[float]]
+
+
 class LanesTable(TypedDict):
     """`lanes.json`."""
 
@@ -304,6 +312,7 @@ class LanesTable(TypedDict):
     projection: dict[str, Any]
     lanes: list[LaneRow]
     lines: list[LineRow]
+    kerbs: list[KerbRow]
 
 
 class TrajectoryTable(TypedDict):

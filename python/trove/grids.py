@@ -61,6 +61,12 @@ class Grid:
         return self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", "bev")
 
     @cached_property
+    def map(self) -> dict[str, npt.NDArray[np.bool_]]:
+        """What the roads are below each column: X × Y, `bool`, for each of the table's `map_layers`."""
+        bits = self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", "map")
+        return {name: bits & (1 << bit) != 0 for bit, name in enumerate(self.table["map_layers"])}
+
+    @cached_property
     def instance(self) -> npt.NDArray[np.uint32]:
         """Ids of objects: X × Y × Z, `uint32`; 0: none. Dense grids alone have them."""
         return self._array("labels.npz", "instance")

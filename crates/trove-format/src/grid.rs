@@ -56,6 +56,9 @@ pub struct GridTable {
     pub free: u8,
     /// What numbers of cells mean.
     pub classes: Vec<GridClass>,
+    /// What the bits of `map` mean, the lowest first.
+    #[serde(default)]
+    pub map_layers: Vec<String>,
     /// From latitude and longitude to World.
     pub projection: Projection,
     /// Every object that fills a cell, ordered by id.

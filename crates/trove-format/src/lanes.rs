@@ -25,6 +25,9 @@ pub struct LanesFile {
     pub lanes: Vec<LaneRow>,
     /// Lines painted along lanes, likewise.
     pub lines: Vec<LineRow>,
+    /// Kerbs, likewise.
+    #[serde(default)]
+    pub kerbs: Vec<KerbRow>,
 }
 
 /// A lane.
@@ -63,6 +66,16 @@ pub struct LineRow {
     pub points_m: Vec<[f64; 3]>,
 }
 
+/// The edge of a carriageway along a kerb.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct KerbRow {
+    /// Its number in the scene, after those of the lines.
+    pub id: u32,
+    /// Along the foot of the stones, World, with the carriageway on the left.
+    pub points_m: Vec<[f64; 3]>,
+}
+
 impl LanesFile {
     /// The file's name.
     pub const NAME: &str = "lanes.json";
@@ -70,7 +83,8 @@ impl LanesFile {
     /// Of a drive through a place with these roads.
     pub fn new(drive: &Drive, roads: &RoadPlan) -> Self {
         let path: Vec<DVec2> = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
-        let near = |points: &[DVec3]| points.iter().any(|p| path.iter().any(|q| q.distance(p.truncate()) < NEAR_M));
+        let is_near = |p: &DVec3| path.iter().any(|q| q.distance(p.truncate()) < NEAR_M);
+        let near = |points: &[DVec3]| points.iter().any(is_near);
         // To the millimetre.
         let rounded = |m: f64| (m * 1e3).round() / 1e3;
         let told = |points: &[DVec3]| points.iter().map(|p| p.to_array().map(rounded)).collect();
@@ -87,12 +101,16 @@ impl LanesFile {
             width_m: rounded(line.width_m),
             points_m: told(&line.points),
         });
+        // Kerbs run around whole blocks: the parts of each that are near.
+        let parts = roads.kerbs.iter().flat_map(|kerb| kerb.chunk_by(|a, b| is_near(a) == is_near(b)));
+        let kerbs = (1 + roads.lines.len() as u32..).zip(parts.filter(|part| is_near(&part[0]) && part.len() > 1));
         Self {
             scene: drive.id.clone(),
             dataset: drive.dataset.clone(),
             projection: (&drive.projection).into(),
             lanes: lanes.collect(),
             lines: lines.collect(),
+            kerbs: kerbs.map(|(id, part)| KerbRow { id, points_m: told(part) }).collect(),
         }
     }
 

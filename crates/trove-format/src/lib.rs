@@ -64,7 +64,7 @@ pub use frame::{FrameTable, GlassPolicy, LensModel, Matrix4, ObjectOrigin, Objec
 pub use frame_file::FrameFile;
 pub use grid::{GridClass, GridObject, GridTable};
 pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
-pub use lanes::{LaneRow, LanesFile, LineRow};
+pub use lanes::{KerbRow, LaneRow, LanesFile, LineRow};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
 pub use masks::{MaskRow, MaskTable, RunLengths};
 pub use plain_drive::{

@@ -112,7 +112,7 @@ pub use radar::{Radar, RadarDetection, RadarDirection, RadarScan, RadarShot, Rad
 pub use raster::Raster;
 pub use relief::Relief;
 pub use report::{Entry, Measurement, Outcome, Report};
-pub use road_plan::{LaneUsage, PaintedLine, PlannedLane, RoadPlan};
+pub use road_plan::{LaneUsage, MapLayer, PaintedLine, PlannedLane, RoadPlan};
 pub use role::Role;
 pub use scanner::{LidarShot, RigLidar, Scanner, SweepPhase, ToldReturns};
 pub use scene::{Instance, InstanceId, Origin, Placement, Provenance, Scene, SceneObject};

@@ -17,6 +17,44 @@ pub struct RoadPlan {
     pub lanes: Vec<PlannedLane>,
     /// Lines painted along lanes: no stop lines, crossings and symbols, and no lines along kerbs.
     pub lines: Vec<PaintedLine>,
+    /// Edges of carriageways at the foot of kerbs, World, with the carriageway on their left; at least two points.
+    pub kerbs: Vec<Vec<DVec3>>,
+}
+
+/// What a place on the ground is to traffic; a place may be several of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapLayer {
+    /// Carriageway.
+    Drivable,
+    /// Sidewalk and its kerb.
+    Walkway,
+    /// Where people cross, on the carriageway.
+    Crossing,
+    /// A line painted along a lane.
+    Line,
+    /// The edge of a carriageway along a kerb.
+    Kerb,
+}
+
+impl MapLayer {
+    /// All of them, in the order of their bits.
+    pub const ALL: [Self; 5] = [Self::Drivable, Self::Walkway, Self::Crossing, Self::Line, Self::Kerb];
+
+    /// Its name in files (`drivable`).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drivable => "drivable",
+            Self::Walkway => "walkway",
+            Self::Crossing => "crossing",
+            Self::Line => "line",
+            Self::Kerb => "kerb",
+        }
+    }
+
+    /// Its bit in a number that tells all layers of a place.
+    pub fn bit(self) -> u8 {
+        1 << self as u8
+    }
 }
 
 /// A lane.

@@ -31,6 +31,8 @@ pub struct Scanner {
     pub noise_m: f64,
     /// Surfaces of one beam that are this far behind each other make two returns, metres.
     pub pulse_m: f64,
+    /// An intensity i of 0 to 255 that rises evenly with power is told as 255 · (i / 255)^this.
+    pub intensity_exponent: f64,
     /// Which returns of a beam are told.
     pub told: ToldReturns,
 }
@@ -170,6 +172,7 @@ mod tests {
             reach_m: 50.0,
             noise_m: 0.02,
             pulse_m: 0.8,
+            intensity_exponent: 1.0,
             told: ToldReturns::Strongest,
         }
     }

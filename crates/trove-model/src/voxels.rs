@@ -115,6 +115,8 @@ pub struct GridShot {
     pub cameras: Vec<Shot>,
     /// LiDARs that look into it.
     pub lidars: Vec<LidarShot>,
+    /// The bits of the [`MapLayer`](crate::MapLayer)s of each column of cells; y changes fastest.
+    pub map: Vec<u8>,
 }
 
 /// What fills the cells of a grid, one entry a cell in the order of [`VoxelGrid::index`].

@@ -201,6 +201,7 @@ fn shot(way: Vec<Pose<World, SensorFrame>>, sweep_s: f64) -> LidarShot {
             reach_m: 100.0,
             noise_m: 0.0,
             pulse_m: 0.8,
+            intensity_exponent: 1.0,
             told: ToldReturns::Strongest,
         },
         phase: SweepPhase { begins_at_rad: PI, over: 0.5 },

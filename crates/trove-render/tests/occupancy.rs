@@ -113,6 +113,7 @@ fn what_stands_behind_a_wall_is_not_seen() {
             reach_m: 100.0,
             noise_m: 0.0,
             pulse_m: 0.5,
+            intensity_exponent: 1.0,
             told: ToldReturns::Strongest,
         },
         phase: SweepPhase::FORWARD,
@@ -173,6 +174,7 @@ fn shot(is_solid: bool) -> GridShot {
         form: GridForm::Dense,
     };
     GridShot {
+        map: Vec::new(),
         view: "ego.TEST".into(),
         plan: Arc::new(plan),
         world_from_grid: world_from_grid(),

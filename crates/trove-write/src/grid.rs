@@ -1,7 +1,7 @@
 //! A grid around the vehicle as it is written.
 
 use trove_format::{GridClass, GridObject, GridTable};
-use trove_model::{Class, ClassMap, GridForm, GridShot, InstanceId, Occupancy, Scene};
+use trove_model::{Class, ClassMap, GridForm, GridShot, InstanceId, MapLayer, Occupancy, Scene};
 
 use crate::counted::{Counted, counted};
 use crate::frame_table::{FrameMeta, matrix};
@@ -24,6 +24,8 @@ pub struct Grid {
     pub cells: Occupancy,
     /// The number that stands for each column of cells, seen from above; y changes fastest.
     pub bev: Vec<u8>,
+    /// What the roads are there, as bits of [`MapLayer`]; in the same order.
+    pub map: Vec<u8>,
 }
 
 impl Grid {
@@ -60,11 +62,12 @@ impl Grid {
             lidars: shot.lidars.iter().map(|lidar| lidar.view.clone()).collect(),
             free: classes.unlabelled,
             classes: classes.classes.iter().map(class).collect(),
+            map_layers: MapLayer::ALL.map(|layer| layer.name().to_owned()).to_vec(),
             projection: (&meta.projection).into(),
             objects: objects(scene, &cells.instances),
         };
         let bev = birds_eye(&cells.labels, shot);
-        Self { path, table, form: plan.form, cells, bev }
+        Self { path, table, form: plan.form, cells, bev, map: shot.map.clone() }
     }
 
     /// Names of the files in a finished grid's folder, in alphabetical order.
@@ -80,7 +83,7 @@ impl Grid {
         let shape = self.table.cells.map(|count| count as usize);
         let mask = |seen: &[bool]| bytes(&shape, &seen.iter().map(|&seen| u8::from(seen)).collect::<Vec<_>>());
         let cells = &self.cells;
-        let bev = ("bev", bytes(&shape[..2], &self.bev));
+        let columns = [("bev", bytes(&shape[..2], &self.bev)), ("map", bytes(&shape[..2], &self.map))];
         let masks = [("mask_lidar", mask(&cells.seen_by_lidars)), ("mask_camera", mask(&cells.seen_by_cameras))];
         let table = self.table.to_json();
         match self.form {
@@ -90,9 +93,9 @@ impl Grid {
                     ("semantics", bytes(&shape, &cells.labels)),
                     ("instance", npy::encode("'<u4'", &shape, &instances)),
                 ];
-                vec![table, npz::archive(&[&labels[..], &masks, &[bev]].concat())]
+                vec![table, npz::archive(&[&labels[..], &masks, &columns].concat())]
             }
-            GridForm::Sparse => vec![table, npz::archive(&[&masks[..], &[bev]].concat()), self.occupied(shape)],
+            GridForm::Sparse => vec![table, npz::archive(&[&masks[..], &columns].concat()), self.occupied(shape)],
         }
     }
 

@@ -310,7 +310,11 @@ fn openlane_has_lines_where_its_loaders_put_them_and_tells_what_hides_them() {
     let line = |id: u32, x: f64, paint: &str, pattern: &str| json!({ "id": id, "paint": paint, "pattern": pattern, "width_m": 0.15, "points_m": [[x, 60.0, 0.0], [x, -5.0, 0.0]] });
     let projection = json!({ "origin_lat_deg": 0.0, "origin_lon_deg": 0.0, "anchor_m": [0.0, 0.0] });
     let lines = [line(3, -2.0, "white", "dashed"), line(5, 0.5, "yellow", "solid_dashed")];
-    let lanes = json!({ "scene": "s", "dataset": "d", "projection": projection, "lanes": [], "lines": lines });
+    // The carriageway is on the left of kerbs.
+    let kerbs = [([-4.0, 60.0, 0.0], [-4.0, 1.0, 0.0]), ([4.0, 1.0, 0.0], [4.0, 60.0, 0.0])];
+    let kerbs = [6, 7].iter().zip(kerbs).map(|(id, (from, to))| json!({ "id": id, "points_m": [from, to] }));
+    let kerbs = kerbs.collect::<Vec<_>>();
+    let lanes = json!({ "scene": "s", "dataset": "d", "projection": projection, "lanes": [], "lines": lines, "kerbs": kerbs });
     fs::write(root.path().join("run/scene-0001/v00/lanes.json"), lanes.to_string()).unwrap();
     exported("openlane", &root.path().join("run"), &root.path().join("out")).unwrap();
     let frame = "training/segment-scene-0001_v00_ego.CAM_FRONT/000";
@@ -320,7 +324,8 @@ fn openlane_has_lines_where_its_loaders_put_them_and_tells_what_hides_them() {
     let rows = file["lane_lines"].as_array().unwrap();
     let told = |key: &str| rows.iter().map(|row| row[key].as_u64().unwrap()).collect::<Vec<_>>();
     // Both run southward, away from the camera's view, so that the sides of a pattern change.
-    assert_eq!((told("track_id"), told("category"), told("attribute")), (vec![3, 5], vec![1, 11], vec![2, 3]));
+    let expected = (vec![3, 5, 6, 7], vec![1, 11, 20, 21], vec![2, 3, 1, 4]);
+    assert_eq!((told("track_id"), told("category"), told("attribute")), expected);
     for (row, x) in rows.iter().zip([-2.0, 0.5]) {
         let list = |value: &Value| value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
         let [xyz, uv] = ["xyz", "uv"].map(|key| row[key].as_array().unwrap().iter().map(list).collect::<Vec<_>>());

@@ -46,6 +46,8 @@ struct ScannerFile {
     reach_m: f64,
     noise_m: f64,
     pulse_m: f64,
+    /// How its intensities rise; evenly without it.
+    intensity_exponent: Option<f64>,
     #[serde(default)]
     returns: Returns,
 }
@@ -150,6 +152,7 @@ fn parse(name: &str, text: &str, choice: &ScannerChoice) -> Result<Scanner, Faul
         reach_m: within("reach_m", file.reach_m, 1.0, 2000.0)?,
         noise_m: within("noise_m", file.noise_m, 0.0, 1.0)?,
         pulse_m: within("pulse_m", file.pulse_m, 0.0, 10.0)?,
+        intensity_exponent: within("intensity_exponent", file.intensity_exponent.unwrap_or(1.0), 0.1, 10.0)?,
         told: choice.returns.unwrap_or(file.returns).into(),
     })
 }
@@ -229,6 +232,7 @@ mod tests {
             ("nearest_m", "nearst_m", "nearst_m"),
             ("farthest_m = 100", "farthest_m = nan", "farthest_m"),
             ("count = 32", "count = 99999", "elevations_deg"),
+            ("pulse_m = 0.8", "pulse_m = 0.8\nintensity_exponent = 0", "intensity_exponent"),
             ("column_us = 46.08", "columns = 99999999", "columns"),
         ] {
             assert!(good.contains(from), "{from}");

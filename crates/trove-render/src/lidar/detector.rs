@@ -27,7 +27,7 @@ pub(super) fn told(scanner: &Scanner, echoes: Vec<Echo>, mut random: Random) -> 
         let signal = f64::from(power) / TARGET * (scanner.reach_m / range_m.max(scanner.nearest_m)).powi(2);
         let range_m = range_m + scanner.noise_m * error;
         if signal > threshold.max(0.0) && (scanner.nearest_m..=scanner.farthest_m).contains(&range_m) {
-            found.push((signal, Told { range_m, intensity: intensity(power), class, instance }));
+            found.push((signal, Told { range_m, intensity: intensity(power, scanner.intensity_exponent), class, instance }));
         }
     }
     let strongest_first = |found: &mut Vec<(f64, Told)>| found.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -50,8 +50,8 @@ pub(super) fn told(scanner: &Scanner, echoes: Vec<Echo>, mut random: Random) -> 
     found.into_iter().map(|(_, told)| told).collect()
 }
 
-/// 0 to 100 for matt surfaces, by their reflectance; 101 to 255 for what is brighter, by its logarithm.
-fn intensity(power: f32) -> u8 {
+/// 0 to 100 for matt surfaces, by their reflectance; 101 to 255 for what is brighter, by its logarithm; raised by the exponent.
+fn intensity(power: f32, exponent: f64) -> u8 {
     let value = if power <= 1.0 { 100.0 * power } else { 100.0 + 155.0 * power.ln() / MOST.ln() };
-    value.round().clamp(0.0, 255.0) as u8
+    (255.0 * (f64::from(value) / 255.0).max(0.0).powf(exponent)).round().min(255.0) as u8
 }

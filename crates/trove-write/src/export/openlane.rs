@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use serde_json::{Value, json};
-use trove_format::{FrameTable, LanesFile, LineRow};
+use trove_format::{FrameTable, LanesFile};
 use trove_model::{MarkPattern, Paint, Raster};
 
 use super::dataset::Dataset;
@@ -24,6 +24,9 @@ const NEAREST_M: f64 = 1.0;
 const STEP_M: f64 = 0.5;
 /// A line of fewer points in the picture is none.
 const FEWEST: usize = 2;
+/// OpenLane's numbers of kerbs on the left and right of who looks along them.
+const LEFT_KERB: u8 = 20;
+const RIGHT_KERB: u8 = 21;
 /// A surface hides a point if it is nearer by this share of the point's depth and this much, metres.
 const NEARER_SHARE: f64 = 0.02;
 const NEARER_M: f64 = 0.1;
@@ -59,9 +62,22 @@ fn name(frame: &PlannedFrame) -> String {
 fn labels(table: &FrameTable, lanes: &LanesFile, depth_m: &Raster<f32>, file: &str) -> Value {
     let world_from_ego = table.world_from_ego.as_ref().map_or(DAffine3::IDENTITY, affine);
     let camera = Camera { camera_from_world: camera_from_world(table), intrinsics: table.intrinsics, depth_m };
-    let seen: Vec<Seen<'_>> = lanes.lines.iter().flat_map(|line| seen(line, &camera)).collect();
-    let sides: Vec<Option<f64>> = seen.iter().map(|line| beside_m(line, &world_from_ego.inverse())).collect();
-    let rows: Vec<Value> = seen.iter().zip(&sides).map(|(line, side)| row(line, attribute(*side, &sides))).collect();
+    let lines = lanes.lines.iter().flat_map(|line| {
+        let pattern = |back: bool| if back { seen_back(line.pattern) } else { line.pattern };
+        let category = move |back: bool| category(line.paint, pattern(back));
+        seen(&line.points_m, &camera).into_iter().map(move |part| (line.id, category(part.is_reversed), part))
+    });
+    let kerbs = lanes.kerbs.iter().flat_map(|kerb| {
+        // The carriageway is on the left of its points.
+        let category = |back: bool| if back { LEFT_KERB } else { RIGHT_KERB };
+        seen(&kerb.points_m, &camera).into_iter().map(move |part| (kerb.id, category(part.is_reversed), part))
+    });
+    let seen: Vec<(u32, u8, Seen)> = lines.chain(kerbs).collect();
+    let sides: Vec<Option<f64>> = seen.iter().map(|(.., part)| beside_m(part, &world_from_ego.inverse())).collect();
+    let row = |((id, category, part), side): (&(u32, u8, Seen), &Option<f64>)| {
+        row(*id, *category, part, attribute(*side, &sides))
+    };
+    let rows: Vec<Value> = seen.iter().zip(&sides).map(row).collect();
     let world_from_forward = affine(&table.world_from_camera) * camera_from_forward();
     json!({
         "extrinsic": matrix(world_from_ego.inverse() * world_from_forward),
@@ -79,11 +95,10 @@ struct Camera<'a> {
     depth_m: &'a Raster<f32>,
 }
 
-/// A line as far as it lies in the picture.
-struct Seen<'a> {
-    line: &'a LineRow,
-    /// The left side first as seen along the points.
-    pattern: MarkPattern,
+/// A part of a line or kerb that lies in the picture and goes away from the camera all the way.
+struct Seen {
+    /// Whether it is told the other way round in `lanes.json`.
+    is_reversed: bool,
     /// World, from the nearest to the farthest.
     points: Vec<DVec3>,
     /// In the camera's axes as Waymo and OpenLane have them.
@@ -93,12 +108,12 @@ struct Seen<'a> {
 }
 
 /// The parts of a line that lie in the picture, hidden or not.
-fn seen<'a>(line: &'a LineRow, camera: &Camera<'_>) -> Vec<Seen<'a>> {
+fn seen(points_m: &[[f64; 3]], camera: &Camera<'_>) -> Vec<Seen> {
     let Camera { camera_from_world, intrinsics, depth_m } = camera;
     let forward_from_camera = camera_from_forward().inverse();
     let [[fx, _, cx], [_, fy, cy], _] = *intrinsics;
     let size = DVec2::new(depth_m.width.into(), depth_m.height.into());
-    let points = dense(&line.points_m.iter().map(|&p| DVec3::from_array(p)).collect::<Vec<_>>());
+    let points = dense(&points_m.iter().map(|&p| DVec3::from_array(p)).collect::<Vec<_>>());
     let looked = points.into_iter().map(|world| {
         let camera = camera_from_world.transform_point3(world);
         let uv = DVec2::new(fx * camera.x / camera.z + cx, fy * camera.y / camera.z + cy);
@@ -107,22 +122,37 @@ fn seen<'a>(line: &'a LineRow, camera: &Camera<'_>) -> Vec<Seen<'a>> {
     });
     let looked: Vec<_> = looked.collect();
     let runs = looked.chunk_by(|a, b| a.3 == b.3).filter(|run| run[0].3 && run.len() >= FEWEST);
-    let part = |run: &[(DVec3, DVec3, DVec2, bool)]| {
+    let part = |run: &[Looked]| {
         let mut run = run.to_vec();
         let is_reversed = run[0].1.z > run[run.len() - 1].1.z;
         if is_reversed {
             run.reverse();
         }
         Seen {
-            line,
-            pattern: if is_reversed { seen_back(line.pattern) } else { line.pattern },
+            is_reversed,
             points: run.iter().map(|(world, ..)| *world).collect(),
             xyz: run.iter().map(|(_, camera, ..)| forward_from_camera.transform_point3(*camera)).collect(),
             uv: run.iter().map(|(_, _, uv, _)| *uv).collect(),
             visible: run.iter().map(|(_, camera, uv, _)| is_visible(depth_m, *uv, camera.z)).collect(),
         }
     };
-    runs.map(part).collect()
+    runs.flat_map(one_way).map(part).collect()
+}
+
+/// A point in World and in Camera, its pixel, and whether that is in the picture.
+type Looked = (DVec3, DVec3, DVec2, bool);
+
+/// The parts of a run that only go away or only come nearer: kerbs bend around corners.
+fn one_way(run: &[Looked]) -> Vec<&[Looked]> {
+    let (mut parts, mut from) = (Vec::new(), 0);
+    for i in 2..run.len() {
+        if (run[i].1.z - run[i - 1].1.z) * (run[i - 1].1.z - run[from].1.z) < 0.0 {
+            parts.push(&run[from..i]);
+            from = i - 1;
+        }
+    }
+    parts.push(&run[from..]);
+    parts
 }
 
 /// A pattern as it is seen along the line the other way.
@@ -153,16 +183,16 @@ fn is_visible(depth_m: &Raster<f32>, uv: DVec2, z: f64) -> bool {
         .any(|(x, y)| f64::from(*depth_m.at(x, y)) > z * (1.0 - NEARER_SHARE) - NEARER_M)
 }
 
-fn row(seen: &Seen<'_>, attribute: u8) -> Value {
+fn row(id: u32, category: u8, seen: &Seen, attribute: u8) -> Value {
     let axis = |axis: usize| seen.xyz.iter().map(|p| rounded(p[axis])).collect::<Vec<_>>();
     let pixels = |axis: usize| seen.uv.iter().map(|p| rounded(p[axis])).collect::<Vec<_>>();
     json!({
-        "category": category(seen.line.paint, seen.pattern),
+        "category": category,
         "visibility": seen.visible.iter().map(|&visible| f64::from(u8::from(visible))).collect::<Vec<_>>(),
         "uv": [pixels(0), pixels(1)],
         "xyz": [axis(0), axis(1), axis(2)],
         "attribute": attribute,
-        "track_id": seen.line.id,
+        "track_id": id,
     })
 }
 
@@ -189,7 +219,7 @@ fn category(paint: Paint, pattern: MarkPattern) -> u8 {
 }
 
 /// How far to the left of the vehicle a line runs beside and ahead of it, metres; `None` where it does not.
-fn beside_m(seen: &Seen<'_>, ego_from_world: &DAffine3) -> Option<f64> {
+fn beside_m(seen: &Seen, ego_from_world: &DAffine3) -> Option<f64> {
     let own = seen.points.iter().map(|p| ego_from_world.transform_point3(*p));
     let ahead = own.filter(|p| BESIDE_M.contains(&p.x));
     ahead.min_by(|a, b| a.x.total_cmp(&b.x)).map(|p| p.y)
@@ -217,10 +247,6 @@ fn camera_from_forward() -> DAffine3 {
 mod tests {
     use super::*;
 
-    fn line(points_m: Vec<[f64; 3]>) -> LineRow {
-        LineRow { id: 7, paint: Paint::White, pattern: MarkPattern::Solid, width_m: 0.15, points_m }
-    }
-
     #[test]
     fn numbers_are_openlanes() {
         for (paint, pattern, expected) in [
@@ -245,7 +271,7 @@ mod tests {
         let camera_from_world = world_from_camera.inverse();
         let intrinsics = [[100.0, 0.0, 100.0], [0.0, 100.0, 50.0], [0.0, 0.0, 1.0]];
         let mut depth_m = Raster::filled(200, 100, 1e3);
-        let line = line(vec![[30.0, 2.0, 0.0], [-5.0, 2.0, 0.0]]);
+        let line = [[30.0, 2.0, 0.0], [-5.0, 2.0, 0.0]];
         let parts = seen(&line, &Camera { camera_from_world, intrinsics, depth_m: &depth_m });
         assert_eq!(parts.len(), 1);
         let part = &parts[0];
@@ -256,6 +282,12 @@ mod tests {
             assert!(uv.distance(expected) < 1e-9);
         }
         assert!(part.xyz.is_sorted_by(|a, b| a.x < b.x) && (part.xyz.last().unwrap().x - 30.0).abs() < 1e-9);
+        // A corner goes away, and comes back.
+        let bent = seen(
+            &[[10.0, 2.0, 0.0], [20.0, 2.0, 0.0], [20.0, -2.0, 0.0], [12.0, -2.0, 0.0]],
+            &Camera { camera_from_world, intrinsics, depth_m: &depth_m },
+        );
+        assert_eq!(bent.iter().map(|part| part.is_reversed).collect::<Vec<_>>(), [false, true]);
         depth_m.data.fill(10.0);
         let hidden = &seen(&line, &Camera { camera_from_world, intrinsics, depth_m: &depth_m })[0];
         assert!(hidden.xyz.iter().zip(&hidden.visible).all(|(xyz, visible)| *visible == (xyz.x < 10.3)));
