@@ -112,8 +112,7 @@ mod tests {
         // A road along World's y from x = -3 to 3, its line in the middle and a kerb at its western edge.
         let corners = [[-3.0, -90.0], [3.0, -90.0], [3.0, 90.0], [-3.0, 90.0]];
         let along = |x: f64| (-9..=9).map(|y| DVec3::new(x, 10.0 * f64::from(y), 0.0)).collect::<Vec<_>>();
-        let line =
-            PaintedLine { points: along(0.1), paint: Paint::White, pattern: MarkPattern::Solid, width_m: 0.1 };
+        let line = PaintedLine { points: along(0.1), paint: Paint::White, pattern: MarkPattern::Solid, width_m: 0.1 };
         let roads = RoadPlan {
             drivable: vec![Polygon::simple(corners.map(DVec2::from_array).to_vec())],
             lines: vec![line],

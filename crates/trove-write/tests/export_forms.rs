@@ -314,7 +314,8 @@ fn openlane_has_lines_where_its_loaders_put_them_and_tells_what_hides_them() {
     let kerbs = [([-4.0, 60.0, 0.0], [-4.0, 1.0, 0.0]), ([4.0, 1.0, 0.0], [4.0, 60.0, 0.0])];
     let kerbs = [6, 7].iter().zip(kerbs).map(|(id, (from, to))| json!({ "id": id, "points_m": [from, to] }));
     let kerbs = kerbs.collect::<Vec<_>>();
-    let lanes = json!({ "scene": "s", "dataset": "d", "projection": projection, "lanes": [], "lines": lines, "kerbs": kerbs });
+    let lanes =
+        json!({ "scene": "s", "dataset": "d", "projection": projection, "lanes": [], "lines": lines, "kerbs": kerbs });
     fs::write(root.path().join("run/scene-0001/v00/lanes.json"), lanes.to_string()).unwrap();
     exported("openlane", &root.path().join("run"), &root.path().join("out")).unwrap();
     let frame = "training/segment-scene-0001_v00_ego.CAM_FRONT/000";

@@ -27,7 +27,8 @@ pub(super) fn told(scanner: &Scanner, echoes: Vec<Echo>, mut random: Random) -> 
         let signal = f64::from(power) / TARGET * (scanner.reach_m / range_m.max(scanner.nearest_m)).powi(2);
         let range_m = range_m + scanner.noise_m * error;
         if signal > threshold.max(0.0) && (scanner.nearest_m..=scanner.farthest_m).contains(&range_m) {
-            found.push((signal, Told { range_m, intensity: intensity(power, scanner.intensity_exponent), class, instance }));
+            let intensity = intensity(power, scanner.intensity_exponent);
+            found.push((signal, Told { range_m, intensity, class, instance }));
         }
     }
     let strongest_first = |found: &mut Vec<(f64, Told)>| found.sort_by(|a, b| b.0.total_cmp(&a.0));
