@@ -13,7 +13,7 @@ const FLOOR: f32 = 0.05;
 
 /// What patches there are, for any surface.
 pub(super) struct Patches {
-    rows: [Row; ACROSS],
+    columns: [Column; ACROSS],
     /// Light from below the horizon.
     below: f32,
 }
@@ -29,9 +29,9 @@ pub(super) struct Patch {
     pub(super) reach: f32,
 }
 
-/// Patches beside each other, with what belongs together for all of them in one place: four are weighed at a time.
+/// Patches one below the other, each number of all of them in one place: they are weighed and added up side by side.
 #[derive(Clone, Copy, Default)]
-struct Row {
+struct Column {
     light: [f32; ACROSS],
     /// Middles and reach, times the light.
     x: [f32; ACROSS],
@@ -44,87 +44,77 @@ struct Row {
 
 /// Weights of all patches for one surface.
 struct Weights {
+    /// By column and row.
     patches: [[f32; ACROSS]; ACROSS],
-    /// Sums of the rows, and what lies below the horizon.
-    rows: [f32; ACROSS + 1],
+    rows: [f32; ACROSS],
+    below: f32,
+    total: f32,
 }
 
 impl Patches {
     /// From those above the horizon, row by row, and the light from below it.
     pub(super) fn new(patches: &[Patch; BELOW], below: f32) -> Self {
-        let mut rows = [Row::default(); ACROSS];
+        let mut columns = [Column::default(); ACROSS];
         for (i, patch) in patches.iter().enumerate() {
-            let (row, i) = (&mut rows[i / ACROSS], i % ACROSS);
+            let (row, column) = (i / ACROSS, &mut columns[i % ACROSS]);
             let middle = patch.middle * patch.light;
-            (row.light[i], row.x[i], row.y[i], row.z[i]) = (patch.light, middle.x, middle.y, middle.z);
-            row.reach[i] = (patch.reach * patch.light).max(f32::MIN_POSITIVE);
-            row.bend[i] = 0.25 / row.reach[i];
+            (column.light[row], column.x[row], column.y[row], column.z[row]) =
+                (patch.light, middle.x, middle.y, middle.z);
+            column.reach[row] = (patch.reach * patch.light).max(f32::MIN_POSITIVE);
+            column.bend[row] = 0.25 / column.reach[row];
         }
-        Self { rows, below }
+        Self { columns, below }
     }
 
     /// A patch for a surface that is lit from the side of `normal` (from both sides if it is 0), its probability, and two
     /// numbers to draw a direction of it with; `None` where all is dark.
     pub(super) fn draw(&self, normal: Vec3, [u0, u1]: [f32; 2]) -> Option<(usize, f32, [f32; 2])> {
         let weights = self.weights(normal);
-        let total = weights.total();
-        if total <= 0.0 {
-            return None;
+        let u = u0 * weights.total;
+        if u < weights.below {
+            return Some((BELOW, weights.below / weights.total, [u / weights.below, u1]));
         }
-        let (row, u0) = pick(&weights.rows, u0);
-        if row == ACROSS {
-            return Some((BELOW, weights.rows[row] / total, [u0, u1]));
-        }
-        let (column, u1) = pick(&weights.patches[row], u1);
-        // As it is told below: rows add up to a little more or less than their patches.
-        Some((row * ACROSS + column, weights.patches[row][column] / total, [u0, u1]))
+        let (row, u0) = pick(&weights.rows, u - weights.below)?;
+        let (column, u1) = pick(&weights.patches.map(|column| column[row]), u1 * weights.rows[row])?;
+        Some((row * ACROSS + column, weights.patches[column][row] / weights.total, [u0, u1]))
     }
 
     /// Probability with which a patch is drawn for a surface.
     pub(super) fn probability(&self, normal: Vec3, patch: usize) -> f32 {
         let weights = self.weights(normal);
-        let weight =
-            if patch == BELOW { weights.rows[ACROSS] } else { weights.patches[patch / ACROSS][patch % ACROSS] };
-        weight / weights.total().max(f32::MIN_POSITIVE)
+        let weight = if patch == BELOW { weights.below } else { weights.patches[patch % ACROSS][patch / ACROSS] };
+        weight / weights.total.max(f32::MIN_POSITIVE)
     }
 
     fn weights(&self, normal: Vec3) -> Weights {
         let even = if normal == Vec3::ZERO { 1.0 } else { FLOOR };
         let mut patches = [[0.0f32; ACROSS]; ACROSS];
-        let mut rows = [0.0f32; ACROSS + 1];
-        for ((row, weights), sum) in self.rows.iter().zip(&mut patches).zip(&mut rows) {
-            for (i, weight) in weights.iter_mut().enumerate() {
-                let cos = normal.x * row.x[i] + normal.y * row.y[i] + normal.z * row.z[i];
+        let mut rows = [0.0f32; ACROSS];
+        for (column, weights) in self.columns.iter().zip(&mut patches) {
+            for i in 0..ACROSS {
+                let cos = normal.x * column.x[i] + normal.y * column.y[i] + normal.z * column.z[i];
                 // The mean of what is positive of all the cosines from cos − reach to cos + reach.
-                let over = cos + row.reach[i];
+                let over = cos + column.reach[i];
                 let over = if over > 0.0 { over } else { 0.0 };
-                let curved = if over < 2.0 * row.reach[i] { over } else { 2.0 * row.reach[i] };
-                *weight = curved * curved * row.bend[i] + (over - curved) + even * row.light[i];
+                let curved = if over < 2.0 * column.reach[i] { over } else { 2.0 * column.reach[i] };
+                weights[i] = curved * curved * column.bend[i] + (over - curved) + even * column.light[i];
+                rows[i] += weights[i];
             }
-            *sum = weights.iter().sum();
         }
         // A ground of one brightness.
-        rows[ACROSS] = self.below * (0.25 * (1.0 - normal.z) + even);
-        Weights { patches, rows }
+        let below = self.below * (0.25 * (1.0 - normal.z) + even);
+        Weights { patches, rows, below, total: below + rows.iter().sum::<f32>() }
     }
 }
 
-impl Weights {
-    fn total(&self) -> f32 {
-        self.rows.iter().sum()
-    }
-}
-
-/// Which of some weights, whose sum is positive, `u` in [0, 1) falls on, and where in it, again in [0, 1).
-fn pick(weights: &[f32], u: f32) -> (usize, f32) {
-    let mut left = u * weights.iter().sum::<f32>();
+/// Which of some weights a number below their sum falls on, and where in it, in [0, 1); `None` where all are 0.
+fn pick(weights: &[f32; ACROSS], mut left: f32) -> Option<(usize, f32)> {
     for (i, &weight) in weights.iter().enumerate() {
         if left < weight {
-            return (i, left / weight);
+            return Some((i, left / weight));
         }
         left -= weight;
     }
     // Rounding has left a little behind the last one.
-    let last = weights.iter().rposition(|&weight| weight > 0.0).unwrap_or(0);
-    (last, 1.0 - f32::EPSILON)
+    weights.iter().rposition(|&weight| weight > 0.0).map(|last| (last, 1.0 - f32::EPSILON))
 }
