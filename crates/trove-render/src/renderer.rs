@@ -156,7 +156,7 @@ impl Renderer {
                 stats.rays = buffers.rays;
                 stats.spp = buffers.spp;
                 let clean = match &self.denoiser {
-                    Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal),
+                    Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal, buffers.spp),
                     Err(_) => None,
                 };
                 stats.denoised = clean.is_some();

@@ -14,7 +14,6 @@ pub(super) type Handle = *mut c_void;
 pub(super) const DEVICE_CPU: c_int = 1;
 pub(super) const FORMAT_FLOAT3: c_int = 3;
 pub(super) const QUALITY_FAST: c_int = 4;
-pub(super) const QUALITY_BALANCED: c_int = 5;
 pub(super) const QUALITY_HIGH: c_int = 6;
 pub(super) const ERROR_NONE: c_int = 0;
 

@@ -17,7 +17,7 @@ pub(super) struct Dome {
 }
 
 impl Dome {
-    /// From a picture, with `side × side` cells a hemisphere; `share_below` scales how often directions below the
+    /// From a picture, with `side × side` cells a hemisphere, as for [`Cells::new`]; `share_below` scales how often directions below the
     /// horizon are drawn, which the ground mostly hides.
     pub(super) fn new(picture: EnvironmentMap, side: usize, share_below: f64) -> Self {
         // As many look-ups a cell as it has texels, at least.
@@ -32,15 +32,15 @@ impl Dome {
         if spread_rad < WIDE_RAD { interpolated(&self.picture, direction) } else { self.cells.radiance(direction) }
     }
 
-    /// A direction in proportion to brightness, what comes from around it, and the density over solid angle with which
-    /// it is drawn.
-    pub(super) fn draw(&self, u: [f32; 2]) -> (Vec3, Vec3, f32) {
-        self.cells.draw(u)
+    /// For a surface that is lit from the side of `normal` (from both sides if it is 0), a direction, what comes from
+    /// around it, and the density over solid angle with which it is drawn; `None` where all is dark.
+    pub(super) fn draw(&self, normal: Vec3, u: [f32; 2]) -> Option<(Vec3, Vec3, f32)> {
+        self.cells.draw(normal, u)
     }
 
-    /// Density over solid angle with which a direction is drawn.
-    pub(super) fn pdf(&self, direction: Vec3) -> f32 {
-        self.cells.pdf(direction)
+    /// Density over solid angle with which a direction is drawn for a surface.
+    pub(super) fn pdf(&self, normal: Vec3, direction: Vec3) -> f32 {
+        self.cells.pdf(normal, direction)
     }
 
     /// Irradiance of a level surface that looks up.
@@ -107,7 +107,8 @@ pub(super) mod tests {
         let wide = seen(&|d| dome.radiance(d, 1.0).x * d.z.max(0.0)) * 4.0 * std::f64::consts::PI;
         let mut drawn = 0.0;
         for i in 0..400 * 400 {
-            let (d, radiance, pdf) = dome.draw([((i % 400) as f32 + 0.5) / 400.0, ((i / 400) as f32 + 0.5) / 400.0]);
+            let u = [((i % 400) as f32 + 0.5) / 400.0, ((i / 400) as f32 + 0.5) / 400.0];
+            let (d, radiance, pdf) = dome.draw(Vec3::Z, u).unwrap();
             drawn += f64::from(radiance.x * d.z.max(0.0) / pdf) / 160_000.0;
         }
         let of_a_level_surface = f64::from(dome.irradiance().x);
@@ -118,7 +119,7 @@ pub(super) mod tests {
 
     #[test]
     fn the_left_edge_looks_west_and_columns_run_through_north() {
-        let dome = Dome::new(map(8, 4, |x, y| (10 * y + x) as f32), 4, 1.0);
+        let dome = Dome::new(map(8, 4, |x, y| (10 * y + x) as f32), 8, 1.0);
         for (x, y) in [(0, 1), (3, 2), (7, 0)] {
             assert!((dome.radiance(direction_of(x, y, 8, 4), 0.0).x - (10 * y + x) as f32).abs() < 1e-3);
         }

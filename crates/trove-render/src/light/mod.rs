@@ -10,6 +10,7 @@ mod dome;
 mod emitters;
 mod luminance;
 mod noise;
+mod patches;
 mod sky;
 mod sun;
 mod sun_in_map;
@@ -152,7 +153,7 @@ impl Lights {
         if let Some(emitters) = self.emitters.as_ref().filter(|_| u[0] < self.emitter_share) {
             return self.sample_emitter(emitters, point, normal, [u[0] / self.emitter_share, u[1], u[2]]);
         }
-        let (wi, radiance, pdf) = self.around.dome.draw([u[1], u[2]]);
+        let (wi, radiance, pdf) = self.around.dome.draw(normal, [u[1], u[2]])?;
         let pdf = pdf * (1.0 - self.emitter_share);
         (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance, pdf })
     }
@@ -171,9 +172,9 @@ impl Lights {
         })
     }
 
-    /// Density over solid angle with which [`Self::sample_rest`] draws a direction of the sky.
-    pub(crate) fn pdf_rest(&self, direction: Vec3) -> f32 {
-        (1.0 - self.emitter_share) * self.around.dome.pdf(direction)
+    /// Density over solid angle with which [`Self::sample_rest`], given that normal, draws a direction of the sky.
+    pub(crate) fn pdf_rest(&self, normal: Vec3, direction: Vec3) -> f32 {
+        (1.0 - self.emitter_share) * self.around.dome.pdf(normal, direction)
     }
 
     /// Density over solid angle with which [`Self::sample_rest`], given that point and normal, draws the point `on_light`

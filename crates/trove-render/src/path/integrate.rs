@@ -143,9 +143,12 @@ impl Vertex<'_> {
         let Some(hit) = hit else {
             let direction = path.ray.direction;
             // Weighed against finding the same light by light sampling.
-            let weight = |other: f32| path.scattered.as_ref().map_or(1.0, |s| power_heuristic(s.pdf, other));
-            let sun = lights.sun_radiance(direction) * weight(lights.sun_pdf(direction));
-            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * weight(lights.pdf_rest(direction));
+            let [of_sun, of_sky] = path.scattered.as_ref().map_or([1.0; 2], |s| {
+                let others = [lights.sun_pdf(direction), lights.pdf_rest(s.lit_side, direction)];
+                others.map(|other| power_heuristic(s.pdf, other))
+            });
+            let sun = lights.sun_radiance(direction) * of_sun;
+            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * of_sky;
             path.gather(path.throughput * (sun + sky), path.bounce, lights.scale());
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
             return false;

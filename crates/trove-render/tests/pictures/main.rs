@@ -32,7 +32,7 @@ fn a_white_ball_in_a_white_world_cannot_be_seen() {
         ("wet stone", Material { wetness: 0.4, ..white(0.8) }, 0.05),
     ];
     for (name, material, tolerance) in sorts {
-        let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene(ball(), material), 64, 0.8);
+        let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene(ball(), material), 1024, 0.8);
         let mean = mean(&picture);
         assert!((mean - 1.0).abs() < tolerance, "{name}: {mean}");
     }
