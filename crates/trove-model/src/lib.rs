@@ -68,6 +68,7 @@ mod sensor;
 mod shot;
 mod state;
 mod street_map;
+mod strips;
 mod surface_kind;
 mod tags;
 mod trajectory;
@@ -125,6 +126,7 @@ pub use street_map::{
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
     RoadSurface, RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
 };
+pub use strips::{InStrips, Strips};
 pub use surface_kind::SurfaceKind;
 pub use tags::Tags;
 pub use trajectory::{Disorder, Trajectory};

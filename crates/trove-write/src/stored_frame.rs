@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use trove_files::{Budget, open_regular};
 use trove_format::{FrameFile, FrameTable, MaskTable, ObjectRow, RunLengths};
-use trove_model::{Class, Occlusion, Raster};
+use trove_model::{Class, InStrips, Occlusion, Raster, Strips};
 
-use crate::{WriteError, exr_file, masks};
+use crate::{WriteError, exr_rows, masks};
 
 /// The folder of a finished frame; its files are read when they are asked for.
 #[derive(Clone, Debug)]
@@ -168,7 +168,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_forward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.needed(FrameFile::FlowForward)?, self.size())
+        Ok(self.pairs_in(FrameFile::FlowForward, Strips::ALL)?.raster)
     }
 
     /// Pixels to the previous keyframe, right and down; NaN: not defined.
@@ -176,7 +176,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_backward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.needed(FrameFile::FlowBackward)?, self.size())
+        Ok(self.pairs_in(FrameFile::FlowBackward, Strips::ALL)?.raster)
     }
 
     /// Whether the next keyframe's picture shows what each pixel shows.
@@ -222,7 +222,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`], and a file of vectors.
     pub fn numbers(&self, file: FrameFile) -> Result<Raster<f32>, WriteError> {
-        exr_file::read_scalar(&self.needed(file)?, self.size())
+        Ok(self.numbers_in(file, Strips::ALL)?.raster)
     }
 
     /// The vectors of a file with three channels, such as `scene_flow_forward.exr`, as docs/output.md tells.
@@ -230,7 +230,41 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`], and a file of other values.
     pub fn vectors(&self, file: FrameFile) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.needed(file)?, self.size())
+        Ok(self.vectors_in(file, Strips::ALL)?.raster)
+    }
+
+    /// Some rows of [`StoredFrame::numbers`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn numbers_in(&self, file: FrameFile, strips: Strips) -> Result<InStrips<f32>, WriteError> {
+        let InStrips { raster, strips } = self.channels(file, ["Y"], strips)?;
+        Ok(InStrips { raster: raster.map(|[number]| *number), strips })
+    }
+
+    /// Some rows of [`StoredFrame::vectors`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn vectors_in(&self, file: FrameFile, strips: Strips) -> Result<InStrips<[f32; 3]>, WriteError> {
+        self.channels(file, ["R", "G", "B"], strips)
+    }
+
+    /// Some rows of a file of flow, such as [`StoredFrame::flow_forward`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn pairs_in(&self, file: FrameFile, strips: Strips) -> Result<InStrips<[f32; 2]>, WriteError> {
+        self.channels(file, ["R", "G"], strips)
+    }
+
+    fn channels<const N: usize>(
+        &self,
+        file: FrameFile,
+        names: [&str; N],
+        strips: Strips,
+    ) -> Result<InStrips<[f32; N]>, WriteError> {
+        Ok(InStrips { raster: exr_rows::read(&self.needed(file)?, self.size(), names, strips)?, strips })
     }
 
     fn occlusion(&self, file: FrameFile) -> Result<Raster<Occlusion>, WriteError> {
