@@ -51,6 +51,7 @@ mod light;
 mod locale;
 mod material;
 mod mesh;
+mod patches;
 mod plant;
 mod point_cloud;
 mod polygon;
@@ -68,7 +69,6 @@ mod sensor;
 mod shot;
 mod state;
 mod street_map;
-mod strips;
 mod surface_kind;
 mod tags;
 mod trajectory;
@@ -105,6 +105,7 @@ pub use locale::{
 };
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
+pub use patches::{InPatches, Patches};
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use point_cloud::{LidarPoint, PointCloud};
 pub use polygon::{Bounds, Polygon};
@@ -126,7 +127,6 @@ pub use street_map::{
     LampMount, Land, LandKind, LineKind, MapLine, MappedPlant, MappedSign, Parking, ParkingOrientation, Road, RoadKind,
     RoadSurface, RoofMaterial, RoofShape, Sides, SidewalkSides, StreetMap, Turns, WallMaterial,
 };
-pub use strips::{InStrips, Strips};
 pub use surface_kind::SurfaceKind;
 pub use tags::Tags;
 pub use trajectory::{Disorder, Trajectory};

@@ -1,10 +1,10 @@
-//! OpenEXR, as bytes: 32-bit float, scan lines, without loss.
+//! OpenEXR, as bytes: 32-bit float, in tiles of 64 × 64 pixels, without loss.
 
-use std::io::Cursor;
 use exr::prelude::{
-    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, SmallVec,
-    WritableImage,
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
+    SmallVec, Vec2, WritableImage,
 };
+use std::io::Cursor;
 use trove_model::Raster;
 
 use crate::WriteError;
@@ -33,9 +33,10 @@ fn encode_channels(
     channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
 ) -> Result<Vec<u8>, WriteError> {
     let size = (width as usize, height as usize);
-    // Sixteen lines a block: the smallest of the lossless ways that are fast to read.
-    let encoding =
-        Encoding { compression: Compression::ZIP16, line_order: LineOrder::Increasing, ..Encoding::default() };
+    // The smallest of the lossless ways that are fast to read. Patches of `trove_model::Patches` are such tiles.
+    let side = trove_model::Patches::SIDE as usize;
+    let blocks = Blocks::Tiles(Vec2(side, side));
+    let encoding = Encoding { compression: Compression::ZIP16, blocks, line_order: LineOrder::Increasing };
     let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
     // One core: the pipeline writes frames while it renders the next.

@@ -180,7 +180,9 @@ fn surfaces(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     hidden.enough = hidden.enough.max(seen.all / MUCH);
     notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
         let percent = 100.0 * share;
-        format!("{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %")
+        format!(
+            "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
+        )
     });
     notes.judge(Check::FlowReturns, &returns, RETURNS, |share| {
         let percent = 100.0 * share;

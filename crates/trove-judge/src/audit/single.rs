@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use trove_format::{ObjectOrigin, ObjectRow};
-use trove_model::{CLASSES, Class, InStrips, Raster};
+use trove_model::{CLASSES, Class, InPatches, Raster};
 
 use super::finding::{Check, Count, Notes};
 use super::frame::{Eye, LabelledFrame, SAMPLES, around, known, pixels, rigid};
@@ -190,7 +190,7 @@ const FACING: f64 = 0.999;
 /// Share of pixels on smooth surfaces whose normal is that of depth within 20°.
 const SMOOTH: f64 = 0.9;
 
-fn normals(frame: &LabelledFrame, normal: &InStrips<[f32; 3]>, eye: &Eye, notes: &mut Notes) {
+fn normals(frame: &LabelledFrame, normal: &InPatches<[f32; 3]>, eye: &Eye, notes: &mut Notes) {
     notes.look(Check::Normals);
     let vector = |n: &[f32; 3]| glam::Vec3::from_array(*n).as_dvec3();
     let is_unit = |n: &[f32; 3]| {

@@ -88,8 +88,8 @@ impl Tiff {
         self
     }
 
-    /// Strips of so many rows.
-    pub(crate) fn strips(mut self, rows: u32, chunks: Vec<Vec<u8>>) -> Self {
+    /// Patches of so many rows.
+    pub(crate) fn patches(mut self, rows: u32, chunks: Vec<Vec<u8>>) -> Self {
         self.chunks = chunks;
         self.longs(278, &[rows])
     }

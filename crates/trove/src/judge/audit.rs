@@ -6,7 +6,9 @@ use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use trove_format::FrameFile;
-use trove_judge::audit::{Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, picture, strips};
+use trove_judge::audit::{
+    Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, patches, picture,
+};
 use trove_write::{StoredFrame, StoredSweep, WriteError, encode_picture, write_atomically};
 
 use crate::answer::Answer;
@@ -159,27 +161,26 @@ impl FrameReader for Stored {
     fn frame(&self, folder: &Path, place: &str) -> Result<LabelledFrame, String> {
         let frame = StoredFrame::open(folder).map_err(|e| e.to_string())?;
         let mut damage = Vec::new();
-        let (mut read, strips) = (Reading { frame: &frame, damage: &mut damage }, strips(&frame.table));
+        let (mut read, patches) = (Reading { frame: &frame, damage: &mut damage }, patches(&frame.table));
         Ok(LabelledFrame {
             rgb: read.file(FrameFile::Rgb, StoredFrame::rgb),
             class: read.file(FrameFile::Class, StoredFrame::class),
             instance: read.file(FrameFile::Instance, StoredFrame::instance),
             depth_m: read.file(FrameFile::Depth, StoredFrame::depth_m),
-            normal: read.file(FrameFile::Normal, |frame| frame.vectors_in(FrameFile::Normal, strips)),
+            normal: read.file(FrameFile::Normal, |frame| frame.vectors_in(FrameFile::Normal, patches)),
             flow: [FrameFile::FlowForward, FrameFile::FlowBackward]
-                .map(|file| read.file(file, |frame| frame.pairs_in(file, strips))),
+                .map(|file| read.file(file, |frame| frame.pairs_in(file, patches))),
             occluded: [
                 read.file(FrameFile::OccludedForward, StoredFrame::occluded_forward),
                 read.file(FrameFile::OccludedBackward, StoredFrame::occluded_backward),
             ],
             panoptic: read.file(FrameFile::Panoptic, StoredFrame::panoptic),
-            range_m: read.file(FrameFile::Range, |frame| frame.numbers_in(FrameFile::Range, strips)),
-            normal_world: read
-                .file(FrameFile::NormalWorld, |frame| frame.vectors_in(FrameFile::NormalWorld, strips)),
+            range_m: read.file(FrameFile::Range, |frame| frame.numbers_in(FrameFile::Range, patches)),
+            normal_world: read.file(FrameFile::NormalWorld, |frame| frame.vectors_in(FrameFile::NormalWorld, patches)),
             object_coordinates: read
-                .file(FrameFile::ObjectCoordinates, |frame| frame.vectors_in(FrameFile::ObjectCoordinates, strips)),
+                .file(FrameFile::ObjectCoordinates, |frame| frame.vectors_in(FrameFile::ObjectCoordinates, patches)),
             scene_flow: [FrameFile::SceneFlowForward, FrameFile::SceneFlowBackward]
-                .map(|file| read.file(file, |frame| frame.vectors_in(file, strips))),
+                .map(|file| read.file(file, |frame| frame.vectors_in(file, patches))),
             place: place.to_owned(),
             table: frame.table.clone(),
             damage,

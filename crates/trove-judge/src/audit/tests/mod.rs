@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use trove_model::{Class, InStrips, Occlusion, Raster};
+use trove_model::{Class, InPatches, Occlusion, Raster};
 
 use super::{Audit, Check, LabelForm, LabelledFrame, LabelledSweep, audit};
 
@@ -30,7 +30,7 @@ fn change<T>(raster: &mut Option<Raster<T>>, change: impl FnMut(&mut T)) {
     raster.as_mut().unwrap().data.iter_mut().for_each(change);
 }
 
-fn change_known<T>(image: &mut Option<InStrips<T>>, change: impl FnMut(&mut T)) {
+fn change_known<T>(image: &mut Option<InPatches<T>>, change: impl FnMut(&mut T)) {
     image.as_mut().unwrap().raster.data.iter_mut().for_each(change);
 }
 
@@ -146,7 +146,7 @@ const FAULTS: [Fault; 38] = [
 
 #[test]
 fn a_street_in_closed_form_has_no_fault_and_every_check_looks_at_it() {
-    assert_eq!(look(&Street::new().in_strips(2)).findings, []);
+    assert_eq!(look(&Street::new().in_patches(2)).findings, []);
     let audit = look(&Street::new());
     assert_eq!(audit.findings, []);
     assert_eq!(audit.frames, 4);
@@ -160,7 +160,7 @@ fn a_street_in_closed_form_has_no_fault_and_every_check_looks_at_it() {
 fn every_planted_fault_is_found_by_its_check() {
     for every in [1, 2] {
         for (name, check, plant) in FAULTS {
-            let mut street = Street::new().in_strips(every);
+            let mut street = Street::new().in_patches(every);
             plant(street.frames.get_mut(FRAME).unwrap());
             let audit = look(&street);
             let found: BTreeSet<&str> = audit.findings.iter().map(|finding| finding.check.name()).collect();

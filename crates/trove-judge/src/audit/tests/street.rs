@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use serde_json::json;
 use trove_format::{FrameTable, SweepTable};
-use trove_model::{Class, Distortion, InStrips, InstanceId, Lens, LidarPoint, Occlusion, Raster, Strips};
+use trove_model::{Class, Distortion, InPatches, InstanceId, Lens, LidarPoint, Occlusion, Patches, Raster};
 
 use super::super::{FrameReader, LabelledFrame, LabelledSweep};
 
@@ -90,8 +90,8 @@ fn rows(pose: DAffine3) -> [[f64; 4]; 4] {
     [x, y, z, [0.0, 0.0, 0.0, 1.0]]
 }
 
-pub(super) fn whole<T>(raster: Raster<T>) -> InStrips<T> {
-    InStrips { raster, strips: Strips::ALL }
+pub(super) fn whole<T>(raster: Raster<T>) -> InPatches<T> {
+    InPatches { raster, patches: Patches::ALL }
 }
 
 fn one_number((class, id): (&Class, &u16)) -> u32 {
@@ -276,14 +276,12 @@ fn sweep(moment: usize) -> LabelledSweep {
     LabelledSweep { place: format!("street/v00/k{moment:03}/ego.LIDAR"), table, points }
 }
 
-fn keep<T: Copy>(image: &mut Option<InStrips<T>>, strips: Strips, other: T) {
+fn keep<T: Copy>(image: &mut Option<InPatches<T>>, patches: Patches, other: T) {
     let image = image.as_mut().unwrap();
-    image.strips = strips;
-    for (y, row) in (0..).zip(image.raster.data.chunks_mut(WIDTH as usize)) {
-        if !strips.holds(y) {
-            row.fill(other);
-        }
-    }
+    image.patches = patches;
+    let raster = &image.raster;
+    let of = |x, y| if patches.hold(x, y) { *raster.at(x, y) } else { other };
+    image.raster = Raster::from_fn(WIDTH, HEIGHT, of);
 }
 
 /// The whole street, and who reads it.
@@ -302,16 +300,16 @@ impl Street {
         }
     }
 
-    /// The same as whoever reads one of so many strips has it: what stands in the other rows means nothing.
-    pub(super) fn in_strips(mut self, every: u32) -> Self {
-        let strips = Strips::one_of(every, 1);
+    /// The same as whoever reads one of so many patches has it: what stands elsewhere means nothing.
+    pub(super) fn in_patches(mut self, every: u32) -> Self {
+        let patches = Patches::one_of(every, 1);
         for frame in self.frames.values_mut() {
-            keep(&mut frame.normal, strips, [-7.0; 3]);
-            keep(&mut frame.range_m, strips, -7.0);
-            keep(&mut frame.normal_world, strips, [-7.0; 3]);
-            keep(&mut frame.object_coordinates, strips, [-7.0; 3]);
-            frame.flow.iter_mut().for_each(|flow| keep(flow, strips, [-7.0; 2]));
-            frame.scene_flow.iter_mut().for_each(|flow| keep(flow, strips, [-7.0; 3]));
+            keep(&mut frame.normal, patches, [-7.0; 3]);
+            keep(&mut frame.range_m, patches, -7.0);
+            keep(&mut frame.normal_world, patches, [-7.0; 3]);
+            keep(&mut frame.object_coordinates, patches, [-7.0; 3]);
+            frame.flow.iter_mut().for_each(|flow| keep(flow, patches, [-7.0; 2]));
+            frame.scene_flow.iter_mut().for_each(|flow| keep(flow, patches, [-7.0; 3]));
         }
         self
     }

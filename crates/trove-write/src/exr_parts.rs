@@ -1,4 +1,4 @@
-//! OpenEXR, read back: those rows that are asked for.
+//! OpenEXR, read back: those parts that are asked for.
 //!
 //! The `exr` crate reads headers and finds blocks. Those that are packed with ZIP, as ours are, are unpacked here, in less
 //! than half of its time.
@@ -14,16 +14,16 @@ use exr::meta::header::Header;
 use exr::prelude::{Compression, MetaData, Vec2, f16};
 use libdeflater::Decompressor;
 use trove_files::{Budget, LARGEST_FILE, open_regular};
-use trove_model::{Raster, Strips};
+use trove_model::{Patches, Raster};
 
 use crate::WriteError;
 
-/// Reads the channels of a picture, of so many columns and rows. Rows that are not asked for are 0.
+/// Reads the channels of a picture, of so many columns and rows. Blocks without pixels that are asked for are left 0.
 pub(crate) fn read<const N: usize>(
     path: &Path,
     [width, height]: [u32; 2],
     names: [&str; N],
-    strips: Strips,
+    patches: Patches,
 ) -> Result<Raster<[f32; N]>, WriteError> {
     let damaged = |found: String| WriteError::Damaged { path: path.to_owned(), found };
     let unread = |e: exr::error::Error| damaged(e.to_string());
@@ -56,8 +56,9 @@ pub(crate) fn read<const N: usize>(
 
     let mut raster = Raster::filled(width, height, [0.0; N]);
     let wanted = |level: Vec2<usize>, block: BlockIndex| {
-        let rows = block.pixel_position.y()..block.pixel_position.y() + block.pixel_size.y();
-        level == Vec2(0, 0) && rows.into_iter().any(|y| strips.holds(y as u32))
+        let (start, end) = (block.pixel_position, block.pixel_position + block.pixel_size);
+        let mut rows = start.y()..end.y();
+        level == Vec2(0, 0) && rows.any(|y| patches.columns(end.x() as u32, y as u32).any(|x| x as usize >= start.x()))
     };
     let chunks = reader.filter_chunks(false, |_, tile, block| wanted(tile.level_index, block)).map_err(unread)?;
     let meta = chunks.meta_data().clone();
@@ -85,7 +86,9 @@ pub(crate) fn read<const N: usize>(
 /// Sets values from the bytes of a line.
 fn set<'a>(values: impl Iterator<Item = &'a mut f32>, line: &[u8], kind: SampleType) {
     match kind {
-        SampleType::F32 => values.zip(line.as_chunks().0).for_each(|(value, bytes)| *value = f32::from_ne_bytes(*bytes)),
+        SampleType::F32 => {
+            values.zip(line.as_chunks().0).for_each(|(value, bytes)| *value = f32::from_ne_bytes(*bytes))
+        }
         SampleType::F16 => {
             values.zip(line.as_chunks().0).for_each(|(value, bytes)| *value = f16::from_ne_bytes(*bytes).to_f32());
         }
@@ -106,15 +109,20 @@ impl Unpacking {
     fn block(&mut self, chunk: Chunk, meta: &MetaData, layer: &Header) -> Result<UncompressedBlock, String> {
         let told = |e: exr::error::Error| e.to_string();
         let is_zip = matches!(layer.compression, Compression::ZIP1 | Compression::ZIP16);
-        if let (true, CompressedBlock::ScanLine(lines)) = (is_zip && cfg!(target_endian = "little"), &chunk.compressed_block) {
+        let packed = match &chunk.compressed_block {
+            CompressedBlock::ScanLine(lines) => Some(&lines.compressed_pixels_le),
+            CompressedBlock::Tile(tile) => Some(&tile.compressed_pixels_le),
+            _ => None,
+        };
+        if let Some(packed) = packed.filter(|_| is_zip && cfg!(target_endian = "little")) {
             let index = layer.get_block_data_indices(&chunk.compressed_block).map_err(told)?;
             let within = layer.get_absolute_block_pixel_coordinates(index).map_err(told)?;
             within.validate(Some(layer.layer_size)).map_err(told)?;
             let size = within.size.area() * layer.channels.bytes_per_pixel;
             // Blocks that would not get smaller are not packed.
-            if lines.compressed_pixels_le.len() != size {
+            if packed.len() != size {
                 self.halves.resize(size, 0);
-                match self.inflater.zlib_decompress(&lines.compressed_pixels_le, &mut self.halves) {
+                match self.inflater.zlib_decompress(packed, &mut self.halves) {
                     Ok(bytes) if bytes == size => {}
                     Ok(bytes) => return Err(format!("a block of {bytes} bytes instead of {size}")),
                     Err(e) => return Err(format!("a block that cannot be unpacked: {e}")),
@@ -166,7 +174,8 @@ fn interleaved(halves: &[u8]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use exr::prelude::{
-        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, SmallVec, WritableImage,
+        AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, SmallVec,
+        WritableImage,
     };
 
     use super::*;
@@ -181,19 +190,22 @@ mod tests {
         }
     }
 
-    fn write(path: &Path, compression: Compression, channels: &[(&str, bool)]) {
+    fn write(path: &Path, blocks: Blocks, compression: Compression, channels: &[(&str, bool)]) {
         let (width, height) = (SIZE[0] as usize, SIZE[1] as usize);
         let of = |factor: f32| (0..width * height).map(move |i| value(i % width, i / width) * factor);
-        let channels: SmallVec<[_; 4]> = (1..).zip(channels).map(|(factor, (name, is_half))| {
-            let values = of(factor as f32);
-            let samples = if *is_half {
-                FlatSamples::F16(values.map(f16::from_f32).collect())
-            } else {
-                FlatSamples::F32(values.collect())
-            };
-            AnyChannel::new(*name, samples)
-        }).collect();
-        let encoding = Encoding { compression, line_order: LineOrder::Increasing, ..Encoding::default() };
+        let channels: SmallVec<[_; 4]> = (1..)
+            .zip(channels)
+            .map(|(factor, (name, is_half))| {
+                let values = of(factor as f32);
+                let samples = if *is_half {
+                    FlatSamples::F16(values.map(f16::from_f32).collect())
+                } else {
+                    FlatSamples::F32(values.collect())
+                };
+                AnyChannel::new(*name, samples)
+            })
+            .collect();
+        let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
         let layer = Layer::new((width, height), LayerAttributes::default(), encoding, AnyChannels::sort(channels));
         Image::from_layer(layer).write().to_file(path).unwrap();
     }
@@ -205,29 +217,35 @@ mod tests {
         for compression in
             [Compression::ZIP16, Compression::ZIP1, Compression::RLE, Compression::PIZ, Compression::Uncompressed]
         {
-            for is_half in [false, true] {
-                write(&path, compression, &[("B", false), ("A", true), ("R", is_half)]);
-                let read = read(&path, SIZE, ["R", "B"], Strips::ALL).unwrap();
+            for (is_half, blocks) in
+                [(false, Blocks::ScanLines), (true, Blocks::ScanLines), (false, Blocks::Tiles(Vec2(16, 24)))]
+            {
+                write(&path, blocks, compression, &[("B", false), ("A", true), ("R", is_half)]);
+                let read = read(&path, SIZE, ["R", "B"], Patches::ALL).unwrap();
                 for (i, [r, b]) in read.data.iter().enumerate() {
                     let expected = value(i % 37, i / 37);
                     let third = if is_half { f16::from_f32(expected * 3.0).to_f32() } else { expected * 3.0 };
                     let same = |a: f32, b: f32| a.is_nan() && b.is_nan() || a.to_bits() == b.to_bits();
-                    assert!(same(*r, third) && same(*b, expected), "{compression:?} {i}: {r} {b}, not {third} {expected}");
+                    assert!(
+                        same(*r, third) && same(*b, expected),
+                        "{compression:?} {i}: {r} {b}, not {third} {expected}"
+                    );
                 }
             }
         }
     }
 
     #[test]
-    fn rows_that_are_not_asked_for_are_not_read() {
+    fn blocks_that_are_not_asked_for_are_not_read() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.exr");
-        write(&path, Compression::ZIP16, &[("Y", false)]);
-        let strips = Strips::one_of(3, 1);
-        let part = read(&path, SIZE, ["Y"], strips).unwrap();
-        let whole = read(&path, SIZE, ["Y"], Strips::ALL).unwrap();
-        for (i, (part, whole)) in part.data.iter().zip(&whole.data).enumerate() {
-            let expected = if strips.holds(i as u32 / 37) { whole[0].to_bits() } else { 0 };
+        let size = [200, 150];
+        let raster = Raster::from_fn(200, 150, |x, y| [value(x as usize, y as usize)]);
+        std::fs::write(&path, crate::exr_file::encode("a.exr", &raster, ["Y"]).unwrap()).unwrap();
+        let patches = Patches::one_of(3, 1);
+        let part = read(&path, size, ["Y"], patches).unwrap();
+        for (i, (part, whole)) in part.data.iter().zip(&raster.data).enumerate() {
+            let expected = if patches.hold(i as u32 % 200, i as u32 / 200) { whole[0].to_bits() } else { 0 };
             assert_eq!(part[0].to_bits(), expected);
         }
     }
@@ -236,21 +254,21 @@ mod tests {
     fn damage_is_told_wherever_it_is() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.exr");
-        write(&path, Compression::ZIP16, &[("Y", false)]);
+        write(&path, Blocks::ScanLines, Compression::ZIP16, &[("Y", false)]);
         let sound = std::fs::read(&path).unwrap();
         let mut told = 0;
         for at in 0..sound.len() {
             let mut bytes = sound.clone();
             bytes[at] ^= 0x55;
             std::fs::write(&path, &bytes).unwrap();
-            told += usize::from(read(&path, SIZE, ["Y"], Strips::ALL).is_err());
+            told += usize::from(read(&path, SIZE, ["Y"], Patches::ALL).is_err());
         }
         // Names and values of attributes that nobody asks for are anyone's.
         assert!(told * 4 > sound.len() * 3, "{told} of {}", sound.len());
         std::fs::write(&path, &sound[..sound.len() - 40]).unwrap();
-        assert!(read(&path, SIZE, ["Y"], Strips::ALL).is_err());
-        write(&path, Compression::ZIP16, &[("Y", false)]);
-        assert!(read(&path, [37, 51], ["Y"], Strips::ALL).unwrap_err().to_string().contains("37×50"));
-        assert!(read(&path, SIZE, ["R"], Strips::ALL).unwrap_err().to_string().contains("no channel R"));
+        assert!(read(&path, SIZE, ["Y"], Patches::ALL).is_err());
+        write(&path, Blocks::ScanLines, Compression::ZIP16, &[("Y", false)]);
+        assert!(read(&path, [37, 51], ["Y"], Patches::ALL).unwrap_err().to_string().contains("37×50"));
+        assert!(read(&path, SIZE, ["R"], Patches::ALL).unwrap_err().to_string().contains("no channel R"));
     }
 }
