@@ -22,8 +22,8 @@ pub(super) enum Bark {
     Bands,
     /// Scars of fallen leaves: palms.
     Ringed,
-    /// Long thin patches: cypresses.
-    Patches,
+    /// Long thin strips: cypresses.
+    Strips,
 }
 
 /// The material of a trunk whose bark is of a colour (reflectance, linear).
@@ -33,7 +33,7 @@ pub(super) fn bark(name: &str, kind: Bark, color: Vec3, seed: u32) -> Material {
     let (grain, moss) = (noise(0.02, 0.03, 1), noise(0.3, 0.3, 2));
     let wide = match kind {
         Bark::Furrowed(width) => width,
-        Bark::Patches => 0.03,
+        Bark::Strips => 0.03,
         _ => 0.1,
     };
     let (ridges, bends) = (noise(wide, wide * 5.0, 3), noise(0.15, 0.15, 4));
@@ -51,7 +51,7 @@ pub(super) fn bark(name: &str, kind: Bark, color: Vec3, seed: u32) -> Material {
         let warped = p + vec2(bend, 0.5 * bend) * 0.02;
         let mut texel = Texel::new(color * (1.0 + 0.16 * fine), 0.92);
         match kind {
-            Bark::Furrowed(_) | Bark::Patches => {
+            Bark::Furrowed(_) | Bark::Strips => {
                 // The zeros of noise are winding lines: furrows.
                 let furrow = step(0.26, 0.02, ridges.fbm(warped, 2).abs());
                 texel.albedo *= 1.08 - 0.62 * furrow;

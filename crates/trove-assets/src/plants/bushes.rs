@@ -1,4 +1,4 @@
-//! Shrubs, hedges and planted patches: dark insides, stems, sprigs over a clumpy or clipped surface.
+//! Shrubs, hedges and planted strips: dark insides, stems, sprigs over a clumpy or clipped surface.
 
 use glam::{Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;

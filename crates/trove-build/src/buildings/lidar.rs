@@ -30,7 +30,7 @@ const EDGE_RAD: f64 = 0.012;
 const EDGE_SHARE: f64 = 0.6;
 /// One point is kept a cube of this side, so that near walls do not outweigh far ones, metres.
 const CUBE_M: f64 = 0.25;
-/// Directions of lines, and the width of the patches that are looked along, metres.
+/// Directions of lines, and the width of the strips that are looked along, metres.
 const DIRECTIONS: usize = 180;
 const STRIP_M: f64 = 0.3;
 /// A line is seen in steps of this length, of which it fills this share, without a gap longer than that, metres.

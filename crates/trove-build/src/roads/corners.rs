@@ -72,15 +72,15 @@ fn radius_m(road: &Road) -> f64 {
     }
 }
 
-/// What to add to the patches of roads so that they join: round corners at junctions, round joints elsewhere.
-pub(super) fn corners(nodes: &[Node], patches: &[Polygon]) -> Vec<Polygon> {
-    let bounds: Vec<Option<Bounds>> = patches.iter().map(Polygon::bounds).collect();
+/// What to add to the strips of roads so that they join: round corners at junctions, round joints elsewhere.
+pub(super) fn corners(nodes: &[Node], strips: &[Polygon]) -> Vec<Polygon> {
+    let bounds: Vec<Option<Bounds>> = strips.iter().map(Polygon::bounds).collect();
     let corner = |node: &Node| -> Vec<Polygon> {
         if node.arms == 2 {
             return vec![disc(node.at, node.half_widths_m[0])];
         }
         let window = Bounds::square(node.at, 2.0 * node.reach_m());
-        let near = patches.iter().zip(&bounds).filter(|(_, b)| b.is_some_and(|b| b.overlaps(&window)));
+        let near = strips.iter().zip(&bounds).filter(|(_, b)| b.is_some_and(|b| b.overlaps(&window)));
         let joined = union(&near.map(|(strip, _)| strip.clone()).collect::<Vec<_>>());
         let filled = closed(&intersection(&joined, &[rectangle(window)]), node.radius_m);
         // What roads go around stays: roundabouts have their island.
@@ -114,8 +114,8 @@ mod tests {
         let nodes = nodes(&stretches);
         let arms: Vec<u32> = nodes.iter().map(|n| n.arms).collect();
         assert_eq!(arms, [3, 2]);
-        let patches: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, 3.0)).collect();
-        let corners = corners(&nodes, &patches);
+        let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, 3.0)).collect();
+        let corners = corners(&nodes, &strips);
         let covers = |x, y| corners.iter().any(|c| c.contains(DVec2::new(x, y)));
         // The corner's arc leaves r·(1 − 1/√2) of its diagonal to the road.
         assert!(covers(3.8, 3.8) && covers(-3.8, 3.8) && !covers(5.0, 5.0) && !covers(3.5, -3.5));
@@ -127,8 +127,8 @@ mod tests {
         ring.centreline[16] = ring.centreline[0];
         let roads = [ring, road(5, &[[6.0, 0.0], [60.0, 0.0]])];
         let stretches: Vec<Stretch<'_>> = roads.iter().map(stretch).collect();
-        let patches: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, 3.0)).collect();
-        let corners = super::corners(&super::nodes(&stretches), &patches);
+        let strips: Vec<Polygon> = stretches.iter().flat_map(|s| strip(&s.line, 3.0)).collect();
+        let corners = super::corners(&super::nodes(&stretches), &strips);
         assert!(!corners.iter().any(|c| c.contains(DVec2::ZERO)), "a roundabout has lost its island");
     }
 }

@@ -11,7 +11,7 @@ use crate::geometry::plane::strip;
 
 /// Nothing is parked this near to a crossing.
 const CROSSING_CLEAR_M: f64 = 4.0;
-/// A road or one recorded lane: patches along it stay on the carriageway.
+/// A road or one recorded lane: strips along it stay on the carriageway.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
     /// The middle of the carriageway or of the recorded lane, metres; bands are measured from it.

@@ -114,10 +114,10 @@ pub(super) fn layout<'a>(
     let nodes = corners::nodes(&stretches);
     let dropped = kerb::dropped(drive, map, &stretches, bounds);
     let bays = course::bays(&stretches, &nodes, &dropped);
-    let mut patches: Vec<Polygon> = stretches.par_iter().flat_map_iter(|s| strip(&s.line, s.width_m / 2.0)).collect();
-    patches.extend(corners::corners(&nodes, &patches));
-    patches.extend(bays.iter().flat_map(Bay::area));
-    let mut carriageway = union(&[drivable, closed(&union(&patches), SLIT_M)].concat());
+    let mut strips: Vec<Polygon> = stretches.par_iter().flat_map_iter(|s| strip(&s.line, s.width_m / 2.0)).collect();
+    strips.extend(corners::corners(&nodes, &strips));
+    strips.extend(bays.iter().flat_map(Bay::area));
+    let mut carriageway = union(&[drivable, closed(&union(&strips), SLIT_M)].concat());
 
     // Vehicles drove and parked on the road, whatever the maps say.
     let traces = evidence::driven(drive);
@@ -130,8 +130,8 @@ pub(super) fn layout<'a>(
     let path = untouched_path(drive, &carriageway);
     if !path.is_empty() {
         report.note(Outcome::Guessed, "road under the driven path that is on no map", &drive.id);
-        let patches: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
-        carriageway = union(&[carriageway, closed(&union(&patches), CORNER_M)].concat());
+        let strips: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
+        carriageway = union(&[carriageway, closed(&union(&strips), CORNER_M)].concat());
     }
     let parked = evidence::parked(drive);
     let lots = map.map(|m| car_parks(m, &recorded, bounds)).unwrap_or_default();

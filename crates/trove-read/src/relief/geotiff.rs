@@ -1,4 +1,4 @@
-//! GeoTIFF with geographic coordinates: one band of heights in patches or tiles.
+//! GeoTIFF with geographic coordinates: one band of heights in strips or tiles.
 
 use std::fs::File;
 use std::io::{BufReader, Seek};
@@ -17,7 +17,7 @@ use super::texts;
 use crate::ReadError;
 use trove_files::Budget;
 
-/// Larger patches and tiles are refused, bytes; GDAL's are 8 KiB to 1 MiB.
+/// Larger strips and tiles are refused, bytes; GDAL's are 8 KiB to 1 MiB.
 const LARGEST_CHUNK: usize = 128 << 20;
 /// Longer texts are refused, bytes; GDAL's metadata are some kilobytes.
 const LONGEST_TEXT: u64 = 16 << 20;
@@ -89,7 +89,7 @@ fn read_from(
     for (x, y) in chunks(cut, chunk) {
         // A bomb has the same few bytes unpacked for every chunk.
         let taken = budget.take((chunk.0 as usize).saturating_mul(chunk.1 as usize), size_of::<f64>());
-        taken.map_err(|_| too_much(format!("patches or tiles of {} × {} samples", chunk.0, chunk.1)))?;
+        taken.map_err(|_| too_much(format!("strips or tiles of {} × {} samples", chunk.0, chunk.1)))?;
         let index =
             y.checked_mul(across).and_then(|row| row.checked_add(x)).ok_or_else(|| damaged("tiles beyond 2³²"))?;
         let samples = values(tiff.read_chunk(index).map_err(damaged)?)?;

@@ -35,14 +35,14 @@ fn tiles_of_a_wrong_size_or_name_say_what_was_expected() {
 fn pictures_without_degrees_heights_or_an_end_say_what_to_do() {
     let (_, corner) = plane_rows();
     let samples = || vec![vec![0; (4 * SIDE * SIDE) as usize]];
-    let tiff = || Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).patches(SIDE, samples());
+    let tiff = || Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).strips(SIDE, samples());
     let whole = tiff().bytes();
     for (bytes, expect) in [
         (tiff().shorts(34735, &[1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32632]).bytes(), "EPSG:32632"),
         (tiff().shorts(34735, &[1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32632]).bytes(), "gdalwarp -t_srs EPSG:4326"),
         (tiff().shorts(34735, &[1, 1]).bytes(), "no coordinate system"),
         (tiff().shorts(277, &[3]).shorts(258, &[32, 32, 32]).bytes(), "3 bands"),
-        (tiff().patches(SIDE, vec![vec![0; 400]]).bytes(), "gdal_translate"),
+        (tiff().strips(SIDE, vec![vec![0; 400]]).bytes(), "gdal_translate"),
         (tiff().entry(256, 2, 1 << 30, vec![0; 5]).bytes(), "a text of 1073741824 bytes"),
         (whole[..300].to_vec(), "complete GeoTIFF"),
         (whole[..5].to_vec(), "complete GeoTIFF"),
@@ -60,7 +60,7 @@ fn a_header_that_asks_for_any_amount_of_memory_is_refused() {
     let tiff = || Tiff::new(size, 32, 3).shorts(259, &[8]).placed(corner, step);
     let zeros = wire::deflated(&vec![0; 4 << 20]);
     // One huge strip; the same few bytes for every tile; a picture of which the place needs little.
-    let all = tiff().patches(size[1], vec![zeros.clone()]);
+    let all = tiff().strips(size[1], vec![zeros.clone()]);
     let mut tiles = tiff().tiles(1024, vec![Vec::new(); 98 * 98]);
     tiles = tiles.longs(324, &vec![8; 98 * 98]);
     for bytes in [all.bytes(), tiles.bytes()] {
@@ -78,7 +78,7 @@ proptest! {
         let samples = rows.iter().flatten().flat_map(|&h| (h as f32).to_le_bytes()).collect();
         let (name, mut bytes) = match kind {
             0 => ("a.zip", wire::zip("N49E006.hgt", &[7; 3000], true)),
-            1 => ("a.tif", Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).patches(SIDE, vec![samples]).bytes()),
+            1 => ("a.tif", Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).strips(SIDE, vec![samples]).bytes()),
             _ => ("N49E006.hgt", vec![byte; 3000]),
         };
         // The ends of both are where their structure is.

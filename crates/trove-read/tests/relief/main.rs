@@ -105,12 +105,12 @@ fn plane_rows() -> (Vec<Vec<f64>>, [f64; 2]) {
 }
 
 #[test]
-fn a_tilted_plane_in_patches_and_tiles_of_whole_numbers_and_floats_comes_back() {
+fn a_tilted_plane_in_strips_and_tiles_of_whole_numbers_and_floats_comes_back() {
     let (rows, [west, north]) = plane_rows();
     let corner = [west, north];
-    // 16 bits in patches of 7 rows, packed, with differences from the left.
+    // 16 bits in strips of 7 rows, packed, with differences from the left.
     let mut before;
-    let mut patches = Vec::new();
+    let mut strips = Vec::new();
     for strip in rows.chunks(7) {
         let mut bytes = Vec::new();
         for row in strip {
@@ -121,10 +121,10 @@ fn a_tilted_plane_in_patches_and_tiles_of_whole_numbers_and_floats_comes_back() 
                 before = value;
             }
         }
-        patches.push(wire::deflated(&bytes));
+        strips.push(wire::deflated(&bytes));
     }
     let whole = Tiff::new([SIDE, SIDE], 16, 2).shorts(259, &[8]).shorts(317, &[2]).placed(corner, [STEP, STEP]);
-    let whole = whole.text(33432, "Somebody, CC BY 4.0").patches(7, patches).bytes();
+    let whole = whole.text(33432, "Somebody, CC BY 4.0").strips(7, strips).bytes();
 
     // Floats in tiles of 32, the outer ones of which reach beyond the picture.
     let tile = |tx: u32, ty: u32| {
@@ -197,7 +197,7 @@ fn samples_that_are_no_heights_are_voids() {
             row.iter().enumerate().map(sample).flat_map(f32::to_le_bytes).collect::<Vec<u8>>()
         };
         let strip = rows.iter().enumerate().flat_map(sample).collect();
-        let tiff = Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).patches(SIDE, vec![strip]);
+        let tiff = Tiff::new([SIDE, SIDE], 32, 3).placed(corner, [STEP, STEP]).strips(SIDE, vec![strip]);
         let tiff = nodata.into_iter().fold(tiff, |tiff, text| tiff.text(42113, text));
         let report = Report::default();
         let relief = Files::new(&[("a.tif", tiff.bytes())]).read(MIDDLE[0], MIDDLE[1], &report).unwrap().unwrap();

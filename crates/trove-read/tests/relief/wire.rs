@@ -88,8 +88,8 @@ impl Tiff {
         self
     }
 
-    /// Patches of so many rows.
-    pub(crate) fn patches(mut self, rows: u32, chunks: Vec<Vec<u8>>) -> Self {
+    /// Strips of so many rows.
+    pub(crate) fn strips(mut self, rows: u32, chunks: Vec<Vec<u8>>) -> Self {
         self.chunks = chunks;
         self.longs(278, &[rows])
     }

@@ -147,10 +147,10 @@ pub(super) fn regions(
 /// The recorded lanes that go straight on, then how they go on into junctions; lanes within junctions overlap and are
 /// none.
 fn recorded(drive: &Drive) -> Vec<Strip> {
-    let mut patches = straight_lanes(drive);
-    let beyond: Vec<Strip> = patches.iter().flat_map(|s| [beyond(s, false), beyond(s, true)]).collect();
-    patches.extend(beyond);
-    patches
+    let mut strips = straight_lanes(drive);
+    let beyond: Vec<Strip> = strips.iter().flat_map(|s| [beyond(s, false), beyond(s, true)]).collect();
+    strips.extend(beyond);
+    strips
 }
 
 /// How a lane would go on behind one of its ends.
@@ -203,7 +203,7 @@ fn middle(lane: &Polygon) -> Option<Vec<DVec2>> {
 
 /// The map's roads, cut into pieces.
 fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
-    let mut patches = Vec::new();
+    let mut strips = Vec::new();
     let near = |s: &&Stretch<'_>| Bounds::around(s.line.iter().copied()).is_some_and(|b| b.overlaps(&reach));
     for stretch in layout.stretches.iter().filter(near).filter(|s| s.line.len() > 1) {
         let path = Path::new(&stretch.line);
@@ -216,7 +216,7 @@ fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
             }
             let half_m = stretch.width_m / 2.0;
             let drives = stretch.section.bands.iter().filter(|b| matches!(b.usage, Use::Forward | Use::Backward));
-            patches.push(Strip {
+            strips.push(Strip {
                 outline: strip(&line, half_m + 0.5),
                 lanes: drives.map(|b| shifted(&line, (b.left_m + b.right_m) / 2.0)).collect(),
                 line,
@@ -226,7 +226,7 @@ fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
             });
         }
     }
-    patches
+    strips
 }
 
 /// Parts of a region in which the tone changes evenly, cut along the edges and middles of the wheels' tracks.
@@ -248,7 +248,7 @@ pub(super) fn tracked(region: &Region) -> Vec<Vec<Polygon>> {
         }
     }
     // Neighbours share an edge, and would be one area if they were cut together.
-    let [even, odd] = between.map(|patches| union(&patches));
+    let [even, odd] = between.map(|strips| union(&strips));
     let odd = difference(&odd, &even);
     let rest = difference(&difference(&region.area, &even), &odd);
     vec![intersection(&region.area, &even), intersection(&region.area, &odd), rest]

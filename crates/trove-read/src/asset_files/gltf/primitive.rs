@@ -133,7 +133,7 @@ mod tests {
     use super::triangles;
 
     #[test]
-    fn patches_and_fans_keep_their_winding() {
+    fn strips_and_fans_keep_their_winding() {
         assert_eq!(triangles(&[0, 1, 2, 3], 5), [[0, 1, 2], [2, 1, 3]]);
         assert_eq!(triangles(&[0, 1, 2, 3], 6), [[0, 1, 2], [0, 2, 3]]);
         assert!(triangles(&[0], 6).is_empty() && triangles(&[], 5).is_empty());
