@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -162,6 +162,10 @@ bench-rays: install
 bench-labels: install
 	TROVE_EMBREE="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')" \
 	cargo run --locked --release -p trove --example label_times
+
+# `trove verify --labels` on frames of 1600×900, and plain reads of the same files; OUT is a run of your own.
+bench-verify: $(VENV)/.test-installed
+	$(BIN)/python benches/verify.py --trove $(BIN)/trove $(OUT)
 
 # How many samples a clean picture needs, and how long they take.
 bench-clean: $(VENV)/.test-installed

@@ -77,7 +77,7 @@ def generated(folder: Path) -> Path:
     demo.wait()
     recipe = source / "small.toml"
     text = (source / "recipe.toml").read_text().replace("keyframes = [2]", 'keyframes = "all"')
-    recipe.write_text(text.replace("scale = 0.5\nspp = 64", "size = [480, 360]\nspp = 4"))
+    recipe.write_text(text.replace("scale = 0.5\nspp = 16", "size = [480, 360]\nspp = 4"))
     trove.generate(recipe, folder / "out")
     return folder / "out"
 

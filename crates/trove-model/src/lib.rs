@@ -51,6 +51,7 @@ mod light;
 mod locale;
 mod material;
 mod mesh;
+mod patches;
 mod plant;
 mod point_cloud;
 mod polygon;
@@ -104,6 +105,7 @@ pub use locale::{
 };
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
+pub use patches::{InPatches, Patches};
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use point_cloud::{LidarPoint, PointCloud};
 pub use polygon::{Bounds, Polygon};

@@ -25,6 +25,7 @@ mod detections_file;
 mod error;
 mod export;
 mod exr_file;
+mod exr_parts;
 mod files;
 mod frame;
 mod frame_folders;

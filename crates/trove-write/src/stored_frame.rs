@@ -3,12 +3,12 @@
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use image::{DynamicImage, GrayImage, ImageDecoder, ImageFormat, ImageReader};
 use trove_files::{Budget, open_regular};
 use trove_format::{FrameFile, FrameTable, MaskTable, ObjectRow, RunLengths};
-use trove_model::{Class, Occlusion, Raster};
+use trove_model::{Class, InPatches, Occlusion, Patches, Raster};
 
-use crate::{WriteError, exr_file, masks};
+use crate::{WriteError, exr_parts, masks};
 
 /// The folder of a finished frame; its files are read when they are asked for.
 #[derive(Clone, Debug)]
@@ -109,11 +109,7 @@ impl StoredFrame {
         let DynamicImage::ImageLuma8(ids) = picture else {
             return Err(self.damaged(FrameFile::Class, format!("{:?} instead of 8-bit greys", picture.color())));
         };
-        let class = |id: &u8| {
-            Class::from_id(*id).ok_or_else(|| self.damaged(FrameFile::Class, format!("{id}, which no class has")))
-        };
-        let data = ids.as_raw().iter().map(class).collect::<Result<_, _>>()?;
-        Ok(Raster { width: ids.width(), height: ids.height(), data })
+        self.meant(FrameFile::Class, &ids, Class::from_id, "which no class has")
     }
 
     /// The id of the object that each pixel shows; 0: none.
@@ -168,7 +164,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_forward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.needed(FrameFile::FlowForward)?, self.size())
+        Ok(self.pairs_in(FrameFile::FlowForward, Patches::ALL)?.raster)
     }
 
     /// Pixels to the previous keyframe, right and down; NaN: not defined.
@@ -176,7 +172,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn flow_backward(&self) -> Result<Raster<[f32; 2]>, WriteError> {
-        exr_file::read_rg(&self.needed(FrameFile::FlowBackward)?, self.size())
+        Ok(self.pairs_in(FrameFile::FlowBackward, Patches::ALL)?.raster)
     }
 
     /// Whether the next keyframe's picture shows what each pixel shows.
@@ -222,7 +218,7 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`], and a file of vectors.
     pub fn numbers(&self, file: FrameFile) -> Result<Raster<f32>, WriteError> {
-        exr_file::read_scalar(&self.needed(file)?, self.size())
+        Ok(self.numbers_in(file, Patches::ALL)?.raster)
     }
 
     /// The vectors of a file with three channels, such as `scene_flow_forward.exr`, as docs/output.md tells.
@@ -230,18 +226,63 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`], and a file of other values.
     pub fn vectors(&self, file: FrameFile) -> Result<Raster<[f32; 3]>, WriteError> {
-        exr_file::read_rgb(&self.needed(file)?, self.size())
+        Ok(self.vectors_in(file, Patches::ALL)?.raster)
+    }
+
+    /// Parts of [`StoredFrame::numbers`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn numbers_in(&self, file: FrameFile, patches: Patches) -> Result<InPatches<f32>, WriteError> {
+        let InPatches { raster, patches } = self.channels(file, ["Y"], patches)?;
+        Ok(InPatches { raster: raster.map(|[number]| *number), patches })
+    }
+
+    /// Parts of [`StoredFrame::vectors`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn vectors_in(&self, file: FrameFile, patches: Patches) -> Result<InPatches<[f32; 3]>, WriteError> {
+        self.channels(file, ["R", "G", "B"], patches)
+    }
+
+    /// Parts of a file of flow, such as [`StoredFrame::flow_forward`].
+    ///
+    /// # Errors
+    /// As for it.
+    pub fn pairs_in(&self, file: FrameFile, patches: Patches) -> Result<InPatches<[f32; 2]>, WriteError> {
+        self.channels(file, ["R", "G"], patches)
+    }
+
+    fn channels<const N: usize>(
+        &self,
+        file: FrameFile,
+        names: [&str; N],
+        patches: Patches,
+    ) -> Result<InPatches<[f32; N]>, WriteError> {
+        Ok(InPatches { raster: exr_parts::read(&self.needed(file)?, self.size(), names, patches)?, patches })
     }
 
     fn occlusion(&self, file: FrameFile) -> Result<Raster<Occlusion>, WriteError> {
         let picture = self.png(file)?.into_luma8();
         let known = [Occlusion::Seen, Occlusion::Undefined, Occlusion::Hidden];
-        let of = |value: &u8| {
-            let found = known.into_iter().find(|occlusion| occlusion.value() == *value);
-            found.ok_or_else(|| self.damaged(file, format!("{value} instead of 0, 128 or 255")))
-        };
-        let data = picture.as_raw().iter().map(of).collect::<Result<_, _>>()?;
-        Ok(Raster { width: picture.width(), height: picture.height(), data })
+        let of = |value| known.into_iter().find(|occlusion| occlusion.value() == value);
+        self.meant(file, &picture, of, "not 0, 128 or 255")
+    }
+
+    /// What each grey means.
+    fn meant<T: Copy>(
+        &self,
+        file: FrameFile,
+        greys: &GrayImage,
+        of: impl Fn(u8) -> Option<T>,
+        wrong: &str,
+    ) -> Result<Raster<T>, WriteError> {
+        let table: [Option<T>; 256] = std::array::from_fn(|value| of(value as u8));
+        let known =
+            |value: &u8| table[usize::from(*value)].ok_or_else(|| self.damaged(file, format!("{value}, {wrong}")));
+        let data = greys.as_raw().iter().map(known).collect::<Result<_, _>>()?;
+        Ok(Raster { width: greys.width(), height: greys.height(), data })
     }
 
     /// Columns and rows of every picture.

@@ -1,11 +1,10 @@
 //! Files that only some recipes ask for, held to those that say the same in another way.
 
 use glam::{DVec3, Vec3};
-use trove_model::Raster;
 
 use super::finding::{Check, Count, Notes};
 use super::flow::{Looked, WAYS};
-use super::frame::{Eye, LabelledFrame, SAMPLES, pixels, rigid, spread};
+use super::frame::{Eye, LabelledFrame, SAMPLES, known, pixels, rigid};
 
 /// Share of pixels that have to agree.
 const AGREE: f64 = 0.999;
@@ -40,8 +39,8 @@ fn panoptic(frame: &LabelledFrame, notes: &mut Notes) {
 fn range(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
     let (Some(range), Some(depth)) = (&frame.range_m, &frame.depth_m) else { return };
     let mut count = Count::default();
-    for pixel in spread(range.width, range.height, SAMPLES) {
-        let (range_m, depth_m) = (f64::from(*range.at(pixel[0], pixel[1])), *depth.at(pixel[0], pixel[1]));
+    for (pixel, range_m) in known(range, SAMPLES) {
+        let (range_m, depth_m) = (f64::from(*range_m), *depth.at(pixel[0], pixel[1]));
         let expected = eye.point(pixel, depth_m).map(DVec3::length);
         let Some(expected) = expected.or((depth_m == f32::INFINITY).then_some(f64::INFINITY)) else { continue };
         count.tell(pixel, range_m == expected || (range_m - expected).abs() < 1e-4 * expected);
@@ -53,11 +52,12 @@ fn range(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
 
 fn normals(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
     let (Some(world), Some(camera)) = (&frame.normal_world, &frame.normal) else { return };
-    let vector = |raster: &Raster<[f32; 3]>, [x, y]: [u32; 2]| Vec3::from_array(*raster.at(x, y)).as_dvec3();
+    let vector = |vector: &[f32; 3]| Vec3::from_array(*vector).as_dvec3();
     let mut count = Count::default();
-    for pixel in spread(world.width, world.height, SAMPLES) {
-        let expected = eye.world_from_camera.transform_vector3(vector(camera, pixel));
-        count.tell(pixel, expected.distance(vector(world, pixel)) < 1e-3);
+    for (pixel, world) in known(world, SAMPLES) {
+        let Some(camera) = camera.at(pixel[0], pixel[1]) else { continue };
+        let expected = eye.world_from_camera.transform_vector3(vector(camera));
+        count.tell(pixel, expected.distance(vector(world)) < 1e-3);
     }
     notes.judge(Check::Normals, &count, AGREE, |share| {
         format!("normal_world.exr: expected normal.exr in World, found it on {:.1} %", 100.0 * share)
@@ -78,9 +78,8 @@ fn coordinates(frame: &LabelledFrame, eye: &Eye, notes: &mut Notes) {
         }
     }
     let mut count = Count::default();
-    for pixel in spread(depth.width, depth.height, SAMPLES) {
-        let [x, y] = pixel;
-        let found = Vec3::from_array(*coordinates.at(x, y)).as_dvec3();
+    for (pixel, found) in known(coordinates, SAMPLES) {
+        let ([x, y], found) = (pixel, Vec3::from_array(*found).as_dvec3());
         let Some((world_from_body, size)) = boxes[usize::from(*instance.at(x, y))] else { continue };
         let Some(point) = eye.point(pixel, *depth.at(x, y)).filter(|_| !found.is_nan()) else { continue };
         let told = world_from_body.transform_point3((found - 0.5) * size);
@@ -98,8 +97,8 @@ fn scene_flow(looked: &Looked, notes: &mut Notes) {
     for way in WAYS {
         let Some(flow) = &looked.frame.scene_flow[way] else { continue };
         let mut count = Count::default();
-        for pixel in spread(flow.width, flow.height, SAMPLES) {
-            let moved = Vec3::from_array(*flow.at(pixel[0], pixel[1]));
+        for (pixel, moved) in known(flow, SAMPLES) {
+            let moved = Vec3::from_array(*moved);
             if looked.still[usize::from(*instance.at(pixel[0], pixel[1]))] && !moved.is_nan() {
                 count.tell(pixel, moved.length() < 1e-3);
             }

@@ -248,7 +248,7 @@ impl Notes {
     /// What was counted is wrong where fewer than a share of enough are right.
     pub(super) fn judge(&mut self, check: Check, count: &Count, least: f64, what: impl FnOnce(f64) -> String) {
         self.look(check);
-        if count.share() < least && count.all >= ENOUGH {
+        if count.share() < least && count.all >= count.enough {
             self.found(check, 1.0 - count.share(), what(count.share()), count.wrong.clone());
         }
     }
@@ -258,10 +258,18 @@ impl Notes {
 pub(super) const ENOUGH: usize = 64;
 
 /// Pixels that are right, of those that were compared.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Count {
     pub(super) all: usize,
+    /// From how many on their share is judged.
+    pub(super) enough: usize,
     wrong: Vec<[u32; 2]>,
+}
+
+impl Default for Count {
+    fn default() -> Self {
+        Self { all: 0, enough: ENOUGH, wrong: Vec::new() }
+    }
 }
 
 impl Count {

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use trove_model::{Occlusion, Raster};
 
 use super::finding::{Check, Count, Notes};
-use super::frame::{DENSE, Eye, LabelledFrame, SAMPLES, around, extremes, is_porous, pixels, rigid, spread};
+use super::frame::{DENSE, Eye, LabelledFrame, SAMPLES, around, extremes, is_porous, known, rigid};
 
 /// A frame with its camera, and which ids stand still.
 pub(super) struct Looked<'a> {
@@ -36,8 +36,10 @@ const RETURNS_PX: f64 = 1.0;
 const RETURNS: f64 = 0.95;
 /// Share of hidden ends that something nearer hides, as far as an image tells.
 const HIDDEN: f64 = 0.6;
-/// What is as near as this share of the distance hides what is behind; less is the slope of a road within a pixel.
-const NEARER: f64 = 0.97;
+/// What is as near as this share of the distance hides what is behind.
+const NEARER: f64 = 0.997;
+/// The same where nothing is known of how the surface slopes within a pixel, as a road does.
+const FACING_NEARER: f64 = 0.97;
 /// Normals of one face, as a cosine.
 const SAME_FACE: f64 = 0.9;
 /// What is told as hidden is judged from this part of what is told as visible on.
@@ -52,7 +54,7 @@ pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
         let Some(flow) = &frame.flow[way] else { continue };
         let Some(matrix) = to[way] else {
             notes.look(Check::Flow);
-            let defined = pixels(flow).filter(|(_, flow)| !flow[0].is_nan());
+            let defined = flow.pixels().filter(|(_, flow)| !flow[0].is_nan());
             let defined: Vec<_> = defined.map(|(pixel, _)| pixel).collect();
             if !defined.is_empty() {
                 let what = format!("{}: expected NaN without a neighbouring moment, found numbers", NAMES[way][0]);
@@ -68,9 +70,8 @@ pub(super) fn of_still(looked: &Looked, notes: &mut Notes) {
             }
         };
         let mut count = Count::default();
-        for pixel in spread(depth.width, depth.height, SAMPLES) {
-            let [x, y] = pixel;
-            let (metres, flow) = (*depth.at(x, y), *flow.at(x, y));
+        for (pixel, flow) in known(flow, SAMPLES) {
+            let ([x, y], metres) = (pixel, *depth.at(pixel[0], pixel[1]));
             if !still[usize::from(*instance.at(x, y))] {
                 continue;
             }
@@ -104,7 +105,7 @@ fn moved_to(eye: &Eye, point: DVec3) -> Option<DVec2> {
 pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     poses(from, to, way, notes);
     let (Some(flow), Some(there)) = (&from.frame.flow[way], &to.frame.instance) else { return };
-    if (flow.width, flow.height) != (there.width, there.height) {
+    if (flow.raster.width, flow.raster.height) != (there.width, there.height) {
         return;
     }
     ends(from, to, way, notes);
@@ -115,11 +116,12 @@ pub(super) fn between(from: &Looked, to: &Looked, way: usize, notes: &mut Notes)
 fn ends(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     let a = from.frame;
     let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &to.frame.instance) else { return };
-    let mut of_object: Vec<Count> = (0..=u16::MAX).map(|_| Count::default()).collect();
+    let last = a.table.objects.iter().map(|object| object.id as usize).max().unwrap_or(0);
+    let mut of_object: Vec<Count> = (0..=last).map(|_| Count::default()).collect();
     let mut all = Count::default();
     let is_thin = a.ids(|object| is_porous(object.class));
-    for pixel in spread(flow.width, flow.height, DENSE) {
-        let Some(end) = end(flow, pixel) else { continue };
+    for (pixel, flow) in known(flow, DENSE) {
+        let Some(end) = end(there, pixel, flow) else { continue };
         // Without occlusion nothing is known of any one pixel, but most ends are visible.
         if matches!(occlusion(a, way, pixel), Some(Occlusion::Hidden | Occlusion::Undefined)) {
             continue;
@@ -127,8 +129,9 @@ fn ends(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
         let id = *instance.at(pixel[0], pixel[1]);
         let is_same = is_shown(there, end, id);
         all.tell(pixel, is_same);
-        if id > 0 && !is_thin[usize::from(id)] {
-            of_object[usize::from(id)].tell(pixel, is_same);
+        // Ids that are not listed are another check's.
+        if let Some(count) = of_object.get_mut(usize::from(id)).filter(|_| id > 0 && !is_thin[usize::from(id)]) {
+            count.tell(pixel, is_same);
         }
     }
     let name = NAMES[way][0];
@@ -149,8 +152,8 @@ fn surfaces(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
     let (a, b) = (from.frame, to.frame);
     let (Some(flow), Some(instance), Some(there)) = (&a.flow[way], &a.instance, &b.instance) else { return };
     let [mut seen, mut hidden, mut returns] = [(); 3].map(|()| Count::default());
-    for pixel in spread(flow.width, flow.height, SAMPLES) {
-        let Some(end) = end(flow, pixel) else { continue };
+    for (pixel, flow) in known(flow, SAMPLES) {
+        let Some(end) = end(there, pixel, flow) else { continue };
         match occlusion(a, way, pixel) {
             Some(Occlusion::Hidden) => {
                 if let Some(is_hidden) = is_nearer(from, to, pixel, end) {
@@ -161,7 +164,7 @@ fn surfaces(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
                 if let Some(is_there) = is_at_depth(from, to, pixel, end) {
                     seen.tell(pixel, is_there);
                 }
-                if let Some(error) = returned(a, b, way, pixel) {
+                if let Some(error) = returned(a, b, way, pixel, flow) {
                     returns.tell(pixel, error < RETURNS_PX);
                 }
             }
@@ -174,14 +177,13 @@ fn surfaces(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
         format!("{occlusion_name}: expected points told as visible to be seen at their depth, found {percent:.1} %")
     });
     // Reveals and pilasters hide their own wall from no distance; they are few.
-    if hidden.all * MUCH >= seen.all {
-        notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
-            let percent = 100.0 * share;
-            format!(
-                "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
-            )
-        });
-    }
+    hidden.enough = hidden.enough.max(seen.all / MUCH);
+    notes.judge(Check::Occlusion, &hidden, HIDDEN, |share| {
+        let percent = 100.0 * share;
+        format!(
+            "{occlusion_name}: expected something nearer where points are told as hidden, found it at {percent:.1} %"
+        )
+    });
     notes.judge(Check::FlowReturns, &returns, RETURNS, |share| {
         let percent = 100.0 * share;
         format!("{flow_name}: expected to be undone by the flow back, found {percent:.1} % within {RETURNS_PX} px")
@@ -212,75 +214,95 @@ fn poses(from: &Looked, to: &Looked, way: usize, notes: &mut Notes) {
 }
 
 /// The pixel in which flow ends, unless that is at the rim, whose neighbours are not seen.
-fn end(flow: &Raster<[f32; 2]>, [x, y]: [u32; 2]) -> Option<[u32; 2]> {
-    let [u, v] = *flow.at(x, y);
-    let (x, y) = (f64::from(x) + 0.5 + f64::from(u), f64::from(y) + 0.5 + f64::from(v));
-    let is_inside = x >= 1.0 && y >= 1.0 && x + 1.0 < f64::from(flow.width) && y + 1.0 < f64::from(flow.height);
+fn end<T>(there: &Raster<T>, [x, y]: [u32; 2], [u, v]: &[f32; 2]) -> Option<[u32; 2]> {
+    let (x, y) = (f64::from(x) + 0.5 + f64::from(*u), f64::from(y) + 0.5 + f64::from(*v));
+    let is_inside = x >= 1.0 && y >= 1.0 && x + 1.0 < f64::from(there.width) && y + 1.0 < f64::from(there.height);
     is_inside.then_some([x as u32, y as u32])
 }
 
-/// Depth at the other camera of what stands still at a pixel.
-fn depth_there(from: &Looked, to: &Looked, [x, y]: [u32; 2]) -> Option<f64> {
-    let (eye, other) = (from.eye.as_ref()?, to.eye.as_ref()?);
-    let (depth, instance) = (from.frame.depth_m.as_ref()?, from.frame.instance.as_ref()?);
-    if !from.still[usize::from(*instance.at(x, y))] {
+/// Where in World the point is that a pixel shows, if that stands still.
+fn still_point(looked: &Looked, [x, y]: [u32; 2]) -> Option<DVec3> {
+    let eye = looked.eye.as_ref()?;
+    let (depth, instance) = (looked.frame.depth_m.as_ref()?, looked.frame.instance.as_ref()?);
+    if !looked.still[usize::from(*instance.at(x, y))] {
         return None;
     }
-    let point = eye.world_from_camera.transform_point3(eye.point([x, y], *depth.at(x, y))?);
-    Some(other.camera_from_world.transform_point3(point).z)
+    Some(eye.world_from_camera.transform_point3(eye.point([x, y], *depth.at(x, y))?))
 }
 
 /// Whether what stands still is seen where its flow ends; `None` where that cannot be told.
 fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
-    let expected = depth_there(from, to, pixel)?;
+    let expected = to.eye.as_ref()?.camera_from_world.transform_point3(still_point(from, pixel)?).z;
     let (least, most) = extremes(to.frame.depth_m.as_ref()?, end);
     Some(least * 0.97 - 0.05 < expected && expected < most * 1.03 + 0.05)
 }
 
-/// Whether at the end of a hidden point's flow something is nearer than the point, or another thing or face is beside it,
-/// as at the reveals and pilasters of a wall; leaves hide each other within a pixel.
+/// Whether the pixel in which a hidden point's flow ends shows something before the surface that the point lies on, or
+/// the edge of another thing, or another face of the same, as at the reveals and pilasters of a wall; `None` where that
+/// cannot be told, as of leaves, which hide each other within a pixel.
 fn is_nearer(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
-    let expected = depth_there(from, to, pixel)?;
+    let (point, other) = (still_point(from, pixel)?, to.eye.as_ref()?);
     let (depth, there) = (to.frame.depth_m.as_ref()?, to.frame.instance.as_ref()?);
     if is_porous(*from.frame.class.as_ref()?.at(pixel[0], pixel[1])) {
         return None;
     }
     let id = from.frame.instance.as_ref()?.at(pixel[0], pixel[1]);
-    let is_edge = around(there, end).any(|other| other != *id);
-    let is_other_face = faces(from, pixel).zip(faces(to, end)).is_some_and(|(a, b)| a.dot(b) < SAME_FACE);
-    Some(is_edge || is_other_face || f64::from(*depth.at(end[0], end[1])) < expected * NEARER)
+    if around(there, end).any(|other| other != *id) {
+        return Some(true);
+    }
+    // Without normals the surface is taken to face the camera, and a slope within the pixel is not told from what is nearer.
+    let expected = other.camera_from_world.transform_point3(point).z * FACING_NEARER;
+    let expected = match (&from.frame.normal, &to.frame.normal) {
+        (Some(here), Some(there)) => {
+            let [here, there] = [(from, here.at(pixel[0], pixel[1])?), (to, there.at(end[0], end[1])?)].map(in_world);
+            if here?.dot(there?) < SAME_FACE {
+                return Some(true);
+            }
+            depth_of_plane(other, end, point, here?).map_or(expected, |depth| depth * NEARER)
+        }
+        _ => expected,
+    };
+    Some(f64::from(*depth.at(end[0], end[1])) < expected)
 }
 
-/// The normal of what a pixel shows, in World.
-fn faces(looked: &Looked, [x, y]: [u32; 2]) -> Option<DVec3> {
-    let normal = glam::Vec3::from_array(*looked.frame.normal.as_ref()?.at(x, y)).as_dvec3();
+/// A normal in World.
+fn in_world((looked, normal): (&Looked, &[f32; 3])) -> Option<DVec3> {
+    let normal = glam::Vec3::from_array(*normal).as_dvec3();
     Some(looked.eye.as_ref()?.world_from_camera.transform_vector3(normal))
 }
 
-/// How far flow there and back ends from where it began, pixels; `None` where flow back is not defined, or where the four
+/// Depth at which a pixel's centre would show the plane through a point; `None` where it would not.
+fn depth_of_plane(eye: &Eye, pixel: [u32; 2], point: DVec3, normal: DVec3) -> Option<f64> {
+    let direction = eye.direction(pixel)?;
+    let way = (point - eye.world_from_camera.translation).dot(normal);
+    let along = way / eye.world_from_camera.transform_vector3(direction).dot(normal);
+    (along.is_finite() && along > 0.0).then_some(along * direction.z)
+}
+
+/// How far flow there and back ends from where it began, pixels; `None` where flow back is not known, or where the four
 /// pixels around the end are not of one smooth surface, between which it may be interpolated.
-fn returned(a: &LabelledFrame, b: &LabelledFrame, way: usize, pixel: [u32; 2]) -> Option<f64> {
-    let (flow, back) = (a.flow[way].as_ref()?, b.flow[1 - way].as_ref()?);
-    let (here, there) = (a.instance.as_ref()?, b.instance.as_ref()?);
-    let (depth, normal) = (b.depth_m.as_ref()?, b.normal.as_ref()?);
+fn returned(a: &LabelledFrame, b: &LabelledFrame, way: usize, pixel: [u32; 2], flow: &[f32; 2]) -> Option<f64> {
+    let (back, normal) = (b.flow[1 - way].as_ref()?, b.normal.as_ref()?);
+    let (here, there, depth) = (a.instance.as_ref()?, b.instance.as_ref()?, b.depth_m.as_ref()?);
     let id = here.at(pixel[0], pixel[1]);
-    let flow = DVec2::from_array(flow.at(pixel[0], pixel[1]).map(f64::from));
+    let flow = DVec2::from_array(flow.map(f64::from));
     let end = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + flow;
     let is_inside =
-        end.x >= 0.0 && end.y >= 0.0 && end.x < f64::from(back.width - 1) && end.y < f64::from(back.height - 1);
+        end.x >= 0.0 && end.y >= 0.0 && end.x < f64::from(there.width - 1) && end.y < f64::from(there.height - 1);
     let [x, y] = is_inside.then_some([end.x as u32, end.y as u32])?;
     let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
-    let vector = |[x, y]: [u32; 2]| glam::Vec3::from_array(*normal.at(x, y));
-    let (metres, up) = (*depth.at(x, y), vector(corners[0]));
+    let (metres, up) = (*depth.at(x, y), glam::Vec3::from_array(*normal.at(x, y)?));
     let is_one = |[x, y]: [u32; 2]| {
-        there.at(x, y) == id && (depth.at(x, y) / metres - 1.0).abs() < 0.05 && vector([x, y]).dot(up) > 0.87
+        let faces = |normal: &[f32; 3]| glam::Vec3::from_array(*normal).dot(up) > 0.87;
+        there.at(x, y) == id && (depth.at(x, y) / metres - 1.0).abs() < 0.05 && normal.at(x, y).is_some_and(faces)
     };
     if !corners.into_iter().all(is_one) {
         return None;
     }
-    let [a, b, c, d] = corners.map(|[x, y]| DVec2::from_array(back.at(x, y).map(f64::from)));
+    let vector = |[x, y]: [u32; 2]| Some(DVec2::from_array(back.at(x, y)?.map(f64::from)));
+    let [a, b, c, d] = corners.map(vector);
     let part = end - end.floor();
-    let returned = a.lerp(b, part.x).lerp(c.lerp(d, part.x), part.y);
+    let returned = a?.lerp(b?, part.x).lerp(c?.lerp(d?, part.x), part.y);
     let error = (flow + returned).length();
     error.is_finite().then_some(error)
 }

@@ -2,9 +2,9 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use trove_format::{FrameTable, Matrix4, ObjectOrigin, ObjectRow, SweepTable};
-use trove_model::{Class, Lens, LidarPoint, Occlusion, Raster};
+use trove_model::{Class, InPatches, Lens, LidarPoint, Occlusion, Patches, Raster};
 
-/// What is known of a frame; images that it does not have are `None`.
+/// What is known of a frame; images that it does not have are `None`. Those in patches have those of [`patches`].
 #[derive(Clone, Debug)]
 pub struct LabelledFrame {
     /// Its folder below the dataset's.
@@ -20,21 +20,21 @@ pub struct LabelledFrame {
     /// Metres along the camera's z axis; +inf: sky.
     pub depth_m: Option<Raster<f32>>,
     /// Unit normals in Camera; 0: sky.
-    pub normal: Option<Raster<[f32; 3]>>,
+    pub normal: Option<InPatches<[f32; 3]>>,
     /// Pixels to the next and the previous moment's image, right and down; NaN: not defined.
-    pub flow: [Option<Raster<[f32; 2]>>; 2],
+    pub flow: [Option<InPatches<[f32; 2]>>; 2],
     /// Whether those images show the same.
     pub occluded: [Option<Raster<Occlusion>>; 2],
     /// 65536 · class + object.
     pub panoptic: Option<Raster<u32>>,
     /// Metres along the ray; +inf: sky.
-    pub range_m: Option<Raster<f32>>,
+    pub range_m: Option<InPatches<f32>>,
     /// Unit normals in World; 0: sky.
-    pub normal_world: Option<Raster<[f32; 3]>>,
+    pub normal_world: Option<InPatches<[f32; 3]>>,
     /// Where a point is in its object's box, 0 to 1; NaN: no box.
-    pub object_coordinates: Option<Raster<[f32; 3]>>,
+    pub object_coordinates: Option<InPatches<[f32; 3]>>,
     /// Metres in World to where the point is at the next and was at the previous moment; NaN: not defined.
-    pub scene_flow: [Option<Raster<[f32; 3]>>; 2],
+    pub scene_flow: [Option<InPatches<[f32; 3]>>; 2],
     /// Files that cannot be read, each with what was expected and found.
     pub damage: Vec<String>,
 }
@@ -155,8 +155,8 @@ pub(super) fn is_porous(class: Class) -> bool {
 
 /// Pixels with their values.
 pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
-    let width = raster.width.max(1);
-    raster.data.iter().enumerate().map(move |(i, value)| ([i as u32 % width, i as u32 / width], value))
+    let rows = (0..).zip(raster.data.chunks(raster.width.max(1) as usize));
+    rows.flat_map(|(y, row)| (0..).zip(row).map(move |(x, value)| ([x, y], value)))
 }
 
 /// The 3 × 3 values around a pixel, as far as they are in the image.
@@ -181,7 +181,32 @@ pub(super) const DENSE: u32 = 400_000;
 
 /// Pixels spread evenly over an image, not counting the rim: all of a small one, at most about so many of a large one.
 pub(super) fn spread(width: u32, height: u32, most: u32) -> impl Iterator<Item = [u32; 2]> {
-    let step = (f64::from(width) * f64::from(height) / f64::from(most)).sqrt().ceil().max(1.0) as usize;
+    let step = step(f64::from(width) * f64::from(height), most);
     let rows = (1..height.saturating_sub(1)).step_by(step);
     rows.flat_map(move |y| (1..width.saturating_sub(1)).step_by(step).map(move |x| [x, y]))
+}
+
+/// Parts of which a frame's numbers are read: about [`DENSE`] pixels, since unpacking them takes most of the time. Two
+/// moments after each other have the same parts, and all have had their turn after some more.
+pub fn patches(table: &FrameTable) -> Patches {
+    let pixels = u64::from(table.width_px) * u64::from(table.height_px);
+    let every = pixels.div_ceil(u64::from(DENSE));
+    Patches::one_of(u32::try_from(every).unwrap_or(u32::MAX), table.keyframe as u32 / 2)
+}
+
+/// [`spread`] over those pixels that are known.
+pub(super) fn known<T>(image: &InPatches<T>, most: u32) -> impl Iterator<Item = ([u32; 2], &T)> {
+    let (Raster { width, height, .. }, patches) = (&image.raster, image.patches);
+    let (width, height) = (*width, *height);
+    // Of the rim nothing is asked.
+    let columns = move |y| patches.columns(width.saturating_sub(1), y).filter(|x| *x > 0);
+    let known: u64 = (0..height).step_by(Patches::SIDE as usize).map(|y| columns(y).count() as u64).sum();
+    let step = step(known as f64 * f64::from(Patches::SIDE), most);
+    let rows = (1..height.saturating_sub(1)).step_by(step);
+    rows.flat_map(move |y| columns(y).step_by(step).map(move |x| ([x, y], image.raster.at(x, y))))
+}
+
+/// One of so many columns and rows are as many pixels.
+fn step(pixels: f64, most: u32) -> usize {
+    (pixels / f64::from(most)).sqrt().ceil().max(1.0) as usize
 }

@@ -26,6 +26,6 @@ mod worst;
 
 pub use finding::{Audit, Check, Finding, Tally};
 pub use form::{LabelForm, audit};
-pub use frame::{LabelledFrame, LabelledSweep};
+pub use frame::{LabelledFrame, LabelledSweep, patches};
 pub use moments::FrameReader;
 pub use worst::picture;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use trove_format::{ObjectOrigin, ObjectRow};
-use trove_model::{CLASSES, Class, Raster};
+use trove_model::{CLASSES, Class, InPatches, Raster};
 
 use super::finding::{Check, Count, Notes};
-use super::frame::{Eye, LabelledFrame, SAMPLES, around, pixels, rigid, spread};
+use super::frame::{Eye, LabelledFrame, SAMPLES, around, known, pixels, rigid};
 
 /// Makes every check that needs no other frame.
 pub(super) fn check(frame: &LabelledFrame, eye: Option<&Eye>, notes: &mut Notes) {
@@ -190,21 +190,21 @@ const FACING: f64 = 0.999;
 /// Share of pixels on smooth surfaces whose normal is that of depth within 20°.
 const SMOOTH: f64 = 0.9;
 
-fn normals(frame: &LabelledFrame, normal: &Raster<[f32; 3]>, eye: &Eye, notes: &mut Notes) {
+fn normals(frame: &LabelledFrame, normal: &InPatches<[f32; 3]>, eye: &Eye, notes: &mut Notes) {
     notes.look(Check::Normals);
-    let vector = |pixel: [u32; 2]| glam::Vec3::from_array(*normal.at(pixel[0], pixel[1])).as_dvec3();
+    let vector = |n: &[f32; 3]| glam::Vec3::from_array(*n).as_dvec3();
     let is_unit = |n: &[f32; 3]| {
         let length = glam::Vec3::from_array(*n).length();
         length == 0.0 || (length - 1.0).abs() < 1e-3
     };
-    let wrong: Vec<_> = pixels(normal).filter(|(_, n)| !is_unit(n)).map(|(pixel, _)| pixel).collect();
+    let wrong: Vec<_> = normal.pixels().filter(|(_, n)| !is_unit(n)).map(|(pixel, _)| pixel).collect();
     if !wrong.is_empty() {
         let what = format!("normal.exr: expected unit vectors or 0, found others on {} pixels", wrong.len());
         notes.found(Check::Normals, 1.0, what, wrong);
     }
     let mut facing = Count::default();
-    for pixel in spread(normal.width, normal.height, SAMPLES) {
-        let (n, Some(direction)) = (vector(pixel), eye.direction(pixel)) else { continue };
+    for (pixel, n) in known(normal, SAMPLES) {
+        let (n, Some(direction)) = (vector(n), eye.direction(pixel)) else { continue };
         if n != DVec3::ZERO {
             facing.tell(pixel, n.dot(direction) < 0.01);
         }
@@ -214,9 +214,9 @@ fn normals(frame: &LabelledFrame, normal: &Raster<[f32; 3]>, eye: &Eye, notes: &
     });
     let (Some(depth), Some(instance)) = (&frame.depth_m, &frame.instance) else { return };
     let mut smooth = Count::default();
-    for pixel in spread(normal.width, normal.height, SAMPLES) {
+    for (pixel, n) in known(normal, SAMPLES) {
         let Some(surface) = surface(depth, instance, eye, pixel) else { continue };
-        let n = vector(pixel);
+        let n = vector(n);
         if n != DVec3::ZERO {
             smooth.tell(pixel, n.dot(surface) > 20f64.to_radians().cos());
         }

@@ -6,7 +6,7 @@ use trove_model::Occlusion;
 
 use super::finding::{Check, Count, Notes};
 use super::flow::Looked;
-use super::frame::{LabelledSweep, SAMPLES, around, extremes, is_porous, pixels, rigid, spread};
+use super::frame::{LabelledSweep, SAMPLES, around, extremes, is_porous, rigid, spread};
 
 /// Share of points that another camera does not look through.
 const NOT_LOOKED_THROUGH: f64 = 0.95;
@@ -118,10 +118,9 @@ pub(super) fn occlusion(looked: &Looked, notes: &mut Notes) {
     for way in super::flow::WAYS {
         let (Some(flow), Some(occluded)) = (&looked.frame.flow[way], &looked.frame.occluded[way]) else { continue };
         notes.look(Check::Occlusion);
-        let wrong = pixels(flow)
-            .zip(&occluded.data)
-            .filter(|((_, flow), occlusion)| flow[0].is_nan() != (**occlusion == Occlusion::Undefined));
-        let wrong: Vec<_> = wrong.map(|((pixel, _), _)| pixel).collect();
+        let undefined = |[x, y]: [u32; 2]| *occluded.at(x, y) == Occlusion::Undefined;
+        let wrong = flow.pixels().filter(|(pixel, flow)| flow[0].is_nan() != undefined(*pixel));
+        let wrong: Vec<_> = wrong.map(|(pixel, _)| pixel).collect();
         if !wrong.is_empty() {
             let what =
                 format!("expected occlusion wherever flow is defined, found otherwise on {} pixels", wrong.len());

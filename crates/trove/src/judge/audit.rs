@@ -6,8 +6,9 @@ use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use trove_format::FrameFile;
-use trove_judge::audit::{Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, picture};
-use trove_model::Raster;
+use trove_judge::audit::{
+    Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, patches, picture,
+};
 use trove_write::{StoredFrame, StoredSweep, WriteError, encode_picture, write_atomically};
 
 use crate::answer::Answer;
@@ -160,28 +161,26 @@ impl FrameReader for Stored {
     fn frame(&self, folder: &Path, place: &str) -> Result<LabelledFrame, String> {
         let frame = StoredFrame::open(folder).map_err(|e| e.to_string())?;
         let mut damage = Vec::new();
-        let mut read = Reading { frame: &frame, damage: &mut damage };
+        let (mut read, patches) = (Reading { frame: &frame, damage: &mut damage }, patches(&frame.table));
         Ok(LabelledFrame {
             rgb: read.file(FrameFile::Rgb, StoredFrame::rgb),
             class: read.file(FrameFile::Class, StoredFrame::class),
             instance: read.file(FrameFile::Instance, StoredFrame::instance),
             depth_m: read.file(FrameFile::Depth, StoredFrame::depth_m),
-            normal: read.file(FrameFile::Normal, StoredFrame::normal),
-            flow: [
-                read.file(FrameFile::FlowForward, StoredFrame::flow_forward),
-                read.file(FrameFile::FlowBackward, StoredFrame::flow_backward),
-            ],
+            normal: read.file(FrameFile::Normal, |frame| frame.vectors_in(FrameFile::Normal, patches)),
+            flow: [FrameFile::FlowForward, FrameFile::FlowBackward]
+                .map(|file| read.file(file, |frame| frame.pairs_in(file, patches))),
             occluded: [
                 read.file(FrameFile::OccludedForward, StoredFrame::occluded_forward),
                 read.file(FrameFile::OccludedBackward, StoredFrame::occluded_backward),
             ],
             panoptic: read.file(FrameFile::Panoptic, StoredFrame::panoptic),
-            range_m: read.file(FrameFile::Range, |frame| frame.numbers(FrameFile::Range)),
-            normal_world: read.file(FrameFile::NormalWorld, |frame| frame.vectors(FrameFile::NormalWorld)),
+            range_m: read.file(FrameFile::Range, |frame| frame.numbers_in(FrameFile::Range, patches)),
+            normal_world: read.file(FrameFile::NormalWorld, |frame| frame.vectors_in(FrameFile::NormalWorld, patches)),
             object_coordinates: read
-                .file(FrameFile::ObjectCoordinates, |frame| frame.vectors(FrameFile::ObjectCoordinates)),
+                .file(FrameFile::ObjectCoordinates, |frame| frame.vectors_in(FrameFile::ObjectCoordinates, patches)),
             scene_flow: [FrameFile::SceneFlowForward, FrameFile::SceneFlowBackward]
-                .map(|file| read.file(file, |frame| frame.vectors(file))),
+                .map(|file| read.file(file, |frame| frame.vectors_in(file, patches))),
             place: place.to_owned(),
             table: frame.table.clone(),
             damage,
@@ -202,21 +201,11 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn file<T>(
-        &mut self,
-        file: FrameFile,
-        read: impl Fn(&StoredFrame) -> Result<Raster<T>, WriteError>,
-    ) -> Option<Raster<T>> {
+    /// What `read` gives of a file that is there; its size is that of the table.
+    fn file<T>(&mut self, file: FrameFile, read: impl Fn(&StoredFrame) -> Result<T, WriteError>) -> Option<T> {
         if !self.frame.has(file) {
             return None;
         }
-        let raster = read(self.frame).map_err(|e| self.damage.push(e.to_string())).ok()?;
-        let [width, height] = [self.frame.table.width_px, self.frame.table.height_px];
-        if [raster.width, raster.height] != [width, height] {
-            let found = format!("{}×{} pixels", raster.width, raster.height);
-            self.damage.push(format!("{}: expected {width}×{height} pixels, found {found}", file.name()));
-            return None;
-        }
-        Some(raster)
+        read(self.frame).map_err(|e| self.damage.push(e.to_string())).ok()
     }
 }

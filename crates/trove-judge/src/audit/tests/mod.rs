@@ -1,13 +1,13 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use trove_model::{Class, Occlusion, Raster};
+use trove_model::{Class, InPatches, Occlusion, Raster};
 
 use super::{Audit, Check, LabelForm, LabelledFrame, LabelledSweep, audit};
 
 mod street;
 
-use street::{CAR, HOUSE, Street};
+use street::{CAR, HOUSE, Street, whole};
 
 const FRAME: &str = "street/v00/k000/ego.A";
 const LATER: &str = "street/v00/k001/ego.A";
@@ -28,6 +28,10 @@ fn shift<T: Copy>(raster: &mut Option<Raster<T>>, by: u32) {
 
 fn change<T>(raster: &mut Option<Raster<T>>, change: impl FnMut(&mut T)) {
     raster.as_mut().unwrap().data.iter_mut().for_each(change);
+}
+
+fn change_known<T>(image: &mut Option<InPatches<T>>, change: impl FnMut(&mut T)) {
+    image.as_mut().unwrap().raster.data.iter_mut().for_each(change);
 }
 
 /// A fault, and the check that is there to find it.
@@ -81,11 +85,11 @@ const FAULTS: [Fault; 38] = [
         });
     }),
     ("depth is in centimetres", Check::Flow, |f| change(&mut f.depth_m, |depth| *depth *= 100.0)),
-    ("normals are not unit", Check::Normals, |f| change(&mut f.normal, |n| *n = n.map(|part| part * 0.5))),
-    ("normals point away", Check::Normals, |f| change(&mut f.normal, |n| *n = n.map(|part| -part))),
+    ("normals are not unit", Check::Normals, |f| change_known(&mut f.normal, |n| *n = n.map(|part| part * 0.5))),
+    ("normals point away", Check::Normals, |f| change_known(&mut f.normal, |n| *n = n.map(|part| -part))),
     ("normals are in World", Check::Surfaces, |f| {
         let pose = f.eye().unwrap().world_from_camera;
-        change(&mut f.normal, |n| {
+        change_known(&mut f.normal, |n| {
             *n = pose.transform_vector3(DVec3::from_array(n.map(f64::from))).as_vec3().to_array();
         });
     }),
@@ -94,16 +98,16 @@ const FAULTS: [Fault; 38] = [
         (body[0][0], body[0][1], body[1][0], body[1][1]) = (0.0, -1.0, 1.0, 0.0);
     }),
     ("a 3D box stands 2 m aside", Check::Boxes, |f| f.table.objects[0].world_from_body[1][3] += 2.0),
-    ("flow has its sign turned", Check::Flow, |f| change(&mut f.flow[0], |flow| *flow = flow.map(|part| -part))),
+    ("flow has its sign turned", Check::Flow, |f| change_known(&mut f.flow[0], |flow| *flow = flow.map(|part| -part))),
     ("flow is that of half the scale", Check::Flow, |f| {
-        change(&mut f.flow[0], |flow| *flow = flow.map(|part| part / 2.0))
+        change_known(&mut f.flow[0], |flow| *flow = flow.map(|part| part / 2.0))
     }),
-    ("flow takes rows for columns", Check::Flow, |f| change(&mut f.flow[0], |flow| flow.reverse())),
+    ("flow takes rows for columns", Check::Flow, |f| change_known(&mut f.flow[0], |flow| flow.reverse())),
     ("the car's flow is the camera's alone", Check::FlowEnds, |f| {
         let (eye, other) =
             (f.eye().unwrap(), super::frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
         let (depth, instance) = (f.depth_m.as_ref().unwrap(), f.instance.as_ref().unwrap());
-        let flow = f.flow[0].as_mut().unwrap();
+        let flow = &mut f.flow[0].as_mut().unwrap().raster;
         for (pixel, _) in super::frame::pixels(instance).filter(|(_, id)| **id == CAR) {
             let point =
                 eye.world_from_camera.transform_point3(eye.point(pixel, *depth.at(pixel[0], pixel[1])).unwrap());
@@ -113,7 +117,7 @@ const FAULTS: [Fault; 38] = [
         }
     }),
     ("flow back is flow forth", Check::FlowReturns, |f| {
-        change(&mut f.flow[0], |flow| *flow = [flow[0] + 3.0, flow[1]]);
+        change_known(&mut f.flow[0], |flow| *flow = [flow[0] + 3.0, flow[1]]);
     }),
     ("occlusion is inside out", Check::Occlusion, |f| {
         change(&mut f.occluded[0], |occlusion| {
@@ -129,19 +133,20 @@ const FAULTS: [Fault; 38] = [
     }),
     ("a focal length is negative", Check::Camera, |f| f.table.intrinsics[1][1] *= -1.0),
     ("panoptic labels are of another frame", Check::Panoptic, |f| shift(&mut f.panoptic, 1)),
-    ("range is depth", Check::Depth, |f| f.range_m = f.depth_m.clone()),
+    ("range is depth", Check::Depth, |f| f.range_m = f.depth_m.clone().map(whole)),
     ("World's normals are the camera's", Check::Normals, |f| f.normal_world = f.normal.clone()),
     ("object coordinates are mirrored", Check::Boxes, |f| {
-        change(&mut f.object_coordinates, |[x, _, _]| *x = 1.0 - *x);
+        change_known(&mut f.object_coordinates, |[x, _, _]| *x = 1.0 - *x);
     }),
     ("scene flow is the camera's", Check::Flow, |f| {
-        change(&mut f.scene_flow[0], |flow| flow[0] -= 0.8);
+        change_known(&mut f.scene_flow[0], |flow| flow[0] -= 0.8);
     }),
     ("the next camera is elsewhere", Check::Camera, |f| f.table.world_from_camera_next.as_mut().unwrap()[0][3] += 0.1),
 ];
 
 #[test]
 fn a_street_in_closed_form_has_no_fault_and_every_check_looks_at_it() {
+    assert_eq!(look(&Street::new().in_patches(2)).findings, []);
     let audit = look(&Street::new());
     assert_eq!(audit.findings, []);
     assert_eq!(audit.frames, 4);
@@ -153,12 +158,14 @@ fn a_street_in_closed_form_has_no_fault_and_every_check_looks_at_it() {
 
 #[test]
 fn every_planted_fault_is_found_by_its_check() {
-    for (name, check, plant) in FAULTS {
-        let mut street = Street::new();
-        plant(street.frames.get_mut(FRAME).unwrap());
-        let audit = look(&street);
-        let found: BTreeSet<&str> = audit.findings.iter().map(|finding| finding.check.name()).collect();
-        assert!(found.contains(check.name()), "{name}: expected {}, found {found:?}", check.name());
+    for every in [1, 2] {
+        for (name, check, plant) in FAULTS {
+            let mut street = Street::new().in_patches(every);
+            plant(street.frames.get_mut(FRAME).unwrap());
+            let audit = look(&street);
+            let found: BTreeSet<&str> = audit.findings.iter().map(|finding| finding.check.name()).collect();
+            assert!(found.contains(check.name()), "{name}: expected {}, found {found:?}", check.name());
+        }
     }
 }
 

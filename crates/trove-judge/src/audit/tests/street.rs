@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use serde_json::json;
 use trove_format::{FrameTable, SweepTable};
-use trove_model::{Class, Distortion, InstanceId, Lens, LidarPoint, Occlusion, Raster};
+use trove_model::{Class, Distortion, InPatches, InstanceId, Lens, LidarPoint, Occlusion, Patches, Raster};
 
 use super::super::{FrameReader, LabelledFrame, LabelledSweep};
 
@@ -90,6 +90,10 @@ fn rows(pose: DAffine3) -> [[f64; 4]; 4] {
     [x, y, z, [0.0, 0.0, 0.0, 1.0]]
 }
 
+pub(super) fn whole<T>(raster: Raster<T>) -> InPatches<T> {
+    InPatches { raster, patches: Patches::ALL }
+}
+
 fn one_number((class, id): (&Class, &u16)) -> u32 {
     65_536 * u32::from(class.id()) + u32::from(*id)
 }
@@ -138,7 +142,7 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
             }
             None => [f32::NAN; 2],
         };
-        Some(Raster::from_fn(WIDTH, HEIGHT, of))
+        Some(whole(Raster::from_fn(WIDTH, HEIGHT, of)))
     });
     let occluded = neighbour.map(|to| {
         let of = |x, y| match to.and_then(|to| follow(x, y, to)) {
@@ -173,7 +177,7 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
             }
             _ => [f32::NAN; 3],
         };
-        Some(hit.map(moved))
+        Some(whole(hit.map(moved)))
     });
     let objects: Vec<_> = solids(moment).iter().filter_map(|solid| row(solid, &instance, pose)).collect();
     let name = ["ego.A", "ego.B"][view];
@@ -198,13 +202,13 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
         class: Some(class),
         instance: Some(instance),
         depth_m: Some(depth_m),
-        normal: Some(normal),
+        normal: Some(whole(normal)),
         flow,
         occluded,
         panoptic: Some(panoptic),
-        range_m: Some(range_m),
-        normal_world: Some(normal_world),
-        object_coordinates: Some(object_coordinates),
+        range_m: Some(whole(range_m)),
+        normal_world: Some(whole(normal_world)),
+        object_coordinates: Some(whole(object_coordinates)),
         scene_flow,
         damage: Vec::new(),
     }
@@ -272,6 +276,14 @@ fn sweep(moment: usize) -> LabelledSweep {
     LabelledSweep { place: format!("street/v00/k{moment:03}/ego.LIDAR"), table, points }
 }
 
+fn keep<T: Copy>(image: &mut Option<InPatches<T>>, patches: Patches, other: T) {
+    let image = image.as_mut().unwrap();
+    image.patches = patches;
+    let raster = &image.raster;
+    let of = |x, y| if patches.hold(x, y) { *raster.at(x, y) } else { other };
+    image.raster = Raster::from_fn(WIDTH, HEIGHT, of);
+}
+
 /// The whole street, and who reads it.
 pub(super) struct Street {
     pub(super) frames: BTreeMap<String, LabelledFrame>,
@@ -286,6 +298,20 @@ impl Street {
             frames: frames.map(|frame| (frame.place.clone(), frame)).collect(),
             sweeps: sweeps.map(|sweep| (sweep.place.clone(), sweep)).collect(),
         }
+    }
+
+    /// The same as whoever reads one of so many patches has it: what stands elsewhere means nothing.
+    pub(super) fn in_patches(mut self, every: u32) -> Self {
+        let patches = Patches::one_of(every, 1);
+        for frame in self.frames.values_mut() {
+            keep(&mut frame.normal, patches, [-7.0; 3]);
+            keep(&mut frame.range_m, patches, -7.0);
+            keep(&mut frame.normal_world, patches, [-7.0; 3]);
+            keep(&mut frame.object_coordinates, patches, [-7.0; 3]);
+            frame.flow.iter_mut().for_each(|flow| keep(flow, patches, [-7.0; 2]));
+            frame.scene_flow.iter_mut().for_each(|flow| keep(flow, patches, [-7.0; 3]));
+        }
+        self
     }
 
     /// Folders by which a walk finds them.
