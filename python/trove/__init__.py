@@ -15,7 +15,19 @@ from typing import TYPE_CHECKING, Any
 
 from trove._trove import TroveError, __version__
 from trove.camera import Camera, look_at
-from trove.commands import curate, demo, evaluate, export, export_drives, generate, recolor, verify, verify_labels
+from trove.commands import (
+    curate,
+    demo,
+    evaluate,
+    export,
+    export_drives,
+    generate,
+    merge,
+    recolor,
+    status,
+    verify,
+    verify_labels,
+)
 from trove.frames import Frame, Frames, open
 from trove.grids import Grid
 from trove.objects import Object
@@ -49,9 +61,11 @@ __all__ = [
     "export_drives",
     "generate",
     "look_at",
+    "merge",
     "open",
     "recolor",
     "render",
+    "status",
     "torch",
     "verify",
     "verify_labels",

@@ -43,7 +43,7 @@ fn the_schemas_are_those_of_the_types() {
         schema::<RadarTable>(RadarTable::NAME),
         schema::<Curated>(Curated::NAME),
         schema::<RunIdentity>(RunIdentity::NAME),
-        schema::<FrameLine>(FrameLine::JOURNAL),
+        schema::<JournalLine>(FrameLine::JOURNAL),
         schema_for_others::<PlainDrive>(PlainDrive::NAME),
     ];
     for (name, expected) in &schemas {
