@@ -145,6 +145,20 @@ def test_machines_that_differ_are_told_and_not_mixed(mixed, tmp_path):
     assert files(out) == before and files(tmp_path / "merged") == {}
 
 
+def test_a_dry_run_tells_what_a_recipe_will_take(mixed, whole, tmp_path):
+    before = set(tmp_path.iterdir())
+    all_of_it = package.estimate(mixed, machines=7)
+    assert all_of_it["frames"] == 24
+    written = sum(len(data) for data in whole.values())
+    assert all_of_it["bytes"] == pytest.approx(written, rel=0.25)
+    assert all_of_it["last_machine_seconds"] < all_of_it["seconds"]
+    parts = [package.estimate(mixed, part=f"{number}/2")["frames"] for number in (1, 2)]
+    assert sum(parts) == 24
+    assert set(tmp_path.iterdir()) == before
+    done = trove("generate", mixed, "--dry-run", "--out", tmp_path / "out")
+    assert done.returncode == 2, done.stderr
+
+
 @pytest.mark.parametrize("part", ["0/2", "3/2", "2", "a/b"])
 def test_a_part_that_is_none_is_refused(mixed, tmp_path, part):
     done = trove("generate", mixed, "--part", part, "--out", tmp_path / "out")

@@ -18,6 +18,7 @@ from trove.camera import Camera, look_at
 from trove.commands import (
     curate,
     demo,
+    estimate,
     evaluate,
     export,
     export_drives,
@@ -56,6 +57,7 @@ __all__ = [
     "build",
     "curate",
     "demo",
+    "estimate",
     "evaluate",
     "export",
     "export_drives",

@@ -19,6 +19,7 @@ from trove.packages import search
 if TYPE_CHECKING:
     from trove.results import (
         Curation,
+        Estimate,
         Evaluation,
         Exported,
         ExportedDrives,
@@ -69,6 +70,36 @@ def generate(
         kernel=kernel,
     )
     return summary
+
+
+def estimate(
+    recipe: AnyPath,
+    *,
+    part: str | None = None,
+    machines: int | None = None,
+    frames: AnyPath | None = None,
+    labels_only: bool = False,
+    threads: int | None = None,
+    kernel: str = "auto",
+    progress: Progress | None = None,
+) -> Estimate:
+    """Tells how many frames a recipe, or a part of it, has, and what they will take, after one small frame.
+
+    With `machines` also when the last of so many like this one will have ended.
+    """
+    estimate: Estimate = _run(
+        "generate",
+        [recipe],
+        progress,
+        dry_run=True,
+        part=part,
+        machines=machines,
+        frames=frames,
+        labels_only=labels_only,
+        threads=threads,
+        kernel=kernel,
+    )
+    return estimate
 
 
 def merge(

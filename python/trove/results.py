@@ -22,6 +22,22 @@ class Summary(TypedDict):
     seconds: float
 
 
+class _Estimate(TypedDict):
+    frames: int
+    bytes: int
+    seconds: float
+
+
+class Estimate(_Estimate, total=False):
+    """What a recipe will take: frames, sweeps, cycles and grids, their bytes, and seconds on this machine.
+
+    What is below is there where it was asked for.
+    """
+
+    machines: int
+    last_machine_seconds: float
+
+
 class PartStatus(TypedDict):
     """How far a part is, or a run of all frames, whose `part` is `None`.
 

@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
 use crate::{
-    Curated, FrameLine, FrameTable, GridTable, LanesFile, Manifest, MaskTable, PlainDrive, RadarTable, RunIdentity,
-    RunReport, SiteFile, SweepTable, TrajectoryFile,
+    Curated, FrameLine, FrameTable, GridTable, JournalLine, LanesFile, Manifest, MaskTable, PlainDrive, RadarTable,
+    RunIdentity, RunReport, SiteFile, SweepTable, TrajectoryFile,
 };
 
 /// The schema of a file as it is written: as a name and a text.

@@ -207,7 +207,7 @@ mod tests {
         let first = [plan(10, 9_000), frames(0..5), plan(10, 100), frames(5..7), plan(10, 100)];
         write(&private.join("parts/1-of-4"), &first, 0, now);
         write(&private.join("parts/2-of-4"), &[plan(10, 500), frames(10..20)], 300, now);
-        write(&private.join("parts/3-of-4"), &[plan(10, 9_000), frames(20..21)], 8_000, now);
+        write(&private.join("parts/3-of-4"), &[plan(10, 8_100), frames(20..21)], 8_000, now);
         let status = look(dir.path(), now).unwrap();
         assert_eq!((status.frames, status.finished, status.merged), (40, 18, false));
         assert_eq!(status.not_begun, ["4/4"]);

@@ -26,6 +26,8 @@ pub(super) struct OutputFolder {
     root: OutputRoot,
     journals: Journals,
     started_unix_s: u64,
+    /// What was last written down of it.
+    planned: Option<PlanLine>,
     /// What makes its frames.
     pub(super) maker: Maker,
     _locks: Vec<FolderLock>,
@@ -38,18 +40,22 @@ impl OutputFolder {
     pub(super) fn open(root: &Path, identity: &RunIdentity, share: Option<Share>) -> Result<Self> {
         let private = root.join(PRIVATE);
         refuse_foreign(root)?;
-        let folder = share.map_or_else(|| private.clone(), |share| private.join(PARTS).join(share.folder()));
-        std::fs::create_dir_all(&folder)
-            .with_context(|| format!("{}: expected a folder that can be created and written to", root.display()))?;
+        let made = |folder: &Path| {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{}: expected a folder that can be created and written to", root.display()))
+        };
+        made(&private)?;
         let whole = private.join("lock");
+        let mut folder = private.clone();
         let (maker, locks) = match share {
             None => (Maker::Alone, vec![lock(&whole, FolderLock::take(&whole), "another run, or a part of one,")?]),
             Some(share) => {
+                let shared = lock(&whole, FolderLock::share(&whole), "a run of all frames")?;
+                folder = private.join(PARTS).join(share.folder());
+                made(&folder)?;
                 let part = folder.join("lock");
-                let locks = vec![
-                    lock(&whole, FolderLock::share(&whole), "a run of all frames")?,
-                    lock(&part, FolderLock::take(&part), &format!("another worker on part {share}"))?,
-                ];
+                let locks =
+                    vec![shared, lock(&part, FolderLock::take(&part), &format!("another worker on part {share}"))?];
                 // Where nobody can be held off, two workers on one part must not write into each other's files.
                 let is_held_off = locks.iter().all(|lock| lock.unsupported.is_none());
                 let worker = if is_held_off { String::new() } else { format!(".{}-{}", std::process::id(), now_ns()) };
@@ -68,12 +74,17 @@ impl OutputFolder {
             Some(_) => Journals::open(folder.join(FrameLine::JOURNAL), vec![journal])?,
         };
         let started_unix_s = now_ns() as u64 / 1_000_000_000;
-        Ok(Self { root: OutputRoot::new(root), journals, started_unix_s, maker, _locks: locks })
+        Ok(Self { root: OutputRoot::new(root), journals, started_unix_s, planned: None, maker, _locks: locks })
     }
 
     /// Writes down how many frames are going to be made, of how many of the whole recipe.
     pub(super) fn plan(&mut self, planned: u64, of: u64) -> Result<()> {
-        self.journals.write(JournalLine::Plan(PlanLine { planned, of, started_unix_s: self.started_unix_s }))
+        let plan = PlanLine { planned, of, started_unix_s: self.started_unix_s };
+        if self.planned != Some(plan) {
+            self.planned = Some(plan);
+            self.journals.write(JournalLine::Plan(plan))?;
+        }
+        Ok(())
     }
 
     /// Writes down where the recipe lies.
