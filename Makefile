@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster bench-merge clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -211,6 +211,18 @@ test-loaders: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -m pytest -q python/tests/test_export_loaders.py \
 	    python/tests/test_export_datumaro.py
 
+# The drivers for several machines: two Ray nodes, and Slurm where Debian's slurm-wlm is installed, on the loopback; the
+# files for Kubernetes and AWS Batch against their schemas. Ray is 0.3 GB, so it lies beside what everyone installs.
+CLUSTER := ray==2.60.0 kubernetes-validate==1.37.0 botocore==1.44.5 pyyaml
+test-cluster: $(VENV)/.test-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade --no-compile --target .cluster $(CLUSTER)
+	PYTHONPATH=.cluster $(BIN)/python -c 'import ray, kubernetes_validate'
+	PATH="$(CURDIR)/.cluster/bin:$$PATH" PYTHONPATH=.cluster $(BIN)/python -m pytest -q python/tests/test_cluster.py
+
+# 100,000 made-up frames of 1,000 parts merged, and resumed; 3 GB in the temporary folder.
+bench-merge: $(VENV)/.test-installed
+	$(BIN)/python benches/merge.py --trove $(BIN)/trove
+
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python benches/torch_frames.py $(OUT)
@@ -224,4 +236,4 @@ bench-export: $(VENV)/.test-installed
 	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target dist .tools .torch python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target dist .tools .torch .cluster python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

@@ -15,7 +15,20 @@ from typing import TYPE_CHECKING, Any
 
 from trove._trove import TroveError, __version__
 from trove.camera import Camera, look_at
-from trove.commands import curate, demo, evaluate, export, export_drives, generate, recolor, verify, verify_labels
+from trove.commands import (
+    curate,
+    demo,
+    estimate,
+    evaluate,
+    export,
+    export_drives,
+    generate,
+    merge,
+    recolor,
+    status,
+    verify,
+    verify_labels,
+)
 from trove.frames import Frame, Frames, open
 from trove.grids import Grid
 from trove.objects import Object
@@ -44,14 +57,17 @@ __all__ = [
     "build",
     "curate",
     "demo",
+    "estimate",
     "evaluate",
     "export",
     "export_drives",
     "generate",
     "look_at",
+    "merge",
     "open",
     "recolor",
     "render",
+    "status",
     "torch",
     "verify",
     "verify_labels",

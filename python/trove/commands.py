@@ -19,12 +19,14 @@ from trove.packages import search
 if TYPE_CHECKING:
     from trove.results import (
         Curation,
+        Estimate,
         Evaluation,
         Exported,
         ExportedDrives,
         Findings,
         LabelFindings,
         Recoloring,
+        Status,
         Summary,
     )
 
@@ -45,6 +47,7 @@ def generate(
     out: AnyPath,
     progress: Progress | None = None,
     *,
+    part: str | None = None,
     frames: AnyPath | None = None,
     labels_only: bool = False,
     threads: int | None = None,
@@ -52,19 +55,86 @@ def generate(
 ) -> Summary:
     """Generates the dataset of a recipe in `out`; finished frames are kept, so a second call resumes.
 
-    `frames` is a list of `curate`, which alone are rendered; `labels_only` leaves images out.
+    `part`, such as `"3/8"`, is one of several shares of the frames, which a call without it merges; `frames` is a list of
+    `curate`, which alone are rendered; `labels_only` leaves images out.
     """
     summary: Summary = _run(
         "generate",
         [recipe],
         progress,
         out=out,
+        part=part,
         frames=frames,
         labels_only=labels_only,
         threads=threads,
         kernel=kernel,
     )
     return summary
+
+
+def estimate(
+    recipe: AnyPath,
+    *,
+    part: str | None = None,
+    machines: int | None = None,
+    frames: AnyPath | None = None,
+    labels_only: bool = False,
+    threads: int | None = None,
+    kernel: str = "auto",
+    progress: Progress | None = None,
+) -> Estimate:
+    """Tells how many frames a recipe, or a part of it, has, and what they will take, after one small frame.
+
+    With `machines` also when the last of so many like this one will have ended.
+    """
+    estimate: Estimate = _run(
+        "generate",
+        [recipe],
+        progress,
+        dry_run=True,
+        part=part,
+        machines=machines,
+        frames=frames,
+        labels_only=labels_only,
+        threads=threads,
+        kernel=kernel,
+    )
+    return estimate
+
+
+def merge(
+    folders: Sequence[AnyPath],
+    out: AnyPath,
+    progress: Progress | None = None,
+    *,
+    recipe: AnyPath | None = None,
+    frames: AnyPath | None = None,
+    labels_only: bool = False,
+    threads: int | None = None,
+    kernel: str = "auto",
+) -> Summary:
+    """Merges folders that parts of a recipe were rendered in into `out`, and renders what is missing.
+
+    Without `recipe` it is the one that the first folder was begun with.
+    """
+    summary: Summary = _run(
+        "merge",
+        list(folders),
+        progress,
+        out=out,
+        recipe=recipe,
+        frames=frames,
+        labels_only=labels_only,
+        threads=threads,
+        kernel=kernel,
+    )
+    return summary
+
+
+def status(folder: AnyPath) -> Status:
+    """Tells how far a folder is that runs, or parts of one on other machines, are writing to, from their journals alone."""
+    status: Status = _run("status", [folder], None)
+    return status
 
 
 def verify(folder: AnyPath, *, progress: Progress | None = None) -> Findings:

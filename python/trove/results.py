@@ -22,6 +22,48 @@ class Summary(TypedDict):
     seconds: float
 
 
+class _Estimate(TypedDict):
+    frames: int
+    bytes: int
+    seconds: float
+
+
+class Estimate(_Estimate, total=False):
+    """What a recipe will take: frames, sweeps, cycles and grids, their bytes, and seconds on this machine.
+
+    What is below is there where it was asked for.
+    """
+
+    machines: int
+    last_machine_seconds: float
+
+
+class PartStatus(TypedDict):
+    """How far a part is, or a run of all frames, whose `part` is `None`.
+
+    `silent_s` is since it last wrote something down; `frame_s` is `None` before the first frame, `seconds_left` 0 once it
+    has ended and `None` where that is not known or it seems to have stopped.
+    """
+
+    part: str | None
+    frames: int
+    finished: int
+    silent_s: float
+    frame_s: float | None
+    seconds_left: float | None
+
+
+class Status(TypedDict):
+    """How far a folder is; `seconds_left` is `None` where nobody is at work, `merged` tells of the manifest."""
+
+    frames: int
+    finished: int
+    seconds_left: float | None
+    merged: bool
+    parts: list[PartStatus]
+    not_begun: list[str]
+
+
 class Findings(TypedDict):
     """What was read, and what is not as it was written; the lists are empty where all is well."""
 

@@ -49,6 +49,25 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
+/// Writes a file that is not there yet, whole at once; false where another process was first, whose file stays.
+///
+/// # Errors
+/// What the system says; nothing is left of the hidden file then.
+pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<bool> {
+    let partial = hidden_beside(path, &format!("{}.partial", std::process::id()));
+    let placed = write_synced(&partial, bytes).and_then(|()| match fs::hard_link(&partial, path) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+        // Some file systems have no links; then the last of several that start at once wins.
+        Err(_) if !path.exists() => fs::rename(&partial, path).map(|()| true),
+        other => other.map(|()| true),
+    });
+    let _ = fs::remove_file(&partial);
+    if matches!(placed, Ok(true)) {
+        sync_folder(path.parent());
+    }
+    placed
+}
+
 /// Writes a file that a power cut leaves whole once this has returned.
 ///
 /// # Errors
@@ -94,6 +113,15 @@ mod tests {
             write_atomically(&path, bytes).unwrap();
             assert_eq!((fs::read(&path).unwrap(), names(folder.path())), (bytes.to_vec(), vec!["a.json".into()]));
         }
+    }
+
+    #[test]
+    fn of_several_that_write_a_new_file_the_first_wins() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.json");
+        assert!(write_new(&path, b"first").unwrap());
+        assert!(!write_new(&path, b"second").unwrap());
+        assert_eq!((fs::read(&path).unwrap(), names(folder.path())), (b"first".to_vec(), vec!["run.json".into()]));
     }
 
     #[test]

@@ -18,8 +18,21 @@ impl FolderLock {
     /// # Errors
     /// [`io::ErrorKind::WouldBlock`] where another process has it; a file that cannot be written.
     pub fn take(path: &Path) -> io::Result<Self> {
-        let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
-        match file.try_lock() {
+        Self::by(path, File::try_lock)
+    }
+
+    /// Takes a share of the lock of a folder: others may have theirs meanwhile, but nobody the whole.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::WouldBlock`] where another process has the whole; a file that cannot be written.
+    pub fn share(path: &Path) -> io::Result<Self> {
+        Self::by(path, File::try_lock_shared)
+    }
+
+    fn by(path: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> io::Result<Self> {
+        // Network file systems lend a share to those who may read, the whole to those who may write.
+        let file = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(path)?;
+        match lock(&file) {
             Ok(()) => Ok(Self { unsupported: None, _file: file }),
             Err(TryLockError::WouldBlock) => Err(io::ErrorKind::WouldBlock.into()),
             Err(TryLockError::Error(error)) => Ok(Self { unsupported: Some(error), _file: file }),
@@ -39,5 +52,17 @@ mod tests {
         assert_eq!(FolderLock::take(&path).unwrap_err().kind(), io::ErrorKind::WouldBlock);
         drop(first);
         assert!(FolderLock::take(&path).is_ok_and(|lock| lock.unsupported.is_none()));
+    }
+
+    #[test]
+    fn shares_hold_off_whoever_wants_the_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("lock");
+        let shares = [FolderLock::share(&path).unwrap(), FolderLock::share(&path).unwrap()];
+        assert_eq!(FolderLock::take(&path).unwrap_err().kind(), io::ErrorKind::WouldBlock);
+        drop(shares);
+        let whole = FolderLock::take(&path).unwrap();
+        assert_eq!(FolderLock::share(&path).unwrap_err().kind(), io::ErrorKind::WouldBlock);
+        drop(whole);
     }
 }

@@ -2,10 +2,12 @@
 //! (`frames.jsonl`).
 
 use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::ops::Range;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use trove_files::{OutputRoot, PathComponent};
+use trove_files::{OutputRoot, PathComponent, open_regular};
 
 use crate::file::FORMAT;
 use crate::{FormatError, file};
@@ -26,6 +28,9 @@ pub struct RunIdentity {
     pub inputs: Inputs,
 }
 
+/// A longer line of a journal is no line of ours, bytes.
+const LONGEST_LINE: u64 = 1 << 20;
+
 /// SHA-256 of files by what they are.
 pub type Inputs = BTreeMap<String, String>;
 
@@ -45,6 +50,10 @@ pub struct Versions {
     pub kernel: String,
     /// Name and version of the denoiser; null without one.
     pub denoiser: Option<String>,
+    /// The kind of processor whose instructions kernel and denoiser choose among (`x86-64-v3`), on which last digits depend;
+    /// null where the bytes are the same on every machine.
+    #[serde(default)]
+    pub device: Option<String>,
 }
 
 /// A file on disk.
@@ -67,6 +76,29 @@ pub struct FrameLine {
     pub frame: String,
     /// Its files.
     pub files: Vec<WrittenFile>,
+}
+
+/// A line of the journal: what a run or a part of one is going to make, as far as it is known; the last one counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct PlanLine {
+    /// Frames that it makes or finds finished.
+    pub planned: u64,
+    /// Frames of the whole recipe.
+    pub of: u64,
+    /// When it was started, seconds since 1970 UTC.
+    pub started_unix_s: u64,
+}
+
+/// A line of the journal.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum JournalLine {
+    /// A finished frame.
+    Frame(FrameLine),
+    /// What is planned.
+    Plan(PlanLine),
 }
 
 /// The files of finished frames, by the frame's path.
@@ -97,10 +129,7 @@ impl RunIdentity {
     }
 }
 
-impl FrameLine {
-    /// The journal's name.
-    pub const JOURNAL: &str = "frames.jsonl";
-
+impl JournalLine {
     /// The line's bytes, with the line break.
     #[allow(clippy::missing_panics_doc)] // serde_json refuses keys that are not strings, and nothing else
     pub fn to_json(&self) -> Vec<u8> {
@@ -108,19 +137,58 @@ impl FrameLine {
         line.push(b'\n');
         line
     }
+}
 
-    /// Reads the journal in a `.trove` folder, empty where there is none. A line that a killed run left torn is passed
-    /// over: its frame is looked at on the disk instead.
+impl FrameLine {
+    /// The journal's name.
+    pub const JOURNAL: &str = "frames.jsonl";
+
+    /// Reads the journal in a `.trove` folder, empty where there is none; of several lines of a frame the last one counts.
     ///
     /// # Errors
     /// A file that cannot be read.
     pub fn journal(folder: &Path) -> Result<Journal, FormatError> {
-        let bytes = file::bytes_if_there(&folder.join(Self::JOURNAL))?.unwrap_or_default();
-        let lines = bytes.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Self>(line).ok());
-        // Whoever sends a folder does not choose which files are read elsewhere.
-        let root = OutputRoot::new(folder);
-        let lines = lines.filter(|line| root.at(&line.frame).is_ok());
-        let lines = lines.filter(|line| line.files.iter().all(|file| PathComponent::new(&file.name).is_ok()));
-        Ok(lines.map(|line| (line.frame, line.files)).collect())
+        let mut journal = Journal::new();
+        Self::each(&folder.join(Self::JOURNAL), |line, _| {
+            if let JournalLine::Frame(line) = line {
+                journal.insert(line.frame, line.files);
+            }
+        })?;
+        Ok(journal)
+    }
+
+    /// Tells the lines of a journal one after another, none where it is not there, and where in the file they lie. A line
+    /// that a killed run left torn is passed over: its frame is looked at on the disk instead.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn each(path: &Path, mut told: impl FnMut(JournalLine, Range<u64>)) -> Result<(), FormatError> {
+        let unreadable = |source| FormatError::Unreadable { path: path.to_owned(), source };
+        let mut lines = match open_regular(path) {
+            Ok(file) => BufReader::new(file),
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+            Err(error) => return Err(unreadable(error)),
+        };
+        let root = OutputRoot::new(path);
+        let (mut line, mut start) = (Vec::new(), 0);
+        loop {
+            line.clear();
+            let end =
+                start + lines.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(unreadable)? as u64;
+            if end == start {
+                return Ok(());
+            }
+            match serde_json::from_slice(&line) {
+                // Whoever sends a folder does not choose which files are read elsewhere.
+                Ok(JournalLine::Frame(line)) if !line.stays_below(&root) => {}
+                Ok(line) => told(line, start..end),
+                Err(_) => {}
+            }
+            start = end;
+        }
+    }
+
+    fn stays_below(&self, root: &OutputRoot) -> bool {
+        root.at(&self.frame).is_ok() && self.files.iter().all(|file| PathComponent::new(&file.name).is_ok())
     }
 }

@@ -63,7 +63,7 @@ pub use file::FORMAT;
 pub use frame::{FrameTable, GlassPolicy, LensModel, Matrix4, ObjectOrigin, ObjectRow, Projection};
 pub use frame_file::FrameFile;
 pub use grid::{GridClass, GridObject, GridTable};
-pub use journal::{FrameLine, Inputs, Journal, RunIdentity, Versions, WrittenFile};
+pub use journal::{FrameLine, Inputs, Journal, JournalLine, PlanLine, RunIdentity, Versions, WrittenFile};
 pub use lanes::{KerbRow, LaneRow, LanesFile, LineRow};
 pub use manifest::{ClassEntry, Counterfactual, FrameRow, Manifest, ManifestDrive};
 pub use masks::{MaskRow, MaskTable, RunLengths};

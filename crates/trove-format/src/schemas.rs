@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
 use crate::{
-    Curated, FrameLine, FrameTable, GridTable, LanesFile, Manifest, MaskTable, PlainDrive, RadarTable, RunIdentity,
-    RunReport, SiteFile, SweepTable, TrajectoryFile,
+    Curated, FrameLine, FrameTable, GridTable, JournalLine, LanesFile, Manifest, MaskTable, PlainDrive, RadarTable,
+    RunIdentity, RunReport, SiteFile, SweepTable, TrajectoryFile,
 };
 
 /// The schema of a file as it is written: as a name and a text.
@@ -43,7 +43,7 @@ fn the_schemas_are_those_of_the_types() {
         schema::<RadarTable>(RadarTable::NAME),
         schema::<Curated>(Curated::NAME),
         schema::<RunIdentity>(RunIdentity::NAME),
-        schema::<FrameLine>(FrameLine::JOURNAL),
+        schema::<JournalLine>(FrameLine::JOURNAL),
         schema_for_others::<PlainDrive>(PlainDrive::NAME),
     ];
     for (name, expected) in &schemas {

@@ -141,6 +141,7 @@ fn a_manifest_of_another_version_is_refused() {
             assets: vec![],
             kernel: "obvhs".into(),
             denoiser: None,
+            device: None,
         },
         classes: ClassEntry::all(),
         drives: vec![ManifestDrive { drive: site.drive, sources: site.sources.clone() }],
@@ -178,8 +179,18 @@ fn a_torn_line_of_the_journal_is_passed_over() {
     let dir = tempfile::tempdir().unwrap();
     let file = WrittenFile { name: "class.png".into(), sha256: "00".into(), bytes: 3 };
     let line = FrameLine { frame: "a".into(), files: vec![file] };
-    let mut journal = line.to_json();
-    journal.extend(&FrameLine { frame: "b".into(), ..line.clone() }.to_json()[..20]);
-    std::fs::write(dir.path().join(FrameLine::JOURNAL), journal).unwrap();
+    let plan = PlanLine { planned: 2, of: 9, started_unix_s: 1_700_000_000 };
+    let outside = FrameLine { frame: "../a".into(), ..line.clone() };
+    let torn = JournalLine::Frame(FrameLine { frame: "b".into(), ..line.clone() }).to_json();
+    let lines = [JournalLine::Plan(plan), JournalLine::Frame(line.clone()), JournalLine::Frame(outside)];
+    let mut journal: Vec<u8> = lines.iter().flat_map(JournalLine::to_json).collect();
+    journal.extend(&torn[..20]);
+    let path = dir.path().join(FrameLine::JOURNAL);
+    std::fs::write(&path, &journal).unwrap();
     assert_eq!(FrameLine::journal(dir.path()).unwrap(), Journal::from([("a".into(), line.files)]));
+    let mut told = Vec::new();
+    FrameLine::each(&path, |line, at| told.push((line, at))).unwrap();
+    assert_eq!(told.iter().map(|(line, _)| line).collect::<Vec<_>>(), [&lines[0], &lines[1]]);
+    let at = told[1].1.start as usize..told[1].1.end as usize;
+    assert_eq!(journal[at], lines[1].to_json());
 }

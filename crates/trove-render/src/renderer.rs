@@ -34,6 +34,9 @@ pub struct Capabilities {
     pub kernel: String,
     /// Name and version of the denoiser, or why there is none.
     pub denoiser: Result<String, String>,
+    /// The kind of processor whose instructions kernel and denoiser choose among, on which last digits depend
+    /// (`x86-64-v3`); `None` where every machine gives the same.
+    pub device: Option<String>,
     /// Threads that it uses.
     pub threads: usize,
 }
@@ -71,6 +74,7 @@ impl Renderer {
         Capabilities {
             kernel: self.kernel.name(),
             denoiser: self.denoiser.as_ref().map(Denoiser::name).map_err(Clone::clone),
+            device: (!self.kernel.is_same_everywhere() || self.denoiser.is_ok()).then(device),
             threads: self.pool.current_num_threads(),
         }
     }
@@ -169,4 +173,17 @@ impl Renderer {
             Some(Capture { color, labels, change: None, stats })
         })
     }
+}
+
+/// The kind of this machine's processor, by the instructions that libraries choose code by.
+fn device() -> String {
+    #[cfg(target_arch = "x86_64")]
+    let level = match () {
+        () if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") => "x86-64-v4",
+        () if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => "x86-64-v3",
+        () => "x86-64-v2",
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    let level = std::env::consts::ARCH;
+    level.into()
 }

@@ -8,7 +8,7 @@ use trove_files::OutputRoot;
 use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
 use trove_model::{Class, InstanceId, Labels, Occlusion, Raster};
 
-use crate::files::FolderInTheMaking;
+use crate::files::{FolderInTheMaking, Maker, sha256_file};
 use crate::{Frame, Grid, RadarCycle, Sweep, WriteError, contact_sheet, exr_file, masks, png_file, write_atomically};
 
 const CONTACT_SHEET: &str = "contact_sheet.png";
@@ -16,6 +16,7 @@ const CONTACT_SHEET: &str = "contact_sheet.png";
 /// Writes the frames of a run as docs/output.md tells; several threads may write frames at once, in any order.
 pub struct FrameFolders {
     root: OutputRoot,
+    maker: Maker,
 }
 
 impl FrameFolders {
@@ -25,9 +26,14 @@ impl FrameFolders {
     /// Names below the output folder that no scene can have, because what sums the run up has them.
     pub const RESERVED: [&str; 4] = [CONTACT_SHEET, RunReport::NAME, Manifest::NAME, Self::EXPORTS];
 
-    /// Writes below `root`.
+    /// Writes below `root`, alone.
     pub fn new(root: &Path) -> Self {
-        Self { root: OutputRoot::new(root) }
+        Self::made_by(root, Maker::Alone)
+    }
+
+    /// Writes below `root`, where others may write the same frames meanwhile.
+    pub fn made_by(root: &Path, maker: Maker) -> Self {
+        Self { root: OutputRoot::new(root), maker }
     }
 
     /// Names of the files in a finished frame's folder that holds these pictures.
@@ -40,10 +46,10 @@ impl FrameFolders {
     ///
     /// Writes the folder under a hidden name beside it first, then renames it, so that it is never there in part. What an
     /// interrupted run left under the hidden name, and a folder without all its files, is replaced; a finished frame is
-    /// not.
+    /// not: it has the same bytes where another process made it.
     ///
     /// # Errors
-    /// A file system that refuses, or a frame that is there already or does not fit the form.
+    /// A file system that refuses, or a frame that does not fit the form or is there already with other bytes.
     pub fn frame(&self, frame: &Frame, pictures: &BTreeSet<FrameFile>) -> Result<Vec<WrittenFile>, WriteError> {
         let dir = self.root.at(&frame.path)?;
         narrowed(&frame.labels)?;
@@ -53,23 +59,14 @@ impl FrameFolders {
         };
         let pictures: BTreeSet<FrameFile> = pictures.iter().copied().filter(there).collect();
         let known: Vec<&str> = FrameFile::ALL.map(FrameFile::name).into_iter().chain([FrameTable::NAME]).collect();
-        let replaces = lies_unfinished(&dir, &Self::files(&pictures), &known)?;
-
-        let mut folder = FolderInTheMaking::start(&dir)?;
-        for file in pictures {
-            folder.add(file.name(), &encode(file, frame)?)?;
-        }
-        folder.add(FrameTable::NAME, &frame.table.to_json())?;
-        if replaces {
-            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished frame"))?;
-        }
-        folder.finish()
+        let encoded = pictures.iter().map(|file| encode(*file, frame));
+        self.put(&dir, &Self::files(&pictures), &known, encoded.chain([Ok(frame.table.to_json())]))
     }
 
     /// Writes a LiDAR's sweep, as [`FrameFolders::frame`] writes a frame.
     ///
     /// # Errors
-    /// A file system that refuses, or a sweep that is there already.
+    /// A file system that refuses, or a sweep that is there already with other bytes.
     pub fn sweep(&self, sweep: &Sweep) -> Result<Vec<WrittenFile>, WriteError> {
         self.folder(&sweep.path, &Sweep::FILES, sweep.encoded())
     }
@@ -77,7 +74,7 @@ impl FrameFolders {
     /// Writes a grid, as [`FrameFolders::frame`] writes a frame.
     ///
     /// # Errors
-    /// A file system that refuses, or a grid that is there already.
+    /// A file system that refuses, or a grid that is there already with other bytes.
     pub fn grid(&self, grid: &Grid) -> Result<Vec<WrittenFile>, WriteError> {
         self.folder(&grid.path, Grid::files(grid.form), grid.encoded())
     }
@@ -85,9 +82,28 @@ impl FrameFolders {
     /// Writes a radar's cycle, as [`FrameFolders::frame`] writes a frame.
     ///
     /// # Errors
-    /// A file system that refuses, or a cycle that is there already.
+    /// A file system that refuses, or a cycle that is there already with other bytes.
     pub fn radar(&self, cycle: &RadarCycle) -> Result<Vec<WrittenFile>, WriteError> {
         self.folder(&cycle.path, &RadarCycle::FILES, cycle.encoded())
+    }
+
+    /// Takes a finished frame of another output folder over; false where one of its files is not as it was written.
+    ///
+    /// # Errors
+    /// A file system that refuses, or a frame that is there already with other bytes.
+    pub fn adopt(&self, path: &str, from: &Path, files: &[WrittenFile]) -> Result<bool, WriteError> {
+        let mut folder = FolderInTheMaking::start(&self.root.at(path)?, &self.maker)?;
+        for file in files {
+            let source = from.join(&file.name);
+            if sha256_file(&source).is_ok_and(|sha256| sha256 == file.sha256) {
+                folder.take(&source, file)?;
+            } else {
+                return Ok(false);
+            }
+        }
+        let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+        self.place(folder, &self.root.at(path)?, &names, &names)?;
+        Ok(true)
     }
 
     fn folder(
@@ -96,14 +112,41 @@ impl FrameFolders {
         names: &[&str],
         files: impl IntoIterator<Item = Vec<u8>>,
     ) -> Result<Vec<WrittenFile>, WriteError> {
-        let dir = self.root.at(path)?;
-        let replaces = lies_unfinished(&dir, names, names)?;
-        let mut folder = FolderInTheMaking::start(&dir)?;
+        self.put(&self.root.at(path)?, names, names, files.into_iter().map(Ok))
+    }
+
+    /// Writes a folder of these files, which are `names`; `known` may lie there instead.
+    fn put(
+        &self,
+        dir: &Path,
+        names: &[&str],
+        known: &[&str],
+        files: impl Iterator<Item = Result<Vec<u8>, WriteError>>,
+    ) -> Result<Vec<WrittenFile>, WriteError> {
+        what_lies(dir, names, known)?; // before anything is written
+        let mut folder = FolderInTheMaking::start(dir, &self.maker)?;
         for (name, bytes) in names.iter().zip(files) {
-            folder.add(name, &bytes)?;
+            folder.add(name, &bytes?)?;
         }
-        if replaces {
-            fs::remove_dir_all(&dir).map_err(WriteError::storage(&dir, "remove an unfinished folder"))?;
+        self.place(folder, dir, names, known)
+    }
+
+    fn place(
+        &self,
+        folder: FolderInTheMaking,
+        dir: &Path,
+        names: &[&str],
+        known: &[&str],
+    ) -> Result<Vec<WrittenFile>, WriteError> {
+        match what_lies(dir, names, known)? {
+            Lies::Nothing => {}
+            Lies::Unfinished => {
+                fs::remove_dir_all(dir).map_err(WriteError::storage(dir, "remove an unfinished folder"))?;
+            }
+            Lies::Finished if folder.lies_there() => return Ok(folder.give_up()),
+            Lies::Finished => {
+                return Err(WriteError::Occupied { path: dir.to_owned(), found: "one with other bytes".into() });
+            }
         }
         folder.finish()
     }
@@ -189,24 +232,32 @@ fn narrowed(labels: &Labels) -> Result<Vec<u16>, WriteError> {
     labels.instance.data.iter().map(narrow).collect()
 }
 
-/// Whether a frame without all its files lies at `dir`; an error where anything else does than some of the `known` ones.
-fn lies_unfinished(dir: &Path, expected: &[&str], known: &[&str]) -> Result<bool, WriteError> {
+/// What lies where a folder is to be put.
+enum Lies {
+    Nothing,
+    /// Some of the files.
+    Unfinished,
+    /// All of them.
+    Finished,
+}
+
+/// What lies at `dir`; an error where anything else does than some of the `known` files.
+fn what_lies(dir: &Path, expected: &[&str], known: &[&str]) -> Result<Lies, WriteError> {
     let entries = match fs::read_dir(dir) {
         Ok(entries) => entries,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Lies::Nothing),
         Err(e) => return Err(WriteError::storage(dir, "read the folder")(e)),
     };
-    let occupied = |found: String| Err(WriteError::Occupied { path: dir.to_owned(), found });
     let mut present = Vec::new();
     for entry in entries {
         let name = entry.map_err(WriteError::storage(dir, "read the folder"))?.file_name();
         match known.iter().find(|file| name == **file) {
             Some(file) => present.push(*file),
-            None => return occupied(format!("{}, which does not belong to a frame", name.to_string_lossy())),
+            None => {
+                let found = format!("{}, which does not belong to a frame", name.to_string_lossy());
+                return Err(WriteError::Occupied { path: dir.to_owned(), found });
+            }
         }
     }
-    if expected.iter().all(|file| present.contains(file)) {
-        return occupied("one".into());
-    }
-    Ok(true)
+    Ok(if expected.iter().all(|file| present.contains(file)) { Lies::Finished } else { Lies::Unfinished })
 }

@@ -48,7 +48,7 @@ mod sweep;
 
 pub use error::WriteError;
 pub use export::{Choice, DatasetFormat, Exported, Watch, export};
-pub use files::{sha256, sha256_file, write_atomically};
+pub use files::{Maker, sha256, sha256_file, write_atomically};
 pub use frame::Frame;
 pub use frame_folders::FrameFolders;
 pub use frame_table::FrameMeta;

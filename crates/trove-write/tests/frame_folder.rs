@@ -12,7 +12,7 @@ use trove_model::{
     Kind, Labels, Lens, Light, MapProjection, Mask, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose,
     Raster, Scene, SceneObject, Seed, Shot, State,
 };
-use trove_write::{Frame, FrameFolders, FrameMeta, StoredFrame, WriteError, sha256_file, write_atomically};
+use trove_write::{Frame, FrameFolders, FrameMeta, Maker, StoredFrame, WriteError, sha256_file, write_atomically};
 
 const W: u32 = 48;
 const H: u32 = 20;
@@ -282,8 +282,7 @@ fn only_what_is_wanted_is_written() {
     for _ in 0..2 {
         write_only(&dir, &capture(), &wanted).unwrap();
         assert_eq!(names(&dir), ["class.png", "frame.json", "rgb.png"]);
-        // What is whole stays; without the table it is not.
-        assert!(write_only(&dir, &capture(), &wanted).is_err());
+        // Without the table it is not whole.
         fs::remove_file(dir.join("frame.json")).unwrap();
     }
 }
@@ -292,14 +291,60 @@ fn only_what_is_wanted_is_written() {
 fn an_unfinished_frame_is_replaced_and_a_finished_one_is_not() {
     let root = tempfile::tempdir().unwrap();
     let dir = root.path().join("frame");
-    fs::create_dir_all(root.path().join(".frame.partial/left")).unwrap();
-    write(&dir, &capture()).unwrap();
+    for left in [".frame.partial/left", ".frame.part-3-of-7.partial/left", ".frame.other.partial/left"] {
+        fs::create_dir_all(root.path().join(left)).unwrap();
+    }
+    let first = write(&dir, &capture()).unwrap();
+    assert_eq!(names(root.path()), [".frame.other.partial", "frame"], "another frame's is none of its own");
+    let touched = |dir: &Path| fs::metadata(dir).unwrap().modified().unwrap();
+    let before = touched(&dir);
+    assert_eq!(write(&dir, &capture()).unwrap(), first);
+    assert_eq!(touched(&dir), before, "the same bytes are left as they are");
+    fs::write(dir.join("depth.exr"), "other").unwrap();
     assert!(matches!(write(&dir, &capture()), Err(WriteError::Occupied { .. })));
     fs::remove_file(dir.join("depth.exr")).unwrap();
     write(&dir, &capture()).unwrap();
     fs::write(dir.join("notes.txt"), "mine").unwrap();
     fs::remove_file(dir.join("depth.exr")).unwrap();
     assert!(matches!(write(&dir, &capture()), Err(WriteError::Occupied { .. })), "what is not ours stays");
+}
+
+#[test]
+fn several_that_make_the_same_frame_at_once_leave_it_whole_once() {
+    let root = tempfile::tempdir().unwrap();
+    let frame = Frame::of("frame".into(), &scene(), &shot(), capture(), &meta()).unwrap();
+    for _ in 0..8 {
+        let made: Vec<_> = std::thread::scope(|scope| {
+            let make = |name: &str| {
+                let folders = FrameFolders::made_by(root.path(), Maker::Among(name.into()));
+                let frame = &frame;
+                scope.spawn(move || folders.frame(frame, &[FrameFile::Class, FrameFile::Depth].into()).unwrap())
+            };
+            let making = ["1-of-2.a", "1-of-2.b", "2-of-2"].map(make);
+            making.map(|thread| thread.join().unwrap()).into()
+        });
+        assert!(made.iter().all(|files| files == &made[0] && files.len() == 3));
+        assert_eq!(names(root.path()), ["frame"]);
+        fs::remove_dir_all(root.path().join("frame")).unwrap();
+    }
+}
+
+#[test]
+fn a_frame_is_taken_over_from_another_folder_if_it_is_whole() {
+    let roots = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let from = roots[0].path().join("frame");
+    let files = write(&from, &capture()).unwrap();
+    let folders = FrameFolders::new(roots[1].path());
+    let to = roots[1].path().join("frame");
+    assert!(folders.adopt("frame", &from, &files).unwrap());
+    assert!(
+        files.iter().all(|file| fs::read(to.join(&file.name)).unwrap() == fs::read(from.join(&file.name)).unwrap())
+    );
+    assert!(folders.adopt("frame", &from, &files).unwrap(), "once more changes nothing");
+    fs::remove_dir_all(&to).unwrap();
+    fs::write(from.join("depth.exr"), "damaged").unwrap();
+    assert!(!folders.adopt("frame", &from, &files).unwrap());
+    assert_eq!(names(roots[1].path()), [""; 0]);
 }
 
 #[test]

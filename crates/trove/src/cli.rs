@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -21,9 +22,9 @@ use crate::map::MapCommand;
 use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{MOST_THREADS, Recipe};
-use crate::run::{RenderedFrame, RunOptions, Summary, generate};
+use crate::run::{Estimate, MOST_SHARES, RenderedFrame, RunOptions, Share, Summary, begun_with, estimate, generate};
 use crate::watch::Watch;
-use crate::{build, demo, doctor, inspect, interrupt, libraries, message, verify};
+use crate::{build, demo, doctor, inspect, interrupt, libraries, message, status, verify};
 
 /// Turn recordings of real roads into photorealistic virtual scenes with perfect labels.
 #[derive(Parser)]
@@ -128,25 +129,84 @@ enum Command {
     )]
     Evaluate(Evaluate),
     /// Generate a dataset. Rerun to resume; finished frames are kept.
-    #[command(after_help = "Example:\n  trove generate recipe.toml --out out/boston")]
+    #[command(
+        after_help = "Examples:\n  trove generate recipe.toml --out out/boston\n  trove generate recipe.toml --part 3/8 --out out/boston   # on the third of eight machines\n  trove generate recipe.toml --out out/boston              # once all have ended\n  trove generate recipe.toml --dry-run --machines 8"
+    )]
     Generate {
         /// Recipe (TOML).
         recipe: PathBuf,
         /// Output folder.
-        #[arg(long)]
-        out: PathBuf,
-        /// Render only the frames in a list written by `trove curate`.
-        #[arg(long, value_name = "FILE.json")]
-        frames: Option<PathBuf>,
-        /// Write labels without rendering images, whatever the recipe says: fast, and enough for `trove curate`.
-        #[arg(long)]
-        labels_only: bool,
+        #[arg(long, required_unless_present = "dry_run")]
+        out: Option<PathBuf>,
+        /// Tell how many frames the recipe has, how many bytes they will take and how long, after one small frame.
+        #[arg(long, conflicts_with = "out")]
+        dry_run: bool,
+        /// With --dry-run: also when the last of so many machines like this one will have ended.
+        #[arg(long, value_name = "N", requires = "dry_run", value_parser = clap::value_parser!(u32).range(1..=MOST_SHARES))]
+        machines: Option<u32>,
+        /// Render the I-th of N shares of the frames, from 1, in a folder that all may have in common; a run without it
+        /// merges them.
+        #[arg(long, value_name = "I/N")]
+        part: Option<Share>,
+        #[command(flatten)]
+        extent: Extent,
         #[command(flatten)]
         machine: Machine,
         /// Print a summary as JSON.
         #[arg(long)]
         json: bool,
     },
+    /// Merge folders that parts of a recipe were rendered in, and render what is missing.
+    #[command(after_help = "Example:\n  trove merge part-1 part-2 part-3 --recipe recipe.toml --out out/boston")]
+    Merge {
+        /// Output folders of trove generate --part, in any order.
+        #[arg(required = true, value_name = "DIR")]
+        folders: Vec<PathBuf>,
+        /// Recipe (TOML) [default: the one that the first folder was begun with, where it still lies there].
+        #[arg(long)]
+        recipe: Option<PathBuf>,
+        /// Output folder; one of them may be it.
+        #[arg(long)]
+        out: PathBuf,
+        #[command(flatten)]
+        extent: Extent,
+        #[command(flatten)]
+        machine: Machine,
+        /// Print a summary as JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Tell how far a folder is that runs, or parts of one on other machines, are writing to.
+    #[command(after_help = "Example:\n  trove status out/boston")]
+    Status {
+        /// Output folder of trove generate.
+        folder: PathBuf,
+        /// Print JSON.
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// How much of a recipe to make.
+#[derive(Args)]
+struct Extent {
+    /// Render only the frames in a list written by `trove curate`.
+    #[arg(long, value_name = "FILE.json")]
+    frames: Option<PathBuf>,
+    /// Write labels without rendering images, whatever the recipe says: fast, and enough for `trove curate`.
+    #[arg(long)]
+    labels_only: bool,
+}
+
+impl Extent {
+    fn read(&self, recipe: &Path) -> Result<(Recipe, Option<BTreeSet<String>>)> {
+        let frames = self.frames.as_deref().map(frames_of).transpose()?;
+        let mut recipe = Recipe::read(recipe)?;
+        if self.labels_only {
+            (recipe.render.light, recipe.render.radiance) = (false, false);
+        }
+        Ok((recipe, frames))
+    }
 }
 
 /// How to use this machine.
@@ -174,7 +234,16 @@ impl Machine {
             Kernel::Embree => KernelChoice::Embree,
             Kernel::Obvhs => KernelChoice::Obvhs,
         };
-        RunOptions { kernel, search: libraries::search(site_packages), frames: None, watch: watch.clone() }
+        RunOptions {
+            recipe_file: None,
+            kernel,
+            search: libraries::search(site_packages),
+            frames: None,
+            share: None,
+            adopt: Vec::new(),
+            trial: false,
+            watch: watch.clone(),
+        }
     }
 }
 
@@ -235,15 +304,24 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
             let recipe = demo::recipe(&out)?;
             produce(recipe, &out, &machine, machine.options(site_packages, watch), json)
         }
-        Command::Generate { recipe, out, frames, labels_only, machine, json } => {
-            let frames = frames.as_deref().map(frames_of).transpose()?;
-            let options = RunOptions { frames, ..machine.options(site_packages, watch) };
-            let mut recipe = Recipe::read(&recipe)?;
-            if labels_only {
-                (recipe.render.light, recipe.render.radiance) = (false, false);
+        Command::Generate { recipe, out, dry_run: _, machines, part, extent, machine, json } => {
+            let recipe_file = Some(recipe.clone());
+            let (recipe, frames) = extent.read(&recipe)?;
+            let options = RunOptions { recipe_file, frames, share: part, ..machine.options(site_packages, watch) };
+            match out {
+                Some(out) => produce(recipe, &out, &machine, options, json),
+                None => foretell(recipe, &machine, &options, machines, json),
             }
+        }
+        Command::Merge { folders, recipe, out, extent, machine, json } => {
+            let recipe = recipe.map_or_else(|| begun_with(&folders[0]), Ok)?;
+            let recipe_file = Some(recipe.clone());
+            let (recipe, frames) = extent.read(&recipe)?;
+            let adopt = folders.into_iter().filter(|folder| !is_same(folder, &out)).collect();
+            let options = RunOptions { recipe_file, frames, adopt, ..machine.options(site_packages, watch) };
             produce(recipe, &out, &machine, options, json)
         }
+        Command::Status { folder, json } => status::run(&folder, json),
         Command::Verify { folder, labels, json } if labels.are_wanted() => labels.run(&folder, json, watch),
         Command::Verify { folder, labels: _, json } => verify::run(&folder, json, watch),
         Command::Curate(curate) => curate.run(watch),
@@ -252,13 +330,43 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
     }
 }
 
-fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<Answer> {
-    options.watch.listen();
+/// A recipe for a number of threads, and those that are not the renderer's.
+fn threaded(mut recipe: Recipe, machine: &Machine) -> Result<(Recipe, rayon::ThreadPool)> {
     if let Some(threads) = machine.threads {
         recipe.render.threads = threads.into();
     }
-    let started = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(recipe.render.threads).build()?;
+    Ok((recipe, pool))
+}
+
+fn foretell(
+    recipe: Recipe,
+    machine: &Machine,
+    options: &RunOptions,
+    machines: Option<u32>,
+    json: bool,
+) -> Result<Answer> {
+    options.watch.listen();
+    let (recipe, pool) = threaded(recipe, machine)?;
+    let Estimate { frames, bytes, seconds, last_machine_s } = pool.install(|| estimate(&recipe, options, machines))?;
+    let mut printed = json!({ "frames": frames, "bytes": bytes, "seconds": seconds });
+    if let (Some(machines), Some(last_s)) = (machines, last_machine_s) {
+        printed["machines"] = json!(machines);
+        printed["last_machine_seconds"] = json!(last_s);
+    }
+    let tell = move || {
+        println!("{frames} frames, {:.1} GB, {} on one machine like this", bytes as f64 / 1e9, duration(seconds));
+        if let (Some(machines), Some(last_s)) = (machines, last_machine_s) {
+            println!("{} on {machines} machines, the last of them", duration(last_s));
+        }
+    };
+    Ok(Answer::new(json, printed, tell))
+}
+
+fn produce(recipe: Recipe, out: &Path, machine: &Machine, options: RunOptions, json: bool) -> Result<Answer> {
+    options.watch.listen();
+    let started = Instant::now();
+    let (recipe, pool) = threaded(recipe, machine)?;
     let summary = pool.install(|| generate(&recipe, out, &options))?;
     let seconds = started.elapsed().as_secs_f64();
     let status = if summary.interrupted { interrupt::status() } else { 0 };
@@ -275,11 +383,16 @@ fn produce(mut recipe: Recipe, out: &Path, machine: &Machine, options: RunOption
         "interrupted": summary.interrupted,
         "seconds": seconds,
     });
-    let out = out.to_owned();
-    Ok(Answer::new(json, printed, move || tell(&summary, &out, seconds)).with_status(status))
+    let (out, is_part) = (out.to_owned(), options.share.is_some());
+    Ok(Answer::new(json, printed, move || tell(&summary, is_part, &out, seconds)).with_status(status))
 }
 
-fn tell(summary: &Summary, out: &Path, seconds: f64) {
+/// Whether two paths are of one folder.
+fn is_same(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}
+
+fn tell(summary: &Summary, is_part: bool, out: &Path, seconds: f64) {
     if summary.interrupted {
         eprintln!(
             "interrupted after {} of {} frames; run the same command to resume",
@@ -293,7 +406,11 @@ fn tell(summary: &Summary, out: &Path, seconds: f64) {
             String::new()
         };
         println!("{} frames, {} of them new, in {}{rate}", summary.frames, summary.rendered.len(), duration(seconds));
-        println!("see {}", out.join("contact_sheet.png").display());
+        if is_part {
+            println!("without --part, and once all parts have ended, the same command merges them");
+        } else {
+            println!("see {}", out.join("contact_sheet.png").display());
+        }
     }
 }
 

@@ -44,6 +44,7 @@ pub mod recipe;
 mod rigs;
 pub mod run;
 mod sources;
+mod status;
 mod street_map;
 mod variation;
 mod verify;

@@ -85,6 +85,7 @@ mod tests {
     use std::fs;
 
     use super::*;
+    use trove_format::JournalLine;
 
     #[test]
     fn a_file_that_is_missing_shorter_or_other_is_found() {
@@ -103,7 +104,7 @@ mod tests {
             })
             .to_vec();
         let line = FrameLine { frame: "s/v00/k000/ego.A".into(), files };
-        fs::write(root.join(PRIVATE).join(FrameLine::JOURNAL), line.to_json()).unwrap();
+        fs::write(root.join(PRIVATE).join(FrameLine::JOURNAL), JournalLine::Frame(line).to_json()).unwrap();
         let sound = Findings { frames: 1, files: 4, ..Findings::default() };
         assert_eq!(look(root).unwrap(), sound);
         fs::write(frame.join("a"), "ab").unwrap();

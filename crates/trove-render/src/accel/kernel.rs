@@ -24,6 +24,11 @@ pub(crate) trait Kernel: Send + Sync {
     /// Name and version, for people.
     fn name(&self) -> String;
 
+    /// Whether it gives the same bytes on every machine.
+    fn is_same_everywhere(&self) -> bool {
+        false
+    }
+
     /// Builds what traces rays among the shapes.
     fn build(&self, shapes: &Arc<Shapes>) -> Result<Box<dyn Accel>, RenderError>;
 }

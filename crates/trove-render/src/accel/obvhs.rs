@@ -54,6 +54,10 @@ impl Kernel for Obvhs {
         "obvhs 0.4 (built in)".into()
     }
 
+    fn is_same_everywhere(&self) -> bool {
+        true
+    }
+
     fn build(&self, shapes: &Arc<Shapes>) -> Result<Box<dyn Accel>, RenderError> {
         let placed = &shapes.placed;
         self.built.make_all(placed.iter().map(|p| &p.mesh), Bottom::new);

@@ -229,6 +229,7 @@ pub(crate) fn finished(root: &Path, frames: &[Made]) {
             assets: vec![],
             kernel: "made".into(),
             denoiser: None,
+            device: None,
         },
         classes: ClassEntry::all(),
         drives: vec![],

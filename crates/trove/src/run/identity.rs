@@ -44,6 +44,7 @@ pub(super) fn of_run(
         assets: library::fingerprints(recipe, search, contents)?,
         kernel: found.kernel,
         denoiser: found.denoiser.ok(),
+        device: found.device,
     };
     Ok(RunIdentity::new(serde_json::to_value(recipe)?, versions, inputs::of_run(recipe, sources, contents)?))
 }
@@ -76,6 +77,10 @@ pub(super) fn differences(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
     // Where no picture showed light, none has been denoised either.
     if !shows_light(&was.recipe) || !shows_light(&is.recipe) {
         sides.iter_mut().for_each(|side| side["versions"]["denoiser"] = Value::Null);
+    }
+    // The device counts where both sides' libraries choose by it.
+    if sides.iter().any(|side| side["versions"]["device"].is_null()) && was.versions.kernel == is.versions.kernel {
+        sides.iter_mut().for_each(|side| side["versions"]["device"] = Value::Null);
     }
     let mut found = cameras(was, is);
     compare("", &sides[0], &sides[1], &mut found);
@@ -152,7 +157,7 @@ mod tests {
                 "seed": 1, "drive": {"scenes": ["a"], "keyframes": [0]}, "variations": {"count": 1}, "views": {"rig": "all"},
                 "render": {"spp": 4}, "output": {"files": null},
             },
-            "versions": {"trove": "0.1.0", "build": "ab", "assets": ["x"], "kernel": "k", "denoiser": "d"},
+            "versions": {"trove": "0.1.0", "build": "ab", "assets": ["x"], "kernel": "k", "denoiser": "d", "device": "x"},
             "inputs": {"map.osm: a.osm": "01"},
         });
         change(&mut value);
@@ -173,6 +178,7 @@ mod tests {
         assert_eq!(told(&|v| v["versions"]["build"] = json!("cd")), "trove was built from other sources");
         assert!(told(&|v| v["versions"]["assets"] = json!(["y"])).contains("asset library"));
         assert_eq!(told(&|v| v["versions"]["denoiser"] = json!("e")), r#"denoiser was "d", is "e""#);
+        assert_eq!(told(&|v| v["versions"]["device"] = json!("y")), r#"device was "x", is "y""#);
         for (section, key, more) in [
             ("drive", "scenes", json!(["a", "b"])),
             ("drive", "keyframes", json!("all")),
@@ -211,5 +217,8 @@ mod tests {
             v["versions"]["denoiser"] = Value::Null;
         });
         assert_eq!(differences(&labels, &identity(|_| ())), [""; 0]);
+        // Labels of the built-in kernel are the same on every machine, denoised pictures beside them are not.
+        let everywhere = identity(|v| v["versions"]["device"] = Value::Null);
+        assert_eq!(differences(&everywhere, &identity(|_| ())), [""; 0]);
     }
 }

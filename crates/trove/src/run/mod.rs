@@ -1,11 +1,16 @@
 //! `trove generate`: from a recipe to a folder of labelled pictures, and on from where an earlier run ended.
 
+mod estimate;
 mod exports;
 mod identity;
 mod inputs;
+mod journals;
 mod manifest;
+mod merging;
 mod output;
+mod portions;
 mod read;
+mod share;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -33,25 +38,35 @@ use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::watch::Watch;
 use crate::{library, message};
+pub use estimate::{Estimate, estimate};
 pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, Sensed, SiteSummary, planned, variation_folder};
 use output::OutputFolder;
-pub(crate) use output::{PRIVATE, is_whole, refuse_foreign};
+pub(crate) use output::{PRIVATE, begun_with, is_whole, part_folders, refuse_foreign};
+use portions::{Portion, portions};
 use read::Read;
+use share::Slice;
+pub use share::{MOST_SHARES, Share};
 
-/// Cameras of a rig before the first drive has been read.
-const CAMERAS_HINT: usize = 6;
 /// Frames that are encoded and written at once: pictures are large.
 const WRITING: usize = 2;
 
 /// How to run, beside the recipe; none of it changes the labels.
 pub struct RunOptions {
+    /// Where the recipe lies, for a later `trove merge`.
+    pub recipe_file: Option<PathBuf>,
     /// Ray kernel.
     pub kernel: KernelChoice,
     /// Files and folders to look for Embree and Open Image Denoise in.
     pub search: Vec<PathBuf>,
     /// Paths of the only frames to render (`scene-0103/v00/k005/ego.CAM_FRONT`); `None`: all that the recipe asks for.
     pub frames: Option<BTreeSet<String>>,
+    /// Which part of the frames to render, to be merged by a later run; `None`: all, and what sums them up.
+    pub share: Option<Share>,
+    /// Folders with frames of the same recipe that are taken over.
+    pub adopt: Vec<PathBuf>,
+    /// To measure, of one moment of one scene: the first view, and the first of each kind that lies beside frames.
+    pub trial: bool,
     /// Whom the run tells how far it is, and who may end it.
     pub watch: Watch,
 }
@@ -59,12 +74,29 @@ pub struct RunOptions {
 /// What a run did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Frames that the recipe asks for, as far as they are known.
+    /// Frames that the recipe asks for, or the part of them that was to be rendered, as far as they are known.
     pub frames: usize,
     /// Frames rendered by this run.
     pub rendered: Vec<RenderedFrame>,
     /// Whether it was asked to end before all were done.
     pub interrupted: bool,
+    /// What else took how long.
+    pub timings: Timings,
+}
+
+/// What took how long in a run, apart from the pictures.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timings {
+    /// Threads that rendered.
+    pub threads: usize,
+    /// Until the first scene, seconds.
+    pub setup_s: f64,
+    /// Reading and building scenes, seconds.
+    pub building_s: f64,
+    /// In a trial: making the first moment of a scene ready, and a further one, seconds.
+    pub preparing_s: [f64; 2],
+    /// In a trial: encoding and writing, by the frame's path, seconds.
+    pub writing_s: BTreeMap<String, f64>,
 }
 
 /// A frame that a run rendered, and how long it took.
@@ -84,6 +116,7 @@ pub struct RenderedFrame {
 /// Input that cannot be read, a place that cannot be built or rendered, an output folder that holds another run or that
 /// another process writes to, or a file system that refuses.
 pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Summary> {
+    let started = Instant::now();
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
         denoise: recipe.denoising(),
@@ -96,21 +129,22 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         report.note(Outcome::Warned, "images stay noisy: no denoiser", why);
     }
     let sources = Sources::open(recipe, &report)?;
-    let mut scenes = sources.scenes()?;
-    scenes.retain(|(scene, _)| {
-        let possible = !FrameFolders::RESERVED.contains(&scene.as_str());
-        if !possible {
-            report.note(Outcome::Dropped, "scene with the name of a file of the output folder", scene);
-        }
-        possible
-    });
+    let scenes = scenes(&sources, &report)?;
     let mut contents = Contents::open();
     let identity = identity::of_run(recipe, &options.search, &renderer, &sources, &mut contents)?;
-    let output = OutputFolder::open(out, &identity)?;
+    let mut output = OutputFolder::open(out, &identity, options.share)?;
+    let folders = FrameFolders::made_by(out, output.maker.clone());
+    if let Some(file) = &options.recipe_file {
+        output.write_recipe_file(file)?;
+    }
+    for folder in &options.adopt {
+        merging::adopt(folder, &identity, &mut output, &folders, &options.watch)?;
+    }
     let frames = options.frames.as_ref();
-    let hints: Vec<Vec<usize>> =
-        scenes.iter().map(|(scene, keyframes)| frames_hints(recipe, scene, *keyframes, frames)).collect();
-    let planned = hints.iter().flatten().sum();
+    let portions = portions(recipe, &scenes, frames, options.share);
+    let planned = portions.iter().flatten().flatten().map(|portion| portion.frames_hint).sum();
+    let of_all =
+        self::portions(recipe, &scenes, frames, None).iter().flatten().flatten().map(|all| all.frames_hint).sum();
     let keyframes_and_cameras = identity::planned(recipe, &sources)?;
     let mut run = Run {
         recipe,
@@ -121,47 +155,56 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
         planned: keyframes_and_cameras,
         grid_forms: grid_forms(recipe)?,
         output,
-        folders: Arc::new(FrameFolders::new(out)),
+        folders: Arc::new(folders),
         writing: VecDeque::new(),
         progress: Progress::new(planned, &options.watch),
         watch: &options.watch,
         report,
         frames,
+        of_all,
+        trial: options.trial,
         sites: Vec::new(),
         rendered: Vec::new(),
+        timings: Timings {
+            threads: renderer.capabilities().threads,
+            setup_s: started.elapsed().as_secs_f64(),
+            ..Timings::default()
+        },
     };
-    for ((scene, _), hints) in scenes.iter().zip(hints) {
-        if let Err(stop) = run.scene(scene, &hints) {
+    run.plan()?;
+    for ((scene, _), portions) in scenes.iter().zip(portions) {
+        if let Err(stop) = run.scene(scene, &portions) {
             let kept = run.record(0);
             run.progress.finish();
             return match stop {
                 Stop::Interrupted => {
                     kept?;
                     let frames = planned.max(run.rendered.len());
-                    Ok(Summary { frames, rendered: run.rendered, interrupted: true })
+                    Ok(Summary { frames, rendered: run.rendered, interrupted: true, timings: run.timings })
                 }
                 Stop::Failed(error) => Err(error),
             };
         }
+    }
+    if options.share.is_some() {
+        return run.finish_part();
     }
     let summary = run.finish(identity)?;
     let interrupted = !exports::write(recipe, out, &options.watch)?;
     Ok(Summary { interrupted, ..summary })
 }
 
-/// Frames of each variation of a scene with so many keyframes, before its drive has been read.
-fn frames_hints(recipe: &Recipe, scene: &str, keyframes: usize, frames: Option<&BTreeSet<String>>) -> Vec<usize> {
-    let cameras = recipe.camera_names().map_or(CAMERAS_HINT, |names| names.len());
-    let chosen = match &recipe.drive {
-        Some(drive) => drive.keyframes.of(keyframes).map_or(0, |chosen| chosen.len()),
-        None => keyframes,
-    };
-    let all = chosen * (cameras * (1 + recipe.views.other_vehicles) + recipe.sensors.len() + recipe.grids.len());
-    let listed = |frames: &BTreeSet<String>, variation| {
-        let folder = variation_folder(scene, variation);
-        frames.iter().filter(|frame| Path::new(frame).starts_with(&folder)).count()
-    };
-    (0..recipe.variations.count).map(|variation| frames.map_or(all, |frames| listed(frames, variation))).collect()
+/// Names and keyframes of the scenes that a run makes.
+fn scenes(sources: &Sources, report: &Report) -> Result<Vec<(String, usize)>> {
+    let mut scenes = sources.scenes()?;
+    scenes.retain(|(scene, _)| {
+        let possible = !FrameFolders::RESERVED.contains(&scene.as_str());
+        if !possible {
+            report.note(Outcome::Dropped, "scene with the name of a file of the output folder", scene);
+        }
+        possible
+    });
+    Ok(scenes)
 }
 
 /// How the grids of a recipe are written, by their views.
@@ -197,13 +240,17 @@ struct Run<'a> {
     output: OutputFolder,
     folders: Arc<FrameFolders>,
     /// Frames that are encoded and written while the next ones are rendered, in the order of rendering.
-    writing: VecDeque<Receiver<Written>>,
+    writing: VecDeque<Receiver<(Written, f64)>>,
     progress: Progress,
     watch: &'a Watch,
     report: Report,
     frames: Option<&'a BTreeSet<String>>,
+    /// Frames of the whole recipe, as far as they are known.
+    of_all: usize,
+    trial: bool,
     sites: Vec<SiteSummary>,
     rendered: Vec<RenderedFrame>,
+    timings: Timings,
 }
 
 /// What was taken of a moment, to be written.
@@ -261,18 +308,19 @@ struct Photographed {
 
 impl Run<'_> {
     /// All variations of one scene. A scene that cannot be read or built is reported and passed over.
-    fn scene(&mut self, scene: &str, frames_hints: &[usize]) -> Result<(), Stop> {
+    fn scene(&mut self, scene: &str, portions: &[Option<Portion>]) -> Result<(), Stop> {
         let read = Read::new(scene);
         // Of a counterfactual set v00, which the others are compared with.
         let mut base: Option<Built> = None;
-        for (variation, &frames_hint) in (0..).zip(frames_hints) {
-            if frames_hint == 0 && self.frames.is_some() {
-                continue;
+        for (variation, portion) in (0..).zip(portions) {
+            let Some(Portion { slice, frames_hint, of_hint }) = *portion else { continue };
+            if self.trial && !self.sites.is_empty() {
+                break;
             }
             let folder = variation_folder(scene, variation);
             let known = self.output.site(&folder)?;
             let missing = match &known {
-                Some(site) => site.planned != self.planned || self.missing(scene, variation, site)?,
+                Some(site) => site.planned != self.planned || self.missing(scene, variation, site, slice)?,
                 None => true,
             };
             let (file, built) = match (known, missing) {
@@ -292,6 +340,8 @@ impl Run<'_> {
                         }
                         Err(error) => {
                             self.progress.correct(frames_hint, 0);
+                            self.of_all = self.of_all.saturating_sub(of_hint);
+                            self.plan()?;
                             let why = format!("{scene}: {}", message::of(&error));
                             self.progress.say(&format!("passed over: {why}"));
                             self.report.note(Outcome::Dropped, "scene", why);
@@ -300,13 +350,16 @@ impl Run<'_> {
                     }
                 }
             };
-            let wanted = planned(scene, variation, &file).iter().filter(|key| self.wants(key)).count();
-            self.progress.correct(frames_hint, wanted);
+            let wanted = self.wanted(scene, variation, &file, slice);
+            self.progress.correct(frames_hint, wanted.len());
+            self.of_all =
+                (self.of_all + self.wanted(scene, variation, &file, Slice::ALL).len()).saturating_sub(of_hint);
+            self.plan()?;
             let compares = built.is_some() && self.recipe.pictures(variation).contains(&FrameFile::Change);
             if compares && base.is_none() {
                 base = Some(self.build(&read, 0)?.1);
             }
-            self.frames(scene, variation, &file, built.as_ref(), base.as_ref().filter(|_| compares))?;
+            self.frames(wanted, built.as_ref(), base.as_ref().filter(|_| compares))?;
             self.sites.push(SiteSummary { scene: scene.to_owned(), variation, file });
             if variation == 0 && self.recipe.variations.counterfactual.is_some() {
                 base = built;
@@ -316,18 +369,42 @@ impl Run<'_> {
     }
 
     /// Whether a frame of a built scene is not finished.
-    fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile) -> Result<bool> {
-        for key in planned(scene, variation, site) {
-            if self.wants(&key) && self.finished(&key)?.is_none() {
+    fn missing(&mut self, scene: &str, variation: u32, site: &SiteFile, slice: Slice) -> Result<bool> {
+        let wanted = self.wanted(scene, variation, site, slice);
+        self.output.verify(&wanted.iter().map(FrameKey::path).collect::<Vec<_>>())?;
+        for key in wanted {
+            if self.finished(&key)?.is_none() {
                 return Ok(true);
             }
         }
         Ok(false)
     }
 
-    /// Whether a frame is among those to render.
-    fn wants(&self, key: &FrameKey) -> bool {
-        self.frames.is_none_or(|frames| frames.contains(&key.path()))
+    /// What is to be made of a variation of a scene, keyframe by keyframe.
+    fn wanted(&self, scene: &str, variation: u32, file: &SiteFile, slice: Slice) -> Vec<FrameKey> {
+        let mut keys = planned(scene, variation, file);
+        keys.retain(|key| self.frames.is_none_or(|frames| frames.contains(&key.path())));
+        let moments: BTreeSet<u32> = keys.iter().map(|key| key.keyframe).collect();
+        let in_slice = moments.into_iter().enumerate().filter(|(place, _)| slice.has(*place));
+        let in_slice: BTreeSet<u32> = in_slice.map(|(_, moment)| moment).collect();
+        keys.retain(|key| in_slice.contains(&key.keyframe));
+        if self.trial {
+            let middle = keys.get(keys.len() / 2).map(|key| key.keyframe);
+            let mut kinds = Vec::new();
+            keys.retain(|key| {
+                let is_first = Some(key.keyframe) == middle && !kinds.contains(&key.sensed);
+                if is_first {
+                    kinds.push(key.sensed);
+                }
+                is_first
+            });
+        }
+        keys
+    }
+
+    /// Writes down how much there is to do, for whoever looks at the folder.
+    fn plan(&mut self) -> Result<()> {
+        self.output.plan(self.progress.total(), self.of_all as u64)
     }
 
     fn finished(&mut self, key: &FrameKey) -> Result<Option<Vec<WrittenFile>>> {
@@ -345,6 +422,7 @@ impl Run<'_> {
     }
 
     fn build<'r>(&mut self, read: &'r Read<'_>, variation: u32) -> Result<(SiteFile, Built<'r>)> {
+        let started = Instant::now();
         let recording = read.recording(&self.sources, &mut self.contents)?.clone();
         let (timeline, map, report) = read.drive(&self.sources)?;
         let report = report.clone();
@@ -375,25 +453,21 @@ impl Run<'_> {
             radars: radars.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
             grids: grids.iter().flat_map(|(k, shots)| shots.iter().map(|s| (*k, s.view.clone()))).collect(),
         };
+        self.timings.building_s += started.elapsed().as_secs_f64();
         Ok((file, Built { scene: built, shots, sweeps, radars, grids }))
     }
 
-    /// Renders what is missing of a scene; `base` is what its pictures are compared with.
+    /// Renders what is missing of what is wanted of a scene; `base` is what its pictures are compared with.
     fn frames(
         &mut self,
-        scene: &str,
-        variation: u32,
-        file: &SiteFile,
+        wanted: Vec<FrameKey>,
         built: Option<&Built<'_>>,
         base: Option<&Built<'_>>,
     ) -> Result<(), Stop> {
         let mut missing: Vec<(u32, Vec<FrameKey>)> = Vec::new();
-        for key in planned(scene, variation, file) {
-            if !self.wants(&key) {
-                continue;
-            }
+        for key in wanted {
             if self.finished(&key)?.is_some() {
-                self.progress.frame_done();
+                self.progress.frame_found();
                 continue;
             }
             match missing.last_mut() {
@@ -408,6 +482,13 @@ impl Run<'_> {
             let before = base.map(|base| base.photographed(renderer, keyframe)).transpose()?;
             Ok((built.photographed(renderer, keyframe)?, before))
         };
+        if self.trial {
+            for (moment, seconds) in [keys[0].keyframe, built.beside(keys[0].keyframe)].into_iter().zip(0..) {
+                let started = Instant::now();
+                ready(moment)?;
+                self.timings.preparing_s[seconds] = started.elapsed().as_secs_f64();
+            }
+        }
         // A keyframe is made ready, mostly by one core, and frames are written, while further pictures are taken.
         renderer.beside(|threads| {
             let mut ahead = missing.iter().map(|(keyframe, keys)| {
@@ -518,7 +599,11 @@ impl Run<'_> {
         self.record(WRITING - 1)?;
         let (done, waiting) = mpsc::channel();
         let folders = self.folders.clone();
-        threads.spawn(move |_| drop(done.send(write(&folders, job))));
+        threads.spawn(move |_| {
+            let started = Instant::now();
+            let written = write(&folders, job);
+            drop(done.send((written, started.elapsed().as_secs_f64())));
+        });
         self.writing.push_back(waiting);
         if self.watch.stops() { Err(Stop::Interrupted) } else { Ok(()) }
     }
@@ -526,7 +611,7 @@ impl Run<'_> {
     /// Writes down which frames are finished, and waits until no more than so many are not.
     fn record(&mut self, under_way: usize) -> Result<()> {
         while let Some(first) = self.writing.front() {
-            let written = if self.writing.len() > under_way {
+            let (written, seconds) = if self.writing.len() > under_way {
                 // Without an answer its thread has panicked, and the panic goes on where the threads were lent.
                 first.recv().context("a frame could not be written")?
             } else if let Ok(written) = first.try_recv() {
@@ -536,6 +621,9 @@ impl Run<'_> {
             };
             self.writing.pop_front();
             let (path, files) = written?;
+            if self.trial {
+                self.timings.writing_s.insert(path.clone(), seconds);
+            }
             self.output.record(&path, files)?;
         }
         Ok(())
@@ -545,35 +633,41 @@ impl Run<'_> {
     fn rows(&mut self) -> Result<[Vec<FrameRow>; 4]> {
         let [mut frames, mut sweeps, mut radars, mut grids] = [const { Vec::new() }; 4];
         for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
-            for key in planned(&scene, variation, &file) {
-                if self.wants(&key) {
-                    let path = key.path();
-                    let files = self.finished(&key)?.with_context(|| format!("{path}: removed during the run"))?;
-                    let (rows, is_compared) = match key.sensed {
-                        Sensed::Frame => (&mut frames, variation > 0),
-                        Sensed::Sweep => (&mut sweeps, false),
-                        Sensed::Radar => (&mut radars, false),
-                        Sensed::Grid => (&mut grids, false),
-                    };
-                    let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
-                    rows.push(FrameRow {
-                        path,
-                        scene: key.scene.clone(),
-                        variation,
-                        keyframe: key.keyframe,
-                        view: key.view.clone(),
-                        factors: file.factors.clone(),
-                        files: files.into_iter().map(|file| (file.name, file.sha256)).collect(),
-                        counterfactual: counterfactual.map(|factor| Counterfactual {
-                            factor: factor.name().into(),
-                            base: FrameKey { variation: 0, ..key }.path(),
-                        }),
-                    });
-                }
+            for key in self.wanted(&scene, variation, &file, Slice::ALL) {
+                let path = key.path();
+                let files = self.finished(&key)?.with_context(|| format!("{path}: removed during the run"))?;
+                let (rows, is_compared) = match key.sensed {
+                    Sensed::Frame => (&mut frames, variation > 0),
+                    Sensed::Sweep => (&mut sweeps, false),
+                    Sensed::Radar => (&mut radars, false),
+                    Sensed::Grid => (&mut grids, false),
+                };
+                let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
+                rows.push(FrameRow {
+                    path,
+                    scene: key.scene.clone(),
+                    variation,
+                    keyframe: key.keyframe,
+                    view: key.view.clone(),
+                    factors: file.factors.clone(),
+                    files: files.into_iter().map(|file| (file.name, file.sha256)).collect(),
+                    counterfactual: counterfactual.map(|factor| Counterfactual {
+                        factor: factor.name().into(),
+                        base: FrameKey { variation: 0, ..key }.path(),
+                    }),
+                });
             }
             self.sites.push(SiteSummary { scene, variation, file });
         }
         Ok([frames, sweeps, radars, grids])
+    }
+
+    /// Ends a part, which has nothing to sum up.
+    fn finish_part(mut self) -> Result<Summary> {
+        self.record(0)?;
+        self.progress.finish();
+        let frames = self.progress.total() as usize;
+        Ok(Summary { frames, rendered: self.rendered, interrupted: false, timings: self.timings })
     }
 
     /// Writes what sums the run up.
@@ -590,7 +684,7 @@ impl Run<'_> {
         let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
         let report = manifest::report(&self.report, &self.sites);
         self.folders.finish(&manifest, &report)?;
-        Ok(Summary { frames, rendered: self.rendered, interrupted: false })
+        Ok(Summary { frames, rendered: self.rendered, interrupted: false, timings: self.timings })
     }
 
     fn dropped_scenes(&self) -> String {
@@ -601,6 +695,12 @@ impl Run<'_> {
 }
 
 impl Built<'_> {
+    /// A moment beside another, where there is one.
+    fn beside(&self, moment: u32) -> u32 {
+        let moments = self.shots.iter().map(|(other, _)| *other).filter(|other| *other != moment);
+        moments.min_by_key(|other| other.abs_diff(moment)).unwrap_or(moment)
+    }
+
     fn photographed(&self, renderer: &Renderer, keyframe: u32) -> Result<Photographed> {
         let scene = Arc::new(self.scene.at(keyframe as usize));
         let prepared = renderer.prepare(&scene)?;
