@@ -191,7 +191,7 @@ pub(super) fn spread(width: u32, height: u32, most: u32) -> impl Iterator<Item =
 pub fn patches(table: &FrameTable) -> Patches {
     let pixels = u64::from(table.width_px) * u64::from(table.height_px);
     let every = pixels.div_ceil(u64::from(DENSE));
-    Patches::one_of(u32::try_from(every).unwrap_or(u32::MAX), table.keyframe as u32 / 2)
+    Patches::one_of(u32::try_from(every).unwrap_or(u32::MAX), table.keyframe / 2)
 }
 
 /// [`spread`] over those pixels that are known.
