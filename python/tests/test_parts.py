@@ -19,10 +19,16 @@ preset = "vlp-16"
 kind = "radar"
 preset = "ars408"
 position_m = [3.4, 0.0, 0.5]
-[grids.BEV]
-preset = "birds-eye"
+[grids.NEAR]
+preset = "near.toml"
 [variations]
 count = 2
+"""
+GRID = """
+low_m = [0, -10, -1]
+voxel_m = 0.5
+cells = [40, 40, 4]
+classes = "occ3d"
 """
 
 
@@ -31,6 +37,7 @@ def mixed(recipe):
     """A recipe with everything that a folder can hold: frames, sweeps, cycles and grids of two variations."""
     text = recipe.read_text().replace('rig = ["CAM_FRONT", "CAM_BACK"]\nother_vehicles = 1', 'rig = "CAM_FRONT"')
     path = recipe.parent / "mixed.toml"
+    (recipe.parent / "near.toml").write_text(GRID)
     path.write_text(text.replace("keyframes = [1, 2]", "keyframes = [1, 2, 3]") + MORE)
     return path
 
@@ -95,7 +102,8 @@ def test_a_part_that_was_killed_is_repeated(mixed, whole, tmp_path):
     out = tmp_path / "out"
     command = [sys.executable, "-m", "trove", "generate", str(mixed), "--part", "2/2", "--out", str(out)]
     killed = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    while not list(out.glob("*/v*/k*/*")) and killed.poll() is None:
+    journal = out / ".trove" / "parts" / "2-of-2" / "frames.jsonl"
+    while not (journal.exists() and b'"files"' in journal.read_bytes()) and killed.poll() is None:
         time.sleep(0.005)
     killed.send_signal(signal.SIGKILL)
     assert killed.wait() == -signal.SIGKILL, "the part had ended before it could be killed"

@@ -16,7 +16,7 @@ use crate::sources::Sources;
 const TRIAL_SCALE: f64 = 0.25;
 /// Of a picture whose size is told, pixels at most.
 const TRIAL_PX: f64 = 90_000.0;
-/// Frames on a contact sheet.
+/// Pictures on a contact sheet.
 const SHEET_FRAMES: f64 = 24.0;
 /// How a file grows with the pixels, as a power of them, by the end of its name: outlines grow with the side, noise and
 /// slopes with the area, tables not at all. Assumed, not measured yet.
@@ -42,8 +42,10 @@ struct Costs {
     moment_s: f64,
     frame_s: f64,
     base_bytes: f64,
-    /// Of the contact sheet, a frame.
+    /// Of the contact sheet, a picture.
     sheet_bytes: f64,
+    /// Of the frames, those that are pictures.
+    pictures: f64,
     variation_bytes: f64,
     frame_bytes: f64,
     /// Frames a moment.
@@ -134,6 +136,7 @@ impl Costs {
             frame_s: seconds / count,
             base_bytes: size(Manifest::NAME)? - row_bytes + size(RunReport::NAME)?,
             sheet_bytes: size("contact_sheet.png")?,
+            pictures: site.frames.len() as f64 / count,
             variation_bytes: folder_bytes(&site_folder)?,
             frame_bytes: bytes / count,
             a_moment: count / moments.len().max(1) as f64,
@@ -150,7 +153,7 @@ impl Costs {
             variations += 1.0;
         }
         let bytes = self.base_bytes
-            + frames.min(SHEET_FRAMES) * self.sheet_bytes
+            + (frames * self.pictures).min(SHEET_FRAMES) * self.sheet_bytes
             + variations * self.variation_bytes
             + frames * self.frame_bytes;
         let moments = frames / self.a_moment;
