@@ -1,12 +1,15 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
+mod legs;
 mod movement;
+mod pedals;
 mod postures;
 mod stock;
 mod weather;
 mod wheels;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
@@ -21,11 +24,12 @@ use crate::placement::{Role, Shown};
 
 pub(crate) use movement::Movement;
 use movement::movements;
+use pedals::GEAR;
 pub(crate) use postures::MeshesNow;
-use postures::Posed;
+use postures::{Bend, Joints, Posed};
 pub(crate) use stock::Stock;
 pub use weather::Weather;
-use wheels::{Wheel, ways_m};
+use wheels::{curves_per_m, turned_rad, ways_m};
 
 /// What gets farther than this does not stand.
 const LEAVES_M: f64 = 1.0;
@@ -41,8 +45,8 @@ pub(crate) struct Actor {
     pub materials: Vec<usize>,
     /// As in [`SceneObject::paint`].
     pub paint: Option<Vec3>,
-    /// What turns as it drives.
-    wheels: Arc<[Wheel]>,
+    /// What of it moves by itself.
+    joints: Joints,
     /// By moment, in the order of time.
     poses: Vec<(usize, ActorPose)>,
 }
@@ -56,8 +60,8 @@ pub(crate) struct ActorPose {
     pub cuboid: Cuboid,
     /// Its shape.
     posed: Posed,
-    /// How far its wheels have rolled, metres of its mesh.
-    rolled_m: f64,
+    /// How far parts of it have moved.
+    bend: Bend,
     /// Index of its asset among the actor's.
     asset: usize,
     /// Points of the person whom it shows, World.
@@ -96,8 +100,8 @@ impl Actor {
         object: Option<SceneObject>,
     ) -> Option<Instance> {
         let mut placement = |k: Option<usize>| {
-            let &ActorPose { posed, rolled_m, world_from_mesh, .. } = self.at(k?)?;
-            Some(Placement { mesh: meshes.rolled(posed, &self.wheels, rolled_m), world_from_mesh })
+            let &ActorPose { posed, bend, world_from_mesh, .. } = self.at(k?)?;
+            Some(Placement { mesh: meshes.bent(posed, &self.joints, &bend), world_from_mesh })
         };
         let Placement { mesh, world_from_mesh } = placement(Some(keyframe))?;
         Some(Instance {
@@ -173,9 +177,8 @@ impl Assembly {
             let keypoints_world = keypoints.map(|points| points.map(world));
             let posture = shown.figure.as_ref().map(|figure| figure.posture);
             let cuboid = placement.cuboid;
-            let (movement, rolled_m) = (Movement::default(), 0.0);
-            let pose =
-                ActorPose { world_from_mesh, cuboid, posed, rolled_m, asset, keypoints_world, posture, movement };
+            let (movement, bend) = (Movement::default(), Bend::default());
+            let pose = ActorPose { world_from_mesh, cuboid, posed, bend, asset, keypoints_world, posture, movement };
             poses.push((*k, pose));
         }
         hold_still(&mut poses, moments);
@@ -184,15 +187,29 @@ impl Assembly {
             pose.movement = movement;
         }
         let drives = role.is_driven && role.asset.kind.is_vehicle();
-        let wheels = if drives { self.stock.wheels(role.asset) } else { Arc::new([]) };
-        if !wheels.is_empty() {
-            for (way_m, (_, pose)) in ways_m(&cuboids, moments).into_iter().zip(&mut poses) {
-                pose.rolled_m = way_m / role.fit.scale.x;
+        let joints = if drives { self.stock.vehicle(role.asset) } else { Joints::default() };
+        if !joints.wheels.is_empty() {
+            let scale = role.fit.scale.x;
+            // Not all riders begin with the same foot.
+            let start_rad = role.seed.child("cranks").random().unit() * TAU;
+            let ways_m = ways_m(&cuboids, moments);
+            let curves_per_m = curves_per_m(&cuboids, &ways_m, moments);
+            for ((way_m, curve_per_m), (_, pose)) in ways_m.into_iter().zip(curves_per_m).zip(&mut poses) {
+                let rolled_m = way_m / scale;
+                pose.bend = Bend { rolled_m, curve_per_m: curve_per_m * scale, cranks_rad: 0.0 };
+                if let Some(pedals) = &joints.pedals {
+                    pose.bend.cranks_rad = start_rad + turned_rad(&joints.wheels, rolled_m) / GEAR;
+                    let points = role.asset.keypoints.map(|mut points| {
+                        pedals.turn_points(&mut points, pose.bend.cranks_rad);
+                        points.map(|p| pose.world_from_mesh.transform_point3(p.as_dvec3()))
+                    });
+                    pose.keypoints_world = points;
+                }
             }
         }
         let (class, materials) = (role.asset.class, self.stock.painted(role.asset, role.seed));
         let paint = largest_painted(role.asset).map(|slot| role.asset.materials(role.seed)[slot].base_color);
-        Actor { class, assets, materials, paint, wheels, poses }
+        Actor { class, assets, materials, paint, joints, poses }
     }
 
     /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
@@ -305,7 +322,7 @@ mod tests {
                 world_from_mesh,
                 cuboid,
                 posed: Posed { mesh: 0, towards: None },
-                rolled_m: 0.0,
+                bend: Bend::default(),
                 asset: 0,
                 keypoints_world: None,
                 posture: None,

@@ -1,4 +1,4 @@
-//! Shapes between two postures, and of vehicles whose wheels have turned, made for the scenes that show them: over a clip there
+//! Shapes between two postures, and those some parts of which have moved, made for the scenes that show them: over a clip there
 //! are many.
 
 use std::collections::HashMap;
@@ -7,7 +7,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use trove_model::Mesh;
 
-use super::wheels::{Wheel, rolled};
+use super::pedals::Pedals;
+use super::wheels::{Wheel, roll};
 
 /// A shape: a mesh, or one on the way to another of the same triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,18 +19,38 @@ pub(crate) struct Posed {
     pub towards: Option<(usize, f32)>,
 }
 
-/// The meshes of one scene: the stock's, and behind them those of postures between two of these.
+/// What of a shape moves by itself.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Joints {
+    /// What turns as it drives.
+    pub wheels: Arc<[Wheel]>,
+    /// What is turned by feet.
+    pub pedals: Option<Arc<Pedals>>,
+}
+
+/// How far it has moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Bend {
+    /// How far its wheels have rolled, metres of its mesh.
+    pub rolled_m: f64,
+    /// How curved its way is, 1/m of its mesh, positive to the left.
+    pub curve_per_m: f64,
+    /// How far its cranks have turned forward, radians.
+    pub cranks_rad: f64,
+}
+
+/// The meshes of one scene: the stock's, and behind them those of postures between two of these, and with parts moved.
 pub(crate) struct MeshesNow {
     meshes: Vec<Arc<Mesh>>,
     // Only ever looked up, so the order inside does not reach the scene.
     known: HashMap<(usize, usize, u32), usize>,
-    rolled: HashMap<(usize, u64), usize>,
+    bent: HashMap<(usize, [u64; 3]), usize>,
 }
 
 impl MeshesNow {
     /// Those of a stock alone.
     pub(crate) fn new(stock: &[Arc<Mesh>]) -> Self {
-        Self { meshes: stock.to_vec(), known: HashMap::new(), rolled: HashMap::new() }
+        Self { meshes: stock.to_vec(), known: HashMap::new(), bent: HashMap::new() }
     }
 
     /// The index of a shape.
@@ -42,15 +63,25 @@ impl MeshesNow {
         })
     }
 
-    /// The index of a shape some of which has rolled so far, metres.
-    pub(super) fn rolled(&mut self, posed: Posed, wheels: &[Wheel], way_m: f64) -> usize {
+    /// The index of a shape some of which has moved.
+    pub(super) fn bent(&mut self, posed: Posed, joints: &Joints, bend: &Bend) -> usize {
         let mesh = self.index(posed);
-        if wheels.is_empty() || way_m == 0.0 {
+        let Bend { rolled_m, curve_per_m, cranks_rad } = bend;
+        let rolls = !joints.wheels.is_empty() && (*rolled_m, *curve_per_m) != (0.0, 0.0);
+        let pedals = joints.pedals.as_ref().filter(|_| *cranks_rad != 0.0);
+        if !rolls && pedals.is_none() {
             return mesh;
         }
         let meshes = &mut self.meshes;
-        *self.rolled.entry((mesh, way_m.to_bits())).or_insert_with(|| {
-            meshes.push(Arc::new(rolled(&meshes[mesh], wheels, way_m)));
+        *self.bent.entry((mesh, bend.key())).or_insert_with(|| {
+            let mut bent = Mesh::clone(&meshes[mesh]);
+            if rolls {
+                roll(&mut bent, &joints.wheels, *rolled_m, *curve_per_m);
+            }
+            if let Some(pedals) = pedals {
+                pedals.turn(&mut bent, *cranks_rad);
+            }
+            meshes.push(Arc::new(bent));
             meshes.len() - 1
         })
     }
@@ -58,6 +89,14 @@ impl MeshesNow {
     /// All of them.
     pub(crate) fn into_meshes(self) -> Vec<Arc<Mesh>> {
         self.meshes
+    }
+}
+
+impl Bend {
+    /// Tells it from all others.
+    fn key(&self) -> [u64; 3] {
+        let Self { rolled_m, curve_per_m, cranks_rad } = self;
+        [rolled_m, curve_per_m, cranks_rad].map(|number| number.to_bits())
     }
 }
 

@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use trove_model::{Asset, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
+use trove_model::{Asset, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
-use super::wheels::{Wheel, wheels};
+use super::pedals::Pedals;
+use super::postures::Joints;
+use super::wheels::{parts, wheels};
 
 /// Meshes and materials, numbered in the order of their first use.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +22,7 @@ pub(crate) struct Stock {
     // By the asset's mesh and the extras that join it.
     individuals: HashMap<(usize, Vec<usize>), usize>,
     // By the asset's mesh.
-    wheels: HashMap<usize, Arc<[Wheel]>>,
+    vehicles: HashMap<usize, Joints>,
 }
 
 /// Two materials with the same key are the same; images are told apart by where they lie.
@@ -55,10 +57,17 @@ impl Stock {
         mesh
     }
 
-    /// The wheels of an asset, with the vertices of all of its individuals: extras come behind its own.
-    pub(crate) fn wheels(&mut self, asset: &Asset) -> Arc<[Wheel]> {
-        let found = self.wheels.entry(Arc::as_ptr(&asset.mesh).addr());
-        found.or_insert_with(|| wheels(&asset.mesh).into()).clone()
+    /// The wheels of a vehicle, and the pedals of who rides a bicycle, with the vertices of all of its individuals: extras come
+    /// behind its own.
+    pub(crate) fn vehicle(&mut self, asset: &Asset) -> Joints {
+        let found = self.vehicles.entry(Arc::as_ptr(&asset.mesh).addr());
+        let joints = || {
+            let parts = parts(&asset.mesh);
+            let rides = asset.keypoints.as_ref().filter(|_| asset.kind == Kind::BicycleWithRider);
+            let pedals = rides.and_then(|keypoints| Pedals::new(&asset.mesh, &parts, keypoints));
+            Joints { wheels: wheels(&asset.mesh, &parts).into(), pedals: pedals.map(Arc::new) }
+        };
+        found.or_insert_with(joints).clone()
     }
 
     /// The index of the mesh of what stands at a distance: the individual, or a coarser shape that carries nothing.
