@@ -316,11 +316,13 @@ def test_judging_commands_answer_what_they_print(finished, tmp_path):
 def test_every_option_of_a_command_is_one_of_its_function():
     functions = {name: [getattr(library, name)] for name in ("demo", "generate", "curate", "recolor", "evaluate")}
     functions["verify"] = [library.verify, library.verify_labels]
+    functions["generate"].append(library.estimate)
+    # What a function's name says.
+    said = {"verify": {"labels"}, "generate": {"dry-run"}}
     for command, ours in functions.items():
         options = re.findall(r"^ +(?:-\w, )?--([a-z-]+)", trove(command, "--help").stdout, re.MULTILINE)
         known = {name.replace("_", "-") for function in ours for name in inspect.signature(function).parameters}
-        # That labels are to be checked is said by the function's name.
-        known |= {"labels"} if command == "verify" else set()
+        known |= said.get(command, set())
         assert "help" in options and set(options) - known == {"json", "help"}, command
 
 
