@@ -186,7 +186,7 @@ pub(super) fn spread(width: u32, height: u32, most: u32) -> impl Iterator<Item =
     rows.flat_map(move |y| (1..width.saturating_sub(1)).step_by(step).map(move |x| [x, y]))
 }
 
-/// Parts of which a frame's numbers are read: about [`DENSE`] pixels, since unpacking them takes most of the time. Two
+/// Parts of which a frame's numbers are read: about 400,000 pixels, since unpacking them takes most of the time. Two
 /// moments after each other have the same parts, and all have had their turn after some more.
 pub fn patches(table: &FrameTable) -> Patches {
     let pixels = u64::from(table.width_px) * u64::from(table.height_px);
