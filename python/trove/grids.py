@@ -58,12 +58,12 @@ class Grid:
     @cached_property
     def bev(self) -> Bytes:
         """The classes from above: X × Y, `uint8`; of each column the highest thing, else what stands on the ground, else the ground."""
-        return self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", "bev")
+        return self._packed("bev")
 
     @cached_property
     def map(self) -> dict[str, npt.NDArray[np.bool_]]:
         """What the roads are below each column: X × Y, `bool`, for each of the table's `map_layers`."""
-        bits = self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", "map")
+        bits = self._packed("map")
         return {name: bits & (1 << bit) != 0 for bit, name in enumerate(self.table["map_layers"])}
 
     @cached_property
@@ -74,7 +74,11 @@ class Grid:
     def _mask(self, name: str) -> npt.NDArray[np.bool_]:
         import numpy as np
 
-        return self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", name).astype(np.bool_)
+        return self._packed(name).astype(np.bool_)
+
+    def _packed(self, name: str) -> npt.NDArray[Any]:
+        """An array that both forms have, each in an archive of its own."""
+        return self._array("labels.npz" if self.table["form"] == "dense" else "masks.npz", name)
 
     def _array(self, file: str, name: str | None = None) -> npt.NDArray[Any]:
         import numpy as np
