@@ -10,7 +10,7 @@ use trove_assets::Ingredients;
 use trove_build::{
     BuildSettings, LightChoice, Moments, OnDisagreement, Site, SkyChoice, Timeline, Weather, between, build_at,
 };
-use trove_model::{AssetLibrary, Cuboid, Drive, Instance, Kind, Pose, Report, Seed};
+use trove_model::{AssetLibrary, Cuboid, Drive, Kind, Pose, Report, Seed};
 use trove_read::{human_body, locale::Locales, nuscenes::NuScenes};
 
 fn folder(variable: &str) -> PathBuf {
@@ -99,33 +99,62 @@ fn site(timeline: &Timeline, library: &AssetLibrary) -> Site {
     build_at(&timeline.recorded, timeline.moments(), None, library, &settings, &Report::default()).unwrap()
 }
 
-/// How far soles of nuScenes' pedestrians slide while they stand, at some moments a second.
-fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> Vec<f64> {
+/// No point of a foot is farther from its ankle, metres.
+const FOOT_M: f64 = 0.3;
+/// What is no higher touches the ground, metres.
+const ON_GROUND_M: f64 = 0.008;
+
+/// A foot on the ground from one moment to the next.
+#[derive(Debug)]
+struct Slide {
+    far_m: f64,
+    /// Whom it belongs to, when, and in which posture.
+    what: String,
+}
+
+/// How far soles of nuScenes' pedestrians slide, at some moments a second: of everyone on foot, from each moment to the next, the
+/// foot that slides least of those that touch the ground. And how often nobody's foot does.
+fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> (Vec<Slide>, usize) {
     let timeline = between(drive, rate_hz, &Report::default());
     let (moments, site) = (timeline.moments(), site(&timeline, library));
-    let mut slides_m = Vec::new();
+    let (mut slides, mut floating) = (Vec::new(), 0);
     for moment in 0..moments.drive.keyframes.len() {
         let scene = site.scene(moments.drive, moment);
-        let walks = |i: &&Instance| {
-            let asset = i.object.as_ref().and_then(|o| o.asset.as_ref());
-            asset.is_some_and(|asset| asset.contains("walk-")) && i.next.is_some()
-        };
-        for walker in scene.instances.iter().filter(walks) {
-            let next = walker.next.unwrap();
+        for walker in &scene.instances {
+            let (Some(object), Some(next)) = (&walker.object, walker.next) else { continue };
+            let (Some(keypoints), Some(asset)) = (object.keypoints_world, &object.asset) else { continue };
+            if object.kind != Kind::Adult || asset.contains("sitting") {
+                continue;
+            }
             let [from, to] = [walker.mesh, next.mesh].map(|mesh| &scene.meshes[mesh].positions);
-            let ends = from.iter().zip(to).filter(|(p, q)| p.z.max(q.z) < 0.04);
-            let way = |(p, q): (&glam::Vec3, &glam::Vec3)| {
+            let ankles = [keypoints[15], keypoints[16]];
+            let ground_m = object.cuboid.world_from_body.translation.z - object.cuboid.size_m.z / 2.0;
+            let mut ways: [Vec<f64>; 2] = Default::default();
+            for (p, q) in from.iter().zip(to) {
                 let [a, b] = [(walker.world_from_mesh, p), (next.world_from_mesh, q)]
-                    .map(|(world_from_mesh, p)| world_from_mesh.transform_point3(p.as_dvec3()).truncate());
-                a.distance(b)
+                    .map(|(world_from_mesh, p)| world_from_mesh.transform_point3(p.as_dvec3()));
+                // Meshes are as low as a toe that is lifted; where the foot stands is the ground of the box.
+                if a.z.max(b.z) - ground_m > ON_GROUND_M {
+                    continue;
+                }
+                let off = ankles.map(|ankle| a.distance(ankle));
+                let side = usize::from(off[1] < off[0]);
+                if off[side] < FOOT_M {
+                    ways[side].push(a.truncate().distance(b.truncate()));
+                }
+            }
+            // A foot that rolls has points that leave the ground at once.
+            let far = |mut ways: Vec<f64>| {
+                ways.sort_by(f64::total_cmp);
+                ways.get(ways.len() / 4).copied()
             };
-            // A tenth of what is near the ground: a foot that swings and one that rolls have points there too.
-            let mut ways: Vec<f64> = ends.map(way).collect();
-            ways.sort_by(f64::total_cmp);
-            slides_m.extend(ways.get(ways.len() / 10));
+            match ways.into_iter().filter_map(far).min_by(f64::total_cmp) {
+                Some(far_m) => slides.push(Slide { far_m, what: format!("{:?} at {moment}, {asset}", object.origin) }),
+                None => floating += 1,
+            }
         }
     }
-    slides_m
+    (slides, floating)
 }
 
 #[test]
@@ -179,8 +208,17 @@ fn real_feet_stay_where_they_stand_between_keyframes() {
     let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
     let mut drive = dataset.unwrap().drive("scene-0103", &Report::default()).unwrap();
     for rate_hz in [10.0, 30.0] {
-        let [most, all] = extremes(soles_slide_m(drive.clone(), rate_hz, &library));
-        println!("as recorded, {rate_hz} Hz: soles slide by {most:.3} m in 99 %, {all:.3} m at most");
+        let (mut slides, floating) = soles_slide_m(drive.clone(), rate_hz, &library);
+        slides.sort_by(|a, b| b.far_m.total_cmp(&a.far_m));
+        let count = slides.len();
+        let [most, all] = extremes(slides.iter().map(|slide| slide.far_m).collect());
+        println!(
+            "{rate_hz} Hz, {count} steps: what stands slides by {most:.3} m in 99 %, {all:.3} m at most; {floating} float"
+        );
+        let over: Vec<_> = slides.iter().filter(|slide| slide.far_m > 0.02).collect();
+        over.iter().for_each(|Slide { far_m, what }| println!("  {far_m:.3} m: {what}"));
+        // The odd box goes farther in a moment than a leg reaches.
+        assert!(count > 1000 && over.len() <= count / 1000 && floating < count / 10, "{over:?}");
     }
     // The same people, each straight ahead from where it was first seen, at an even pace of its own.
     for (i, track) in drive.tracks.iter_mut().enumerate().filter(|(_, track)| track.kind == Kind::Adult) {
@@ -194,9 +232,9 @@ fn real_feet_stay_where_they_stand_between_keyframes() {
             object.cuboid = *cuboid;
         }
     }
-    let slides_m = soles_slide_m(drive, 10.0, &library);
-    assert!(slides_m.len() > 1000, "{}", slides_m.len());
-    let [most, all] = extremes(slides_m);
+    let (stands, _) = soles_slide_m(drive, 10.0, &library);
+    assert!(stands.len() > 1000, "{}", stands.len());
+    let [most, all] = extremes(stands.into_iter().map(|slide| slide.far_m).collect());
     println!("straight ahead, 10 Hz: soles slide by {most:.3} m in 99 %, {all:.3} m at most");
     assert!(most <= 0.02, "{most} {all}");
 }

@@ -87,6 +87,9 @@ struct Added {
     actor: Actor,
 }
 
+/// Feet that slide farther than this from one moment to the next are told of, metres.
+const SLIDES_M: f64 = 0.02;
+
 /// The square that is built around a drive: around the driven path, the annotated objects and the LiDAR points within
 /// 100 m of the sensor, with a margin, and at least 600 m wide; `None` for a drive without keyframes.
 ///
@@ -167,6 +170,12 @@ pub fn build_at(
     let mut assembly = Assembly::default();
     let mut actors: Vec<Option<Actor>> =
         roles.iter().map(|role| Some(assembly.actor(role.as_ref()?, moments))).collect();
+    for (track, actor) in drive.tracks.iter().zip(&actors) {
+        if let Some(actor) = actor.as_ref().filter(|actor| actor.slides_m > SLIDES_M) {
+            let example = format!("{} ({}), {:.2} m", track.token, track.kind.name(), actor.slides_m);
+            report.note(Outcome::Warned, "feet that slide, since annotated boxes go farther than legs reach", example);
+        }
+    }
     let mut next_id = actors.len() as u32 + 1;
     for piece in surfaces.pieces.iter().chain(&buildings.pieces).chain(&furniture.pieces) {
         assembly.piece(piece, &mut next_id);

@@ -1,8 +1,10 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
+mod feet;
 mod legs;
 mod movement;
 mod pedals;
+mod pose;
 mod postures;
 mod stock;
 mod weather;
@@ -14,17 +16,20 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Keypoints, Kind, Mesh, Origin, Placement, Pose,
-    Posture, Provenance, SceneObject, StreetMap,
+    Asset, Class, Cuboid, Drive, DriveOrigin, Instance, InstanceId, Kind, Mesh, Origin, Placement, Pose, Posture,
+    Provenance, SceneObject, StreetMap,
 };
 
 use crate::between::{Moments, is_tremor};
 use crate::pieces::{Piece, Scenery};
 use crate::placement::{Role, Shown};
 
+use feet::plant;
+use legs::{Legs, bones};
 pub(crate) use movement::Movement;
 use movement::movements;
 use pedals::GEAR;
+pub(crate) use pose::ActorPose;
 pub(crate) use postures::MeshesNow;
 use postures::{Bend, Joints, Posed};
 pub(crate) use stock::Stock;
@@ -49,27 +54,8 @@ pub(crate) struct Actor {
     joints: Joints,
     /// By moment, in the order of time.
     poses: Vec<(usize, ActorPose)>,
-}
-
-/// An actor at one moment.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ActorPose {
-    /// Placement of its mesh.
-    pub world_from_mesh: DAffine3,
-    /// Its box as placed.
-    pub cuboid: Cuboid,
-    /// Its shape.
-    posed: Posed,
-    /// How far parts of it have moved.
-    bend: Bend,
-    /// Index of its asset among the actor's.
-    asset: usize,
-    /// Points of the person whom it shows, World.
-    pub keypoints_world: Option<Keypoints<DVec3>>,
-    /// What the person does whom it shows.
-    pub posture: Option<Posture>,
-    /// How it moves.
-    pub movement: Movement,
+    /// How far a foot that stands slides at most, metres.
+    pub slides_m: f64,
 }
 
 impl Actor {
@@ -151,7 +137,7 @@ impl Assembly {
     pub(crate) fn actor(&mut self, role: &Role, moments: Moments) -> Actor {
         let mut assets: Vec<String> = Vec::new();
         let mut poses = Vec::with_capacity(role.placements.len());
-        for ((k, placement), &Shown { asset: shown, towards, shift_m, turn_rad }) in
+        for ((k, placement), &Shown { asset: shown, towards, shift_m, turn_rad, .. }) in
             role.placements.iter().zip(&role.postures)
         {
             self.credit(shown);
@@ -182,12 +168,14 @@ impl Assembly {
             poses.push((*k, pose));
         }
         hold_still(&mut poses, moments);
+        let (legs, slides_m) = self.plant(role, &mut poses, moments).unzip();
         let cuboids: Vec<(usize, Cuboid)> = poses.iter().map(|(moment, pose)| (*moment, pose.cuboid)).collect();
         for (movement, (_, pose)) in movements(&cuboids, moments).into_iter().zip(&mut poses) {
             pose.movement = movement;
         }
         let drives = role.is_driven && role.asset.kind.is_vehicle();
-        let joints = if drives { self.stock.vehicle(role.asset) } else { Joints::default() };
+        let mut joints = if drives { self.stock.vehicle(role.asset) } else { Joints::default() };
+        joints.legs = legs;
         if !joints.wheels.is_empty() {
             let scale = role.fit.scale.x;
             // Not all riders begin with the same foot.
@@ -196,7 +184,7 @@ impl Assembly {
             let curves_per_m = curves_per_m(&cuboids, &ways_m, moments);
             for ((way_m, curve_per_m), (_, pose)) in ways_m.into_iter().zip(curves_per_m).zip(&mut poses) {
                 let rolled_m = way_m / scale;
-                pose.bend = Bend { rolled_m, curve_per_m: curve_per_m * scale, cranks_rad: 0.0 };
+                pose.bend = Bend { rolled_m, curve_per_m: curve_per_m * scale, ..pose.bend };
                 if let Some(pedals) = &joints.pedals {
                     pose.bend.cranks_rad = start_rad + turned_rad(&joints.wheels, rolled_m) / GEAR;
                     let points = role.asset.keypoints.map(|mut points| {
@@ -209,7 +197,21 @@ impl Assembly {
         }
         let (class, materials) = (role.asset.class, self.stock.painted(role.asset, role.seed));
         let paint = largest_painted(role.asset).map(|slot| role.asset.materials(role.seed)[slot].base_color);
-        Actor { class, assets, materials, paint, joints, poses }
+        Actor { class, assets, materials, paint, joints, poses, slides_m: slides_m.unwrap_or(0.0) }
+    }
+
+    /// Plants the feet of someone on foot where there are moments between keyframes; returns the legs, and how far a foot that
+    /// stands slides at most all the same, metres.
+    fn plant(&mut self, role: &Role, poses: &mut [(usize, ActorPose)], moments: Moments) -> Option<(Arc<Legs>, f64)> {
+        role.asset.figure.as_ref().filter(|_| moments.are_between())?;
+        // Legs are told apart best in a long step.
+        let assets = role.postures.iter().map(|shown| shown.asset);
+        let widest = assets.max_by(|a, b| step_m(a).total_cmp(&step_m(b)))?;
+        let legs = self.stock.legs(widest)?;
+        let stands: Vec<[bool; 2]> = role.postures.iter().map(|shown| shown.stands).collect();
+        let times_s: Vec<f64> = poses.iter().map(|(moment, _)| moments.time_s(*moment)).collect();
+        let slides_m = plant(poses, &times_s, &stands, &legs, &self.stock.meshes);
+        Some((legs, slides_m))
     }
 
     /// Takes a piece of the built place; pieces of no kind are stuff and get no number.
@@ -276,6 +278,14 @@ fn largest_painted(asset: &Asset) -> Option<usize> {
     }
     let painted = (0..areas.len()).filter(|slot| !asset.slots[*slot].paints.is_empty());
     painted.max_by(|a, b| areas[*a].total_cmp(&areas[*b]).then(b.cmp(a)))
+}
+
+/// How far apart the feet of a posture are over the ground, metres: 0 in running, where legs are lifted to the trunk.
+fn step_m(asset: &Asset) -> f32 {
+    let runs = asset.figure.as_ref().is_some_and(|figure| matches!(figure.posture, Posture::Running { .. }));
+    let Some(keypoints) = asset.keypoints.as_ref().filter(|_| !runs) else { return 0.0 };
+    let [left, right] = [0, 1].map(|side| bones(keypoints, side)[2].truncate());
+    left.distance(right)
 }
 
 fn take(next_id: &mut u32) -> InstanceId {

@@ -34,18 +34,14 @@ struct Known {
 
 /// How something moves at each moment that it has a box at, by those at keyframes; between two of these it is between.
 pub(super) fn movements(boxes: &[(usize, Cuboid)], moments: Moments) -> Vec<Movement> {
-    let time_s = |moment: usize| {
-        let keyframes = &moments.drive.keyframes;
-        keyframes.get(moment).map_or(0.0, |k| (k.time_ns - keyframes[0].time_ns) as f64 * 1e-9)
-    };
     let known = |(moment, Cuboid { world_from_body, .. }): &(usize, Cuboid)| {
         let (place, heading_rad) = (world_from_body.translation.truncate(), world_from_body.yaw_rad());
-        moments.keyframe(*moment).map(|_| Known { time_s: time_s(*moment), place, heading_rad })
+        moments.keyframe(*moment).map(|_| Known { time_s: moments.time_s(*moment), place, heading_rad })
     };
     let known: Vec<Known> = boxes.iter().filter_map(known).collect();
     let at_known: Vec<Movement> = (0..known.len()).map(|i| Movement::at(&known, i)).collect();
     let movement = |(moment, _): &(usize, Cuboid)| {
-        let now_s = time_s(*moment);
+        let now_s = moments.time_s(*moment);
         let next = known.partition_point(|known| known.time_s <= now_s);
         let Some(before) = next.checked_sub(1) else { return Movement::default() };
         match at_known.get(next) {

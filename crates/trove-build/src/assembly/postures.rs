@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use trove_model::Mesh;
 
+use super::legs::{FootMove, Legs};
 use super::pedals::Pedals;
 use super::wheels::{Wheel, roll};
 
@@ -26,6 +27,8 @@ pub(crate) struct Joints {
     pub wheels: Arc<[Wheel]>,
     /// What is turned by feet.
     pub pedals: Option<Arc<Pedals>>,
+    /// What follows feet.
+    pub legs: Option<Arc<Legs>>,
 }
 
 /// How far it has moved.
@@ -37,6 +40,8 @@ pub(crate) struct Bend {
     pub curve_per_m: f64,
     /// How far its cranks have turned forward, radians.
     pub cranks_rad: f64,
+    /// Where its left and its right foot are.
+    pub feet: [FootMove; 2],
 }
 
 /// The meshes of one scene: the stock's, and behind them those of postures between two of these, and with parts moved.
@@ -44,7 +49,7 @@ pub(crate) struct MeshesNow {
     meshes: Vec<Arc<Mesh>>,
     // Only ever looked up, so the order inside does not reach the scene.
     known: HashMap<(usize, usize, u32), usize>,
-    bent: HashMap<(usize, [u64; 3]), usize>,
+    bent: HashMap<(usize, Vec<u64>), usize>,
 }
 
 impl MeshesNow {
@@ -66,10 +71,11 @@ impl MeshesNow {
     /// The index of a shape some of which has moved.
     pub(super) fn bent(&mut self, posed: Posed, joints: &Joints, bend: &Bend) -> usize {
         let mesh = self.index(posed);
-        let Bend { rolled_m, curve_per_m, cranks_rad } = bend;
+        let Bend { rolled_m, curve_per_m, cranks_rad, feet } = bend;
         let rolls = !joints.wheels.is_empty() && (*rolled_m, *curve_per_m) != (0.0, 0.0);
+        let legs = joints.legs.as_ref().filter(|_| *feet != <[FootMove; 2]>::default());
         let pedals = joints.pedals.as_ref().filter(|_| *cranks_rad != 0.0);
-        if !rolls && pedals.is_none() {
+        if !rolls && legs.is_none() && pedals.is_none() {
             return mesh;
         }
         let meshes = &mut self.meshes;
@@ -80,6 +86,9 @@ impl MeshesNow {
             }
             if let Some(pedals) = pedals {
                 pedals.turn(&mut bent, *cranks_rad);
+            }
+            if let Some(legs) = legs {
+                legs.bend(&mut bent, feet);
             }
             meshes.push(Arc::new(bent));
             meshes.len() - 1
@@ -94,9 +103,17 @@ impl MeshesNow {
 
 impl Bend {
     /// Tells it from all others.
-    fn key(&self) -> [u64; 3] {
-        let Self { rolled_m, curve_per_m, cranks_rad } = self;
-        [rolled_m, curve_per_m, cranks_rad].map(|number| number.to_bits())
+    fn key(&self) -> Vec<u64> {
+        let Self { rolled_m, curve_per_m, cranks_rad, feet } = self;
+        let of_foot = |FootMove { about, shift, turn_rad, down }: &FootMove| {
+            let numbers = [about.to_array(), shift.to_array(), down.to_array(), [*turn_rad, 0.0, 0.0]];
+            numbers.as_flattened().iter().map(|number| u64::from(number.to_bits())).collect::<Vec<u64>>()
+        };
+        [rolled_m, curve_per_m, cranks_rad]
+            .map(|number| number.to_bits())
+            .into_iter()
+            .chain(feet.iter().flat_map(of_foot))
+            .collect()
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use trove_model::{Asset, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
+use super::legs::Legs;
 use super::pedals::Pedals;
 use super::postures::Joints;
 use super::wheels::{parts, wheels};
@@ -23,6 +24,7 @@ pub(crate) struct Stock {
     individuals: HashMap<(usize, Vec<usize>), usize>,
     // By the asset's mesh.
     vehicles: HashMap<usize, Joints>,
+    legs: HashMap<usize, Option<Arc<Legs>>>,
 }
 
 /// Two materials with the same key are the same; images are told apart by where they lie.
@@ -65,9 +67,15 @@ impl Stock {
             let parts = parts(&asset.mesh);
             let rides = asset.keypoints.as_ref().filter(|_| asset.kind == Kind::BicycleWithRider);
             let pedals = rides.and_then(|keypoints| Pedals::new(&asset.mesh, &parts, keypoints));
-            Joints { wheels: wheels(&asset.mesh, &parts).into(), pedals: pedals.map(Arc::new) }
+            Joints { wheels: wheels(&asset.mesh, &parts).into(), pedals: pedals.map(Arc::new), legs: None }
         };
         found.or_insert_with(joints).clone()
+    }
+
+    /// The legs of a person, with the vertices of all of their individuals and postures.
+    pub(crate) fn legs(&mut self, asset: &Asset) -> Option<Arc<Legs>> {
+        let found = self.legs.entry(Arc::as_ptr(&asset.mesh).addr());
+        found.or_insert_with(|| Some(Arc::new(Legs::new(&asset.mesh, asset.keypoints.as_ref()?)?))).clone()
     }
 
     /// The index of the mesh of what stands at a distance: the individual, or a coarser shape that carries nothing.

@@ -44,7 +44,7 @@ pub(crate) struct Wheel {
     radius_m: f32,
     /// Where it stands across, in the mesh's metres.
     across_m: f32,
-    /// How far it is ahead of the axle that does not steer, in the mesh's metres; `None` for what does not steer.
+    /// How far it is ahead of the axle that does not steer, in the mesh's metres; `None` where it does not steer either.
     ahead_m: Option<f32>,
     /// What turns, in the order of the mesh.
     vertices: Vec<u32>,

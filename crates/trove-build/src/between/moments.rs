@@ -2,6 +2,8 @@
 
 use trove_model::Drive;
 
+use super::times::seconds;
+
 /// A drive and the moments at which it can be seen: its keyframes, and perhaps moments between them.
 #[derive(Clone, Debug)]
 pub struct Timeline {
@@ -55,6 +57,12 @@ impl<'a> Moments<'a> {
     /// The index of the recorded keyframe that a moment is; `None` between keyframes.
     pub fn keyframe(&self, moment: usize) -> Option<usize> {
         self.keyframes.map_or(Some(moment), |keyframes| keyframes.get(moment).copied().flatten())
+    }
+
+    /// When a moment is, seconds since the first.
+    pub(crate) fn time_s(&self, moment: usize) -> f64 {
+        let keyframes = &self.drive.keyframes;
+        keyframes.get(moment).map_or(0.0, |k| seconds(k.time_ns, keyframes[0].time_ns))
     }
 
     /// Whether there are others than keyframes.

@@ -18,10 +18,14 @@ const FEWEST_POINTS: usize = 8;
 /// No sole is farther than this from where the way leads it between two phases, metres.
 const FARTHEST_M: f64 = 0.4;
 
+/// A phase that is so little past the end of the contact is its end.
+const AT_END: f64 = 0.01;
+
 /// The phases that the library has of one person's gait, in their order.
 pub(super) struct Cycle<'a> {
     phases: Vec<Phase<'a>>,
-    stride_m: f64,
+    /// How far the cycle goes, metres.
+    pub(super) stride_m: f64,
     /// For how long a foot stands, as a share of it.
     stands: f64,
 }
@@ -92,26 +96,45 @@ impl<'a> Cycle<'a> {
         self
     }
 
-    /// The phase that is nearest to the one to which a way leads, `start` of a cycle further.
-    pub(super) fn nearest(&self, start: f64, way_m: f64) -> &'a Asset {
-        let off = |phase: &Phase| {
-            let past = (start + way_m / self.stride_m - phase.at).rem_euclid(1.0);
-            past.min(1.0 - past)
-        };
-        let nearest = self.phases.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest.map_or(self.phases[0].asset, |phase| phase.asset)
+    /// The phase that is nearest to one.
+    pub(super) fn nearest(&self, phase: f64) -> &'a Asset {
+        self.nearest_phase(phase).asset
     }
 
-    /// What lies between the phases before and after that one: a foot on the ground is as far back in each as the way has led
-    /// on, and so it is between them.
-    pub(super) fn between(&self, start: f64, way_m: f64) -> Shown<'a> {
-        let wanted = (start + way_m / self.stride_m).rem_euclid(1.0);
+    fn nearest_phase(&self, wanted: f64) -> &Phase<'a> {
+        let off = |phase: &Phase| {
+            let past = (wanted - phase.at).rem_euclid(1.0);
+            past.min(1.0 - past)
+        };
+        self.phases.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(&self.phases[0])
+    }
+
+    /// Someone who stands and has got so far, 0 to 1, on the way to the phase nearest to one: the foot that swings in it has
+    /// left the ground.
+    pub(super) fn set_out(&self, standing: &'a Asset, phase: f64, share: f64) -> Shown<'a> {
+        let to = self.nearest_phase(phase);
+        let shown = Shown::between((standing, DVec3::ZERO), (to.asset, to.shift_m), share);
+        Shown { stands: if shown.towards.is_some() { self.stand_at(to.at) } else { [true; 2] }, ..shown }
+    }
+
+    /// Which feet stand at a phase: up to the library's last one in which they do.
+    fn stand_at(&self, phase: f64) -> [bool; 2] {
+        let standing = self.phases.iter().map(|phase| phase.at).filter(|at| *at <= self.stands + AT_END);
+        let end = standing.fold(0.0, f64::max);
+        [phase, phase + 0.5].map(|phase| phase.rem_euclid(1.0) <= end)
+    }
+
+    /// What lies between the phases before and after one: a foot on the ground is as far back in each as the way has led on,
+    /// and so it is between them.
+    pub(super) fn between(&self, phase: f64) -> Shown<'a> {
+        let wanted = phase.rem_euclid(1.0);
         let next = self.phases.partition_point(|phase| phase.at <= wanted) % self.phases.len();
         let before = &self.phases[(next + self.phases.len() - 1) % self.phases.len()];
         let after = &self.phases[next];
         let whole = (after.at - before.at).rem_euclid(1.0);
         let share = if whole > 0.0 { (wanted - before.at).rem_euclid(1.0) / whole } else { 0.0 };
-        Shown::between((before.asset, before.shift_m), (after.asset, after.shift_m), share)
+        let shown = Shown::between((before.asset, before.shift_m), (after.asset, after.shift_m), share);
+        Shown { stands: self.stand_at(wanted), ..shown }
     }
 }
 

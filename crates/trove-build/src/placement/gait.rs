@@ -21,6 +21,17 @@ const STRIDE_SHARE: f64 = 0.5;
 const LOOKS_AHEAD_RAD: f64 = 0.6;
 /// A way of less does not say whither it leads, metres.
 const LEAST_STEP_M: f64 = 0.01;
+/// Who gets on farther to the side than ahead by this goes sideways, which no phase of walking shows.
+const ASIDE: f64 = 1.5;
+
+/// In the middle between two steps, where the standing foot is below the body and the other beside it: so one sets out, and so
+/// one comes to stand.
+const MIDSTANCE: f64 = 0.25;
+/// So much of a step more is no step of its own.
+const SPARED_STEP: f64 = 0.3;
+/// How long it takes to set out from standing, and to come to stand, seconds (Breniere and Do 1986, Journal of Biomechanics:
+/// 0.4 to 0.6 from standing to the first step).
+const SETS_OUT_S: f64 = 0.4;
 
 /// What someone does, whatever the phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +52,11 @@ impl Mode {
         })
     }
 
+    /// Whether it gets on.
+    fn goes(self) -> bool {
+        matches!(self, Self::Walking | Self::Running)
+    }
+
     /// Whether an asset may stand for someone in this mode: all that are no figures may.
     pub(super) fn allows(self, asset: &Asset) -> bool {
         Self::of(asset).is_none_or(|mode| mode == self)
@@ -51,6 +67,8 @@ impl Mode {
 pub(super) struct Gait {
     /// For each of its boxes.
     modes: Vec<Mode>,
+    /// Since the first keyframe, for each of its boxes.
+    times_s: Vec<f64>,
     /// Way along its own heading since the first box, metres, for each of its boxes.
     way_m: Vec<f64>,
     /// How far its way is to the left of its heading, radians, for each of its boxes: 0 for who goes sideways or backwards.
@@ -70,15 +88,16 @@ impl Gait {
         kind: Kind,
         alone_mps: Option<f64>,
     ) -> Self {
-        let time_s = |k: usize| drive.keyframes.get(k).map_or(0.0, |k| k.time_ns as f64 * 1e-9);
+        let times_s = times_s(Moments::of_keyframes(drive), boxes);
         let mut way_m = vec![0.0; boxes.len()];
         let mut speeds_mps: Vec<f64> = vec![alone_mps.unwrap_or(0.0); boxes.len()];
         let by_size = boxes.len() == 1 && alone_mps.is_none() && kind.class() == Class::Human;
         for i in 1..boxes.len() {
-            let ((k, before), (l, now)) = (&boxes[i - 1], &boxes[i]);
-            let (ahead_m, far_m) = step_m(before, now);
+            let (ahead_m, far_m) = step_m(&boxes[i - 1].1, &boxes[i].1);
             way_m[i] = way_m[i - 1] + ahead_m;
-            let speed_mps = far_m / (time_s(*l) - time_s(*k)).max(1e-3);
+            let goes_aside = far_m.powi(2) > (1.0 + ASIDE.powi(2)) * ahead_m.powi(2);
+            let gets_on_m = if goes_aside { 0.0 } else { far_m };
+            let speed_mps = gets_on_m / (times_s[i] - times_s[i - 1]).max(1e-3);
             speeds_mps[i] = speed_mps;
             // The first has no step before it, and someone who sets out already does.
             if i == 1 {
@@ -93,7 +112,7 @@ impl Gait {
             _ => Mode::Running,
         };
         let turns_rad = vec![0.0; boxes.len()];
-        Self { modes: speeds_mps.iter().map(mode).collect(), way_m, turns_rad, by_size, flows: false }
+        Self { modes: speeds_mps.iter().map(mode).collect(), times_s, way_m, turns_rad, by_size, flows: false }
     }
 
     /// The same at all moments, of which the track's boxes there are: who walks to a keyframe walks up to it.
@@ -114,12 +133,13 @@ impl Gait {
             let now = faced(now, turns_rad[i]);
             way_m.push(before.map_or(0.0, |(way_m, before): (f64, _)| way_m + step_m(&before, &now).0));
         }
-        Self { modes, way_m, turns_rad, by_size: self.by_size, flows: true }
+        let times_s = times_s(moments, at_moments);
+        Self { modes, times_s, way_m, turns_rad, by_size: self.by_size, flows: true }
     }
 
     /// Whether it is ever on its way.
     pub(super) fn moves(&self) -> bool {
-        self.modes.iter().any(|mode| matches!(mode, Mode::Walking | Mode::Running))
+        self.modes.iter().any(|mode| mode.goes())
     }
 
     /// What it does at most keyframes.
@@ -142,33 +162,93 @@ impl Gait {
         let is_same = |asset: &&'a Asset| asset.figure.as_ref().is_some_and(|f| f.person == figure.person);
         let postures: Vec<&'a Asset> = library.filter(is_same).filter(|a| shows_the_same(a, chosen)).collect();
         let of_mode = |mode: Mode| postures.iter().copied().filter(move |a| Mode::of(a) == Some(mode));
-        let start = seed.child("phase").random().unit();
         let still: Vec<Vec<&Asset>> = [Mode::Standing, Mode::Sitting].map(|mode| of_mode(mode).collect()).to_vec();
         let drawn = |from: &[&'a Asset]| seed.child("posture").random().pick(from).copied();
         let planted = |cycle: Cycle<'a>| if self.flows { cycle.planted() } else { cycle };
         let cycles = [Mode::Walking, Mode::Running].map(|mode| Cycle::new(of_mode(mode)).map(planted));
-        let posture = |(mode, way_m): (&Mode, &f64)| {
-            let found = match mode {
-                // Who was chosen in this mode stays as chosen.
-                _ if self.by_size && Mode::of(chosen) == Some(*mode) => Some(chosen.into()),
-                Mode::Standing | Mode::Sitting if Mode::of(chosen) == Some(*mode) => Some(chosen.into()),
-                Mode::Standing => drawn(&still[0]).map(Shown::from),
-                Mode::Sitting => drawn(&still[1]).map(Shown::from),
-                Mode::Walking | Mode::Running => {
-                    let cycle = &cycles[usize::from(*mode == Mode::Running)];
-                    cycle.as_ref().map(|cycle| {
-                        let way_m = *way_m / scale;
-                        if self.flows { cycle.between(start, way_m) } else { cycle.nearest(start, way_m).into() }
+        let cycle = |i: usize| match self.modes[i] {
+            Mode::Walking => cycles[0].as_ref(),
+            Mode::Running => cycles[1].as_ref(),
+            Mode::Standing | Mode::Sitting => None,
+        };
+        let phases = self.phases(|i| cycle(i).map(|cycle| cycle.stride_m * scale), seed);
+        let posture = |i: usize| {
+            let mode = self.modes[i];
+            // Who was chosen in this mode stays as chosen.
+            let stays = Mode::of(chosen) == Some(mode);
+            let found = match (mode, cycle(i)) {
+                _ if self.by_size && stays => Some(chosen.into()),
+                (_, Some(cycle)) if self.flows => {
+                    Some(Shown { turn_rad: self.turns_rad[i], ..cycle.between(phases[i]) })
+                }
+                (_, Some(cycle)) => Some(Shown { turn_rad: self.turns_rad[i], ..cycle.nearest(phases[i]).into() }),
+                (Mode::Standing, None) => {
+                    let standing = if stays { Some(chosen) } else { drawn(&still[0]) };
+                    standing.map(|standing| match self.sets_out(i).filter(|_| self.flows) {
+                        Some((walks, share)) => cycle(walks).map_or(standing.into(), |cycle| {
+                            let turn_rad = self.turns_rad[walks] * share;
+                            let midstance = MIDSTANCE + (2.0 * (phases[walks] - MIDSTANCE)).round() / 2.0;
+                            Shown { turn_rad, ..cycle.set_out(standing, midstance, share) }
+                        }),
+                        None => standing.into(),
                     })
                 }
+                (Mode::Sitting, None) if !stays => drawn(&still[1]).map(Shown::from),
+                _ => None,
             };
             found.unwrap_or(chosen.into())
         };
-        let turned = |((mode, way_m), turn_rad): ((&Mode, &f64), &f64)| {
-            let goes = matches!(mode, Mode::Walking | Mode::Running);
-            Shown { turn_rad: if goes { *turn_rad } else { 0.0 }, ..posture((mode, way_m)) }
+        (0..self.modes.len()).map(posture).collect()
+    }
+
+    /// The phase of each box of someone on the way, whose cycle is so long there, metres; 0 for others. One sets out in the
+    /// middle between two steps, and comes to stand in another: steps are longer or shorter for that.
+    fn phases(&self, stride_m: impl Fn(usize) -> Option<f64>, seed: Seed) -> Vec<f64> {
+        let start = seed.child("phase").random().unit();
+        let half = if start < 0.5 { 0.0 } else { 0.5 };
+        let stands = |i: Option<usize>| i.is_some_and(|i| self.modes.get(i) == Some(&Mode::Standing));
+        let mut phases = vec![0.0; self.modes.len()];
+        let mut first = 0;
+        for run in self.modes.chunk_by(|a, b| a.goes() == b.goes()) {
+            let end = first + run.len();
+            if run[0].goes() {
+                for i in first..end {
+                    let before = i.checked_sub(1);
+                    let passed =
+                        before.zip(stride_m(i)).map_or(0.0, |(j, stride)| (self.way_m[i] - self.way_m[j]) / stride);
+                    phases[i] = passed + if i > first { phases[i - 1] } else { 0.0 };
+                }
+                let whole = phases[end - 1];
+                let steps = (2.0 * whole.abs() - SPARED_STEP).ceil().max(1.0) / 2.0;
+                let (from, longer) = match (stands(first.checked_sub(1)), stands(Some(end))) {
+                    (true, true) => (MIDSTANCE + half, if whole == 0.0 { 0.0 } else { steps / whole.abs() }),
+                    (true, false) => (MIDSTANCE + half, 1.0),
+                    (false, true) => (MIDSTANCE + half - whole, 1.0),
+                    (false, false) => (start, 1.0),
+                };
+                phases[first..end].iter_mut().for_each(|phase| *phase = from + *phase * longer);
+            }
+            first = end;
+        }
+        phases
+    }
+
+    /// For a box of someone who stands and is about to set out, or has just come to stand: which box's posture that leads to
+    /// or comes from, and how near it is, 0 to 1.
+    fn sets_out(&self, i: usize) -> Option<(usize, f64)> {
+        let moves = |j: &usize| self.modes[*j] != Mode::Standing;
+        let before = (0..i).rev().find(moves).filter(|j| self.modes[*j].goes());
+        let after = (i + 1..self.modes.len()).find(moves).filter(|j| self.modes[*j].goes());
+        // The box before the first step is where it sets out.
+        let (from, to) = (before.map(|j| self.times_s[j]), after.map(|j| self.times_s[j - 1]));
+        let stands_s = from.zip(to).map_or(f64::INFINITY, |(from, to)| to - from);
+        let takes_s = SETS_OUT_S.min(stands_s / 2.0).max(1e-3);
+        let near = |way: Option<usize>, time_s: Option<f64>| {
+            let share = 1.0 - (time_s? - self.times_s[i]).abs() / takes_s;
+            Some((way?, share)).filter(|(_, share)| *share > 0.0)
         };
-        self.modes.iter().zip(&self.way_m).zip(&self.turns_rad).map(turned).collect()
+        let (walks, share) = near(before, from).or_else(|| near(after, to))?;
+        Some((walks, share * share * (3.0 - 2.0 * share)))
     }
 }
 
@@ -179,6 +259,11 @@ fn shows_the_same(a: &Asset, b: &Asset) -> bool {
         asset.slots.iter().map(|slot| slot.material.name.as_str())
     }
     a.mesh.triangles == b.mesh.triangles && a.mesh.slots == b.mesh.slots && materials(a).eq(materials(b))
+}
+
+/// When boxes are, seconds.
+fn times_s(moments: Moments, boxes: &[(usize, Cuboid)]) -> Vec<f64> {
+    boxes.iter().map(|(k, _)| moments.time_s(*k)).collect()
 }
 
 /// How far the way through boxes leads to the left of the heading of each.

@@ -1,7 +1,7 @@
 //! What stands for someone at a moment: an asset, or something between two postures of a person.
 
 use glam::DVec3;
-use trove_model::Asset;
+use trove_model::{Asset, Posture};
 
 /// Less than this of the way from one posture to another is none of it.
 const LEAST: f64 = 1.0 / 256.0;
@@ -18,6 +18,8 @@ pub(crate) struct Shown<'a> {
     pub shift_m: DVec3,
     /// How far it is turned to the left in its box: who walks looks along the way.
     pub turn_rad: f64,
+    /// Whether its left and its right foot stand on the ground.
+    pub stands: [bool; 2],
 }
 
 impl<'a> Shown<'a> {
@@ -25,12 +27,13 @@ impl<'a> Shown<'a> {
     pub(super) fn between((before, from): (&'a Asset, DVec3), (after, to): (&'a Asset, DVec3), share: f64) -> Self {
         let is_one = before.id == after.id || share < LEAST;
         let towards = (!is_one).then_some((after, share as f32));
-        Self { asset: before, towards, shift_m: from.lerp(to, share), turn_rad: 0.0 }
+        Self { asset: before, towards, shift_m: from.lerp(to, share), turn_rad: 0.0, stands: [false; 2] }
     }
 }
 
 impl<'a> From<&'a Asset> for Shown<'a> {
     fn from(asset: &'a Asset) -> Self {
-        Self { asset, towards: None, shift_m: DVec3::ZERO, turn_rad: 0.0 }
+        let stands = asset.figure.as_ref().is_some_and(|figure| figure.posture == Posture::Standing);
+        Self { asset, towards: None, shift_m: DVec3::ZERO, turn_rad: 0.0, stands: [stands; 2] }
     }
 }
