@@ -18,7 +18,7 @@ use trove_read::osm::{self, GeoJsonFrame};
 use crate::{METRE_DEG, file, nodes, noted, origin, read_bytes, way};
 
 /// Far more than any of these takes.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Coordinates from metres, as a list.
 fn line(places: &[[f64; 2]]) -> String {
