@@ -11,6 +11,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -109,14 +110,15 @@ def test_the_jobs_for_aws_batch_are_valid():
 
 
 @pytest.fixture
-def cluster(tmp_path):
+def cluster():
     """A Ray cluster of two nodes on the loopback, each a core; its address."""
     import ray
 
     port = 20_000 + os.getpid() % 10_000
     program, common = shutil.which("ray"), ["--num-cpus=1", "--disable-usage-stats", "--block"]
-    # What a node of its own has: names of files, and ports.
-    head = ["start", "--head", f"--port={port}", "--include-dashboard=false", f"--temp-dir={tmp_path}/r"]
+    # What a node of its own has: names of files, and ports. Names of sockets may not be long.
+    folder = Path(tempfile.mkdtemp(prefix="ray"))
+    head = ["start", "--head", f"--port={port}", "--include-dashboard=false", f"--temp-dir={folder}"]
     nodes = [subprocess.Popen([program, *head, *common], stdout=subprocess.DEVNULL, start_new_session=True)]
     address = f"127.0.0.1:{port}"
     deadline = time.monotonic() + 120
@@ -125,6 +127,7 @@ def cluster(tmp_path):
             ray.init(address=address, log_to_driver=False)
             break
         except Exception:
+            assert nodes[0].poll() is None, "the head has ended"
             time.sleep(1)
     second = [program, "start", f"--address={address}", *common]
     nodes.append(subprocess.Popen(second, stdout=subprocess.DEVNULL, start_new_session=True))
@@ -136,6 +139,7 @@ def cluster(tmp_path):
     for node in nodes:
         os.killpg(node.pid, signal.SIGKILL)
         node.wait()
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 @needs_ray
