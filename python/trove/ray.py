@@ -1,4 +1,4 @@
-"""Renders a recipe on a Ray cluster whose nodes share a file system.
+"""Renders a recipe on a Ray cluster whose nodes share a file system or an object store.
 
     python -m trove.ray RECIPE --out DIR
 
@@ -10,6 +10,7 @@ ended, the run that merges them renders what is missing.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
 import time
 from pathlib import Path
@@ -48,7 +49,9 @@ def told(status: Any) -> str:
 def main(args: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m trove.ray", description=(__doc__ or "").split("\n")[0])
     parser.add_argument("recipe", type=Path, help="recipe (TOML), at the same path on every node")
-    parser.add_argument("--out", type=Path, required=True, help="output folder, at the same path on every node")
+    parser.add_argument(
+        "--out", required=True, help="output folder at the same path on every node, or s3://bucket/prefix"
+    )
     parser.add_argument("--parts", type=int, help=f"number of parts [default: {PARTS_A_SLOT} for each task at once]")
     parser.add_argument("--threads", type=int, help="threads a task [default: the cores of the smallest node]")
     parser.add_argument("--retries", type=int, default=3, help="how often a part that fails is repeated [default: 3]")
@@ -57,7 +60,8 @@ def main(args: list[str] | None = None) -> int:
     )
     parser.add_argument("--every", type=float, default=60.0, help="seconds between two lines of progress [default: 60]")
     options = parser.parse_args(args)
-    recipe, out = str(options.recipe.absolute()), str(options.out.absolute())
+    recipe = str(options.recipe.absolute())
+    out = options.out if "://" in options.out else str(Path(options.out).absolute())
 
     ray.init(address=options.address, ignore_reinit_error=True, log_to_driver=False)
     threads, tasks = slots(options.threads)
@@ -75,9 +79,10 @@ def main(args: list[str] | None = None) -> int:
             except ray.exceptions.RayError as error:
                 # The last run makes what is missing.
                 print(f"part {part}/{parts} failed: {str(error).strip().splitlines()[-1]}", file=sys.stderr)
-        if time.monotonic() - line > options.every and (Path(out) / ".trove").is_dir():
+        if time.monotonic() - line > options.every:
             line = time.monotonic()
-            print(told(trove.status(out)), file=sys.stderr, flush=True)
+            with contextlib.suppress(trove.TroveError):  # before the first part has begun
+                print(told(trove.status(out)), file=sys.stderr, flush=True)
     summary = trove.generate(recipe, out, threads=options.threads)
     print(f"{summary['frames']} frames, {summary['rendered']} of them made while merging; see {out}/contact_sheet.png")
     return 0

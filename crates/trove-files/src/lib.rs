@@ -26,7 +26,7 @@ pub use read::{Folder, LARGEST_FILE, LARGEST_TEXT, open_regular, read_regular, r
 
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file under a hidden name beside `path` and then renames it, so that `path` holds the old bytes or the new
@@ -36,10 +36,19 @@ use std::path::{Path, PathBuf};
 /// What the system says, or something at `path` that is neither a file nor missing; nothing is left of the hidden file
 /// then.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_piecewise(path, |file| file.write_all(bytes))
+}
+
+/// [`write_atomically`] for bytes that do not fit into memory: `write` puts them into the file as they are made.
+///
+/// # Errors
+/// What the system or `write` says, or something at `path` that is neither a file nor missing; nothing is left of the
+/// hidden file then.
+pub fn write_piecewise(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     read::replaceable(path)?;
     // Two processes that fill the same cache must not write into each other's file.
     let partial = hidden_beside(path, &format!("{}.partial", std::process::id()));
-    let written = write_synced(&partial, bytes).and_then(|()| fs::rename(&partial, path));
+    let written = synced(&partial, write).and_then(|()| fs::rename(&partial, path));
     if written.is_err() {
         // The first error is the one to tell of.
         let _ = fs::remove_file(&partial);
@@ -73,10 +82,14 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<bool> {
 /// # Errors
 /// What the system says, or something at `path` that is neither a file nor missing.
 pub fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    synced(path, |file| file.write_all(bytes))
+}
+
+fn synced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     read::replaceable(path)?;
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+    let mut file = BufWriter::new(File::create(path)?);
+    write(&mut file)?;
+    file.into_inner()?.sync_all()
 }
 
 /// Makes what a folder lists last through a power cut where the system can do that; where it cannot, a rename is still

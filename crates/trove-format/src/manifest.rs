@@ -1,9 +1,13 @@
 //! `manifest.json`: what an output folder holds.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::iter::Peekable;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::ser::{Error, SerializeSeq};
+use serde::{Deserialize, Serialize, Serializer};
 use trove_files::OutputRoot;
 use trove_model::{CLASSES, ClassRow};
 
@@ -158,8 +162,91 @@ impl Manifest {
         }
     }
 
+    /// Writes the file with other rows than its own, which are made while they are written.
+    ///
+    /// # Errors
+    /// What the system says, or a row that cannot be made.
+    pub fn write(&self, rows: ManifestRows<'_>, mut to: impl Write) -> io::Result<()> {
+        let Self { format, seed, recipe, versions, classes, drives, licences, .. } = self;
+        let ManifestRows { frames, sweeps, radars, grids } = rows;
+        let [frames, sweeps, radars, grids] = [frames, sweeps, radars, grids].map(Rows::new);
+        let (format, seed) = (*format, *seed);
+        let written =
+            Written { format, seed, recipe, versions, classes, drives, licences, frames, sweeps, radars, grids };
+        serde_json::to_writer_pretty(&mut to, &written)?;
+        to.write_all(b"\n")
+    }
+
     /// The file's bytes.
+    #[allow(clippy::missing_panics_doc)] // nothing fails but rows that are made and files that are full
     pub fn to_json(&self) -> Vec<u8> {
-        file::pretty(self)
+        fn own(rows: &[FrameRow]) -> MadeRows<'_> {
+            Box::new(rows.iter().map(|row| Ok(row.clone())))
+        }
+        let mut bytes = Vec::new();
+        let rows = ManifestRows {
+            frames: own(&self.frames),
+            sweeps: own(&self.sweeps),
+            radars: own(&self.radars),
+            grids: own(&self.grids),
+        };
+        self.write(rows, &mut bytes).expect("rows that are there, written to memory");
+        bytes
+    }
+}
+
+/// Rows as they are made; why one cannot be.
+pub type MadeRows<'a> = Box<dyn Iterator<Item = Result<FrameRow, String>> + 'a>;
+
+/// A manifest's rows, of which few are in memory at once.
+pub struct ManifestRows<'a> {
+    /// See [`Manifest::frames`].
+    pub frames: MadeRows<'a>,
+    /// See [`Manifest::sweeps`].
+    pub sweeps: MadeRows<'a>,
+    /// See [`Manifest::radars`].
+    pub radars: MadeRows<'a>,
+    /// See [`Manifest::grids`].
+    pub grids: MadeRows<'a>,
+}
+
+/// [`Manifest`] as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    format: u32,
+    seed: u64,
+    recipe: &'a serde_json::Value,
+    versions: &'a Versions,
+    classes: &'a [ClassEntry],
+    drives: &'a [ManifestDrive],
+    licences: &'a [Source],
+    frames: Rows<'a>,
+    sweeps: Rows<'a>,
+    #[serde(skip_serializing_if = "Rows::are_none")]
+    grids: Rows<'a>,
+    #[serde(skip_serializing_if = "Rows::are_none")]
+    radars: Rows<'a>,
+}
+
+/// Rows that are made once, when they are written.
+struct Rows<'a>(RefCell<Peekable<MadeRows<'a>>>);
+
+impl<'a> Rows<'a> {
+    fn new(rows: MadeRows<'a>) -> Self {
+        Self(RefCell::new(rows.peekable()))
+    }
+
+    fn are_none(&self) -> bool {
+        self.0.borrow_mut().peek().is_none()
+    }
+}
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(None)?;
+        for row in &mut *self.0.borrow_mut() {
+            list.serialize_element(&row.map_err(S::Error::custom)?)?;
+        }
+        list.end()
     }
 }

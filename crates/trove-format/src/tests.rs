@@ -127,11 +127,9 @@ fn a_damaged_file_is_told_with_its_place() {
     }
 }
 
-#[test]
-fn a_manifest_of_another_version_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
+fn manifest() -> Manifest {
     let site = site();
-    let manifest = Manifest {
+    Manifest {
         format: FORMAT,
         seed: 7,
         recipe: json!({ "seed": 7 }),
@@ -159,7 +157,26 @@ fn a_manifest_of_another_version_is_refused() {
         sweeps: vec![],
         grids: vec![],
         radars: vec![],
-    };
+    }
+}
+
+#[test]
+fn a_manifest_is_written_with_rows_that_are_made_meanwhile() {
+    let mut manifest = manifest();
+    assert_eq!(manifest.to_json(), crate::file::pretty(&manifest));
+    manifest.grids.clone_from(&manifest.frames);
+    assert_eq!(manifest.to_json(), crate::file::pretty(&manifest));
+    let none = || -> MadeRows<'_> { Box::new(std::iter::empty()) };
+    let broken = Box::new([Ok(manifest.frames[0].clone()), Err("removed during the run".into())].into_iter());
+    let rows = ManifestRows { frames: broken, sweeps: none(), radars: none(), grids: none() };
+    let error = manifest.write(rows, Vec::new()).unwrap_err();
+    assert!(error.to_string().contains("removed during the run"), "{error}");
+}
+
+#[test]
+fn a_manifest_of_another_version_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let manifest = manifest();
     assert_eq!(Manifest::read(dir.path()).unwrap(), None);
     let path = dir.path().join(Manifest::NAME);
     std::fs::write(&path, manifest.to_json()).unwrap();

@@ -7,6 +7,8 @@ mod tiles;
 
 use std::path::{Path, PathBuf};
 
+use trove_format::FrameTable;
+
 use crate::WriteError;
 use crate::sheet::{CAPTION_PX, GAP_PX, Sheet};
 use tiles::Tiles;
@@ -30,7 +32,7 @@ pub struct Frame {
 /// # Errors
 /// A frame whose files cannot be read, or a sheet that cannot be written.
 pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
-    let chosen = spread(frames);
+    let chosen = chosen(frames);
     let mut columns = 1;
     let mut drawn = Vec::new();
     for frame in chosen {
@@ -55,9 +57,14 @@ pub fn write(path: &Path, frames: &[Frame]) -> Result<(), WriteError> {
     sheet.write(path)
 }
 
-/// At most [`FRAMES`] of the frames, the first and the last among them.
-fn spread(frames: &[Frame]) -> Vec<&Frame> {
-    let mut sorted: Vec<&Frame> = frames.iter().collect();
+/// Whether a file of a frame is read for the sheet.
+pub fn is_read(name: &str) -> bool {
+    name == FrameTable::NAME || tiles::READ.iter().any(|file| file.name() == name)
+}
+
+/// Those that the sheet shows, in the order of their names: at most 24 of the frames, the first and the last among them.
+pub fn chosen<T: Ord>(frames: &[T]) -> Vec<&T> {
+    let mut sorted: Vec<&T> = frames.iter().collect();
     sorted.sort();
     sorted.dedup();
     if sorted.len() <= FRAMES {

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{fs, io};
 
-use trove_files::OutputRoot;
-use trove_format::{FrameFile, FrameTable, Manifest, RunReport, WrittenFile};
+use trove_files::{OutputRoot, write_piecewise};
+use trove_format::{FrameFile, FrameTable, Manifest, ManifestRows, RunReport, WrittenFile};
 use trove_model::{Class, InstanceId, Labels, Occlusion, Raster};
 
 use crate::files::{FolderInTheMaking, Maker, sha256_file};
@@ -151,19 +151,38 @@ impl FrameFolders {
         folder.finish()
     }
 
-    /// Writes what sums all frames up, those of earlier runs too.
+    /// The frames that the contact sheet shows of those with these paths.
+    pub fn in_sheet(paths: &[String]) -> Vec<&String> {
+        contact_sheet::chosen(paths)
+    }
+
+    /// Whether [`FrameFolders::finish`] reads a file of those frames.
+    pub fn is_in_sheet(name: &str) -> bool {
+        contact_sheet::is_read(name)
+    }
+
+    /// Writes what sums all frames up, those of earlier runs too: the contact sheet of the frames with these paths, the
+    /// report, and the manifest, whose rows are made meanwhile.
     ///
     /// # Errors
-    /// A file system that refuses, or a finished frame that cannot be read back.
-    pub fn finish(&self, manifest: &Manifest, report: &RunReport) -> Result<(), WriteError> {
-        let frame = |row: &trove_format::FrameRow| -> Result<_, WriteError> {
-            Ok(contact_sheet::Frame { name: row.path.clone(), dir: self.root.at(&row.path)? })
+    /// A file system that refuses, a finished frame that cannot be read back, or a row that cannot be made.
+    pub fn finish(
+        &self,
+        manifest: &Manifest,
+        rows: ManifestRows<'_>,
+        sheet: &[&String],
+        report: &RunReport,
+    ) -> Result<(), WriteError> {
+        let frame = |path: &&String| -> Result<_, WriteError> {
+            Ok(contact_sheet::Frame { name: (*path).clone(), dir: self.root.at(path)? })
         };
-        let sheet: Vec<contact_sheet::Frame> = manifest.frames.iter().map(frame).collect::<Result<_, _>>()?;
-        let root = self.root.path();
-        contact_sheet::write(&root.join(CONTACT_SHEET), &sheet)?;
-        write_atomically(&root.join(RunReport::NAME), &report.to_json())?;
-        write_atomically(&root.join(Manifest::NAME), &manifest.to_json())
+        let sheet: Vec<contact_sheet::Frame> = sheet.iter().map(frame).collect::<Result<_, _>>()?;
+        let [sheet_file, report_file, manifest_file] =
+            [CONTACT_SHEET, RunReport::NAME, Manifest::NAME].map(|name| self.root.path().join(name));
+        contact_sheet::write(&sheet_file, &sheet)?;
+        write_atomically(&report_file, &report.to_json())?;
+        write_piecewise(&manifest_file, |file| manifest.write(rows, file))
+            .map_err(WriteError::storage(&manifest_file, "write the file"))
     }
 }
 

@@ -8,6 +8,10 @@ use std::time::Instant;
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::json;
+use tracing::Level;
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
 use trove_render::KernelChoice;
 
 use crate::answer::Answer;
@@ -259,7 +263,10 @@ pub fn main(args: impl IntoIterator<Item = OsString>, site_packages: &[PathBuf])
     };
     interrupt::install();
     // A second call in one process (from Python) keeps the first one's subscriber.
-    let _ = tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).without_time().try_init();
+    // Requests that an object store's library repeats are told of once it has given up.
+    let told = Targets::new().with_default(Level::INFO).with_target("object_store", Level::ERROR);
+    let written = tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).without_time().finish();
+    let _ = written.with(told).try_init();
     match run(cli.command, site_packages, &Watch::default()).and_then(Answer::print) {
         Ok(status) => status,
         Err(error) => {

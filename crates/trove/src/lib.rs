@@ -45,6 +45,7 @@ mod rigs;
 pub mod run;
 mod sources;
 mod status;
+mod store;
 mod street_map;
 mod variation;
 mod verify;

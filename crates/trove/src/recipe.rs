@@ -12,7 +12,7 @@ mod standpoint;
 mod time;
 mod variations;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -30,6 +30,7 @@ use trove_write::DatasetFormat;
 
 use self::check::check;
 pub(crate) use self::check::nearest;
+use crate::store::fetched;
 pub use camera::CameraSection;
 pub use grids::{GridSection, GridsSection};
 pub use labels::LabelsSection;
@@ -94,6 +95,9 @@ pub struct Recipe {
     /// The recipe's own folder, where its relative paths start; empty is the working directory.
     #[serde(skip)]
     pub folder: PathBuf,
+    /// Where what it names in object stores lies on this machine.
+    #[serde(skip)]
+    pub(crate) fetched: BTreeMap<PathBuf, PathBuf>,
 }
 
 /// More threads than any machine has use for.
@@ -439,6 +443,7 @@ impl Recipe {
             .with_context(|| format!("{}: expected a recipe (TOML) that can be read", path.display()))?;
         let mut recipe = Self::parse(&text).with_context(|| path.display().to_string())?;
         recipe.folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        recipe.fetched = fetched(&toml::from_str(&text)?)?;
         Ok(recipe)
     }
 
@@ -454,7 +459,7 @@ impl Recipe {
 
     /// A path of the recipe as this process reaches it.
     pub fn at(&self, path: &Path) -> PathBuf {
-        self.folder.join(path)
+        self.fetched.get(path).cloned().unwrap_or_else(|| self.folder.join(path))
     }
 
     fn check(&self) -> Result<()> {

@@ -6,13 +6,14 @@ use std::hash::{Hash, Hasher};
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 use trove_format::{FrameLine, JournalLine, Manifest, PlanLine};
 
 use crate::answer::Answer;
 use crate::progress::duration;
-use crate::run::{PRIVATE, Share, part_folders};
+use crate::run::{PRIVATE, Share, journals, part_folders};
+use crate::store;
 
 /// Nothing for so many times as long as a frame takes, and for as long as this, is told of.
 const SILENT_FRAMES: f64 = 20.0;
@@ -58,7 +59,10 @@ struct Journalled {
 /// # Errors
 /// A folder that no run has written, or whose journals cannot be read.
 pub(crate) fn run(folder: &Path, as_json: bool) -> Result<Answer> {
-    let status = look(folder, SystemTime::now())?;
+    let status = match store::address(folder) {
+        None => look(folder, SystemTime::now())?,
+        Some(address) => look(&journals(address)?.0, SystemTime::now()).with_context(|| address.to_owned())?,
+    };
     let json = serde_json::to_value(&status)?;
     Ok(Answer::new(as_json, json, move || tell(&status)))
 }

@@ -6,6 +6,10 @@ use trove_format::FrameFile;
 
 use crate::{StoredFrame, WriteError, colors};
 
+/// What is read of a frame, as far as it is there.
+pub(super) const READ: [FrameFile; 5] =
+    [FrameFile::Rgb, FrameFile::Normal, FrameFile::Class, FrameFile::Instance, FrameFile::Depth];
+
 /// A frame's pictures, all as large.
 pub(super) struct Tiles {
     pub(super) height: u32,

@@ -2,12 +2,23 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use trove_write::{Choice, DatasetFormat, FrameFolders, export};
 
 use crate::progress::Steps;
 use crate::recipe::Recipe;
+use crate::store;
 use crate::watch::Watch;
+
+/// Refuses forms that nothing could be exported to.
+pub(super) fn check(recipe: &Recipe, out: &Path) -> Result<()> {
+    ensure!(
+        recipe.output.formats.is_empty() || store::address(out).is_none(),
+        "output.formats: expected an output folder on this machine, found {}; run trove export on a copy of it",
+        out.display()
+    );
+    Ok(())
+}
 
 /// Writes the forms of `output.formats` below the output folder; false where it was asked to end before.
 pub(super) fn write(recipe: &Recipe, out: &Path, watch: &Watch) -> Result<bool> {

@@ -3,8 +3,8 @@
 use anyhow::{Context, Result};
 use trove_build::{AssetFit, ObjectFit};
 use trove_format::{
-    AssetFitRow, ClassEntry, FORMAT, FitRow, FrameRow, Manifest, ManifestDrive, RunIdentity, RunReport, SceneReport,
-    SiteFile, Source,
+    AssetFitRow, ClassEntry, FORMAT, FitRow, Manifest, ManifestDrive, RunIdentity, RunReport, SceneReport, SiteFile,
+    Source,
 };
 use trove_model::Report;
 
@@ -94,13 +94,8 @@ pub(super) fn planned(scene: &str, variation: u32, file: &SiteFile) -> Vec<Frame
     keys
 }
 
-/// The manifest of what is finished.
-pub(super) fn manifest(
-    seed: u64,
-    identity: RunIdentity,
-    sites: &[SiteSummary],
-    [frames, sweeps, radars, grids]: [Vec<FrameRow>; 4],
-) -> Manifest {
+/// The manifest of what is finished, without its rows.
+pub(super) fn manifest(seed: u64, identity: RunIdentity, sites: &[SiteSummary]) -> Manifest {
     let mut drives: Vec<ManifestDrive> = Vec::new();
     for SiteSummary { file, .. } in sites {
         let row = ManifestDrive { drive: file.drive.clone(), sources: file.sources.clone() };
@@ -119,10 +114,10 @@ pub(super) fn manifest(
         classes: ClassEntry::all(),
         drives,
         licences,
-        frames,
-        sweeps,
-        radars,
-        grids,
+        frames: Vec::new(),
+        sweeps: Vec::new(),
+        radars: Vec::new(),
+        grids: Vec::new(),
     }
 }
 

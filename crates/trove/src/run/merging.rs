@@ -10,7 +10,8 @@ use trove_format::{FrameLine, JournalLine, LanesFile, RunIdentity, SiteFile, Tra
 use trove_write::{FrameFolders, write_atomically};
 
 use super::identity::differences;
-use super::output::{OutputFolder, PRIVATE, part_folders};
+use super::output::{OutputFolder, part_folders};
+use super::private::PRIVATE;
 use crate::progress::Steps;
 use crate::watch::Watch;
 
@@ -60,7 +61,8 @@ pub(super) fn adopt(
         stopped?;
         merge.take(lines)?;
     }
-    Ok(())
+    // What is still on its way would be taken for missing.
+    output.settle()
 }
 
 /// A folder that is being taken over.
@@ -117,6 +119,7 @@ impl Merge<'_> {
 
     /// Takes over what was built for a variation of a scene.
     fn site(&self, variation: &str) -> Result<()> {
+        self.output.site(variation)?; // which brings what lies elsewhere
         let (from, to) = (self.root.at(variation)?, self.output.at(variation)?);
         std::fs::create_dir_all(&to)
             .with_context(|| format!("{}: expected a folder that can be made", to.display()))?;
@@ -139,6 +142,6 @@ impl Merge<'_> {
                 target.display()
             );
         }
-        Ok(())
+        self.output.site_written(variation)
     }
 }

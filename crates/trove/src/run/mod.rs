@@ -9,9 +9,12 @@ mod manifest;
 mod merging;
 mod output;
 mod portions;
+mod private;
 mod read;
 mod share;
+mod stored;
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,7 +25,8 @@ use anyhow::{Context, Result, ensure};
 use rayon::Scope;
 use trove_build::Moments;
 use trove_format::{
-    Counterfactual, FrameFile, FrameRow, LanesFile, RunIdentity, SiteFile, TrajectoryFile, WrittenFile,
+    Counterfactual, FrameFile, FrameRow, LanesFile, MadeRows, ManifestRows, RunIdentity, SiteFile, TrajectoryFile,
+    WrittenFile,
 };
 use trove_model::{
     AssetLibrary, Capture, GridForm, GridShot, LidarShot, Occupancy, Outcome, PointCloud, RadarDetection, RadarShot,
@@ -33,7 +37,7 @@ use trove_write::{Frame, FrameFolders, FrameMeta, Grid, RadarCycle, Sweep, Write
 
 use crate::contents::Contents;
 use crate::progress::Progress;
-use crate::recipe::{GridSection, Recipe};
+use crate::recipe::{GridSection, LibrarySource, Recipe};
 use crate::sources::Sources;
 use crate::virtual_scene::VirtualScene;
 use crate::watch::Watch;
@@ -42,11 +46,13 @@ pub use estimate::{Estimate, estimate};
 pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, Sensed, SiteSummary, planned, variation_folder};
 use output::OutputFolder;
-pub(crate) use output::{PRIVATE, begun_with, is_whole, part_folders, refuse_foreign};
+pub(crate) use output::{begun_with, is_whole, part_folders, refuse_foreign};
 use portions::{Portion, portions};
+pub(crate) use private::PRIVATE;
 use read::Read;
 use share::Slice;
 pub use share::{MOST_SHARES, Share};
+pub(crate) use stored::journals;
 
 /// Frames that are encoded and written at once: pictures are large.
 const WRITING: usize = 2;
@@ -117,6 +123,7 @@ pub struct RenderedFrame {
 /// another process writes to, or a file system that refuses.
 pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Summary> {
     let started = Instant::now();
+    exports::check(recipe, out)?;
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
         denoise: recipe.denoising(),
@@ -133,7 +140,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let mut contents = Contents::open();
     let identity = identity::of_run(recipe, &options.search, &renderer, &sources, &mut contents)?;
     let mut output = OutputFolder::open(out, &identity, options.share)?;
-    let folders = FrameFolders::made_by(out, output.maker.clone());
+    let folders = FrameFolders::made_by(output.root(), output.maker.clone());
     if let Some(file) = &options.recipe_file {
         output.write_recipe_file(file)?;
     }
@@ -146,11 +153,16 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     let of_all =
         self::portions(recipe, &scenes, frames, None).iter().flatten().flatten().map(|all| all.frames_hint).sum();
     let keyframes_and_cameras = identity::planned(recipe, &sources)?;
+    // What is wrong with a user's models is in the report of every run; the built-in ones are not needed to merge.
+    let is_built_in = recipe.libraries().iter().all(|source| matches!(source, LibrarySource::Procedural));
+    let library =
+        (!is_built_in).then(|| library::gather(recipe, &options.search, &mut contents, &report)).transpose()?;
     let mut run = Run {
         recipe,
         renderer: &renderer,
         sources,
-        library: library::gather(recipe, &options.search, &mut contents, &report)?,
+        search: &options.search,
+        library,
         contents,
         planned: keyframes_and_cameras,
         grid_forms: grid_forms(recipe)?,
@@ -174,7 +186,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     run.plan()?;
     for ((scene, _), portions) in scenes.iter().zip(portions) {
         if let Err(stop) = run.scene(scene, &portions) {
-            let kept = run.record(0);
+            let kept = run.settle();
             run.progress.finish();
             return match stop {
                 Stop::Interrupted => {
@@ -231,7 +243,10 @@ struct Run<'a> {
     recipe: &'a Recipe,
     renderer: &'a Renderer,
     sources: Sources<'a>,
-    library: AssetLibrary,
+    /// Where the ingredients of models are looked for.
+    search: &'a [PathBuf],
+    /// The models, once something has to be built.
+    library: Option<AssetLibrary>,
     contents: Contents,
     /// Which keyframes and cameras the recipe asks for.
     planned: serde_json::Value,
@@ -426,7 +441,12 @@ impl Run<'_> {
         let recording = read.recording(&self.sources, &mut self.contents)?.clone();
         let (timeline, map, report) = read.drive(&self.sources)?;
         let report = report.clone();
-        let built = VirtualScene::build(&self.sources, (timeline, map.as_ref()), &self.library, variation, &report)?;
+        let library = match self.library.take() {
+            Some(library) => library,
+            None => library::gather(self.recipe, self.search, &mut self.contents, &self.report)?,
+        };
+        let library = self.library.insert(library);
+        let built = VirtualScene::build(&self.sources, (timeline, map.as_ref()), library, variation, &report)?;
         let keyframes = match &self.recipe.drive {
             Some(section) => section.keyframes.of(timeline.recorded.keyframes.len())?,
             None => (0..timeline.recorded.keyframes.len()).collect(),
@@ -629,42 +649,36 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The manifest's rows of all frames, of all sweeps, of all radars' cycles and of all grids.
-    fn rows(&mut self) -> Result<[Vec<FrameRow>; 4]> {
-        let [mut frames, mut sweeps, mut radars, mut grids] = [const { Vec::new() }; 4];
-        for SiteSummary { scene, variation, file } in std::mem::take(&mut self.sites) {
-            for key in self.wanted(&scene, variation, &file, Slice::ALL) {
-                let path = key.path();
-                let files = self.finished(&key)?.with_context(|| format!("{path}: removed during the run"))?;
-                let (rows, is_compared) = match key.sensed {
-                    Sensed::Frame => (&mut frames, variation > 0),
-                    Sensed::Sweep => (&mut sweeps, false),
-                    Sensed::Radar => (&mut radars, false),
-                    Sensed::Grid => (&mut grids, false),
-                };
-                let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
-                rows.push(FrameRow {
-                    path,
-                    scene: key.scene.clone(),
-                    variation,
-                    keyframe: key.keyframe,
-                    view: key.view.clone(),
-                    factors: file.factors.clone(),
-                    files: files.into_iter().map(|file| (file.name, file.sha256)).collect(),
-                    counterfactual: counterfactual.map(|factor| Counterfactual {
-                        factor: factor.name().into(),
-                        base: FrameKey { variation: 0, ..key }.path(),
-                    }),
-                });
-            }
-            self.sites.push(SiteSummary { scene, variation, file });
-        }
-        Ok([frames, sweeps, radars, grids])
+    /// Waits until every frame is written and where it belongs.
+    fn settle(&mut self) -> Result<()> {
+        self.record(0)?;
+        self.output.settle()
+    }
+
+    /// The manifest's row of what is finished.
+    fn row(&mut self, key: &FrameKey, file: &SiteFile) -> Result<FrameRow> {
+        let path = key.path();
+        let files = self.finished(key)?.with_context(|| format!("{path}: removed during the run"))?;
+        let is_compared = key.sensed == Sensed::Frame && key.variation > 0;
+        let counterfactual = self.recipe.variations.counterfactual.filter(|_| is_compared);
+        Ok(FrameRow {
+            path,
+            scene: key.scene.clone(),
+            variation: key.variation,
+            keyframe: key.keyframe,
+            view: key.view.clone(),
+            factors: file.factors.clone(),
+            files: files.into_iter().map(|file| (file.name, file.sha256)).collect(),
+            counterfactual: counterfactual.map(|factor| Counterfactual {
+                factor: factor.name().into(),
+                base: FrameKey { variation: 0, ..key.clone() }.path(),
+            }),
+        })
     }
 
     /// Ends a part, which has nothing to sum up.
     fn finish_part(mut self) -> Result<Summary> {
-        self.record(0)?;
+        self.settle()?;
         self.progress.finish();
         let frames = self.progress.total() as usize;
         Ok(Summary { frames, rendered: self.rendered, interrupted: false, timings: self.timings })
@@ -672,19 +686,42 @@ impl Run<'_> {
 
     /// Writes what sums the run up.
     fn finish(mut self, identity: RunIdentity) -> Result<Summary> {
-        self.record(0)?;
+        self.settle()?;
         self.progress.finish();
-        let rows = self.rows()?;
-        let given: BTreeSet<&str> = rows.iter().flatten().map(|row| row.path.as_str()).collect();
-        for frame in self.frames.into_iter().flatten().filter(|frame| !given.contains(frame.as_str())) {
-            self.report.note(Outcome::Dropped, "frame that the recipe does not produce", frame.clone());
+        let sites = std::mem::take(&mut self.sites);
+        let of_site = |site: &SiteSummary| self.wanted(&site.scene, site.variation, &site.file, Slice::ALL);
+        let keys: Vec<(&SiteSummary, FrameKey)> =
+            sites.iter().flat_map(|site| of_site(site).into_iter().map(move |key| (site, key))).collect();
+        if let Some(asked) = self.frames {
+            let given: BTreeSet<String> = keys.iter().map(|(_, key)| key.path()).collect();
+            for frame in asked.difference(&given) {
+                self.report.note(Outcome::Dropped, "frame that the recipe does not produce", frame.clone());
+            }
         }
-        let frames = rows.iter().map(Vec::len).sum();
-        ensure!(frames > 0, "no scene could be built: {}", self.dropped_scenes());
-        let manifest = manifest::manifest(self.recipe.seed, identity, &self.sites, rows);
-        let report = manifest::report(&self.report, &self.sites);
-        self.folders.finish(&manifest, &report)?;
-        Ok(Summary { frames, rendered: self.rendered, interrupted: false, timings: self.timings })
+        ensure!(!keys.is_empty(), "no scene could be built: {}", self.dropped_scenes());
+        let pictures = keys.iter().filter(|(_, key)| key.sensed == Sensed::Frame);
+        let pictures: Vec<String> = pictures.map(|(_, key)| key.path()).collect();
+        let sheet = FrameFolders::in_sheet(&pictures);
+        self.output.bring(&sheet)?;
+        let manifest = manifest::manifest(self.recipe.seed, identity, &sites);
+        let report = manifest::report(&self.report, &sites);
+        let folders = self.folders.clone();
+        // Of many frames the rows do not fit into memory.
+        let run = RefCell::new(&mut self);
+        let rows = |sensed: Sensed| -> MadeRows<'_> {
+            let of_kind = keys.iter().filter(move |(_, key)| key.sensed == sensed);
+            let row = |(site, key): &(&SiteSummary, FrameKey)| run.borrow_mut().row(key, &site.file);
+            Box::new(of_kind.map(move |one| row(one).map_err(|error| message::of(&error))))
+        };
+        let rows = ManifestRows {
+            frames: rows(Sensed::Frame),
+            sweeps: rows(Sensed::Sweep),
+            radars: rows(Sensed::Radar),
+            grids: rows(Sensed::Grid),
+        };
+        folders.finish(&manifest, rows, &sheet, &report)?;
+        self.output.finish()?;
+        Ok(Summary { frames: keys.len(), rendered: self.rendered, interrupted: false, timings: self.timings })
     }
 
     fn dropped_scenes(&self) -> String {

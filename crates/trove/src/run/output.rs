@@ -2,27 +2,27 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use rayon::prelude::*;
 use trove_files::{FolderLock, LARGEST_TEXT, OutputRoot, read_text, write_new};
 use trove_format::{FrameLine, JournalLine, LanesFile, PlanLine, RunIdentity, SiteFile, TrajectoryFile, WrittenFile};
-use trove_write::{Maker, sha256_file, write_atomically};
+use trove_write::{FrameFolders, Maker, sha256_file, write_atomically};
 
 use super::identity::differences;
 use super::journals::{Journals, is_empty};
+use super::private::{PARTS, PRIVATE, now_ns};
 use super::share::Share;
+use super::stored::StoredFolder;
+use crate::store;
 
-/// Holds what only trove reads: the run's identity, its lock and the journal of finished frames.
-pub(crate) const PRIVATE: &str = ".trove";
-/// Below it, a folder a share: its lock and its journal.
-const PARTS: &str = "parts";
 /// And the path of the recipe, as this machine reaches it.
 const RECIPE_FILE: &str = "recipe";
 
 /// An output folder that this process alone writes to, or with other parts of the same run.
 pub(super) struct OutputFolder {
+    /// Where finished frames are sent to, where that is no folder.
+    stored: Option<StoredFolder>,
     root: OutputRoot,
     journals: Journals,
     started_unix_s: u64,
@@ -37,7 +37,9 @@ impl OutputFolder {
     /// Opens or makes the folder. `identity` is everything that decides the output's bytes: a folder that was begun
     /// with another one is refused, and so is one that holds something else, or that another run is writing to. A part
     /// shares the folder with the others; a whole run takes over what parts have finished.
-    pub(super) fn open(root: &Path, identity: &RunIdentity, share: Option<Share>) -> Result<Self> {
+    pub(super) fn open(out: &Path, identity: &RunIdentity, share: Option<Share>) -> Result<Self> {
+        let stored = store::address(out).map(|address| StoredFolder::open(address, share)).transpose()?;
+        let root = stored.as_ref().map_or(out, StoredFolder::working);
         let private = root.join(PRIVATE);
         refuse_foreign(root)?;
         let made = |folder: &Path| {
@@ -62,8 +64,18 @@ impl OutputFolder {
                 (Maker::Among(share.folder() + &worker), locks)
             }
         };
-        check_identity(root, &private, identity)?;
+        check_identity(out, &private, identity)?;
+        if let Some(stored) = &stored
+            && !stored.share_identity()?
+        {
+            check_identity(out, &private, identity)?;
+            stored.send_identity()?;
+        }
         let journal = private.join(FrameLine::JOURNAL);
+        if share.is_none() {
+            clear(root)?;
+            clear(&private)?;
+        }
         let journals = match share {
             None => {
                 let parts = part_folders(root)?;
@@ -74,7 +86,13 @@ impl OutputFolder {
             Some(_) => Journals::open(folder.join(FrameLine::JOURNAL), vec![journal])?,
         };
         let started_unix_s = now_ns() as u64 / 1_000_000_000;
-        Ok(Self { root: OutputRoot::new(root), journals, started_unix_s, planned: None, maker, _locks: locks })
+        let root = OutputRoot::new(root);
+        Ok(Self { stored, root, journals, started_unix_s, planned: None, maker, _locks: locks })
+    }
+
+    /// The folder that frames are written to, which is not where they are sent.
+    pub(super) fn root(&self) -> &Path {
+        self.root.path()
     }
 
     /// Writes down how many frames are going to be made, of how many of the whole recipe.
@@ -92,7 +110,7 @@ impl OutputFolder {
         let path = self.root.path().join(PRIVATE).join(RECIPE_FILE);
         // A path that is no text is not remembered.
         match std::path::absolute(recipe)?.to_str() {
-            Some(recipe) if !path.exists() => Ok(write_atomically(&path, recipe.as_bytes())?),
+            Some(recipe) if self.stored.is_none() && !path.exists() => Ok(write_atomically(&path, recipe.as_bytes())?),
             _ => Ok(()),
         }
     }
@@ -109,6 +127,12 @@ impl OutputFolder {
 
     /// What was built for a variation of a scene by an earlier run; `None` where nothing was.
     pub(super) fn site(&self, folder: &str) -> Result<Option<SiteFile>> {
+        if let Some(stored) = &self.stored {
+            stored.bring_site(folder)?;
+        }
+        if self.maker == Maker::Alone {
+            clear(&self.root.at(folder)?)?;
+        }
         Ok(SiteFile::read(&self.root.at(folder)?)?)
     }
 
@@ -120,16 +144,25 @@ impl OutputFolder {
         way: &TrajectoryFile,
         lanes: &LanesFile,
     ) -> Result<()> {
-        let folder = self.root.at(folder)?;
-        std::fs::create_dir_all(&folder)
-            .with_context(|| format!("{}: expected a folder that can be created", folder.display()))?;
-        write_atomically(&folder.join(TrajectoryFile::NAME), &way.to_json())?;
-        write_atomically(&folder.join(LanesFile::NAME), &lanes.to_json())?;
-        Ok(write_atomically(&folder.join(SiteFile::NAME), &site.to_json())?)
+        let path = self.root.at(folder)?;
+        std::fs::create_dir_all(&path)
+            .with_context(|| format!("{}: expected a folder that can be created", path.display()))?;
+        write_atomically(&path.join(TrajectoryFile::NAME), &way.to_json())?;
+        write_atomically(&path.join(LanesFile::NAME), &lanes.to_json())?;
+        write_atomically(&path.join(SiteFile::NAME), &site.to_json())?;
+        self.site_written(folder)
+    }
+
+    /// What was built for a variation of a scene lies in its folder now.
+    pub(super) fn site_written(&self, folder: &str) -> Result<()> {
+        self.stored.as_ref().map_or(Ok(()), |stored| stored.send_site(folder))
     }
 
     /// Reads the files of those frames that have a line in a journal and were not looked at yet, several at once.
     pub(super) fn verify(&mut self, frames: &[String]) -> Result<()> {
+        if self.stored.is_some() {
+            return Ok(()); // a store keeps what it has
+        }
         let mut unread = Vec::new();
         for frame in frames {
             if let Some((files, false)) = self.journals.get(frame)? {
@@ -146,6 +179,16 @@ impl OutputFolder {
 
     /// The files of a frame that is finished, whole and on disk; `None` where it has to be rendered.
     pub(super) fn finished(&mut self, frame: &str, expected: &[&str]) -> Result<Option<Vec<WrittenFile>>> {
+        if let Some(stored) = &mut self.stored {
+            let told = self.journals.get(frame)?.map(|(files, _)| files);
+            let found = stored.finished(frame, expected, told.clone())?;
+            if let Some(files) = &found
+                && (told.as_ref() != Some(files) || self.journals.is_elsewhere(frame))
+            {
+                self.write_down(FrameLine { frame: frame.to_owned(), files: files.clone() })?;
+            }
+            return Ok(found);
+        }
         let folder = self.root.at(frame)?;
         if !folder.is_dir() {
             return Ok(None);
@@ -172,7 +215,7 @@ impl OutputFolder {
                 self.journals.verified(frame);
                 if self.journals.is_elsewhere(frame) {
                     // A part's own journal tells how much of it is done.
-                    self.record(frame, files.clone())?;
+                    self.write_down(FrameLine { frame: frame.to_owned(), files: files.clone() })?;
                 }
                 return Ok(Some(files));
             }
@@ -187,13 +230,46 @@ impl OutputFolder {
             files.push(WrittenFile { name: (*name).to_owned(), sha256: sha256_file(&path)?, bytes: found.len() });
         }
         files.sort_by(|a, b| a.name.cmp(&b.name));
-        self.record(frame, files.clone())?;
+        self.write_down(FrameLine { frame: frame.to_owned(), files: files.clone() })?;
         Ok(Some(files))
     }
 
-    /// Writes down that a frame is finished.
+    /// Keeps a frame that was just finished.
     pub(super) fn record(&mut self, frame: &str, files: Vec<WrittenFile>) -> Result<()> {
-        self.journals.write(JournalLine::Frame(FrameLine { frame: frame.to_owned(), files }))
+        let line = FrameLine { frame: frame.to_owned(), files };
+        let Some(stored) = &mut self.stored else { return self.write_down(line) };
+        let arrived = stored.send(line)?;
+        arrived.into_iter().try_for_each(|line| self.write_down(line))?;
+        self.stored.as_mut().map_or(Ok(()), |stored| stored.journal(false))
+    }
+
+    /// Waits until every frame that was kept is where it belongs.
+    pub(super) fn settle(&mut self) -> Result<()> {
+        let Some(stored) = &mut self.stored else { return Ok(()) };
+        let arrived = stored.arrived(0)?;
+        arrived.into_iter().try_for_each(|line| self.write_down(line))?;
+        self.stored.as_mut().map_or(Ok(()), |stored| stored.journal(true))
+    }
+
+    /// Brings the files of those frames that the contact sheet is made from, where they lie elsewhere.
+    pub(super) fn bring(&mut self, frames: &[&String]) -> Result<()> {
+        let Some(stored) = &self.stored else { return Ok(()) };
+        let mut files = Vec::new();
+        for frame in frames {
+            let (written, _) = self.journals.get(frame)?.with_context(|| format!("{frame}: removed during the run"))?;
+            let names = written.into_iter().map(|file| file.name).filter(|name| FrameFolders::is_in_sheet(name));
+            files.extend(names.map(|name| format!("{frame}/{name}")));
+        }
+        stored.bring(files)
+    }
+
+    /// What sums the run up lies beside its frames now.
+    pub(super) fn finish(&mut self) -> Result<()> {
+        self.stored.as_mut().map_or(Ok(()), StoredFolder::finish)
+    }
+
+    fn write_down(&mut self, line: FrameLine) -> Result<()> {
+        self.journals.write(JournalLine::Frame(line))
     }
 }
 
@@ -207,11 +283,6 @@ pub(crate) fn begun_with(root: &Path) -> Result<PathBuf> {
             path.display()
         )
     })
-}
-
-/// Nanoseconds since 1970 UTC.
-fn now_ns() -> u128 {
-    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos()
 }
 
 /// The folders of a run's parts, in the order of their numbers.
@@ -248,6 +319,26 @@ fn adopt(journals: &mut Journals, parts: &[(Share, PathBuf)]) -> Result<()> {
             .with_context(|| format!("{}: expected a folder that can be removed", parts.display()))?;
     }
     Ok(())
+}
+
+/// Removes the hidden files of a folder that a killed run was writing.
+fn clear(folder: &Path) -> Result<()> {
+    let entries = match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        entries => entries.with_context(|| format!("{}: expected a folder that can be read", folder.display()))?,
+    };
+    for path in entries.flatten().map(|entry| entry.path()).filter(|path| is_unfinished(path)) {
+        std::fs::remove_file(&path)
+            .with_context(|| format!("{}: expected a file that can be removed", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Whether a path is a hidden file of [`write_atomically`], which a process that was killed has left.
+fn is_unfinished(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_prefix('.'));
+    let process = name.and_then(|name| name.strip_suffix(".partial")).and_then(|name| name.rsplit_once('.'));
+    process.is_some_and(|(_, id)| !id.is_empty() && id.bytes().all(|digit| digit.is_ascii_digit())) && path.is_file()
 }
 
 /// Whether a file of a frame holds the bytes that were written.
@@ -370,6 +461,24 @@ mod tests {
             // What is left is in nobody's way.
             assert!(!folder.join("a").exists() && folder.join("b").exists());
         }
+    }
+
+    #[test]
+    fn what_a_killed_run_was_writing_is_cleared_away() {
+        let dir = tempfile::tempdir().unwrap();
+        let root = dir.path().join("out");
+        drop(OutputFolder::open(&root, &identity(1), None).unwrap());
+        std::fs::create_dir_all(root.join("s/v00")).unwrap();
+        let left = [".report.json.28076.partial", ".trove/.run.json.7.partial", "s/v00/.site.json.7.partial"];
+        let kept = [".report.partial", ".report.json.a.partial", "report.json.7.partial"];
+        left.iter().chain(&kept).for_each(|name| std::fs::write(root.join(name), "").unwrap());
+        // Of several parts another may be writing it.
+        drop(OutputFolder::open(&root, &identity(1), Some("1/2".parse().unwrap())).unwrap());
+        assert!(left.iter().all(|name| root.join(name).exists()));
+        let out = OutputFolder::open(&root, &identity(1), None).unwrap();
+        out.site("s/v00").unwrap();
+        assert_eq!(left.map(|name| root.join(name).exists()), [false; 3]);
+        assert!(kept.iter().all(|name| root.join(name).exists()));
     }
 
     #[test]
