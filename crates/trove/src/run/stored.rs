@@ -39,7 +39,6 @@ pub(super) struct StoredFolder {
     working: PathBuf,
     /// The folder of this worker's journal and claim, below the output folder.
     private: String,
-    share: Option<Share>,
     /// The frames that lie there of the variation that was asked for last.
     listed: Option<(String, Lying)>,
     sending: VecDeque<(FrameLine, Answer)>,
@@ -80,7 +79,6 @@ impl StoredFolder {
             store,
             working,
             private,
-            share,
             listed: None,
             sending: VecDeque::new(),
             journal_sent: Instant::now(),
@@ -243,14 +241,12 @@ impl StoredFolder {
     /// Sends what sums a run up, the manifest last, and takes the parts' journals away, whose lines its own has now.
     pub(super) fn finish(&mut self) -> Result<()> {
         self.journal(true)?;
-        let [sheet, report, manifest, _] = FrameFolders::RESERVED;
-        debug_assert_eq!(manifest, Manifest::NAME);
-        let files = [sheet, report, manifest].map(|name| (name.to_owned(), self.working.join(name)));
-        self.store.send(files.to_vec()).wait()?;
-        if self.share.is_none() {
-            for object in self.store.list(&format!("{PRIVATE}/{PARTS}"))? {
-                self.store.remove(&object.name)?;
-            }
+        let sums = FrameFolders::RESERVED.into_iter().filter(|name| *name != FrameFolders::EXPORTS);
+        let (manifest, rest): (Vec<&str>, Vec<&str>) = sums.partition(|name| *name == Manifest::NAME);
+        let files = rest.into_iter().chain(manifest).map(|name| (name.to_owned(), self.working.join(name)));
+        self.store.send(files.collect()).wait()?;
+        for object in self.store.list(&format!("{PRIVATE}/{PARTS}"))? {
+            self.store.remove(&object.name)?;
         }
         Ok(())
     }
