@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores bench-merge clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores test-rerun bench-merge clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -117,7 +117,7 @@ bench-waymo:
 lint: $(VENV)/.lint-installed
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets --features trove/object-store -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --features trove/object-store --no-deps --quiet
 	sha256sum --check --quiet --status tests/denied.sha256 || $(MAKE) deny
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
@@ -230,6 +230,12 @@ test-cluster: $(VENV)/.test-installed
 	PYTHONPATH=.cluster $(BIN)/python -c 'import ray, kubernetes_validate'
 	PATH="$(CURDIR)/.cluster/bin:$$PATH" PYTHONPATH=.cluster $(BIN)/python -m pytest -q python/tests/test_cluster.py
 
+# Frames in Rerun's form, read back by its reader; 0.2 GB, so it lies beside what everyone installs.
+test-rerun: $(VENV)/.test-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade --no-compile --target .rerun rerun-sdk==0.41.0
+	PYTHONPATH=.rerun $(BIN)/python -c 'import rerun'
+	PYTHONPATH=.rerun $(BIN)/python -m pytest -q python/tests/test_rerun.py
+
 # Output to an object store, and data from there, with the program that test-rust builds: moto's server stands for S3.
 STORES := 'moto[s3]==5.2.5' 'flask>=3' 'flask-cors>=4' 'boto3>=1.40'
 test-stores: $(VENV)/.test-installed
@@ -258,4 +264,4 @@ bench-export: $(VENV)/.test-installed
 	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target dist .tools .torch .cluster .stores python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
+	rm -rf target dist .tools .torch .cluster .stores .rerun python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out
