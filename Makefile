@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores test-rerun bench-merge clean
+.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores test-rerun bench-merge bench-ray bench-dry-run clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -251,6 +251,13 @@ test-stores: $(VENV)/.test-installed
 # 100,000 made-up frames of 1,000 parts merged, and resumed; 3 GB in the temporary folder.
 bench-merge: $(VENV)/.test-installed
 	$(BIN)/python benches/merge.py --trove $(BIN)/trove
+
+# Two Ray nodes against two threads, and --dry-run against the run; on the real data in TROVE_TEST_DATA.
+bench-ray: $(VENV)/.test-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade --no-compile --target .cluster $(CLUSTER)
+	PATH="$(CURDIR)/.cluster/bin:$$PATH" PYTHONPATH=.cluster $(BIN)/python benches/ray_nodes.py
+bench-dry-run: install
+	$(BIN)/python benches/dry_run.py --trove $(BIN)/trove
 
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed
