@@ -30,8 +30,7 @@ spp = {spp}
 
 def nodes(folder):
     """Two nodes on the loopback; their address and processes."""
-    program, port = Path(sys.executable).parent / "ray", 20_000 + os.getpid() % 10_000
-    program = str(program) if program.exists() else shutil.which("ray")
+    program, port = shutil.which("ray"), 20_000 + os.getpid() % 10_000
     address, common = f"127.0.0.1:{port}", ["--num-cpus=1", "--disable-usage-stats", "--block"]
     head = [program, "start", "--head", f"--port={port}", "--include-dashboard=false", f"--temp-dir={folder}", *common]
     started = [subprocess.Popen(head, stdout=subprocess.DEVNULL, start_new_session=True)]

@@ -24,7 +24,7 @@ position_m = [3.4, 0.0, 0.5]
 @pytest.fixture(scope="module")
 def run(recipe):
     path = recipe.parent / "rerun.toml"
-    path.write_text(recipe.read_text().replace("other_vehicles = 1", "other_vehicles = 0") + SENSORS)
+    path.write_text(recipe.read_text() + SENSORS)
     out = recipe.parent / "rerun"
     done = trove("generate", path, "--out", out)
     assert done.returncode == 0, done.stderr
@@ -77,6 +77,12 @@ def test_rerun_reads_back_what_the_frames_hold(run, tmp_path):
         for thing in frame.objects:
             if thing.origin != "scenery":
                 assert np.allclose(boxes[f"{thing.class_} {thing.id}"], np.array(thing.size_m) / 2, atol=1e-5)
+    way = frames.trajectory("demo-0001").world_from_ego
+    for chunk in RrdReader(path).stream().to_chunks():
+        if chunk.entity_path == "/world/ego":
+            rows = chunk.to_record_batch().to_pydict()
+            for keyframe, (at,) in zip(rows["keyframe"], rows["Transform3D:translation"]):
+                assert np.allclose(at, way[keyframe, :3, 3], atol=1e-4), "the recording vehicle, not another one"
     assert len(of["/world/objects", "Boxes3D:labels"]) == 2, "both keyframes have their own boxes"
     for kind in (frames.sweeps, frames.radars):
         for looked in kind:

@@ -19,14 +19,10 @@ import numpy as np
 import rerun as rr
 
 import trove
-from trove._trove import label_colors
+from trove._trove import image_names, label_colors
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from trove.format import FrameTable, LanesTable, RadarTable, SweepTable
-
-    Ids = npt.NDArray[np.int64]
 
 IMAGES = ("rgb", "class", "instance", "depth")
 NAME = "trove"
@@ -61,8 +57,8 @@ class Recording:
         self.stream.set_log_tick_enabled(False)
         self.stream.send_recording_name(self.name)
         self.always("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
-        way = frames.trajectory(scene, variation).world_from_ego[:, :3, 3]
-        self.always("world/trajectory", rr.LineStrips3D([way], radii=0.05))
+        self.way = frames.trajectory(scene, variation).world_from_ego
+        self.always("world/trajectory", rr.LineStrips3D([self.way[:, :3, 3]], radii=0.05))
         self.lanes(frames.lanes(scene, variation))
 
     def always(self, entity: str, *what: Any) -> None:
@@ -78,9 +74,10 @@ class Recording:
             self.always(entity, self.classes)
 
     def at(self, table: FrameTable | SweepTable | RadarTable) -> None:
-        """What comes next belongs to this moment."""
+        """What comes next belongs to this moment, and the recording vehicle is where it was then."""
         self.stream.set_time("keyframe", sequence=table["keyframe"])
         self.stream.set_time("time", timestamp=np.datetime64(table["keyframe_time_ns"], "ns"))
+        self.log("world/ego", pose(self.way[table["keyframe"]]), rr.TransformAxes3D(2.0))
 
     def lanes(self, table: LanesTable) -> None:
         strips = {
@@ -91,15 +88,10 @@ class Recording:
         for kind, points in strips.items():
             self.always(f"world/{kind}", rr.LineStrips3D(points, radii=0.03, colors=LINES[kind]))
 
-    def ego(self, world_from_ego: Any) -> None:
-        if world_from_ego is not None:
-            self.log("world/ego", pose(world_from_ego), rr.TransformAxes3D(2.0))
-
     def frame(self, frame: trove.Frame, images: Iterable[str]) -> None:
         table, camera = frame.table, frame.camera
         entity = f"world/{table['view']}"
         self.at(table)
-        self.ego(table["world_from_ego"])
         self.log(entity, pose(camera.world_from_camera))
         if camera.lens_model != "equirectangular":  # of which Rerun has no frustum
             self.log(
@@ -172,12 +164,10 @@ class Recording:
 
     def sweep(self, sweep: trove.Sweep) -> None:
         self.at(sweep.table)
-        self.ego(sweep.table["world_from_ego"])
         self.points(sweep.table["view"], sweep.xyz, sweep.points["class"], 0.03)
 
     def radar(self, cycle: trove.RadarCycle) -> None:
         self.at(cycle.table)
-        self.ego(cycle.table["world_from_ego"])
         self.points(cycle.table["view"], cycle.xyz, cycle.detections["class"], 0.15)
 
 
@@ -228,10 +218,11 @@ def main(args: list[str] | None = None) -> int:
     options = parser.parse_args(args)
     images = options.images.split(",")
     try:
-        unknown = set(images) - set(trove._trove.image_names())
+        unknown = set(images) - set(image_names())
         if unknown:
-            known = ", ".join(trove._trove.image_names())
-            raise trove.TroveError(f"--images: expected some of {known}, found {', '.join(sorted(unknown))}")
+            raise trove.TroveError(
+                f"--images: expected some of {', '.join(image_names())}, found {', '.join(sorted(unknown))}"
+            )
         frames = trove.open(options.dir)
         if options.save:
             options.save.mkdir(parents=True, exist_ok=True)
