@@ -1,6 +1,5 @@
 """`trove evaluate`, `trove recolor` and `trove curate`, as a user meets them."""
 
-import html.parser
 import json
 import os
 import shutil
@@ -346,82 +345,3 @@ def test_light_is_rendered_for_the_chosen_frames_alone(recipe, labels, tmp_path)
     strange.write_text(json.dumps({"train": ["scene-9999/v00/k000/ego.CAM_FRONT"], "val": []}))
     done = trove("generate", recipe, "--out", tmp_path / "none", "--frames", strange)
     assert done.returncode == 1 and "scene-9999" in done.stderr, done.stderr
-
-
-class Page(html.parser.HTMLParser):
-    """Counts elements and collects what they refer to."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.tags, self.references = {}, []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.tags[tag] = self.tags.get(tag, 0) + 1
-        self.references += [value for name, value in attrs if name in ("src", "href", "srcset", "data", "poster")]
-
-
-def test_the_page_needs_nothing_else(labels):
-    _, found = labels
-    text = Path(found["page"]).read_text()
-    page = Page(text)
-    assert page.tags["figure"] == page.tags["img"] == found["kept"] and page.tags["svg"] >= 3
-    assert all(reference.startswith("data:image/jpeg;base64,") for reference in page.references)
-    assert "url(" not in text and "@import" not in text and "<script" not in text and "http" not in text
-
-
-# Of each text: its contrast with what is behind it, as WCAG 2.2 defines it, and whether all of it can be
-# seen: in the window, or in a part of the page that moves sideways.
-TEXTS = """() => {
-  const parsed = (color) => color.match(/[\\d.]+/g).map(Number);
-  const luminance = ([r, g, b]) => [r, g, b].map((c) => c / 255)
-    .map((c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
-    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-  const paper = luminance(parsed(getComputedStyle(document.body).backgroundColor));
-  const texts = [];
-  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (walk.nextNode()) {
-    const text = walk.currentNode.textContent.trim();
-    if (!/[\\p{L}\\d]/u.test(text)) continue;
-    const element = walk.currentNode.parentElement, style = getComputedStyle(element), svg = element.closest("svg");
-    const ink = luminance(parsed(svg ? style.fill : style.color));
-    const range = document.createRange();
-    range.selectNodeContents(walk.currentNode);
-    const box = range.getBoundingClientRect();
-    texts.push({
-      text, px: box.height, contrast: (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05),
-      inside: element.closest(".wide") !== null || (box.left >= 0 && box.right <= innerWidth),
-    });
-  }
-  return texts;
-}"""
-
-
-@pytest.mark.parametrize("width", [1200, 390])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_page_shows_in_a_browser(labels, browser, tmp_path, scheme, width):
-    _, found = labels
-    page = browser.new_page(viewport={"width": width, "height": 800}, color_scheme=scheme)
-    said, asked = [], []
-    page.on("console", lambda message: said.append(message.text))
-    page.on("pageerror", lambda error: said.append(str(error)))
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(Path(found["page"]).as_uri())
-    for figure in page.locator("figure").all():
-        figure.scroll_into_view_if_needed()  # pictures are loaded once they are near
-    page.wait_for_function("[...document.images].every((image) => image.complete)")
-    assert page.evaluate("[...document.images].map((image) => image.naturalWidth)") == [200] * found["kept"]
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window"
-    texts = page.evaluate(TEXTS)
-    assert len(texts) > 60 and f"{found['kept']} kept" in " ".join(text["text"] for text in texts)
-    assert not [text for text in texts if text["contrast"] < 4.5 or not text["inside"] or text["px"] < 9]
-    # Every class that fills some of the frames has a bar that is seen in its colour.
-    page.evaluate("scrollTo(0, 0)")
-    picture = tmp_path / "page.png"
-    page.screenshot(path=picture, full_page=True)
-    page.close()
-    assert said == [] and [url for url in asked if not url.startswith(("file:", "data:"))] == []
-    shown = np.array(Image.open(picture).convert("RGB")).reshape(-1, 3)
-    assert (shown.mean() < 90) == (scheme == "dark")
-    for color in ([70, 130, 180], [128, 64, 128]):
-        assert (shown == color).all(axis=1).sum() > 100, color

@@ -137,21 +137,26 @@ def status(folder: AnyPath) -> Status:
     return status
 
 
-def verify(folder: AnyPath, *, progress: Progress | None = None) -> Findings:
-    """Checks every file of an output folder against its hash; nothing is changed."""
-    findings: Findings = _run("verify", [folder], progress)
+def verify(folder: AnyPath, *, page: AnyPath | None = None, progress: Progress | None = None) -> Findings:
+    """Checks every file of an output folder against its hash; nothing is changed. `page` gets a page about it."""
+    findings: Findings = _run("verify", [folder], progress, page=page)
     return findings
 
 
 def verify_labels(
-    folder: AnyPath, *, form: str | None = None, out: AnyPath | None = None, progress: Progress | None = None
+    folder: AnyPath,
+    *,
+    form: str | None = None,
+    out: AnyPath | None = None,
+    page: AnyPath | None = None,
+    progress: Progress | None = None,
 ) -> LabelFindings:
     """Checks what labels say of each other, the image and the cameras' poses, over views and times; nothing is changed.
 
     `folder` is an output folder or a root of Cityscapes, KITTI, COCO, nuScenes or CamVid, in a `form` that is found out
-    where it is not given. `out` gets `audit.json` and images of the ten worst findings.
+    where it is not given. `out` gets `audit.json` and images of the ten worst findings, `page` a page about all of them.
     """
-    findings: LabelFindings = _run("verify", [folder], progress, labels=True, form=form, out=out)
+    findings: LabelFindings = _run("verify", [folder], progress, labels=True, form=form, out=out, page=page)
     return findings
 
 
@@ -195,9 +200,13 @@ def recolor(
     strength: float = 0.75,
     to_labels: AnyPath | None = None,
     to_classes: AnyPath = "trove20",
+    page: AnyPath | None = None,
     progress: Progress | None = None,
 ) -> Recoloring:
-    """Matches the colours of the images below `folder` to those below `to` and writes them below `out`."""
+    """Matches the colours of the images below `folder` to those below `to` and writes them below `out`.
+
+    `page` gets a page with images before and after, mean colours by class, and histograms.
+    """
     recoloring: Recoloring = _run(
         "recolor",
         [folder],
@@ -209,6 +218,7 @@ def recolor(
         strength=strength,
         to_labels=to_labels,
         to_classes=to_classes,
+        page=page,
     )
     return recoloring
 
@@ -223,11 +233,13 @@ def evaluate(
     boundary: bool = False,
     panoptic: bool = False,
     seed: int = 7,
+    page: AnyPath | None = None,
     progress: Progress | None = None,
 ) -> Evaluation:
     """Scores predicted labels, one PNG or a folder of them, against ground truth.
 
-    Without `classes`, and those of either side, class maps are found out from the files; the answer names them.
+    Without `classes`, and those of either side, class maps are found out from the files; the answer names them. `page`
+    gets a page with scores by class, the confusion matrix and the worst images.
     """
     evaluation: Evaluation = _run(
         "evaluate",
@@ -239,6 +251,7 @@ def evaluate(
         boundary=boundary,
         panoptic=panoptic,
         seed=seed,
+        page=page,
     )
     return evaluation
 

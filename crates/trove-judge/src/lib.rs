@@ -35,6 +35,7 @@ pub mod curate;
 mod error;
 pub mod evaluate;
 mod numbering;
+pub mod page;
 mod pictures;
 pub mod recolor;
 

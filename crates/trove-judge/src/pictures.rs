@@ -116,6 +116,11 @@ pub(crate) fn name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
+/// What a folder is called on a page: its name, or its path where that ends in none, such as `..`.
+pub(crate) fn title(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
 /// `aachen_000000_000019` of `aachen_000000_000019_gtFine_labelIds.png`.
 fn cityscapes_key(name: &str) -> Option<String> {
     let parts: Vec<&str> = name.split(['_', '.']).collect();
@@ -139,6 +144,13 @@ pub(crate) fn read(path: &Path) -> Result<DynamicImage, JudgeError> {
     let (width, height) = open()?.into_dimensions().map_err(broken)?;
     check_size(path, width, height)?;
     open()?.decode().map_err(broken)
+}
+
+/// A picture's pixels as 8-bit sRGB.
+pub(crate) fn read_raster(path: &Path) -> Result<Raster<[u8; 3]>, JudgeError> {
+    let picture = read(path)?.into_rgb8();
+    let (width, height) = picture.dimensions();
+    Ok(Raster { width, height, data: picture.into_raw().as_chunks().0.to_vec() })
 }
 
 /// Before anything is unpacked: a header of a few bytes may ask for any amount of memory.

@@ -108,13 +108,16 @@ enum Command {
     },
     /// Check that an output folder still holds what was written to it, or what a dataset's labels say.
     #[command(
-        after_help = "Examples:\n  trove verify out/boston\n  trove verify out/boston --labels --out faults\n  trove verify cityscapes --labels --json"
+        after_help = "Examples:\n  trove verify out/boston\n  trove verify out/boston --labels --page faults.html\n  trove verify cityscapes --labels --json"
     )]
     Verify {
         /// The output folder of trove generate; with --labels also a folder of Cityscapes, KITTI, COCO, nuScenes or CamVid.
         folder: PathBuf,
         #[command(flatten)]
         labels: LabelOptions,
+        /// HTML page to write: what was checked, what is wrong, and with --labels the images that show it.
+        #[arg(long, value_name = "FILE.html")]
+        page: Option<PathBuf>,
         /// Print JSON.
         #[arg(long)]
         json: bool,
@@ -329,8 +332,10 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
             produce(recipe, &out, &machine, options, json)
         }
         Command::Status { folder, json } => status::run(&folder, json),
-        Command::Verify { folder, labels, json } if labels.are_wanted() => labels.run(&folder, json, watch),
-        Command::Verify { folder, labels: _, json } => verify::run(&folder, json, watch),
+        Command::Verify { folder, labels, page, json } if labels.are_wanted() => {
+            labels.run(&folder, page.as_deref(), json, watch)
+        }
+        Command::Verify { folder, labels: _, page, json } => verify::run(&folder, page.as_deref(), json, watch),
         Command::Curate(curate) => curate.run(watch),
         Command::Recolor(recolor) => recolor.run(watch),
         Command::Evaluate(evaluate) => evaluate.run(watch),

@@ -7,6 +7,8 @@ use anyhow::{Result, bail, ensure};
 use rayon::prelude::*;
 use serde::Serialize;
 use trove_format::{FrameLine, Manifest, WrittenFile};
+use trove_judge::page::{Column, Page, Table};
+use trove_write::write_atomically;
 
 use crate::answer::Answer;
 use crate::progress::Progress;
@@ -26,12 +28,16 @@ struct Findings {
     unlisted: Vec<String>,
 }
 
-/// Reads every file of every finished frame; the status is 1 where one is not as it was written. Changes nothing.
+/// Reads every file of every finished frame; the status is 1 where one is not as it was written. Changes nothing, and
+/// writes a page where one is named.
 ///
 /// # Errors
-/// A folder that no run has written, or whose manifest or journal cannot be read.
-pub(crate) fn run(folder: &Path, as_json: bool, watch: &Watch) -> Result<Answer> {
-    let findings = look(folder, watch)?;
+/// A folder that no run has written, or whose manifest or journal cannot be read; a page that cannot be written.
+pub(crate) fn run(folder: &Path, page: Option<&Path>, as_json: bool, watch: &Watch) -> Result<Answer> {
+    let (findings, page) = (look(folder, watch)?, page.map(Path::to_owned));
+    if let Some(page) = &page {
+        write_atomically(page, report(folder, &findings).as_bytes())?;
+    }
     let is_sound = findings.damaged.is_empty() && findings.unlisted.is_empty();
     let tell = move |findings: &Findings| {
         findings.damaged.iter().for_each(|file| println!("damaged: {file}"));
@@ -41,9 +47,44 @@ pub(crate) fn run(folder: &Path, as_json: bool, watch: &Watch) -> Result<Answer>
         } else {
             println!("run trove generate on this folder again: it renders what is damaged");
         }
+        page.iter().for_each(|page| println!("see {}", page.display()));
     };
     let json = serde_json::to_value(&findings)?;
     Ok(Answer::new(as_json, json, move || tell(&findings)).with_status(i32::from(!is_sound)))
+}
+
+/// A page about a folder, as HTML.
+fn report(folder: &Path, findings: &Findings) -> String {
+    let Findings { frames, files, damaged, unlisted } = findings;
+    let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
+    let mut page = Page::new(&format!("Files of {name}"));
+    let count = |name, count: usize, more: &str| (name, count.to_string(), more.to_owned());
+    page.facts([
+        count("Frames", *frames, "and sweeps, finished"),
+        count("Files", *files, "read and hashed"),
+        count("Damaged", damaged.len(), "files"),
+        count("Unlisted", unlisted.len(), "frames"),
+    ]);
+    page.text(
+        "Every file of every finished frame was compared with the length and the hash (SHA-256) that were written down for \
+         it, and the manifest with the journal.",
+    );
+    if damaged.is_empty() && unlisted.is_empty() {
+        page.text("All are as they were written.");
+        return page.html();
+    }
+    page.text("trove generate on this folder renders again what is damaged.");
+    page.section("Findings");
+    let mut table = Table::new(["file or frame", "found"].map(Column::words));
+    for path in damaged {
+        let found = if folder.join(path).is_file() { "other bytes than were written" } else { "no file" };
+        table.row([path, found].map(Into::into));
+    }
+    for frame in unlisted {
+        table.row([frame, "not told alike by the manifest and the journal"].map(Into::into));
+    }
+    page.table("Findings", &table);
+    page.html()
 }
 
 fn look(folder: &Path, watch: &Watch) -> Result<Findings> {
@@ -112,5 +153,12 @@ mod tests {
         fs::remove_file(frame.join("c")).unwrap();
         let damaged = ["a", "b", "c"].map(|name| format!("s/v00/k000/ego.A/{name}")).to_vec();
         assert_eq!(look(root).unwrap(), Findings { damaged, ..sound });
+        let page = report(root, &look(root).unwrap());
+        assert!(page.contains("<dt>Damaged</dt><dd>3</dd>"), "{page}");
+        let row = |file: &str, found: &str| format!("ego.A/{file}</th><td class=\"words\">{found}</td>");
+        assert!(
+            page.contains(&row("b", "other bytes than were written")) && page.contains(&row("c", "no file")),
+            "{page}"
+        );
     }
 }

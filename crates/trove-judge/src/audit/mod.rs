@@ -16,6 +16,7 @@ mod label_image;
 mod moments;
 mod nuscenes;
 mod polygons;
+mod report;
 mod rle;
 mod single;
 #[cfg(test)]
@@ -28,4 +29,5 @@ pub use finding::{Audit, Check, Finding, Tally};
 pub use form::{LabelForm, audit};
 pub use frame::{LabelledFrame, LabelledSweep, patches};
 pub use moments::FrameReader;
-pub use worst::picture;
+pub use report::report;
+pub use worst::{picture, worst_in_turn};

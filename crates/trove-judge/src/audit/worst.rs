@@ -5,13 +5,19 @@ use std::path::Path;
 use image::DynamicImage;
 use trove_model::{Class, Raster};
 
-use super::finding::Finding;
+use super::finding::{Audit, Check, Finding};
 use crate::JudgeError;
 use crate::pictures::read;
 
 /// Marks are seen from afar, pixels.
 const MARK: i64 = 1;
 const MAGENTA: [u8; 3] = [255, 0, 255];
+
+/// The findings, the worst of each check in turn, then the second of each, and so on.
+pub fn worst_in_turn(audit: &Audit) -> impl Iterator<Item = &Finding> {
+    let of = |check: Check| audit.findings.iter().filter(move |finding| finding.check == check);
+    (0..Audit::MOST).flat_map(move |nth| Check::ALL.into_iter().filter_map(move |check| of(check).nth(nth)))
+}
 
 /// The image of a finding, darkened, with what is wrong in magenta; `None` where no image shows it.
 ///

@@ -2,7 +2,6 @@
 
 mod frame;
 mod hash;
-mod plots;
 mod report;
 mod selection;
 mod split;

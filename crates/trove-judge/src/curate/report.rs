@@ -1,19 +1,18 @@
 //! One page that shows what a dataset holds and what was chosen; it needs no other file.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use image::codecs::jpeg::JpegEncoder;
-use image::imageops::{FilterType, resize};
+use glam::DVec2;
 use rayon::prelude::*;
-use trove_model::CLASSES;
+use trove_model::{CLASSES, Raster};
 
-use super::frame::{CandidateFrame, entropy};
-use super::plots::{bars, class_bars, escape, histogram, objects, places};
+use super::frame::{CandidateFrame, SeenObject, entropy};
 use super::{Curation, Split};
 use crate::JudgeError;
-use crate::pictures::{read, read_labels};
+use crate::page::plots::{Bar, BarRow, Bin, Fill, Plot, bar_rows, counts, histogram, map};
+use crate::page::{Column, Figure, Page, Picture, Table};
+use crate::pictures::{read_labels, read_raster, title};
 
 /// Frames that are shown.
 const SHOWN: usize = 60;
@@ -22,14 +21,9 @@ const THUMBNAIL_PX: u32 = 200;
 /// Edges of the bins of distance, metres, and of size, pixels.
 const DISTANCES_M: [f64; 6] = [0.0, 10.0, 20.0, 40.0, 80.0, f64::INFINITY];
 const SIZES_PX: [f64; 6] = [0.0, 100.0, 400.0, 1600.0, 6400.0, f64::INFINITY];
-
-const STYLE: &str = ":root{color-scheme:light dark}body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:72rem;padding:0 1rem;color:#1c1f24;background:#fff}\
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}table{border-collapse:collapse}td,th{padding:.15rem .6rem;text-align:right;white-space:nowrap;border-bottom:1px solid #e3e5e9}\
-td:first-child,th:first-child{text-align:left}.frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:.7rem}\
-figure{margin:0}figure img{width:100%;display:block}figcaption{font-size:.75rem;color:#555;overflow-wrap:anywhere}.wide{overflow-x:auto}svg{display:block}svg text{font:12px system-ui,sans-serif;fill:#1c1f24}\
-.train{color:#2f6fb5;fill:#2f6fb5}.val{color:#d9822b;fill:#d9822b}.gap{color:#a05cb0;fill:#a05cb0}.rest{color:#b4bac2;fill:#b4bac2}\
-.maps{display:flex;flex-wrap:wrap;gap:1.5rem}.bar{fill:#2f6fb5}rect[fill]{stroke:currentColor;stroke-opacity:.4}.pale{fill:#c3cfdd}.line{stroke:#d5d9df}.frame{fill:none;stroke:#d5d9df}\
-@media(prefers-color-scheme:dark){body{background:#15171a;color:#e3e5e9}svg text{fill:#e3e5e9}td,th{border-color:#33373d}.pale{fill:#3d4c5f}.line,.frame{stroke:#3a3f46}figcaption{color:#a5abb3}}";
+/// Bars of shares are logarithmic from a hundred-thousandth to 1.
+const DECADES: f64 = 5.0;
+const TICKS: [(f64, &str); 6] = [(0.0, "0.001"), (0.2, "0.01"), (0.4, "0.1"), (0.6, "1"), (0.8, "10"), (1.0, "100 %")];
 
 /// The page, as HTML.
 ///
@@ -39,84 +33,131 @@ pub fn report(root: &Path, curation: &Curation) -> Result<String, JudgeError> {
     let Curation { frames, selection, splits, rules } = curation;
     let kept: Vec<&CandidateFrame> = selection.kept.iter().map(|i| &frames[*i]).collect();
     let count = |wanted: Split| splits.iter().filter(|s| **s == wanted).count();
-    let mut page = format!(
-        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
-         <title>Contents of {name}</title><style>{STYLE}</style><h1>Contents of {name}</h1>\
-         <p>{all} frames; {kept} kept: {train} for training, {val} for validation, {gap} near to both and in neither.<br>\
-         Dropped: {poor} with fewer than {least} classes, {duplicates} near-duplicates, {rest} that add less.<br>\
-         Entropy of the classes: {before:.2} bits of all frames, {after:.2} of those kept.</p>",
-        name = escape(&root.file_name().unwrap_or_default().to_string_lossy()),
-        all = frames.len(),
-        kept = kept.len(),
-        train = count(Split::Train),
-        val = count(Split::Val),
-        gap = count(Split::Gap),
-        poor = selection.poor,
-        least = rules.min_classes,
-        duplicates = selection.duplicates,
-        rest = frames.len() - kept.len() - selection.poor - selection.duplicates,
-        before = entropy(&curation.shares(false)),
-        after = entropy(&curation.shares(true)),
-    );
-    page += "<h2>Pixels by class</h2><p>Upper bars: all frames; lower bars: those kept. Each line is ten times the previous one.</p>";
-    page += &wide(&class_bars(&curation.shares(false), &curation.shares(true)));
-    page += "<h2>Classes per frame</h2><p>Number of frames by number of classes; pale: dropped frames.</p>";
+    let mut page = Page::new(&format!("Contents of {}", title(root)));
+    page.text(&format!(
+        "{} frames; {} kept: {} for training, {} for validation, {} near to both and in neither.",
+        frames.len(),
+        kept.len(),
+        count(Split::Train),
+        count(Split::Val),
+        count(Split::Gap),
+    ));
+    page.text(&format!(
+        "Dropped: {} with fewer than {} classes, {} near-duplicates, {} that add less.",
+        selection.poor,
+        rules.min_classes,
+        selection.duplicates,
+        frames.len() - kept.len() - selection.poor - selection.duplicates,
+    ));
+    page.text(&format!(
+        "Entropy of the classes: {:.2} bits of all frames, {:.2} of those kept.",
+        entropy(&curation.shares(false)),
+        entropy(&curation.shares(true)),
+    ));
+    page.section("Pixels by class");
+    page.text("Upper bars: all frames; lower bars: those kept. Each line is ten times the previous one.");
+    page.plot(&class_bars(&curation.shares(false), &curation.shares(true)));
+    page.section("Classes per frame");
+    page.text("Number of frames by number of classes; pale: dropped frames.");
     let classes = |f: &CandidateFrame| f.classes() as f64;
-    let [all, chosen] = [histogram(frames, 20, 20.0, classes), histogram(kept.iter().copied(), 20, 20.0, classes)];
-    page += &wide(&bars(&all, &chosen, |i| i.to_string()));
-    page += "<h2>Entropy per frame</h2><p>Bits, from the number under each bar; pale: dropped frames.</p>";
-    let bits = CandidateFrame::entropy;
-    let [all, chosen] = [histogram(frames, 16, 4.0, bits), histogram(kept.iter().copied(), 16, 4.0, bits)];
-    page += &wide(&bars(&all, &chosen, |i| format!("{:.2}", i as f64 / 4.0)));
-    page += "<h2>Where the cameras stand</h2><p>North is up. \
-             <span class=\"train\">●</span> training <span class=\"val\">●</span> validation \
-             <span class=\"gap\">●</span> between both <span class=\"rest\">●</span> dropped</p>";
-    page += &places(curation);
-    page += "<h2>Objects kept, by distance</h2>";
-    page += &wide(&objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into()));
-    page += "<h2>Objects kept, by visible pixels</h2>";
-    page += &wide(&objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into()));
-    page += "<h2>Most valuable frames</h2><div class=\"frames\">";
-    let shown: Vec<String> = kept
-        .par_iter()
-        .zip(splits)
-        .take(SHOWN)
-        .map(|(frame, split)| {
-            let split = format!("{split:?}").to_lowercase();
-            let (classes, entropy) = (frame.classes(), frame.entropy());
-            Ok(format!(
-                "<figure><img loading=\"lazy\" alt=\"\" src=\"data:image/jpeg;base64,{}\"><figcaption>{}<br>{classes} \
-                 classes, {entropy:.2} bits, {split}</figcaption></figure>",
-                thumbnail(root, frame)?,
-                escape(&frame.path),
-            ))
-        })
-        .collect::<Result<_, JudgeError>>()?;
-    page += &shown.concat();
-    page += "</div></html>\n";
-    Ok(page)
+    page.plot(&of_frames("Frames by number of classes", curation, (20, 20.0), classes, |i| i.to_string()));
+    page.section("Entropy per frame");
+    page.text("Bits, from the number under each bar; pale: dropped frames.");
+    let bits = |i| format!("{:.2}", i as f64 / 4.0);
+    page.plot(&of_frames("Frames by entropy", curation, (16, 4.0), CandidateFrame::entropy, bits));
+    page.section("Where the cameras stand");
+    page.text("North is up.");
+    page.key(&[("train", "training"), ("val", "validation"), ("gap", "between both"), ("rest", "dropped")]);
+    page.plots(&places(curation));
+    page.section("Objects kept, by distance");
+    page.table("Objects kept, by distance", &objects(&kept, &DISTANCES_M, "m", |object| object.range_m.into()));
+    page.section("Objects kept, by visible pixels");
+    page.table("Objects kept, by visible pixels", &objects(&kept, &SIZES_PX, "px", |object| object.visible_px.into()));
+    page.section("Most valuable frames");
+    let figure = |(frame, split): (&&CandidateFrame, &Split)| {
+        let split = format!("{split:?}").to_lowercase();
+        let told = format!("{} classes, {:.2} bits, {split}", frame.classes(), frame.entropy());
+        Ok(Figure { pictures: vec![thumbnail(root, frame)?], caption: vec![frame.path.clone(), told] })
+    };
+    page.figures(&kept.par_iter().zip(splits).take(SHOWN).map(figure).collect::<Result<Vec<_>, JudgeError>>()?);
+    Ok(page.html())
 }
 
-/// What may be wider than a phone, whose reader moves it sideways, with a finger or with the keys.
-fn wide(content: &str) -> String {
-    format!("<div class=\"wide\" tabindex=\"0\">{content}</div>")
-}
-
-/// A small picture as base64 of JPEG: of the picture, or of the classes where there is none.
-fn thumbnail(root: &Path, frame: &CandidateFrame) -> Result<String, JudgeError> {
+/// A small picture: of the picture, or of the classes where there is none.
+fn thumbnail(root: &Path, frame: &CandidateFrame) -> Result<Picture, JudgeError> {
     let folder = root.join(&frame.path);
-    let picture = if frame.has_picture {
-        read(&folder.join("rgb.png"))?.into_rgb8()
+    let (pixels, alt) = if frame.has_picture {
+        (read_raster(&folder.join("rgb.png"))?, format!("Image of {}", frame.path))
     } else {
         let labels = read_labels(&folder.join("class.png"))?;
         let color = |x: u32, y: u32| CLASSES[usize::from(*labels.at(x, y)).min(19)].rgb;
-        image::RgbImage::from_fn(labels.width, labels.height, |x, y| image::Rgb(color(x, y)))
+        (Raster::from_fn(labels.width, labels.height, color), format!("Classes of {}", frame.path))
     };
-    let height = (picture.height() * THUMBNAIL_PX / picture.width().max(1)).max(1);
-    let small = resize(&picture, THUMBNAIL_PX, height, FilterType::Triangle);
-    let mut jpeg = Vec::new();
-    JpegEncoder::new_with_quality(&mut jpeg, 80)
-        .encode_image(&small)
-        .map_err(|e| JudgeError::unexpected(&folder, "an image that can be encoded", e.to_string(), "report it"))?;
-    Ok(STANDARD.encode(jpeg))
+    Picture::new(&folder, pixels, THUMBNAIL_PX, alt)
+}
+
+/// Two bars a class.
+fn class_bars(all: &[f64; 20], kept: &[f64; 20]) -> Plot {
+    let length = |share: f64| ((share.max(1e-9).log10() + DECADES) / DECADES).clamp(0.0, 1.0);
+    let rows = CLASSES.iter().zip(all.iter().zip(kept)).skip(1).map(|(row, (all, kept))| {
+        let bar = |share: &f64, fill| Bar { share: length(*share), fill, interval: None };
+        BarRow {
+            name: row.name.replace('_', " "),
+            value: format!("{:.3} → {:.3} %", all * 100.0, kept * 100.0),
+            bars: vec![bar(all, Fill::Class("pale")), bar(kept, Fill::Rgb(row.rgb))],
+        }
+    });
+    bar_rows("Share of pixels by class, of all frames and of those kept", &TICKS, &rows.collect::<Vec<_>>())
+}
+
+/// How often frames' values fall into each of some bins from 0, of all and of those kept.
+fn of_frames(
+    label: &str,
+    curation: &Curation,
+    (bins, high): (usize, f64),
+    value: impl Fn(&CandidateFrame) -> f64,
+    name: impl Fn(usize) -> String,
+) -> Plot {
+    let all = counts(curation.frames.iter().map(&value), bins, high);
+    let kept = counts(curation.selection.kept.iter().map(|i| value(&curation.frames[*i])), bins, high);
+    let bin = |(i, (all, part)): (usize, (usize, usize))| Bin { name: name(i), all, part };
+    histogram(label, &all.into_iter().zip(kept).enumerate().map(bin).collect::<Vec<_>>())
+}
+
+/// A map of each place with its cameras.
+fn places(curation: &Curation) -> Vec<Plot> {
+    let Curation { frames, selection, splits, .. } = curation;
+    // Dropped frames first, so that kept ones are not hidden.
+    let mut dots: BTreeMap<&str, Vec<(&str, DVec2)>> = BTreeMap::new();
+    for frame in frames {
+        dots.entry(&frame.place).or_default().push(("rest", frame.position_m));
+    }
+    for (i, split) in selection.kept.iter().zip(splits) {
+        let class = match split {
+            Split::Train => "train",
+            Split::Val => "val",
+            Split::Gap => "gap",
+        };
+        dots.entry(&frames[*i].place).or_default().push((class, frames[*i].position_m));
+    }
+    dots.into_iter().map(|(place, dots)| map(place, &dots)).collect()
+}
+
+/// A table of the classes that have objects.
+fn objects(frames: &[&CandidateFrame], edges: &[f64], unit: &str, of: fn(&SeenObject) -> f64) -> Table {
+    let bins = edges.windows(2).map(|pair| (pair[0]..pair[1], pair[1].is_finite()));
+    let headings = bins.clone().map(|(bin, ends)| match ends {
+        true => Column::numbers(format!("{}–{} {unit}", bin.start, bin.end)),
+        false => Column::numbers(format!("from {} {unit}", bin.start)),
+    });
+    let mut table = Table::new([Column::words("class")].into_iter().chain(headings));
+    for row in CLASSES.iter().filter(|row| row.thing) {
+        let of_class = |o: &&SeenObject| o.class_id == row.class.id();
+        let values: Vec<f64> = frames.iter().flat_map(|f| &f.objects).filter(of_class).map(of).collect();
+        if !values.is_empty() {
+            let counts = bins.clone().map(|(bin, _)| values.iter().filter(|v| bin.contains(v)).count().to_string());
+            table.row([row.name.replace('_', " ")].into_iter().chain(counts).map(Into::into));
+        }
+    }
+    table
 }

@@ -4,6 +4,7 @@ mod boundary;
 mod confusion;
 mod mean;
 mod panoptic;
+mod report;
 mod sides;
 
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ pub use boundary::Boundary;
 pub use confusion::Confusion;
 use panoptic::Segment;
 pub use panoptic::{Panoptic, Quality};
+pub use report::report;
 use sides::{Side, Sides};
 
 /// Draws of pictures with replacement.
@@ -79,6 +81,21 @@ impl Counts {
     }
 }
 
+/// A picture with what its prediction alone is worth.
+#[derive(Clone, Debug)]
+pub struct JudgedPicture {
+    /// Below the folder of the truth.
+    pub name: String,
+    /// Where its predicted labels are.
+    pub predicted: PathBuf,
+    /// Where its true labels are.
+    pub truth: PathBuf,
+    /// Mean IoU over the classes that are there or predicted; `None` where none is.
+    pub miou: Option<f64>,
+    /// Share of its pixels that are right; `None` where none counts.
+    pub accuracy: Option<f64>,
+}
+
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
@@ -108,6 +125,8 @@ pub struct Evaluation {
     pub pq: Option<Estimate>,
     /// Panoptic quality by class.
     pub class_pq: Vec<Option<Estimate>>,
+    /// Each picture alone, in the order of their names.
+    pub singly: Vec<JudgedPicture>,
 }
 
 /// Compares the label pictures below two folders, or two files; every picture of the truth has to be predicted.
@@ -136,9 +155,17 @@ pub fn evaluate(
     let by_class = |of: fn(&Counts, usize) -> Option<f64>| -> Vec<Option<Estimate>> {
         (0..classes).map(|class| estimate(&|c: &Counts| of(c, class))).collect()
     };
+    let alone = |((p, t), counts): (&(PathBuf, PathBuf), &Counts)| JudgedPicture {
+        name: below(truth, t),
+        predicted: p.clone(),
+        truth: t.clone(),
+        miou: counts.confusion.miou(),
+        accuracy: counts.confusion.accuracy(),
+    };
     Ok(Evaluation {
         pictures: judged.len(),
         unused,
+        singly: pairs.iter().zip(&judged).map(alone).collect(),
         miou: estimate(&|c| c.confusion.miou()),
         accuracy: estimate(&|c| c.confusion.accuracy()),
         iou: by_class(|c, class| c.confusion.iou(class)),
@@ -151,6 +178,14 @@ pub fn evaluate(
         truth: sides.truth.numbering,
         counts,
     })
+}
+
+/// What a picture is called in its folder; its own name where it was named itself.
+fn below(root: &Path, path: &Path) -> String {
+    match path.strip_prefix(root) {
+        Ok(below) if below != Path::new("") => below.to_string_lossy().replace('\\', "/"),
+        _ => name(path),
+    }
 }
 
 /// Pictures of both sides that belong together, in the order of their names, and how many predictions are left over.

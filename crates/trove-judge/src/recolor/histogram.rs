@@ -41,6 +41,13 @@ impl Histograms {
         self.classes.iter().map(|(class, bins)| (*class, bins.iter().map(|b| b[0]).sum())).collect()
     }
 
+    /// Shares of a class's pixels in the bins of a channel; zeros without pixels.
+    pub(super) fn shares(&self, class: u8, channel: usize) -> Vec<f64> {
+        let Some(bins) = self.classes.get(&class) else { return vec![0.0; BINS] };
+        let all = bins.iter().map(|bin| bin[channel]).sum::<u64>().max(1);
+        bins.iter().map(|bin| bin[channel] as f64 / all as f64).collect()
+    }
+
     /// For every class that both have enough of, the value that each bin's becomes.
     pub fn towards(&self, target: &Self) -> Matching {
         let of_class = |(class, bins): (&u8, &Vec<[u64; 3]>)| {
@@ -77,11 +84,15 @@ fn position(value: f32, channel: usize) -> f32 {
     (share * BINS as f32).clamp(0.0, BINS as f32 - 0.001)
 }
 
+/// The value at a place among the bins, 0 to `BINS`.
+pub(super) fn value(channel: usize, at: f32) -> f32 {
+    LOW[channel] + at / BINS as f32 * (HIGH[channel] - LOW[channel])
+}
+
 /// The value of the target with as large a share of pixels below it, for the middle of every bin.
 fn map(source: &[[u64; 3]], target: &[[u64; 3]], channel: usize) -> Vec<f32> {
     let total = |bins: &[[u64; 3]]| bins.iter().map(|b| b[channel]).sum::<u64>().max(1) as f64;
     let (all, wanted) = (total(source), total(target));
-    let value = |at: f64| LOW[channel] + at as f32 / BINS as f32 * (HIGH[channel] - LOW[channel]);
     let (mut below, mut bin, mut passed) = (0.0, 0, 0.0);
     source
         .iter()
@@ -94,7 +105,7 @@ fn map(source: &[[u64; 3]], target: &[[u64; 3]], channel: usize) -> Vec<f32> {
                 bin += 1;
             }
             let within = (share * wanted - passed) / (target[bin][channel] as f64).max(1.0);
-            value(bin as f64 + within.clamp(0.0, 1.0))
+            value(channel, (bin as f64 + within.clamp(0.0, 1.0)) as f32)
         })
         .collect()
 }

@@ -3,6 +3,7 @@
 
 mod histogram;
 mod output;
+mod report;
 mod space;
 mod statistics;
 
@@ -16,6 +17,7 @@ use crate::JudgeError;
 use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
 pub use histogram::{Histograms, Matching};
 use output::{Identity, OutputFolder};
+pub use report::report;
 pub use space::Space;
 pub use statistics::Statistics;
 
@@ -165,8 +167,7 @@ impl Towards<'_> {
         match self {
             Self::All(wanted) => move_towards(pixels, own, wanted, strength),
             Self::Drawn(singly) => {
-                let drawn = Seed(0).child(&below.to_string_lossy()).random().index(singly.len());
-                move_towards(pixels, own, &singly[drawn], strength);
+                move_towards(pixels, own, &singly[drawn(below, singly.len())], strength);
             }
             Self::Classes(matching, set) => {
                 for (pixel, class) in pixels.iter_mut().zip(own_classes(path, picture, set)?) {
@@ -177,6 +178,11 @@ impl Towards<'_> {
         }
         Ok(())
     }
+}
+
+/// Which of the target's pictures one is moved towards that lies below the source.
+fn drawn(below: &Path, targets: usize) -> usize {
+    Seed(0).child(&below.to_string_lossy()).random().index(targets)
 }
 
 /// Pictures that lie among others would be taken for them by the next run.

@@ -3,6 +3,7 @@
 mod check;
 mod import;
 mod list;
+mod page;
 mod sheet;
 mod studio;
 
@@ -46,9 +47,9 @@ pub(crate) enum AssetsCommand {
         #[arg(long)]
         json: bool,
     },
-    /// Draw every model and material on one contact sheet.
+    /// Draw every model and material on one contact sheet, or page.
     #[command(
-        after_help = "Example:\n  trove assets sheet --out sheet.png\n  trove assets sheet --only car/ --only bus/ --size 800x600 --each close-ups"
+        after_help = "Example:\n  trove assets sheet --out sheet.png\n  trove assets sheet --out assets.html\n  trove assets sheet --only car/ --only bus/ --size 800x600 --each close-ups"
     )]
     Sheet(sheet::Sheet),
 }

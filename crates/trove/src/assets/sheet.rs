@@ -10,8 +10,9 @@ use trove_files::OutputRoot;
 use trove_model::{Asset, AssetLibrary, Environment, Raster};
 use trove_read::environment;
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
-use trove_write::{write_picture, write_sheet};
+use trove_write::{write_atomically, write_picture, write_sheet};
 
+use super::page;
 use super::studio::Studio;
 use crate::progress::Progress;
 use crate::watch::Watch;
@@ -19,8 +20,8 @@ use crate::watch::Watch;
 /// What to draw, and how.
 #[derive(Args)]
 pub(crate) struct Sheet {
-    /// PNG to write.
-    #[arg(long, value_name = "FILE.png", required_unless_present = "each")]
+    /// PNG to write; or, where it ends in .html, a page that can be searched.
+    #[arg(long, value_name = "FILE", required_unless_present = "each")]
     out: Option<PathBuf>,
     /// Also (or only) write one picture per item to this folder.
     #[arg(long, value_name = "DIR")]
@@ -75,17 +76,17 @@ impl Sheet {
             self.only.join(" or ")
         );
         let progress = Progress::new(subjects.len(), &Watch::default());
-        let mut pictures = Vec::new();
+        let mut drawn = Vec::new();
         for subject in subjects {
-            let (id, scene, shot) = studio.set(library, subject);
-            let prepared = renderer.prepare(&scene).with_context(|| id.clone())?;
+            let (id, (scene, shot)) = (subject.id(), studio.set(library, subject));
+            let prepared = renderer.prepare(&scene).with_context(|| id.to_owned())?;
             let picture: Raster<[u8; 3]> = renderer
                 .render(&prepared, &shot, true, &|share| {
                     progress.within(share);
                     false
                 })
                 .and_then(|capture| capture.color)
-                .with_context(|| id.clone())?
+                .with_context(|| id.to_owned())?
                 .srgb;
             if let Some(folder) = &each {
                 let path = folder.at(&format!("{id}.png"))?;
@@ -94,13 +95,19 @@ impl Sheet {
                     .with_context(|| format!("{}: expected a folder that can be created", parent.display()))?;
                 write_picture(&path, &picture)?;
             }
-            pictures.push((id, picture));
+            drawn.push((subject, picture));
             progress.frame_done();
         }
         progress.finish();
         if let Some(path) = &self.out {
-            write_sheet(path, &pictures)?;
-            println!("{}: {} images", path.display(), pictures.len());
+            let count = drawn.len();
+            if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
+                write_atomically(path, page::html(drawn)?.as_bytes())?;
+            } else {
+                let named = drawn.into_iter().map(|(subject, picture)| (subject.id().to_owned(), picture));
+                write_sheet(path, &named.collect::<Vec<_>>())?;
+            }
+            println!("{}: {count} images", path.display());
         }
         Ok(())
     }

@@ -37,17 +37,26 @@ pub(super) enum Subject<'a> {
     Sample(&'a Surface),
 }
 
+impl Subject<'_> {
+    pub(super) fn id(&self) -> &str {
+        match self {
+            Self::Model(asset) => &asset.id,
+            Self::Sample(surface) => &surface.id,
+        }
+    }
+}
+
 impl Studio {
-    /// Its name, the scene around it and the camera before it.
-    pub(super) fn set(&self, library: &AssetLibrary, subject: Subject) -> (String, Scene, Shot) {
+    /// The scene around it and the camera before it.
+    pub(super) fn set(&self, library: &AssetLibrary, subject: Subject) -> (Scene, Shot) {
         let seed = Seed(self.seed);
-        let (id, class, mesh, materials) = match subject {
+        let (class, mesh, materials) = match subject {
             Subject::Model(asset) => {
                 let seed = seed.child(&asset.id);
                 let mesh = asset.with_extras(&asset.drawn_extras(true, seed));
-                (&asset.id, asset.class, mesh, asset.materials(seed))
+                (asset.class, mesh, asset.materials(seed))
             }
-            Subject::Sample(surface) => (&surface.id, Class::Void, Arc::new(sample()), vec![surface.material.clone()]),
+            Subject::Sample(surface) => (Class::Void, Arc::new(sample()), vec![surface.material.clone()]),
         };
         let (low, high) = mesh.bounds().unwrap_or_default();
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
@@ -65,7 +74,7 @@ impl Studio {
             light: Light { environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())) },
             provenance: Vec::new(),
         };
-        (id.clone(), scene, self.shot(low, high))
+        (scene, self.shot(low, high))
     }
 
     /// A camera before the front's left that sees the whole box.

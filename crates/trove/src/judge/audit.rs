@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use trove_format::FrameFile;
 use trove_judge::audit::{
-    Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, patches, picture,
+    Audit, Check, Finding, FrameReader, LabelForm, LabelledFrame, LabelledSweep, audit, patches, picture, report,
+    worst_in_turn,
 };
 use trove_write::{StoredFrame, StoredSweep, WriteError, encode_picture, write_atomically};
 
@@ -71,7 +72,7 @@ impl LabelOptions {
     }
 
     /// Looks; the status is 1 where something is wrong.
-    pub(crate) fn run(&self, folder: &Path, as_json: bool, watch: &Watch) -> Result<Answer> {
+    pub(crate) fn run(&self, folder: &Path, page: Option<&Path>, as_json: bool, watch: &Watch) -> Result<Answer> {
         if let Some(out) = &self.out {
             ensure!(
                 !out.starts_with(folder),
@@ -86,8 +87,11 @@ impl LabelOptions {
         if let Some(out) = &self.out {
             write(folder, out, &audit, &json)?;
         }
-        let (is_sound, out) = (audit.is_sound(), self.out.clone());
-        let answer = Answer::new(as_json, json, move || print(form, &audit, out.as_deref()));
+        if let Some(page) = page {
+            write_atomically(page, report(folder, form, &audit)?.as_bytes())?;
+        }
+        let (is_sound, written) = (audit.is_sound(), page.or(self.out.as_deref()).map(Path::to_owned));
+        let answer = Answer::new(as_json, json, move || print(form, &audit, written.as_deref()));
         Ok(answer.with_status(i32::from(!is_sound)))
     }
 }
@@ -103,7 +107,7 @@ fn told(form: LabelForm, audit: &Audit) -> Value {
     })
 }
 
-fn print(form: LabelForm, audit: &Audit, out: Option<&Path>) {
+fn print(form: LabelForm, audit: &Audit, written: Option<&Path>) {
     println!("{:<14}{:>10}{:>10}  rule", "check", "looked at", "findings");
     for check in Check::ALL {
         match audit.tallies.get(&check) {
@@ -124,10 +128,13 @@ fn print(form: LabelForm, audit: &Audit, out: Option<&Path>) {
     }
     let (frames, form) = (audit.frames, form.name());
     if audit.is_sound() {
-        println!("{frames} frames ({form}): no fault found");
+        let see = written.map_or(String::new(), |written| format!("; see {}", written.display()));
+        println!("{frames} frames ({form}): no fault found{see}");
     } else {
         let count: usize = audit.tallies.values().map(|tally| tally.findings).sum();
-        let see = out.map_or("--out DIR shows the worst".into(), |out| format!("see {}", out.display()));
+        let see = written.map_or("--page FILE.html or --out DIR shows the worst".into(), |written| {
+            format!("see {}", written.display())
+        });
         println!("{frames} frames ({form}): {count} findings; {see}");
     }
 }
@@ -138,10 +145,8 @@ fn write(folder: &Path, out: &Path, audit: &Audit, json: &Value) -> Result<()> {
         anyhow::anyhow!("{}: expected a folder to write to, found \"{e}\"; choose another with --out", out.display())
     })?;
     write_atomically(&out.join("audit.json"), &serde_json::to_vec_pretty(json)?)?;
-    let of = |check: Check| audit.findings.iter().filter(move |finding| finding.check == check);
-    let in_turn = (0..WORST).flat_map(|nth| Check::ALL.into_iter().filter_map(move |check| of(check).nth(nth)));
     let mut count = 0;
-    for finding in in_turn {
+    for finding in worst_in_turn(audit) {
         if count == WORST {
             break;
         }

@@ -7,9 +7,10 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 use trove_format::ClassMapFile;
 use trove_judge::Numbering;
-use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate};
+use trove_judge::evaluate::{Estimate, Evaluation, Settings, evaluate, report};
 use trove_model::Seed;
 use trove_read::read_class_map;
+use trove_write::write_atomically;
 
 use crate::answer::Answer;
 use crate::class_maps::ClassMapChoice;
@@ -43,6 +44,9 @@ pub(crate) struct Evaluate {
     /// Seed of the bootstrap over images.
     #[arg(long, default_value_t = 7)]
     seed: u64,
+    /// HTML page to write: scores by class, confusion matrix, and the images that came out worst.
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -60,7 +64,14 @@ impl Evaluate {
         };
         let progress = Steps::new(watch);
         let found = evaluate(&self.predicted, &self.truth, &settings, &|done, total| progress.done(done, total))?;
-        Ok(Answer::new(self.json, as_json(&found), move || print(&found)))
+        if let Some(page) = &self.page {
+            write_atomically(page, report(&self.predicted, &found)?.as_bytes())?;
+        }
+        let page = self.page.clone();
+        Ok(Answer::new(self.json, as_json(&found), move || {
+            print(&found);
+            page.iter().for_each(|page| println!("see {}", page.display()));
+        }))
     }
 }
 

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor};
+use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor, report};
 use trove_model::Raster;
-use trove_write::write_sheet;
+use trove_write::{write_atomically, write_sheet};
 
 use super::share;
 use crate::answer::Answer;
@@ -15,7 +15,7 @@ use crate::class_maps::ClassMapChoice;
 use crate::progress::Steps;
 use crate::watch::Watch;
 
-/// Pairs that the page shows.
+/// Pairs that the sheet shows.
 const SHOWN: usize = 24;
 /// Width of a picture on it, pixels.
 const WIDTH_PX: u32 = 400;
@@ -41,12 +41,15 @@ pub(crate) struct Recolor {
     /// Strength, from 0 (no change) to 1 (full match).
     #[arg(long, default_value_t = 0.75, value_parser = share_f32)]
     strength: f32,
-    /// Labels of IMAGES under the same names, for `--method classes`.
+    /// Labels of IMAGES under the same names, for `--method classes`, and for classes on the page.
     #[arg(long, value_name = "LABELS", required_if_eq("method", "classes"))]
     to_labels: Option<PathBuf>,
     /// Class map of LABELS, a name or a FILE.toml (docs/judge.md); our own classes are mapped to it.
     #[arg(long, default_value = "trove20", value_name = "MAP")]
     to_classes: ClassMapChoice,
+    /// HTML page to write: images before and after, mean colours by class, histograms.
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
     /// Print a summary as JSON.
     #[arg(long)]
     json: bool,
@@ -95,8 +98,11 @@ impl Recolor {
         };
         let progress = Steps::new(watch);
         let done = recolor(&self.dir, &self.to, &out, &settings, &|done, total| progress.done(done, total))?;
-        let page = out.join("before_after.png");
-        write_sheet(&page, &self.pairs(&done)?)?;
+        let sheet = out.join("before_after.png");
+        write_sheet(&sheet, &self.pairs(&done)?)?;
+        if let Some(page) = &self.page {
+            write_atomically(page, report(&self.dir, &self.to, &settings, &done)?.as_bytes())?;
+        }
         let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
         let [before, target, after] = &done.statistics;
         let json = json!({
@@ -106,15 +112,16 @@ impl Recolor {
             "before": statistics(before),
             "target": statistics(target),
             "after": statistics(after),
-            "page": page.to_string_lossy(),
+            "page": sheet.to_string_lossy(),
         });
+        let shown = self.page.clone().unwrap_or(sheet);
         Ok(Answer::new(self.json, json, move || {
             let new = done.pictures.len() - done.kept;
             println!("{} images, {new} of them new; means and deviations of the three channels:", done.pictures.len());
             for (name, s) in ["before", "target", "after"].iter().zip(&done.statistics) {
                 println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
             }
-            println!("see {}", page.display());
+            println!("see {}", shown.display());
         }))
     }
 
