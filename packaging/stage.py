@@ -71,7 +71,7 @@ def licences(out: Path) -> None:
         if identity not in linked:
             linked.add(identity)
             waiting += needs[identity]
-    parts = ["The Rust packages that the extension module of trove is linked from, and their licences.\n"]
+    parts = ["What the extension module of trove is linked from or holds, and its licences.\n"]
     for package in sorted((packages[i] for i in linked), key=lambda package: (package["name"], package["version"])):
         if package["source"] is None:
             continue  # ours
@@ -80,6 +80,8 @@ def licences(out: Path) -> None:
         said = package["license"] or (package["license_file"] and "see below") or "no licence named"
         parts.append(f"{'=' * 100}\n{package['name']} {package['version']}: {said}\n{package['repository'] or ''}\n")
         parts += [path.read_text(encoding="utf-8", errors="replace") for path in texts]
+    three = (ROOT / "web" / "view" / "three.LICENSE").read_text(encoding="utf-8")
+    parts.append(f"{'=' * 100}\nthree.js, a part of which is in the page of trove view: MIT\n\n{three}")
     out.write_text("\n".join(parts), encoding="utf-8")
 
 

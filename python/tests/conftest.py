@@ -71,13 +71,16 @@ def browser():
         remedy = "needs Chromium and Playwright: make chromium"
         # Where everything is installed by the project itself, nothing is left out in silence.
         pytest.fail(remedy) if os.environ.get("CI") else pytest.skip(remedy)
-    # One process: Chromium's own sandbox refuses to start in containers and for root.
+    # One process: Chromium's own sandbox refuses to start in containers and for root. WebGL is drawn by software.
     arguments = [
         "--no-sandbox",
         "--no-zygote",
         "--single-process",
         "--in-process-gpu",
-        "--disable-gpu",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--ignore-gpu-blocklist",
         "--no-first-run",
     ]
     libraries = f"{CHROMIUM.parent / 'lib'}:{os.environ.get('LD_LIBRARY_PATH', '')}"

@@ -28,6 +28,7 @@ from trove.commands import (
     status,
     verify,
     verify_labels,
+    view,
 )
 from trove.frames import Frame, Frames, open
 from trove.grids import Grid
@@ -71,6 +72,7 @@ __all__ = [
     "torch",
     "verify",
     "verify_labels",
+    "view",
 ]
 
 

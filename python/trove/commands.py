@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         Recoloring,
         Status,
         Summary,
+        Viewed,
     )
 
 Progress = Callable[[float, int, str], object]
@@ -158,6 +159,17 @@ def verify_labels(
     """
     findings: LabelFindings = _run("verify", [folder], progress, labels=True, form=form, out=out, page=page)
     return findings
+
+
+def view(
+    source: AnyPath, out: AnyPath, *, embed: int = 25, shapes: int = 2, progress: Progress | None = None
+) -> Viewed:
+    """Writes one page that shows an output folder, a recipe's scene or a `.glb` file.
+
+    `embed` is how many megabytes the page itself holds, `shapes` how many scenes of a folder are built again for theirs.
+    """
+    viewed: Viewed = _run("view", [source], progress, out=out, embed=embed, shapes=shapes)
+    return viewed
 
 
 def curate(

@@ -100,6 +100,17 @@ class LabelFindings(TypedDict):
     findings: list[LabelFinding]
 
 
+class Viewed(TypedDict):
+    """A page, what it shows, where the rest of it lies, and why it has no shapes, where it should."""
+
+    page: str
+    bytes: int
+    scenes: int
+    frames: int
+    beside: str | None
+    without_shapes: str | None
+
+
 class Curation(TypedDict):
     """How many frames were kept and why others were not, and where the list and its page lie."""
 

@@ -1,7 +1,7 @@
 //! A scene as glTF 2.0 binary, which Blender and every viewer open.
 //!
 //! One glTF mesh a scene mesh and set of materials, one node an instance, below a root node that turns World's z-up
-//! into glTF's y-up. A node's extras hold class, id, kind, asset and track. The sky is left out, because glTF has no
+//! into glTF's y-up. A node's extras hold class, id, kind, asset, track and box. The sky is left out, because glTF has no
 //! word for it: [`write_environment`] puts it into a file of its own.
 
 mod binary;
@@ -153,6 +153,9 @@ fn node(instance: &Instance, mesh: usize) -> Result<Value, WriteError> {
         name = format!("{name} {}", instance.id.0);
         extras["kind"] = object.kind.name().into();
         extras["origin"] = object.origin.name().into();
+        extras["size_m"] = json!(object.cuboid.size_m.to_array());
+        let world_from_body = glam::DMat4::from(object.cuboid.world_from_body.affine());
+        extras["world_from_body"] = json!(world_from_body.transpose().to_cols_array_2d());
         if let Some(asset) = &object.asset {
             extras["asset"] = asset.as_str().into();
         }

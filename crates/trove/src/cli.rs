@@ -27,6 +27,7 @@ use crate::overview::Overview;
 use crate::progress::duration;
 use crate::recipe::{MOST_THREADS, Recipe};
 use crate::run::{Estimate, MOST_SHARES, RenderedFrame, RunOptions, Share, Summary, begun_with, estimate, generate};
+use crate::view::View;
 use crate::watch::Watch;
 use crate::{build, demo, doctor, inspect, interrupt, libraries, message, status, verify};
 
@@ -122,6 +123,11 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Write one page that shows a finished folder, or a recipe's scene: shapes, boxes, tracks, cameras, images with labels.
+    #[command(
+        after_help = "Examples:\n  trove view out/boston --out boston.html\n  trove view recipe.toml --out scene.html"
+    )]
+    View(View),
     /// Select the frames most worth training on, from labels alone.
     #[command(
         after_help = "Example:\n  trove generate recipe.toml --labels-only --out out/labels\n  trove curate out/labels --count 600\n  trove generate recipe.toml --out out/chosen --frames out/labels/curated.json"
@@ -312,7 +318,9 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
         Command::Assets { command } => assets::run(command, libraries::search(site_packages)).map(Answer::printed),
         Command::Demo { out, machine, json } => {
             let recipe = demo::recipe(&out)?;
-            produce(recipe, &out, &machine, machine.options(site_packages, watch), json)
+            let recipe_file = Some(recipe.folder.join("recipe.toml"));
+            let options = RunOptions { recipe_file, ..machine.options(site_packages, watch) };
+            produce(recipe, &out, &machine, options, json)
         }
         Command::Generate { recipe, out, dry_run: _, machines, part, extent, machine, json } => {
             let recipe_file = Some(recipe.clone());
@@ -336,6 +344,7 @@ fn run(command: Command, site_packages: &[PathBuf], watch: &Watch) -> Result<Ans
             labels.run(&folder, page.as_deref(), json, watch)
         }
         Command::Verify { folder, labels: _, page, json } => verify::run(&folder, page.as_deref(), json, watch),
+        Command::View(view) => view.run(libraries::search(site_packages), watch),
         Command::Curate(curate) => curate.run(watch),
         Command::Recolor(recolor) => recolor.run(watch),
         Command::Evaluate(evaluate) => evaluate.run(watch),

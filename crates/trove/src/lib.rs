@@ -49,6 +49,7 @@ mod store;
 mod street_map;
 mod variation;
 mod verify;
+mod view;
 mod virtual_scene;
 mod watch;
 

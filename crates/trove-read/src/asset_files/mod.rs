@@ -45,6 +45,7 @@ use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 
 pub use self::axes::Axis;
 pub use self::check::{Finding, check};
+pub use self::gltf::{FileCamera, FileNode, FileScene, read_scene};
 pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
 
 use self::load::{guarded, load};

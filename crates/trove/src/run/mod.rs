@@ -46,7 +46,7 @@ pub use estimate::{Estimate, estimate};
 pub(crate) use manifest::fit_rows;
 use manifest::{FrameKey, Sensed, SiteSummary, planned, variation_folder};
 use output::OutputFolder;
-pub(crate) use output::{begun_with, is_whole, part_folders, refuse_foreign};
+pub(crate) use output::{begun_with, is_whole, part_folders, recipe_of, refuse_foreign};
 use portions::{Portion, portions};
 pub(crate) use private::PRIVATE;
 use read::Read;

@@ -14,6 +14,7 @@ use super::journals::{Journals, is_empty};
 use super::private::{PARTS, PRIVATE, now_ns};
 use super::share::Share;
 use super::stored::StoredFolder;
+use crate::recipe::Recipe;
 use crate::store;
 
 /// And the path of the recipe, as this machine reaches it.
@@ -283,6 +284,20 @@ pub(crate) fn begun_with(root: &Path) -> Result<PathBuf> {
             path.display()
         )
     })
+}
+
+/// The recipe of a folder, as it was when the folder was begun.
+pub(crate) fn recipe_of(root: &Path) -> Result<Recipe> {
+    let private = root.join(PRIVATE);
+    let identity = RunIdentity::read(&private)?.with_context(|| {
+        format!("{}: expected a folder of trove generate, found no record of its recipe", private.display())
+    })?;
+    let mut recipe: Recipe = serde_json::from_value(identity.recipe).with_context(|| {
+        format!("{}: expected a recipe of this version of trove", private.join(RunIdentity::NAME).display())
+    })?;
+    // Its relative paths start from where it lay.
+    recipe.folder = begun_with(root)?.parent().unwrap_or(Path::new("")).to_owned();
+    Ok(recipe)
 }
 
 /// The folders of a run's parts, in the order of their numbers.

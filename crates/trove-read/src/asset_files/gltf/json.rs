@@ -10,6 +10,7 @@ pub(super) struct Root {
     pub(super) scene: Option<usize>,
     pub(super) scenes: Vec<Scene>,
     pub(super) nodes: Vec<Node>,
+    pub(super) cameras: Vec<Camera>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffer_views: Vec<View>,
@@ -48,6 +49,22 @@ pub(super) struct Node {
     pub(super) rotation: Option<[f32; 4]>,
     pub(super) scale: Option<[f32; 3]>,
     pub(super) weights: Vec<f32>,
+    pub(super) camera: Option<usize>,
+    pub(super) extras: Value,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Camera {
+    pub(super) name: Option<String>,
+    pub(super) perspective: Option<Perspective>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct Perspective {
+    pub(super) yfov: f64,
+    pub(super) aspect_ratio: Option<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

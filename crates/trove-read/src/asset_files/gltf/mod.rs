@@ -9,6 +9,7 @@ mod material;
 mod packed;
 mod pose;
 mod primitive;
+mod scene;
 mod texture;
 
 use std::path::Path;
@@ -24,6 +25,8 @@ use super::fault::Fault;
 use super::model::{Model, Piece};
 use super::picture::Pictures;
 use crate::ReadError;
+
+pub use self::scene::{FileCamera, FileNode, FileScene, read_scene};
 
 /// Reads a file's bytes; with `part` only the node of that name and what hangs on it.
 pub(super) fn read(path: &Path, bytes: &[u8], part: Option<&str>, pictures: &Pictures) -> Result<Model, ReadError> {
@@ -45,33 +48,47 @@ fn assemble(container: &Container, part: Option<&str>, pictures: &Pictures) -> R
     let wanted = part.map(|part| descendants(container, part)).transpose()?;
     for &(i, file_from_node) in &pose.placed {
         let node = &container.root.nodes[i];
-        let Some(mesh) = node.mesh.filter(|_| wanted.as_ref().is_none_or(|w| w.contains(&i))) else { continue };
-        let meshes = &container.root.meshes;
-        let mesh_of = meshes.get(mesh).ok_or_else(|| none(&format!("nodes[{i}]"), "mesh", mesh, meshes.len()))?;
-        let weights =
-            pose.morphs.get(&i).unwrap_or(if node.weights.is_empty() { &mesh_of.weights } else { &node.weights });
-        for (p, primitive) in mesh_of.primitives.iter().enumerate() {
-            let place = format!("meshes[{mesh}].primitives[{p}]");
-            let look = looks.of(primitive.material, &mut model)?;
-            let Some(mut geometry) = Geometry::read(container, primitive, look.uv_set, weights, &place)? else {
-                model.notice(Outcome::Dropped, "points and lines are not drawn", place);
-                continue;
-            };
-            let matrix = match node.skin {
-                Some(skin) => skinned(container, skin, &pose, &mut geometry)?,
-                None => file_from_node,
-            };
-            let name = node.name.as_deref().unwrap_or_default();
-            let uvs = geometry.uvs.iter().map(|&uv| look.uv(uv)).collect();
-            let Geometry { positions, normals, tints, triangles, .. } = geometry;
-            let piece = Piece { positions, normals, uvs, tints, triangles };
-            for (piece, slot) in looks.split(&look, piece, &mut model) {
-                model.add(name, piece, matrix, slot, look.two_sided_light, &container.budget)?;
-            }
+        if node.mesh.is_some() && wanted.as_ref().is_none_or(|w| w.contains(&i)) {
+            add_node(container, (i, file_from_node), &pose, &mut looks, &mut model)?;
         }
     }
     model.mark_materials();
     Ok(model)
+}
+
+/// Adds the mesh of a node; what has joints is moved by them alone.
+fn add_node(
+    container: &Container,
+    (i, file_from_node): (usize, Mat4),
+    pose: &Pose,
+    looks: &mut Looks,
+    model: &mut Model,
+) -> Result<(), Fault> {
+    let node = &container.root.nodes[i];
+    let Some(mesh) = node.mesh else { return Ok(()) };
+    let meshes = &container.root.meshes;
+    let mesh_of = meshes.get(mesh).ok_or_else(|| none(&format!("nodes[{i}]"), "mesh", mesh, meshes.len()))?;
+    let weights = pose.morphs.get(&i).unwrap_or(if node.weights.is_empty() { &mesh_of.weights } else { &node.weights });
+    for (p, primitive) in mesh_of.primitives.iter().enumerate() {
+        let place = format!("meshes[{mesh}].primitives[{p}]");
+        let look = looks.of(primitive.material, model)?;
+        let Some(mut geometry) = Geometry::read(container, primitive, look.uv_set, weights, &place)? else {
+            model.notice(Outcome::Dropped, "points and lines are not drawn", place);
+            continue;
+        };
+        let matrix = match node.skin {
+            Some(skin) => skinned(container, skin, pose, &mut geometry)?,
+            None => file_from_node,
+        };
+        let name = node.name.as_deref().unwrap_or_default();
+        let uvs = geometry.uvs.iter().map(|&uv| look.uv(uv)).collect();
+        let Geometry { positions, normals, tints, triangles, .. } = geometry;
+        let piece = Piece { positions, normals, uvs, tints, triangles };
+        for (piece, slot) in looks.split(&look, piece, model) {
+            model.add(name, piece, matrix, slot, look.two_sided_light, &container.budget)?;
+        }
+    }
+    Ok(())
 }
 
 /// The node of a name and everything below it.
