@@ -21,14 +21,11 @@ pub(crate) fn worn(
     Ok(worn)
 }
 
-/// A picture, 8-bit sRGB, encoded with `quality` (1 to 100).
-pub(crate) fn packed(
-    name: &str,
-    width: u32,
-    height: u32,
-    pixels: &[[u8; 3]],
-    quality: u8,
-) -> Result<Vec<u8>, WriteError> {
+/// A picture, 8-bit sRGB, encoded with `quality` (1 to 100); `name` is what an error calls it.
+///
+/// # Errors
+/// A picture that JPEG cannot hold.
+pub fn packed(name: &str, width: u32, height: u32, pixels: &[[u8; 3]], quality: u8) -> Result<Vec<u8>, WriteError> {
     let mut packed = Vec::new();
     JpegEncoder::new_with_quality(&mut packed, quality)
         .encode(pixels.as_flattened(), width, height, image::ExtendedColorType::Rgb8)

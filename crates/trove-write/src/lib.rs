@@ -53,6 +53,7 @@ pub use frame::Frame;
 pub use frame_folders::FrameFolders;
 pub use frame_table::FrameMeta;
 pub use grid::Grid;
+pub use jpeg::packed as encode_jpeg;
 pub use label_pictures::LabelPictures;
 pub use masks::{mask_table, painted};
 pub use picture::{encode_picture, write_picture};

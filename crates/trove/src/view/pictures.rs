@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use image::codecs::jpeg::JpegEncoder;
 use serde::Serialize;
 use trove_format::FrameFile;
 use trove_model::Raster;
-use trove_write::{StoredFrame, colors, encode_picture};
+use trove_write::{StoredFrame, colors, encode_jpeg, encode_picture};
 
 /// Depth in steps of its logarithm, 0.02 % apart: step 1 is 10 cm, the last 100 km, 0 the sky.
 pub(super) const NEAR_M: f64 = 0.1;
@@ -99,10 +98,7 @@ fn png(picture: &Raster<[u8; 3]>) -> Result<String> {
 }
 
 fn jpeg(picture: &Raster<[u8; 3]>) -> Result<String> {
-    let mut bytes = Vec::new();
-    JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY)
-        .encode(picture.data.as_flattened(), picture.width, picture.height, image::ExtendedColorType::Rgb8)
-        .context("expected an image that can be encoded as JPEG")?;
+    let bytes = encode_jpeg("picture", picture.width, picture.height, &picture.data, JPEG_QUALITY)?;
     Ok(format!("data:image/jpeg;base64,{}", STANDARD.encode(bytes)))
 }
 

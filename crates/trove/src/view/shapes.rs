@@ -10,6 +10,7 @@ use meshopt::{SimplifyOptions, VertexDataAdapter};
 use rayon::prelude::*;
 use serde::Serialize;
 use trove_model::{Material, Mesh, Texture};
+use trove_write::colors::of_albedo;
 
 use super::pose::{Pose, pose};
 
@@ -305,7 +306,7 @@ impl Few {
             .flat_map(|p| ((*p - from) * steps).to_array())
             .flat_map(|step| (step.round() as u16).to_le_bytes())
             .collect();
-        let colors_b: Vec<u8> = colors.iter().flat_map(|color| srgb(*color)).collect();
+        let colors_b: Vec<u8> = colors.iter().flat_map(|color| of_albedo(color.to_array())).collect();
         let triangles_b: Vec<u8> = if positions.len() <= 65_536 {
             triangles.iter().flat_map(|i| (*i as u16).to_le_bytes()).collect()
         } else {
@@ -452,11 +453,6 @@ fn mean(map: &Texture, cutoff: f32) -> (Vec3, f32) {
 fn linear(value: u8) -> f32 {
     let value = f32::from(value) / 255.0;
     if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
-fn srgb(color: Vec3) -> [u8; 3] {
-    let encode = |value: f32| if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
-    color.clamp(Vec3::ZERO, Vec3::ONE).to_array().map(|value| (255.0 * encode(value)).round() as u8)
 }
 
 #[cfg(test)]
