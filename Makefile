@@ -90,10 +90,15 @@ three:
 	    --format=iife --global-name=THREE --legal-comments=none --outfile=web/view/three.js
 	cp .tools/three/node_modules/three/LICENSE web/view/three.LICENSE
 
-# What README shows of `trove view`.
-docs/view.jpg: chromium
-	test -f demo-out/manifest.json || $(BIN)/trove demo --out demo-out
-	$(BIN)/python docs/view_picture.py demo-out $@
+# What README shows of `trove view`, and of a drive with its labels.
+docs/view.jpg: chromium demo-out/manifest.json
+	PYTHONPATH=tests/browser $(BIN)/python docs/view_picture.py demo-out $@
+
+docs/clip.webp: $(VENV)/.test-installed demo-out/manifest.json docs/clip.py
+	$(BIN)/python docs/clip.py demo-out $@
+
+demo-out/manifest.json: | install
+	$(BIN)/trove demo --out demo-out
 
 # Feeds every reader with damage; the build is that of test-rust, with its checks of overflow.
 SECONDS ?= 10
@@ -276,9 +281,9 @@ bench-ray: $(VENV)/.test-installed
 bench-dry-run: install
 	$(BIN)/python benches/dry_run.py --trove $(BIN)/trove
 
-# The page of scene-0103 in a browser without a graphics card.
+# The page of scene-0103, and of a run of 1,200 frames of it, in a browser without a graphics card.
 bench-view: chromium
-	$(BIN)/python benches/view_page.py --trove $(BIN)/trove
+	PYTHONPATH=tests/browser $(BIN)/python benches/view_page.py --trove $(BIN)/trove
 
 # Frames a second that PyTorch gets, ours and plain reads'.
 bench-torch: $(VENV)/.test-installed .torch/.installed

@@ -1,17 +1,12 @@
 """Makes docs/view.jpg, what README shows of the page of `trove view`, from the demo's frames; see the Makefile."""
 
-import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+import chromium
 from playwright.sync_api import sync_playwright
-
-ROOT = Path(__file__).parents[1]
-CHROMIUM = ROOT / ".tools/chromium/chromium"
-ARGUMENTS = ["--no-sandbox", "--no-zygote", "--single-process", "--in-process-gpu", "--use-gl=angle"]
-ARGUMENTS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
 
 
 def main():
@@ -19,10 +14,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         page = Path(folder) / "demo.html"
         subprocess.run([sys.executable, "-m", "trove", "view", frames, "--out", page], check=True)
-        libraries = f"{CHROMIUM.parent / 'lib'}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        browser = playwright.chromium.launch(
-            executable_path=CHROMIUM, args=ARGUMENTS, env={**os.environ, "LD_LIBRARY_PATH": libraries}
-        )
+        browser = chromium.launch(playwright)
         tab = browser.new_page(viewport={"width": 1440, "height": 810}, color_scheme="light")
         tab.goto(page.as_uri())
         tab.wait_for_function("trove.three.scene.children[0].children[0].children.length > 0")

@@ -1,15 +1,13 @@
 """The program as tests call it, and a finished run of a quick recipe."""
 
 import os
-import shutil
 import subprocess
 import sys
 import time
-from pathlib import Path
 
+import chromium
 import pytest
 
-CHROMIUM = Path(__file__).parents[2] / ".tools/chromium/chromium"  # of `make chromium`
 
 
 def trove(*args, **more):
@@ -62,32 +60,16 @@ def finished(recipe):
 @pytest.fixture
 def browser():
     """A Chromium, driven by Playwright; as it is one process, it ends with its first page."""
-    program = str(CHROMIUM) if CHROMIUM.is_file() else shutil.which("chromium") or shutil.which("google-chrome")
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:
-        program = None
-    if program is None:
+        sync_playwright = None
+    if sync_playwright is None or chromium.program() is None:
         remedy = "needs Chromium and Playwright: make chromium"
         # Where everything is installed by the project itself, nothing is left out in silence.
         pytest.fail(remedy) if os.environ.get("CI") else pytest.skip(remedy)
-    # One process: Chromium's own sandbox refuses to start in containers and for root. WebGL is drawn by software.
-    arguments = [
-        "--no-sandbox",
-        "--no-zygote",
-        "--single-process",
-        "--in-process-gpu",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-        "--ignore-gpu-blocklist",
-        "--no-first-run",
-    ]
-    libraries = f"{CHROMIUM.parent / 'lib'}:{os.environ.get('LD_LIBRARY_PATH', '')}"
     with sync_playwright() as playwright:
-        started = playwright.chromium.launch(
-            executable_path=program, args=arguments, env={**os.environ, "LD_LIBRARY_PATH": libraries}, timeout=60_000
-        )
+        started = chromium.launch(playwright)
         yield started
         started.close()
 

@@ -40,7 +40,7 @@ def opened(browser):
 
     def opened(page, anchor="", size=(1280, 800), **more):
         tab = browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
-        tab.set_default_timeout(20_000)
+        tab.set_default_timeout(60_000)
         tab.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
         tab.on("pageerror", lambda error: faults.append(str(error)))
         tab.on(
@@ -298,7 +298,7 @@ def test_the_page_is_served_to_this_machine_alone(finished, tmp_path):
                     urllib.request.urlopen(root + outside)
         finally:
             server.terminate()
-            server.communicate(timeout=20)
+            server.communicate(timeout=60)
     assert server.returncode == 0
 
 
