@@ -84,7 +84,7 @@ def estimate(
     kernel: str = "auto",
     progress: Progress | None = None,
 ) -> Estimate:
-    """Tells how many frames a recipe, or a part of it, has, and what they will take, after one small frame.
+    """Tells how many frames a recipe, or a part of it, has, and what they will take, after frames of one moment.
 
     With `machines` also when the last of so many like this one will have ended.
     """

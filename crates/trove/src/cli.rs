@@ -151,7 +151,7 @@ enum Command {
         /// Output folder.
         #[arg(long, required_unless_present = "dry_run")]
         out: Option<PathBuf>,
-        /// Tell how many frames the recipe has, how many bytes they will take and how long, after one small frame.
+        /// Tell how many frames the recipe has, how many bytes they will take and how long, after frames of one moment.
         #[arg(long, conflicts_with = "out")]
         dry_run: bool,
         /// With --dry-run: also when the last of so many machines like this one will have ended.

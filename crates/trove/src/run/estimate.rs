@@ -1,4 +1,4 @@
-//! `trove generate --dry-run`: how much a recipe will take, from one small frame.
+//! `trove generate --dry-run`: how much a recipe will take, from a few frames of one moment.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,9 @@ use super::{RenderedFrame, RunOptions, Share, Summary, generate, scenes};
 use crate::recipe::Recipe;
 use crate::sources::Sources;
 
-/// Of the recorded resolution, at most.
+/// Of the recorded resolution, at most, where light is followed; labels alone are cheap, and not in proportion to pixels.
 const TRIAL_SCALE: f64 = 0.25;
-/// Of a picture whose size is told, pixels at most.
+/// Of a picture whose size is told, pixels at most, likewise.
 const TRIAL_PX: f64 = 90_000.0;
 /// Pictures on a contact sheet.
 const SHEET_FRAMES: f64 = 24.0;
@@ -55,7 +55,7 @@ struct Costs {
     correction: f64,
 }
 
-/// Renders one small frame in the temporary folder and says what the recipe, or a share of it, will take: on this machine,
+/// Renders frames of one moment in the temporary folder, small ones where light is followed, and says what the recipe, or a share of it, will take: on this machine,
 /// and on so many like it.
 ///
 /// # Errors
@@ -110,19 +110,21 @@ impl Costs {
         ];
         let (mut count, mut seconds, mut bytes, mut row_bytes) = (0.0, 0.0, 0.0, 0.0);
         for (planned, rows, ratio) in kinds {
-            let Some(row) = rows.first() else { continue };
-            let times = planned.len() as f64;
-            let made = |frame: &&RenderedFrame| frame.path == row.path;
-            let rendered = summary.rendered.iter().find(made).context("the trial has no times")?;
-            let writing_s = summary.timings.writing_s.get(&row.path).copied().unwrap_or_default();
-            count += times;
-            seconds += times * ratio * (rendered.render_s + writing_s / threads);
-            bytes += times * frame_bytes(&folder.join(&row.path), row, ratio)?;
-            // Rows of the manifest are indented twice.
-            let row = serde_json::to_string_pretty(row)?;
-            let row = (row.len() + 4 * row.lines().count()) as f64;
-            row_bytes += row;
-            bytes += times * row;
+            // Each that was tried stands for as many.
+            let times = planned.len() as f64 / rows.len().max(1) as f64;
+            for row in rows {
+                let made = |frame: &&RenderedFrame| frame.path == row.path;
+                let rendered = summary.rendered.iter().find(made).context("the trial has no times")?;
+                let writing_s = summary.timings.writing_s.get(&row.path).copied().unwrap_or_default();
+                count += times;
+                seconds += times * ratio * (rendered.render_s + writing_s / threads);
+                bytes += times * frame_bytes(&folder.join(&row.path), row, ratio)?;
+                // Rows of the manifest are indented twice.
+                let text = serde_json::to_string_pretty(row)?;
+                let written = (text.len() + 4 * text.lines().count()) as f64;
+                row_bytes += written;
+                bytes += times * written;
+            }
         }
         let planned = [&site.frames, &site.sweeps, &site.radars, &site.grids];
         let moments: BTreeSet<u32> = planned.into_iter().flatten().map(|(moment, _)| *moment).collect();
@@ -136,7 +138,7 @@ impl Costs {
             moment_s: warm_s / threads,
             frame_s: seconds / count,
             base_bytes: size(Manifest::NAME)? - row_bytes + size(RunReport::NAME)?,
-            sheet_bytes: size("contact_sheet.png")?,
+            sheet_bytes: size("contact_sheet.png")? / manifest.frames.len().max(1) as f64,
             pictures: site.frames.len() as f64 / count,
             variation_bytes: folder_bytes(&site_folder)?,
             frame_bytes: bytes / count,
@@ -163,10 +165,13 @@ impl Costs {
     }
 }
 
-/// The recipe with small pictures, and how many pixels there are for one of theirs.
+/// The recipe with small pictures, where light is followed, and how many pixels there are for one of theirs.
 fn shrunk(recipe: &Recipe) -> (Recipe, f64) {
     let mut small = recipe.clone();
     small.output.formats.clear();
+    if !recipe.follows_light() {
+        return (small, 1.0);
+    }
     let ratio = match recipe.render.size {
         Some([width, height]) => {
             let factor = (TRIAL_PX / (f64::from(width) * f64::from(height))).sqrt().min(1.0);

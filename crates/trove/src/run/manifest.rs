@@ -32,7 +32,7 @@ pub(super) struct FrameKey {
 }
 
 /// What a folder holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sensed {
     /// A camera's frame.
     Frame,

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 use rayon::Scope;
@@ -56,6 +56,8 @@ pub(crate) use stored::journals;
 
 /// Frames that are encoded and written at once: pictures are large.
 const WRITING: usize = 2;
+/// A trial begins no further frame of a kind after as long.
+const TRIAL: Duration = Duration::from_secs(10);
 
 /// How to run, beside the recipe; none of it changes the labels.
 pub struct RunOptions {
@@ -71,7 +73,7 @@ pub struct RunOptions {
     pub share: Option<Share>,
     /// Folders with frames of the same recipe that are taken over.
     pub adopt: Vec<PathBuf>,
-    /// To measure, of one moment of one scene: the first view, and the first of each kind that lies beside frames.
+    /// To measure, of one moment of one scene: the first frames, and the first of each kind that lies beside them.
     pub trial: bool,
     /// Whom the run tells how far it is, and who may end it.
     pub watch: Watch,
@@ -405,14 +407,7 @@ impl Run<'_> {
         keys.retain(|key| in_slice.contains(&key.keyframe));
         if self.trial {
             let middle = keys.get(keys.len() / 2).map(|key| key.keyframe);
-            let mut kinds = Vec::new();
-            keys.retain(|key| {
-                let is_first = Some(key.keyframe) == middle && !kinds.contains(&key.sensed);
-                if is_first {
-                    kinds.push(key.sensed);
-                }
-                is_first
-            });
+            keys.retain(|key| Some(key.keyframe) == middle);
         }
         keys
     }
@@ -524,7 +519,12 @@ impl Run<'_> {
                 let (photographed, before) = waiting.recv().context("a scene could not be made ready")??;
                 next = ahead.next();
                 let mut prepare_s = started.elapsed().as_secs_f64();
+                let mut tried = BTreeMap::new();
                 for key in keys {
+                    let kind_began = *tried.entry(key.sensed).or_insert_with(Instant::now);
+                    if self.trial && kind_began.elapsed() > TRIAL {
+                        continue;
+                    }
                     let prepare_s = std::mem::take(&mut prepare_s);
                     let job = match key.sensed {
                         Sensed::Frame => self.frame(key, built, &photographed, before.as_ref(), prepare_s)?,
@@ -551,6 +551,10 @@ impl Run<'_> {
                         }
                     };
                     self.write(threads, job)?;
+                    if self.trial {
+                        // Times of their own: nothing is written beside what is rendered.
+                        self.record(0)?;
+                    }
                     self.progress.frame_done();
                 }
             }
@@ -689,7 +693,12 @@ impl Run<'_> {
         self.settle()?;
         self.progress.finish();
         let sites = std::mem::take(&mut self.sites);
-        let of_site = |site: &SiteSummary| self.wanted(&site.scene, site.variation, &site.file, Slice::ALL);
+        let made: BTreeSet<&str> = self.rendered.iter().map(|frame| frame.path.as_str()).collect();
+        let of_site = |site: &SiteSummary| {
+            let mut keys = self.wanted(&site.scene, site.variation, &site.file, Slice::ALL);
+            keys.retain(|key| !self.trial || made.contains(key.path().as_str()));
+            keys
+        };
         let keys: Vec<(&SiteSummary, FrameKey)> =
             sites.iter().flat_map(|site| of_site(site).into_iter().map(move |key| (site, key))).collect();
         if let Some(asked) = self.frames {
