@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 
 def main() -> int:
@@ -32,25 +33,21 @@ def main() -> int:
     except ModuleNotFoundError:
         print("error: PyTorch is missing; pip install 'trove-scenes[train]'", file=sys.stderr)
         return 1
-    from trove.train import table
     from trove.train.experiment import ExperimentError, read
-    from trove.train.labels import TARGETS
+    from trove.train.report import write
     from trove.train.training import run_rows
 
     try:
         experiment = read(options.experiment)
-        rows, classes, everything = options.rows or experiment.rows, TARGETS[experiment.classes], []
+        rows = options.rows or experiment.rows
+        results: list[dict[str, Any]] = []
         train = partial(run_rows, options.experiment, options.out, options.threads)
-        groups = [(seed, group) for seed in experiment.training.seeds for group in experiment.alike(rows)]
+        groups = [(trial, group) for trial in experiment.trials() for group in experiment.alike(rows)]
         with ProcessPoolExecutor(options.jobs, get_context("spawn")) as jobs:
             # After every group, so that an interrupted experiment has a table too.
-            for results in (jobs.map if options.jobs > 1 else map)(train, *zip(*groups)):
-                everything += results
-                finished = [row for row in rows if any(r["row"] == row for r in everything)]
-                summaries = {row: table.summary([r for r in everything if r["row"] == row]) for row in finished}
-                (options.out / "table.md").write_text(table.markdown(classes, summaries, experiment.compare))
-                (options.out / "table.tex").write_text(table.latex(classes, summaries))
-                (options.out / "curves.svg").write_text(table.curves(everything))
+            for found in (jobs.map if options.jobs > 1 else map)(train, *zip(*groups)):
+                results += found
+                write(experiment, rows, results, options.out)
     except (ExperimentError, ValueError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

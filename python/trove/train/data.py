@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 from PIL import Image
@@ -13,10 +14,11 @@ from trove.train.labels import CROWNS, lookup
 
 @dataclass(frozen=True)
 class Sample:
-    """The files of an image and its labels."""
+    """The files of an image and its labels, and the name of the place or drive that it shows."""
 
     picture: Path
     labels: Path
+    place: str = ""
 
 
 def native(root: Path, pictures: Path | None = None, frames: Path | None = None, split: str = "train") -> list[Sample]:
@@ -29,13 +31,16 @@ def native(root: Path, pictures: Path | None = None, frames: Path | None = None,
         folders = sorted(path.parent.relative_to(root) for path in root.rglob("rgb.png"))
     else:
         folders = [Path(path) for path in read_curated(frames)[split]]
-    return [Sample((pictures or root) / folder / "rgb.png", root / folder / "class.png") for folder in folders]
+    return [
+        Sample((pictures or root) / folder / "rgb.png", root / folder / "class.png", "/".join(folder.parts[:-3]))
+        for folder in folders
+    ]
 
 
 def camvid(root: Path, split: str = "train") -> list[Sample]:
-    """CamVid in its 12-class form: `images/SPLIT/NAME.png` (or .jpg) and `labels/SPLIT/NAME.png`."""
+    """CamVid in its 12-class form: `images/SPLIT/DRIVE_FRAME.png` (or .jpg) and `labels/SPLIT/DRIVE_FRAME.png`."""
     pictures = sorted(path for path in (root / "images" / split).glob("*") if path.suffix in (".png", ".jpg"))
-    return [Sample(path, root / "labels" / split / f"{path.stem}.png") for path in pictures]
+    return [Sample(path, root / "labels" / split / f"{path.stem}.png", path.stem.split("_")[0]) for path in pictures]
 
 
 def cityscapes(root: Path, split: str = "train") -> list[Sample]:
@@ -43,99 +48,84 @@ def cityscapes(root: Path, split: str = "train") -> list[Sample]:
     samples = []
     for path in sorted((root / "leftImg8bit" / split).glob("*/*_leftImg8bit.png")):
         name = path.name.replace("_leftImg8bit", "_gtFine_labelIds")
-        samples.append(Sample(path, root / "gtFine" / split / path.parent.name / name))
+        samples.append(Sample(path, root / "gtFine" / split / path.parent.name / name, path.parent.name))
+    return samples
+
+
+def idd_lite(root: Path, split: str = "train") -> list[Sample]:
+    """IDD-Lite: `leftImg8bit/SPLIT/PLACE/FRAME_image.jpg` and `gtFine/SPLIT/PLACE/FRAME_label.png`."""
+    samples = []
+    for path in sorted((root / "leftImg8bit" / split).glob("*/*_image.jpg")):
+        name = path.name.replace("_image.jpg", "_label.png")
+        samples.append(Sample(path, root / "gtFine" / split / path.parent.name / name, path.parent.name))
     return samples
 
 
 def kitti_step(root: Path, split: str = "train") -> list[Sample]:
     """KITTI-STEP: `image_02/SEQUENCE/FRAME.png` and `panoptic_maps/SPLIT/SEQUENCE/FRAME.png` (class in red)."""
     labels = sorted((root / "panoptic_maps" / split).glob("*/*.png"))
-    return [Sample(root / "image_02" / path.parent.name / path.name, path) for path in labels]
+    return [Sample(root / "image_02" / path.parent.name / path.name, path, path.parent.name) for path in labels]
 
 
 FORMATS: dict[str, tuple[Callable[..., list[Sample]], str]] = {
     "native": (native, "native"),
     "camvid": (camvid, "camvid"),
     "cityscapes": (cityscapes, "cityscapes"),
+    "idd-lite": (idd_lite, "idd-lite"),
     "kitti-step": (kitti_step, "cityscapes-train"),
 }
 
 
 # How much pictures may be enlarged before they are cut.
-_ZOOM = 1.4
+ZOOM = 1.4
 
 
 class Pictures:
     """Pairs of an image (H, W, 3) and its labels (H, W) in the target's ids, both `uint8`.
 
-    Images are scaled to cover `size` (width, height) and cropped to it, at the centre, or with `augment` at random with
-    a random scale of 1 to 1.4 and a random flip, all determined by `epoch` and the index.
-    Up to 2 GiB of images are cached, as small as the largest of these scales allows.
+    They have their own size, or if that is more than a cut of `size` (width, height) enlarged by `ZOOM` needs, as much
+    as that needs. Up to 2 GiB of them are kept, for all objects of this class together.
     """
 
     KEPT_BYTES = 2 << 30
+    _kept: ClassVar[dict[tuple[Sample, str, str, tuple[int, int]], tuple[np.ndarray, np.ndarray]]] = {}
+    _kept_bytes: ClassVar[int] = 0
 
-    def __init__(
-        self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], augment: bool, seed: int
-    ):
-        self.samples, self.size, self.augment, self.seed = samples, size, augment, seed
-        self.table = lookup(numbering, target)
-        self.crowns: tuple[int, int, int] | None = CROWNS[target] if numbering == "native" else None
-        self.epoch = 0
-        self._kept: dict[int, tuple[Image.Image, Image.Image]] = {}
-        self._kept_bytes = 0
+    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int]):
+        self.samples, self.numbering, self.target, self.size = samples, numbering, target, size
 
     def __len__(self) -> int:
         return len(self.samples)
 
     def __getitem__(self, index: int) -> tuple[np.ndarray, np.ndarray]:
-        picture, labels = self._pair(index)
-        random = np.random.default_rng((self.seed, self.epoch, index))
-        zoom, x, y, mirrored = (
-            (random.uniform(1, _ZOOM), *random.random(2), random.random() < 0.5)
-            if self.augment
-            else (1, 0.5, 0.5, False)
-        )
-        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * zoom
-        width, height = self.size[0] / scale, self.size[1] / scale
-        left, top = x * (picture.width - width), y * (picture.height - height)
-        box = (left, top, left + width, top + height)
-        rgb = np.asarray(picture.resize(self.size, Image.Resampling.BILINEAR, box=box))
-        ids = np.asarray(labels.resize(self.size, Image.Resampling.NEAREST, box=box))
-        if mirrored:
-            rgb, ids = rgb[:, ::-1], ids[:, ::-1]
-        return rgb, ids
+        key = (self.samples[index], self.numbering, self.target, self.size)
+        if key not in self._kept:
+            pair = self._read(self.samples[index])
+            size_bytes = sum(array.nbytes for array in pair)
+            if Pictures._kept_bytes + size_bytes > self.KEPT_BYTES:
+                return pair
+            self._kept[key] = pair
+            Pictures._kept_bytes += size_bytes
+        return self._kept[key]
 
-    def labels(self, index: int) -> np.ndarray:
-        """All labels of an image, uncropped, in the target's ids."""
-        return np.asarray(self._pair(index)[1])
-
-    def _pair(self, index: int) -> tuple[Image.Image, Image.Image]:
-        """The image and its labels in the target's ids, as large as the largest zoom needs."""
-        if index in self._kept:
-            return self._kept[index]
-        sample = self.samples[index]
+    def _read(self, sample: Sample) -> tuple[np.ndarray, np.ndarray]:
         picture: Image.Image = Image.open(sample.picture).convert("RGB")
         labels: Image.Image = Image.open(sample.labels)
         if labels.mode not in ("L", "P"):
             labels = labels.getchannel(0)
         if picture.size != labels.size:
             raise ValueError(f"{sample.labels}: expected {picture.size} pixels, like the image, found {labels.size}")
-        labels = Image.fromarray(self.table[np.asarray(labels)])
-        if self.crowns is not None:
-            labels = _outlined_crowns(labels, *self.crowns)
-        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * _ZOOM
+        labels = Image.fromarray(lookup(self.numbering, self.target)[np.asarray(labels)])
+        if self.numbering == "native" and self.target in CROWNS:
+            labels = _outlined_crowns(labels, *CROWNS[self.target])
+        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * ZOOM
         if scale < 1:
             size = (round(picture.width * scale), round(picture.height * scale))
             picture, labels = (
                 picture.resize(size, Image.Resampling.BILINEAR),
                 labels.resize(size, Image.Resampling.NEAREST),
             )
-        size_bytes = 4 * picture.width * picture.height
-        if self._kept_bytes + size_bytes <= self.KEPT_BYTES:
-            self._kept[index] = (picture, labels)
-            self._kept_bytes += size_bytes
-        return picture, labels
+        return np.asarray(picture), np.asarray(labels)
 
 
 def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) -> Image.Image:

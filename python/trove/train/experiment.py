@@ -6,13 +6,14 @@ rows    = ["R", "S", "S+R[F]", "S+R[M]"]     # [F]: fine-tuned on the last set; 
 compare = { "S+R[M]" = "R" }  # rows whose gain is shown
 
 [sets.R]
-format = "camvid"             # native | camvid | cityscapes | kitti-step
+format = "camvid"             # native | camvid | idd-lite | cityscapes | kitti-step
 root   = "data/camvid"        # relative to this file
-split  = "train"
+split  = "train"              # or several: ["train", "val"]
 
 [sets.P]
 of    = "R"                   # a part of another set
-count = 100
+count = 100                   # or several, such as [25, 100, "all"]: the sets P25, P100 and Pall
+seed  = 1                     # what is drawn; "each": anew for every seed of [training]
 
 [sets.S]
 format = "native"
@@ -22,25 +23,37 @@ frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
 [sets.C]                      # S recoloured: a row with C uses it instead of S
 format   = "native"
 root     = "out/camvid-twin"
-pictures = "out/camvid-twin-recolored"
+pictures = "out/camvid-twin-recolored"       # {fold} in it is the fold's name
 
-[val]
+[val]                         # what networks are measured on, or [folds]
 format = "camvid"
 root   = "data/camvid"
 split  = "val"
 
 [training]
-model  = "small"              # or "deeplab"
-steps  = 600                  # the same for every row; or epochs = 30, of a row's own images
+model  = "small"              # or "unet", "deeplab"
+steps  = 600                  # of each stage of every row; or epochs = 30, of a row's own images
+total  = 2000                 # instead: of all stages of a row; or a ladder such as [500, 2000, 8000]
 batch  = 10
 rate   = 1e-3
 seeds  = [1, 2, 3]
 balanced = true               # rare classes weigh more in the loss
+
+Several counts are one line of a curve: a row `S+P*[M]` stands for `S+P25[M]`, `S+P100[M]` and so on, in `compare` too.
+
+[folds] instead of [val] holds out each place of a set in turn, and measures on it:
+
+[folds]
+of    = "R"                   # nothing of the held-out place is in this set or its parts
+count = 3                     # places are dealt out to so many folds; without it each place is one
+inner = 0.2                   # this share of what remains, its last places or pictures, is for choices alone
+
+A place is CamVid's drive, IDD-Lite's folder, Cityscapes' city, KITTI-STEP's sequence or a scene of ours.
+Of a ladder every row has the rung on which the mean over seeds is best on the inner share, for each fold by itself; the
+tables also show every rung.
 """
 
-import hashlib
 import itertools
-import os
 import re
 import sys
 from dataclasses import dataclass, field
@@ -50,7 +63,8 @@ from typing import Any
 
 import numpy as np
 
-from trove.train.data import FORMATS, Sample
+from trove.train.data import FORMATS
+from trove.train.folds import Folds, Pool, digest
 from trove.train.labels import TARGETS
 
 if sys.version_info >= (3, 11):
@@ -69,6 +83,7 @@ class Training:
 
     model: str = "small"
     steps: int = 0
+    total: tuple[int, ...] = ()
     epochs: int = 30
     batch: int = 10
     rate: float = 1e-4
@@ -83,20 +98,16 @@ class Training:
 
 
 @dataclass(frozen=True)
-class Pool:
-    """A set of samples and the numbering of their labels."""
+class Trial:
+    """What a network is trained for: a fold ("" without [folds]), a seed, steps altogether (0: as the file says)."""
 
-    samples: list[Sample]
-    numbering: str
+    fold: str = ""
+    seed: int = 1
+    total: int = 0
 
-    def digest(self, base: Path) -> str:
-        """A hash of the numbering and of all file sizes and paths relative to `base`, wherever `base` is."""
-        files = [
-            (os.path.relpath(f, base), f.stat().st_size)
-            for sample in self.samples
-            for f in (sample.picture, sample.labels)
-        ]
-        return _digest(self.numbering, files)
+    def __str__(self) -> str:
+        parts = [f"fold {self.fold}"] * bool(self.fold) + [f"seed {self.seed}"]
+        return ", ".join(parts + [f"{self.total} steps"] * bool(self.total))
 
 
 @dataclass(frozen=True)
@@ -110,7 +121,18 @@ class Experiment:
     compare: dict[str, str]
     pools: dict[str, Pool]
     val: Pool
+    # Rows with a star: those that it stands for, each with the set that takes its place; and those that are compared.
+    lines: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    compare_lines: dict[str, str] = field(default_factory=dict)
+    inner: Pool | None = None
+    folds: tuple[str, ...] = ("",)
+    trial: Trial = field(default_factory=Trial)
     training: Training = field(default_factory=Training)
+
+    def trials(self) -> list[Trial]:
+        """Every fold with every seed and every rung of the ladder."""
+        totals = self.training.total or (0,)
+        return [Trial(*which) for which in itertools.product(self.folds, self.training.seeds, totals)]
 
     def stages(self, row: str) -> list[list[str]]:
         """The sets of each stage of a row: `S+R[F]` is trained on S, then on R; `S+C+R[M]` on C and R at once.
@@ -130,17 +152,15 @@ class Experiment:
             groups.setdefault(tuple(self.stages(row)[0]), []).append(row)
         return list(groups.values())
 
-    def folders(self, row: str, seed: int, out: Path) -> list[tuple[Path, list[str]]]:
-        """The folder and the sets of each stage of a row."""
-        folders, name, key = (
-            [],
-            "",
-            _digest(self.classes, self.size, self.training.settings(), self.val.digest(self.folder)),
-        )
+    def folders(self, row: str, out: Path) -> list[tuple[Path, list[str]]]:
+        """The folder and the sets of each stage of a row in the experiment's trial."""
+        measured = [pool.digest(self.folder) for pool in (self.val, self.inner) if pool]
+        folders, name = [], ""
+        key = digest(self.classes, self.size, self.training.settings(), measured, self.trial.total)
         for names in self.stages(row):
-            key = _digest(key, seed, [self.digests[n] for n in names])
+            key = digest(key, self.trial.seed, [self.digests[n] for n in names])
             name += (" then " if name else "") + "+".join(names)
-            folders.append((out / "runs" / f"{name}, seed {seed}, {key}", names))
+            folders.append((out / "runs" / f"{name}, {self.trial}, {key}", names))
         return folders
 
     @cached_property
@@ -149,46 +169,67 @@ class Experiment:
         return {name: pool.digest(self.folder) for name, pool in self.pools.items()}
 
 
-def read(path: Path) -> Experiment:
-    """Reads an experiment and finds its images; raises `ExperimentError`."""
+def read(path: Path, trial: Trial | None = None) -> Experiment:
+    """Reads an experiment and finds the images of a trial, of the first one if none is given.
+
+    Raises `ExperimentError`.
+    """
     try:
         table = tomllib.loads(path.read_text())
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise ExperimentError(f"{path}: {error}") from error
-    _known(path, "", table, {"classes", "size", "rows", "compare", "sets", "val", "training"})
+    _known(path, "", table, {"classes", "size", "rows", "compare", "sets", "val", "folds", "training"})
     classes = table.get("classes", "paper")
     if classes not in TARGETS:
         raise ExperimentError(f"{path}: classes: expected one of {', '.join(TARGETS)}, found {classes}")
+    training = _training(path, dict(table.get("training", {})))
     sets = table.get("sets", {})
+    if ("val" in table) == ("folds" in table):
+        raise ExperimentError(f"{path}: expected a section [val] or [folds], found {'both' if 'val' in table else 'none'}")
+    split = _folds(path, table["folds"], sets) if "folds" in table else None
+    names = tuple(split.names) if split else ("",)
+    trial = trial or Trial(names[0], training.seeds[0], (training.total or (0,))[0])
+    if trial.fold not in names:
+        raise ExperimentError(f"{path}: expected a fold of {', '.join(names)}, found {trial.fold}")
     pools: dict[str, Pool] = {}
     for name, entry in sets.items():
         if "of" not in entry:
-            pools[name] = _pool(path, f"sets.{name}", entry)
+            held = split is not None and name == split.of
+            pools[name] = split.training(trial.fold) if split and held else _pool(path, f"sets.{name}", entry, trial.fold)
+    counts: dict[str, list[str]] = {}
     for name, entry in sets.items():
         if "of" in entry:
             _known(path, f"sets.{name}.", entry, {"of", "count", "seed"})
             whole = pools.get(entry["of"])
             if whole is None:
                 raise ExperimentError(f"{path}: sets.{name}.of: expected another set, found {entry['of']}")
-            pools[name] = _part(whole, entry.get("count", 100), entry.get("seed", 1))
-    if "val" not in table:
-        raise ExperimentError(f"{path}: expected a section [val], found none")
-    entry = dict(table.get("training", {}))
-    _known(path, "training.", entry, {"model", "steps", "epochs", "batch", "rate", "seeds", "weights", "balanced"})
-    if "seeds" in entry:
-        entry["seeds"] = tuple(entry["seeds"])
-    if "weights" in entry:
-        entry["weights"] = path.parent / entry["weights"]
+            seed = trial.seed if entry.get("seed") == "each" else entry.get("seed", 1)
+            count = entry.get("count", 100)
+            if not isinstance(count, list):
+                pools[name] = _part(whole, count, seed)
+                continue
+            counts[name] = [str(one) for one in count]
+            for one in count:
+                pools[f"{name}{one}"] = whole if one == "all" else _part(whole, one, seed)
     size = table.get("size", [512, 256])
     experiment = Experiment(
         path.parent,
         classes,
         (size[0], size[1]),
-        table.get("rows", []),
-        table.get("compare", {}),
+        [one for row in table.get("rows", []) for one, _ in _spelt_out(row, counts)],
+        {
+            one: _spelt_out(than, counts)[i if "*" in than else 0][0]
+            for row, than in table.get("compare", {}).items()
+            for i, (one, _) in enumerate(_spelt_out(row, counts))
+        },
         pools,
-        _pool(path, "val", table["val"]),
-        Training(**entry),
+        split.val(trial.fold) if split else _pool(path, "val", table["val"], ""),
+        {row: _spelt_out(row, counts) for row in table.get("rows", []) if "*" in row},
+        {row: than for row, than in table.get("compare", {}).items() if "*" in row and "*" in than},
+        split.inner(trial.fold) if split else None,
+        names,
+        trial,
+        training,
     )
     for row in experiment.rows:
         for name in itertools.chain.from_iterable(experiment.stages(row)):
@@ -197,16 +238,51 @@ def read(path: Path) -> Experiment:
     return experiment
 
 
-def _pool(path: Path, place: str, entry: dict[str, Any]) -> Pool:
+def _training(path: Path, entry: dict[str, Any]) -> Training:
+    known = {"model", "steps", "total", "epochs", "batch", "rate", "seeds", "weights", "balanced"}
+    _known(path, "training.", entry, known)
+    total = entry.get("total", [])
+    entry["total"] = tuple(total) if isinstance(total, list) else (total,)
+    if "seeds" in entry:
+        entry["seeds"] = tuple(entry["seeds"])
+    if "weights" in entry:
+        entry["weights"] = path.parent / entry["weights"]
+    return Training(**entry)
+
+
+def _spelt_out(row: str, counts: dict[str, list[str]]) -> list[tuple[str, str]]:
+    """The rows that a row with `P*` stands for, one for every count of the set P, and the set in each; else itself."""
+    star = re.search(r"(\w+)\*", row)
+    if star is None:
+        return [(row, "")]
+    return [(row.replace(star[0], star[1] + count), star[1] + count) for count in counts.get(star[1], [])]
+
+
+def _folds(path: Path, entry: dict[str, Any], sets: dict[str, Any]) -> Folds:
+    _known(path, "folds.", entry, {"of", "count", "inner"})
+    name = entry.get("of")
+    if name not in sets or "of" in sets[name]:
+        raise ExperimentError(f"{path}: folds.of: expected a set with a format of its own, found {name}")
+    whole = _pool(path, f"sets.{name}", sets[name], "")
+    try:
+        return Folds(name, whole, entry.get("count"), entry.get("inner", 0.2))
+    except ValueError as error:
+        raise ExperimentError(f"{path}: folds: {error}") from error
+
+
+def _pool(path: Path, place: str, entry: dict[str, Any], fold: str) -> Pool:
     _known(path, f"{place}.", entry, {"format", "root", "split", "pictures", "frames"})
     if entry.get("format") not in FORMATS:
         raise ExperimentError(
             f"{path}: {place}.format: expected one of {', '.join(FORMATS)}, found {entry.get('format')}"
         )
     find, numbering = FORMATS[entry["format"]]
-    options = {key: path.parent / entry[key] for key in ("pictures", "frames") if key in entry}
+    options = {key: path.parent / entry[key].replace("{fold}", fold) for key in ("pictures", "frames") if key in entry}
     root = path.parent / entry.get("root", "")
-    samples = find(root, split=entry.get("split", "train"), **options)
+    splits = entry.get("split", "train")
+    samples = []
+    for split in splits if isinstance(splits, list) else [splits]:
+        samples += find(root, split=split, **options)
     if not samples:
         raise ExperimentError(
             f"{path}: {place}.root: expected images laid out as {entry['format']} in {root}, found none"
@@ -217,10 +293,6 @@ def _pool(path: Path, place: str, entry: dict[str, Any]) -> Pool:
 def _part(whole: Pool, count: int, seed: int) -> Pool:
     chosen = np.random.default_rng(seed).permutation(len(whole.samples))[:count]
     return Pool([whole.samples[i] for i in sorted(chosen)], whole.numbering)
-
-
-def _digest(*parts: Any) -> str:
-    return hashlib.sha256(repr(parts).encode()).hexdigest()[:12]
 
 
 def _known(path: Path, place: str, table: dict[str, Any], keys: set[str]) -> None:

@@ -4,6 +4,7 @@ A target is a list of classes; a network predicts their indices, and `IGNORED` i
 """
 
 import csv
+from functools import cache
 
 import numpy as np
 
@@ -28,28 +29,32 @@ def _counted(label_set: str) -> list[str]:
 
 CAMVID = list(dict.fromkeys(_MERGED.get(name, name) for name in _counted("camvid")))
 PAPER = _counted("trove13")
+IDD_LITE = _counted("idd-lite")
 
-TARGETS = {"camvid": CAMVID, "paper": PAPER}
+TARGETS = {"camvid": CAMVID, "paper": PAPER, "idd-lite": IDD_LITE}
 # The label set whose names a target's are.
-_SETS = {"camvid": "camvid", "paper": "trove13"}
+_SETS = {"camvid": "camvid", "paper": "trove13", "idd-lite": "idd-lite"}
 # The classes of trees, and of what is seen between their twigs.
 CROWNS = {
     "camvid": (CAMVID.index("tree"), CAMVID.index("sky"), CAMVID.index("building")),
     "paper": (PAPER.index("vegetation"), PAPER.index("sky"), PAPER.index("building")),
+    "idd-lite": (IDD_LITE.index("far object"), IDD_LITE.index("sky"), IDD_LITE.index("far object")),
 }
 # The table of each numbering and the column that holds its numbers.
 _NUMBERINGS = {
     "native": ("trove20", "id"),
     "camvid": ("camvid", "id"),
+    "idd-lite": ("idd-lite", "id"),
     "cityscapes": ("cityscapes", "id"),
     "cityscapes-train": ("cityscapes", "train_id"),
 }
 
 
+@cache
 def lookup(numbering: str, target: str) -> np.ndarray:
     """The target's index for each of 256 ids, `uint8`; `IGNORED` if it has none.
 
-    `numbering` is `native` (class.png), `camvid`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
+    `numbering` is `native` (class.png), `camvid`, `idd-lite`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
     shares). Raises `ValueError` for a numbering that has no counterpart in the target.
     """
     label_set, column = _NUMBERINGS.get(numbering, ("", ""))

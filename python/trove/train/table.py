@@ -10,14 +10,36 @@ from trove.train.confusion import iou
 _STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228]
 
 
-def _interval(values: np.ndarray) -> float:
-    """Half the width of the 95 % interval of the mean over seeds; NaN for one seed."""
+def interval(values: np.ndarray) -> float:
+    """Half the width of the 95 % interval of the mean over runs; NaN for one run."""
     n = len(values)
     return float("nan") if n < 2 else _STUDENT[min(n - 2, 9)] * float(np.std(values, ddof=1)) / n**0.5
 
 
+def miou(counts: list[list[int]]) -> float:
+    """Mean IoU of pixel counts (truth, prediction), percent."""
+    return 100 * float(np.nanmean(iou(np.array(counts))))
+
+
+def at_its_best(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Of every row and fold the results with as many steps as do best on the inner share in the mean over seeds."""
+    found = []
+    for row, fold in dict.fromkeys((r["row"], r["fold"]) for r in results):
+        runs = [r for r in results if (r["row"], r["fold"]) == (row, fold)]
+        score = {total: np.mean([miou(r["inner"]) for r in runs if r["total"] == total]) for total in _totals(runs)}
+        found += [r for r in runs if r["total"] == max(score, key=lambda total: score[total])]
+    return found
+
+
+def _totals(results: list[dict[str, Any]]) -> list[int]:
+    return sorted({result["total"] for result in results})
+
+
 def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
-    """Means over the seeds of one row, percent: `iou` per class, `miou` and its interval, `accuracy`."""
+    """Means over the folds and seeds of one row, percent: `iou` per class, `miou` and its interval, `accuracy`.
+
+    `mious` are those of each (fold, seed).
+    """
     counts = [np.array(result["confusion"]) for result in results]
     ious = np.array([iou(c) for c in counts]) * 100
     mious = np.nanmean(ious, axis=1)
@@ -25,9 +47,9 @@ def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
     return {
         "iou": np.nanmean(ious, axis=0),
         "miou": float(mious.mean()),
-        "half": _interval(mious),
+        "half": interval(mious),
         "accuracy": float(accuracy.mean()),
-        "mious": mious,
+        "mious": {(result.get("fold", ""), result["seed"]): float(m) for result, m in zip(results, mious)},
     }
 
 
@@ -49,10 +71,13 @@ def markdown(classes: list[str], summaries: dict[str, dict[str, Any]], compare: 
     text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
     for better, than in compare.items():
         if better in summaries and than in summaries:
-            # Seeds pair the runs: the same seed begins with the same weights.
+            # Folds and seeds pair the runs: the same seed begins with the same weights.
             a, b = summaries[better]["mious"], summaries[than]["mious"]
-            apart = a - b if len(a) == len(b) else np.array([a.mean() - b.mean()])
-            half = _interval(apart)
+            both = [which for which in a if which in b]
+            if not both:
+                continue
+            apart = np.array([a[which] - b[which] for which in both])
+            half = interval(apart)
             text += f"\n{better} against {than}: {apart.mean():+.2f} mIoU" + (
                 "" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})"
             )

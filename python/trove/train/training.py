@@ -1,8 +1,10 @@
 """Trains one network on one or two stages of sets, and measures it."""
 
 import json
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -13,52 +15,76 @@ from torch.nn import functional as F
 
 from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
-from trove.train.experiment import Experiment, read
+from trove.train.experiment import Experiment, Pool, Trial, read
 from trove.train.labels import IGNORED, TARGETS
 from trove.train.models import network
+from trove.train.stock import MIDDLE, Stock, random_cuts
 
-# Steps between two lines of the curve and between two checkpoints.
-_LINE_EVERY, _SAVE_EVERY = 20, 100
+# Steps between two lines of the curve and between two checkpoints, and steps before a GPU's are recorded.
+_LINE_EVERY, _SAVE_EVERY, _WARM_UP = 20, 100, 5
+# Images that are measured at once.
+_MEASURED = 20
 
 
-def measure(model: nn.Module, pictures: Pictures, classes: int, device: torch.device) -> np.ndarray:
-    """Pixel counts (truth, prediction) over all images."""
+def measure(model: nn.Module, stock: Stock, size: tuple[int, int], classes: int) -> np.ndarray:
+    """Pixel counts (truth, prediction) over all images, each cut in the middle to `size` (width, height)."""
     model.eval()
-    confusion = np.zeros((classes, classes), np.int64)
-    with torch.no_grad():
-        for start in range(0, len(pictures), 4):
-            batch = [pictures[i] for i in range(start, min(start + 4, len(pictures)))]
-            truth = np.stack([labels for _, labels in batch]).astype(int)
-            logits = model(_tensor(batch, device))
-            logits = F.interpolate(logits, truth.shape[1:], mode="bilinear", align_corners=False)
-            predicted = logits.argmax(1).cpu().numpy()
+    confusion = torch.zeros(classes * classes, dtype=torch.int64, device=stock.device)
+    with torch.no_grad(), _autocast(stock.device):
+        for start in range(0, len(stock), _MEASURED):
+            chosen = torch.arange(start, min(start + _MEASURED, len(stock)), device=stock.device)
+            cuts = torch.tensor(MIDDLE, device=stock.device).expand(len(chosen), 4)
+            rgb, truth = stock.cut(chosen, cuts, size)
+            logits = F.interpolate(model(rgb).float(), truth.shape[1:], mode="bilinear", align_corners=False)
             counted = truth != IGNORED
-            pairs = truth[counted] * classes + predicted[counted]
-            confusion += np.bincount(pairs, minlength=classes * classes).reshape(classes, classes)
-    return confusion
+            pairs = truth[counted] * classes + logits.argmax(1)[counted]
+            confusion += torch.bincount(pairs, minlength=classes * classes)
+    return confusion.cpu().numpy().reshape(classes, classes)
 
 
-def run_rows(path: Path, out: Path, threads: int, seed: int, rows: list[str]) -> list[dict[str, Any]]:
-    """Trains and measures rows of the experiment in the file `path` with one seed; `threads` 0 uses all."""
+def run_rows(path: Path, out: Path, threads: int, trial: Trial, rows: list[str]) -> list[dict[str, Any]]:
+    """Trains and measures rows of the experiment in the file `path` in one trial; `threads` 0 uses all."""
     if threads:
         torch.set_num_threads(threads)
-    experiment = read(path)
-    return [run(experiment, row, seed, out, lambda text: print(text, flush=True)) for row in rows]
+    experiment = read(path, trial)
+    return [run(experiment, row, out, lambda text: print(text, flush=True)) for row in rows]
 
 
-def run(experiment: Experiment, row: str, seed: int, out: Path, say: Callable[[str], None]) -> dict[str, Any]:
-    """Trains and measures one row with one seed.
+def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None]) -> dict[str, Any]:
+    """Trains and measures one row in the experiment's trial.
 
     Finished work in `out` is not repeated, started work is resumed, and rows with the same first stage share it; a
     folder's name contains a hash of everything that went into it, so other data or settings get another folder.
-    Returns `{"row", "seed", "confusion", "curve"}`; `curve` holds (stage, step, loss).
+    Returns `{"row", "fold", "seed", "total", "confusion", "inner", "images", "curve", "seconds"}`: `inner` is the
+    confusion on what choices are made by or `None`, `images` how many each set has, `curve` holds (stage, step, loss),
+    and `seconds` is the time that was spent on what no other row had trained.
     """
+    trial, folders = experiment.trial, experiment.folders(row, out)
+    name = f"{row} {trial}"
+    result = folders[-1][0] / "result.json"
+    if not result.exists():
+        found = _found(experiment, folders, lambda text: say(f"{name}: {text}"))
+        partial = result.with_suffix(".partial")
+        partial.write_text(json.dumps(found))
+        partial.replace(result)
+    found = {"row": row, "fold": trial.fold, "seed": trial.seed, "total": trial.total, **json.loads(result.read_text())}
+    say(f"{name}: mIoU {100 * np.nanmean(iou(np.array(found['confusion']))):.2f}, {found['seconds']:.0f} s")
+    return found
+
+
+def _found(
+    experiment: Experiment, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]
+) -> dict[str, Any]:
+    """The confusion matrices of the network that is trained in `folders`, one a stage, its curve and time."""
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
-    torch.manual_seed(seed)
-    classes = len(TARGETS[experiment.classes])
-    model = network(experiment.training.model, classes, experiment.training.weights).to(device)
+    # Images have one size, so that the fastest convolutions are worth finding.
+    torch.backends.cudnn.benchmark = True
+    trial, training = experiment.trial, experiment.training
+    torch.manual_seed(trial.seed)
+    classes, began = len(TARGETS[experiment.classes]), time.perf_counter()
+    model = network(training.model, classes, training.weights).to(device)
     curve: list[list[float]] = []
-    for number, (folder, names) in enumerate(experiment.folders(row, seed, out)):
+    for number, (folder, names) in enumerate(folders):
         trained = folder / "model.pt"
         if trained.exists():
             state = torch.load(trained, map_location=device, weights_only=True)
@@ -66,20 +92,30 @@ def run(experiment: Experiment, row: str, seed: int, out: Path, say: Callable[[s
             curve = state["curve"]
             continue
         folder.mkdir(parents=True, exist_ok=True)
-        stage = _Stage(experiment, names, number, seed * 1000 + number, folder / "checkpoint.pt")
-        _train(stage, model, device, curve, lambda text: say(f"{row} seed {seed}: {text}"))
+        steps = trial.total // len(folders) + (number < trial.total % len(folders))
+        stage = _Stage(experiment, names, number, steps, trial.seed * 1000 + number, folder / "checkpoint.pt")
+        _train(stage, model, device, curve, say)
         _save(trained, {"model": model.state_dict(), "curve": curve})
         (folder / "checkpoint.pt").unlink(missing_ok=True)
-    result = folder / "result.json"
-    if not result.exists():
-        val = Pictures(experiment.val.samples, experiment.val.numbering, experiment.classes, experiment.size, False, 0)
-        confusion = measure(model, val, classes, device)
-        partial = result.with_suffix(".partial")
-        partial.write_text(json.dumps({"seed": seed, "confusion": confusion.tolist(), "curve": curve}))
-        partial.replace(result)
-    found = {"row": row, **json.loads(result.read_text())}
-    say(f"{row} seed {seed}: mIoU {100 * np.nanmean(iou(np.array(found['confusion']))):.2f}")
-    return found
+
+    def measured(pool: Pool) -> list[list[int]]:
+        stock = _stock(tuple(pool.samples), pool.numbering, experiment.classes, experiment.size, device)
+        counts: list[list[int]] = measure(model, stock, experiment.size, classes).tolist()
+        return counts
+
+    return {
+        "confusion": measured(experiment.val),
+        "inner": measured(experiment.inner) if experiment.inner else None,
+        "images": {name: len(experiment.pools[name].samples) for _, names in folders for name in names},
+        "curve": curve,
+        "seconds": time.perf_counter() - began,
+    }
+
+
+@lru_cache(maxsize=8)
+def _stock(samples: tuple[Any, ...], numbering: str, target: str, size: tuple[int, int], device: torch.device) -> Stock:
+    """What networks are measured on, kept since many are measured on the same."""
+    return Stock([Pictures(list(samples), numbering, target, size)], device)
 
 
 @dataclass(frozen=True)
@@ -89,6 +125,7 @@ class _Stage:
     experiment: Experiment
     names: list[str]
     number: int
+    steps: int
     seed: int
     checkpoint: Path
 
@@ -97,22 +134,15 @@ def _train(
     stage: _Stage, model: nn.Module, device: torch.device, curve: list[list[float]], say: Callable[[str], None]
 ) -> None:
     """Trains on all `names` in mixed batches; an interrupted stage resumes from the checkpoint."""
-    experiment, names, seed, checkpoint = stage.experiment, stage.names, stage.seed, stage.checkpoint
+    experiment, names, checkpoint = stage.experiment, stage.names, stage.checkpoint
     training = experiment.training
     pools = [experiment.pools[name] for name in names]
-    sets = [
-        Pictures(p.samples, p.numbering, experiment.classes, experiment.size, True, seed + i)
-        for i, p in enumerate(pools)
-    ]
-    lengths = [len(s) for s in sets]
-    steps = training.steps or max(1, training.epochs * sum(lengths) // training.batch)
-    batches = mixed_batches(lengths, training.batch, steps, seed)
-    optimiser = _optimiser(model, training.rate)
-    # The polynomial schedule of DeepLab.
-    schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: (1 - step / (steps + 1)) ** 0.9)
-    mixed = device.type == "cuda" or _fast_bfloat16()
-    scaler = torch.amp.GradScaler(device.type, enabled=device.type == "cuda")
-    resumed = {"model": model, "optimiser": optimiser, "schedule": schedule, "scaler": scaler}
+    sets = [Pictures(p.samples, p.numbering, experiment.classes, experiment.size) for p in pools]
+    stock, lengths = Stock(sets, device), [len(s) for s in sets]
+    steps = stage.steps or training.steps or max(1, training.epochs * sum(lengths) // training.batch)
+    model.train().to(memory_format=torch.channels_last)
+    step = _Step(stage, model, stock, lengths, steps)
+    resumed = {"model": model, "optimiser": step.optimiser}
     first = 0
     if checkpoint.exists():
         state = torch.load(checkpoint, map_location=device, weights_only=True)
@@ -120,68 +150,103 @@ def _train(
             part.load_state_dict(state[name])
         first = state["step"]
         curve[:] = state["curve"]
-    weight = (
-        torch.from_numpy(_weights(sets, len(TARGETS[experiment.classes]))).to(device) if training.balanced else None
-    )
-    loss_of = nn.CrossEntropyLoss(weight, ignore_index=IGNORED)
-    model.train().to(memory_format=torch.channels_last)
-    lost = []
-    for step in range(first, steps):
-        for s in sets:
-            s.epoch = step
-        items = [sets[i][index] for i, index in batches[step]]
-        truth = torch.from_numpy(np.stack([labels for _, labels in items])).to(device)
-        with torch.autocast(device.type, enabled=mixed):
-            logits = model(_tensor(items, device))
-        # As in DeepLab v2 the loss is taken at the logits' size.
-        truth = F.interpolate(truth[:, None].float(), logits.shape[-2:], mode="nearest")[:, 0].long()
-        loss = loss_of(logits.float(), truth)
-        optimiser.zero_grad(set_to_none=True)
-        scaler.scale(loss).backward()
-        scaler.step(optimiser)
-        scaler.update()
-        schedule.step()
-        lost.append(loss.item())
-        if (step + 1) % _LINE_EVERY == 0 or step + 1 == steps:
-            curve.append([stage.number, step + 1, float(np.mean(lost))])
-            say(f"stage {stage.number + 1} on {'+'.join(names)}, step {step + 1} of {steps}, loss {np.mean(lost):.3f}")
-            lost = []
-        if (step + 1) % _SAVE_EVERY == 0:
+    step.at.fill_(first)
+    line = first
+    for done in range(first + 1, steps + 1):
+        step()
+        if done % _LINE_EVERY == 0 or done == steps:
+            loss = float(step.losses[line:done].mean())
+            line = done
+            curve.append([stage.number, done, loss])
+            say(f"stage {stage.number + 1} on {'+'.join(names)}, step {done} of {steps}, loss {loss:.3f}")
+        if done % _SAVE_EVERY == 0 and done < steps:
             _save(
-                checkpoint,
-                {name: part.state_dict() for name, part in resumed.items()} | {"step": step + 1, "curve": curve},
+                checkpoint, {name: part.state_dict() for name, part in resumed.items()} | {"step": done, "curve": curve}
             )
 
 
-def _weights(sets: list[Pictures], classes: int) -> np.ndarray:
-    """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set weighted equally."""
-    shares = np.zeros(classes)
-    for pictures in sets:
-        counts = np.zeros(classes)
-        for i in range(len(pictures)):
-            counts += np.bincount(pictures.labels(i).ravel(), minlength=256)[:classes]
-        shares += counts / counts.sum() / len(sets)
-    return (1 / np.log(1.02 + shares)).astype(np.float32)
+class _Step:
+    """One step of training, whose number and everything drawn for it are on the device.
+
+    On a GPU with its images there the step is recorded once and replayed: to launch its kernels one by one takes longer
+    than they do.
+    """
+
+    def __init__(self, stage: _Stage, model: nn.Module, stock: Stock, lengths: list[int], steps: int):
+        training, self._size, self._model, self._stock = stage.experiment.training, stage.experiment.size, model, stock
+        device = stock.device
+        starts = np.cumsum([0, *lengths])
+        batches = mixed_batches(lengths, training.batch, steps, stage.seed)
+        members = np.array([[starts[s] + i for s, i in batch] for batch in batches])
+        # The polynomial schedule of DeepLab.
+        rates = training.rate * (1 - np.arange(steps) / (steps + 1)) ** 0.9
+        self._members = torch.from_numpy(members).to(device)
+        self._cuts = torch.from_numpy(random_cuts(steps, training.batch, stage.seed)).to(device)
+        self._rates = torch.from_numpy(rates.astype(np.float32)).to(device)
+        self.at = torch.zeros(1, dtype=torch.int64, device=device)
+        self.losses = torch.zeros(steps, device=device)
+        self.optimiser = _optimiser(model, training.rate, device)
+        classes = len(TARGETS[stage.experiment.classes])
+        weights = stock.weights(lengths, classes) if training.balanced else None
+        self._loss_of = nn.CrossEntropyLoss(weights, ignore_index=IGNORED)
+        self._recorded: Any = None
+        self._stream = torch.cuda.Stream(device) if device.type == "cuda" and stock.resident else None
+        self._before = _WARM_UP
+
+    def __call__(self) -> None:
+        if self._stream is None:
+            self._once()
+        elif self._recorded is not None:
+            self._recorded.replay()
+        elif self._before:
+            # On the stream that it is recorded on, once what was sent to the device is there.
+            self._before -= 1
+            torch.cuda.synchronize()
+            with torch.cuda.stream(self._stream):
+                self._once()
+            torch.cuda.synchronize()
+        else:
+            self.optimiser.zero_grad(set_to_none=True)
+            self._recorded = torch.cuda.CUDAGraph()
+            with torch.cuda.graph(self._recorded, stream=self._stream):
+                self._once()
+            self._recorded.replay()
+
+    def _once(self) -> None:
+        self.optimiser.zero_grad(set_to_none=True)
+        rgb, truth = self._stock.cut(self._members[self.at][0], self._cuts[self.at][0], self._size)
+        with _autocast(self._stock.device):
+            logits = self._model(rgb)
+        # As in DeepLab v2 the loss is taken at the logits' size.
+        truth = F.interpolate(truth[:, None].float(), logits.shape[-2:], mode="nearest")[:, 0].long()
+        loss = self._loss_of(logits.float(), truth)
+        loss.backward()
+        for group in self.optimiser.param_groups:
+            group["lr"].copy_(self._rates[self.at][0])
+        self.optimiser.step()
+        self.losses.index_copy_(0, self.at, loss.detach()[None])
+        self.at += 1
 
 
-def _optimiser(model: nn.Module, rate: float) -> torch.optim.Optimizer:
-    """AdamW that decays weights, but not biases or normalisation."""
+def _optimiser(model: nn.Module, rate: float, device: torch.device) -> torch.optim.Optimizer:
+    """AdamW that decays weights, but not biases or normalisation; its rates are tensors."""
     decayed = [p for p in model.parameters() if p.ndim > 1]
     plain = [p for p in model.parameters() if p.ndim <= 1]
-    return torch.optim.AdamW(
-        [{"params": decayed, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}], lr=rate
-    )
+    groups = [
+        {"params": parameters, "weight_decay": decay, "lr": torch.tensor(rate, device=device)}
+        for parameters, decay in ((decayed, 1e-2), (plain, 0.0))
+    ]
+    return torch.optim.AdamW(groups, fused=True, capturable=device.type == "cuda")
 
 
-def _tensor(items: list[tuple[np.ndarray, np.ndarray]], device: torch.device) -> torch.Tensor:
-    """The images of pairs as (N, 3, H, W), 0 to 1, channels last."""
-    pictures = torch.from_numpy(np.stack([picture for picture, _ in items])).to(device)
-    return pictures.permute(0, 3, 1, 2).float() / 255
-
-
-def _fast_bfloat16() -> bool:
-    """Whether the CPU has matrix units for bfloat16 (AMX); without them bfloat16 is slower than float32."""
-    return getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
+def _autocast(device: torch.device) -> Any:
+    """bfloat16 where the device has matrix units for it; elsewhere it is slower than float32."""
+    if device.type == "cuda":
+        fast = torch.cuda.get_device_capability(device)[0] >= 8
+    else:
+        fast = getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
+    # Every weight is used once a step, and what is kept of one step would be missing in a recorded one.
+    return torch.autocast(device.type, torch.bfloat16, enabled=fast, cache_enabled=False)
 
 
 def _save(path: Path, state: dict[str, Any]) -> None:

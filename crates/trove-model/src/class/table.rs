@@ -1,8 +1,8 @@
 //! Label sets as tables: a line a class, fields apart by tabs, the first line names the columns.
 
 /// Every label set that has a table.
-pub const LABEL_TABLES: [&str; 9] =
-    ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "waymo", "occ3d", "asprs"];
+pub const LABEL_TABLES: [&str; 10] =
+    ["trove20", "trove13", "cityscapes", "kitti-step", "coco", "camvid", "idd-lite", "waymo", "occ3d", "asprs"];
 /// What stands under `train_id` for a class that does not count.
 pub(crate) const IGNORED: u8 = 255;
 
@@ -18,6 +18,7 @@ pub fn label_table(set: &str) -> Option<&'static str> {
         "kitti-step" => include_str!("kitti-step.tsv"),
         "coco" => include_str!("coco.tsv"),
         "camvid" => include_str!("camvid.tsv"),
+        "idd-lite" => include_str!("idd-lite.tsv"),
         "waymo" => include_str!("waymo.tsv"),
         "occ3d" => include_str!("occ3d.tsv"),
         "asprs" => include_str!("asprs.tsv"),
@@ -77,6 +78,7 @@ mod tests {
             ("kitti-step", 20, 19),
             ("coco", 134, 133),
             ("camvid", 12, 11),
+            ("idd-lite", 8, 7),
             ("waymo", 29, 27),
             ("occ3d", 18, 17),
         ] {

@@ -26,8 +26,19 @@ struct Source {
 
 impl ClassMap {
     /// Every name that [`ClassMap::named`] knows.
-    pub const NAMES: [&str; 10] =
-        [PAPER, OURS, "cityscapes", "cityscapes-train", "kitti-step", "coco", "camvid", "waymo", "occ3d", "asprs"];
+    pub const NAMES: [&str; 11] = [
+        PAPER,
+        OURS,
+        "cityscapes",
+        "cityscapes-train",
+        "kitti-step",
+        "coco",
+        "camvid",
+        "idd-lite",
+        "waymo",
+        "occ3d",
+        "asprs",
+    ];
 
     /// A built-in map: `paper13` (also `trove13`), the paper's 13 classes; `trove20`, those of `class.png`; or a
     /// dataset's. `None` for a name that is not in [`ClassMap::NAMES`].
@@ -56,6 +67,7 @@ fn source(name: &str) -> Option<Source> {
         },
         "coco" => of("coco"),
         "camvid" => Source { unlabelled: 11, ..of("camvid") },
+        "idd-lite" => Source { unlabelled: IGNORED, ..of("idd-lite") },
         "occ3d" => Source { unlabelled: 17, ..of("occ3d") },
         "asprs" => of("asprs"),
         "waymo" => Source { instances: InstanceCoding::Divisor(WAYMO_DIVISOR), ..of("waymo") },

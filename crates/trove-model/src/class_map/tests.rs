@@ -31,6 +31,8 @@ fn our_classes_have_the_numbers_that_each_dataset_documents() {
         ("kitti-step", [255, 10, 13, 15, 13, 14, 13, 11, 2, 0, 255, 9, 12, 14, 8, 8, 12, 5, 7, 1]),
         ("coco", [0, 187, 3, 6, 3, 8, 3, 1, 197, 149, 185, 193, 2, 8, 184, 184, 4, 0, 13, 191]),
         ("camvid", [11, 0, 8, 8, 8, 8, 8, 9, 1, 3, 7, 5, 10, 8, 5, 5, 11, 11, 6, 4]),
+        // IDD has riders and what they ride apart, which our class has in one.
+        ("idd-lite", [255, 6, 3, 3, 3, 3, 3, 2, 5, 0, 4, 1, 255, 3, 5, 5, 255, 4, 4, 1]),
         ("waymo", [0, 25, 2, 4, 2, 3, 2, 9, 19, 20, 28, 26, 10, 5, 24, 24, 11, 14, 17, 23]),
         ("occ3d", [0, 17, 4, 3, 4, 10, 4, 7, 15, 11, 1, 14, 2, 5, 16, 16, 6, 8, 15, 13]),
         // ASPRS LAS 1.4, table 17; from 64 on, which users define, docs/judge.md.
@@ -52,6 +54,7 @@ fn every_built_in_map_numbers_what_counts_from_0_and_knows_what_does_not() {
         ("kitti-step", 19, vec![255], InstanceCoding::GreenBlue),
         ("coco", 133, vec![0, 255], InstanceCoding::Beside),
         ("camvid", 11, vec![11, 255], InstanceCoding::Beside),
+        ("idd-lite", 7, vec![255], InstanceCoding::Beside),
         ("waymo", 27, vec![0, 1, 255], InstanceCoding::Divisor(NonZero::new(1000).unwrap())),
         ("occ3d", 17, vec![17, 255], InstanceCoding::Beside),
         ("asprs", 16, vec![0, 1, 255], InstanceCoding::Beside),

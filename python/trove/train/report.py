@@ -1,0 +1,31 @@
+"""What an experiment leaves behind: tables, loss curves, and how many real pictures frames replace."""
+
+from pathlib import Path
+from typing import Any
+
+from trove.train import learning, table
+from trove.train.experiment import Experiment
+from trove.train.labels import TARGETS
+
+
+def write(experiment: Experiment, rows: list[str], results: list[dict[str, Any]], out: Path) -> None:
+    """Writes `table.md`, `table.tex` and `curves.svg`, and with counts `learning.md` and `learning.svg`, into `out`.
+
+    A ladder has a section for every rung and one in which every row is at its best; the LaTeX table and the learning
+    curves are of the latter.
+    """
+    classes, text = TARGETS[experiment.classes], ""
+    totals = sorted({result["total"] for result in results})
+    best = table.at_its_best(results) if len(totals) > 1 and experiment.inner else results
+    sections = [(f"{total} steps", [r for r in results if r["total"] == total]) for total in totals]
+    sections = [*sections, ("every row at its best", best)] if len(totals) > 1 else [("", results)]
+    for title, part in sections:
+        summaries = {row: table.summary(runs) for row in rows if (runs := [r for r in part if r["row"] == row])}
+        text += (f"## {title}\n\n" if title else "") + table.markdown(classes, summaries, experiment.compare) + "\n"
+    (out / "table.md").write_text(text.rstrip("\n") + "\n")
+    (out / "table.tex").write_text(table.latex(classes, summaries))
+    (out / "curves.svg").write_text(table.curves(results))
+    lines = learning.lines(experiment.lines, best)
+    if lines:
+        (out / "learning.md").write_text(learning.markdown(lines, experiment.compare_lines))
+        (out / "learning.svg").write_text(learning.picture(lines))
