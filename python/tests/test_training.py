@@ -158,10 +158,11 @@ def test_the_table_has_the_papers_form():
     assert table.curves([a, b]).count("<polyline") == 2
 
 
-def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stopped(finished, experiment, tmp_path):
+def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stopped(experiment, tmp_path, monkeypatch):
     torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
     from trove.train import training
 
+    monkeypatch.setattr(training, "_SAVE_AFTER_S", 0)
     torch.set_num_threads(1)
     text = (
         experiment.read_text()

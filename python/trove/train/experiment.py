@@ -130,9 +130,9 @@ class Experiment:
     training: Training = field(default_factory=Training)
 
     def trials(self) -> list[Trial]:
-        """Every fold with every seed and every rung of the ladder."""
-        totals = self.training.total or (0,)
-        return [Trial(*which) for which in itertools.product(self.folds, self.training.seeds, totals)]
+        """Every seed with every fold and every rung of the ladder, so that what is cut short has whole seeds."""
+        ladder = itertools.product(self.training.seeds, self.folds, self.training.total or (0,))
+        return [Trial(fold, seed, total) for seed, fold, total in ladder]
 
     def stages(self, row: str) -> list[list[str]]:
         """The sets of each stage of a row: `S+R[F]` is trained on S, then on R; `S+C+R[M]` on C and R at once.

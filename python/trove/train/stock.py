@@ -9,6 +9,8 @@ from trove.train.labels import IGNORED
 
 # The cut that shows as much of an image as there is: its zoom, where it lies from 0 to 1, and whether it is mirrored.
 MIDDLE = (1.0, 0.5, 0.5, 0.0)
+# Images whose labels are counted at once.
+_COUNTED = 64
 
 
 class Stock:
@@ -66,14 +68,16 @@ class Stock:
 
         `lengths` are the sets' numbers of images.
         """
-        shares, first = np.zeros(classes), 0
+        shares, first = torch.zeros(classes, dtype=torch.float64, device=self.device), 0
         for length in lengths:
-            counts = np.zeros(256)
-            for pictures, i in self._items[first : first + length]:
-                counts += np.bincount(pictures[i][1].ravel(), minlength=256)
+            counts = torch.zeros(256, dtype=torch.int64, device=self.device)
+            for start in range(first, first + length, _COUNTED):
+                some = range(start, min(start + _COUNTED, first + length))
+                labels = self._labels[some.start : some.stop] if self.resident else self._read(some)[1]
+                counts += torch.bincount(labels.flatten(), minlength=256)
             shares += counts[:classes] / counts[:classes].sum() / len(lengths)
             first += length
-        return torch.from_numpy((1 / np.log(1.02 + shares)).astype(np.float32)).to(self.device)
+        return (1 / torch.log(1.02 + shares)).float()
 
     def _read(self, chosen: "range | list[int]") -> tuple[torch.Tensor, torch.Tensor]:
         pictures = np.zeros((len(chosen), *self._canvas, 3), np.uint8)

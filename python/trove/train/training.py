@@ -20,8 +20,10 @@ from trove.train.labels import IGNORED, TARGETS
 from trove.train.models import network
 from trove.train.stock import MIDDLE, Stock, random_cuts
 
-# Steps between two lines of the curve and between two checkpoints, and steps before a GPU's are recorded.
-_LINE_EVERY, _SAVE_EVERY, _WARM_UP = 20, 100, 5
+# Steps between two lines of the curve, and before a GPU's steps are recorded.
+_LINE_EVERY, _WARM_UP = 20, 5
+# Steps between two checkpoints, and seconds that lie between them at least.
+_SAVE_EVERY, _SAVE_AFTER_S = 100, 30.0
 # Images that are measured at once.
 _MEASURED = 20
 
@@ -151,7 +153,7 @@ def _train(
         first = state["step"]
         curve[:] = state["curve"]
     step.at.fill_(first)
-    line = first
+    line, saved = first, time.monotonic()
     for done in range(first + 1, steps + 1):
         step()
         if done % _LINE_EVERY == 0 or done == steps:
@@ -159,10 +161,10 @@ def _train(
             line = done
             curve.append([stage.number, done, loss])
             say(f"stage {stage.number + 1} on {'+'.join(names)}, step {done} of {steps}, loss {loss:.3f}")
-        if done % _SAVE_EVERY == 0 and done < steps:
-            _save(
-                checkpoint, {name: part.state_dict() for name, part in resumed.items()} | {"step": done, "curve": curve}
-            )
+        if done % _SAVE_EVERY == 0 and done < steps and time.monotonic() - saved >= _SAVE_AFTER_S:
+            state = {name: part.state_dict() for name, part in resumed.items()}
+            _save(checkpoint, state | {"step": done, "curve": curve})
+            saved = time.monotonic()
 
 
 class _Step:
