@@ -106,6 +106,88 @@ def test_a_wrong_experiment_names_the_place(experiment, change, expected):
     assert str(experiment) in str(caught.value)
 
 
+def test_cuts_keep_picture_and_labels_together(tmp_path):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.stock import MIDDLE, Stock, random_cuts
+
+    # Every pixel tells where it is, in the image as in the labels; the second image is wider.
+    sets = []
+    for name, (width, height) in {"a": (80, 60), "b": (100, 60)}.items():
+        x, y = np.meshgrid(np.arange(width), np.arange(height))
+        Image.fromarray(np.stack([2 * x, 4 * y, 0 * x], 2).astype(np.uint8)).save(tmp_path / f"{name}.png")
+        Image.fromarray((x // 10).astype(np.uint8)).save(tmp_path / f"{name}-ids.png")
+        sample = Sample(tmp_path / f"{name}.png", tmp_path / f"{name}-ids.png")
+        sets.append(Pictures([sample], "camvid", "camvid", (80, 60)))
+    stock, chosen = Stock(sets, torch.device("cpu")), torch.tensor([0, 1])
+    rgb, ids = stock.cut(chosen, torch.tensor([MIDDLE, MIDDLE]), (80, 60))
+    table = labels.lookup("camvid", "camvid").astype(int)
+    assert torch.equal((rgb[0, 0] * 255).round().int(), (2 * torch.arange(80)).int().expand(60, 80))
+    assert (ids[1] == torch.from_numpy(table[(np.arange(80) + 10) // 10])).all()
+    cuts = torch.from_numpy(random_cuts(1, 2, 5)[0])
+    assert torch.equal(stock.cut(chosen, cuts, (64, 48))[0], stock.cut(chosen, cuts, (64, 48))[0])
+    for mirrored in (0.0, 1.0):
+        cuts[:, 3] = mirrored
+        rgb, ids = stock.cut(chosen, cuts, (64, 48))
+        at = rgb[:, 0] * 255 / 2
+        away = (at + 0.5) % 10
+        told = torch.from_numpy(table)[((at + 0.5) // 10).long()]
+        assert ((ids == told) | (away < 1) | (away > 9)).all() and rgb.shape == (2, 3, 48, 64)
+        assert (at[:, 0, -1] > at[:, 0, 0]).all() == (mirrored == 0.0)
+        # As much of the image as the zoom leaves.
+        spans = (at[:, 0, -1] - at[:, 0, 0]).abs() * 64 / 63
+        assert torch.allclose(spans, 80 / cuts[:, 0], atol=1.1)
+
+
+def test_images_that_do_not_fit_are_read_where_they_are_needed(experiment, monkeypatch):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.stock import MIDDLE, Stock
+
+    pool, device = read(experiment).pools["S"], torch.device("cpu")
+    sets = [Pictures(pool.samples, pool.numbering, "camvid", (64, 36))]
+    whole = Stock(sets, device)
+    monkeypatch.setattr(Pictures, "KEPT_BYTES", 0)
+    parts = Stock(sets, device)
+    assert whole.resident and not parts.resident
+    chosen, cuts = torch.tensor([2, 0]), torch.tensor([MIDDLE, MIDDLE])
+    for a, b in zip(whole.cut(chosen, cuts, (64, 36)), parts.cut(chosen, cuts, (64, 36))):
+        assert torch.equal(a, b)
+    assert torch.equal(whole.weights([len(pool.samples)], 10), parts.weights([len(pool.samples)], 10))
+
+
+def test_rare_classes_weigh_more_and_sets_count_alike(tmp_path):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.stock import Stock
+
+    def alone(name, ids):
+        Image.new("RGB", ids.shape[::-1]).save(tmp_path / f"{name}.png")
+        Image.fromarray(ids).save(tmp_path / f"{name}-ids.png")
+        return Pictures([Sample(tmp_path / f"{name}.png", tmp_path / f"{name}-ids.png")], "camvid", "camvid", (8, 6))
+
+    sky, house = np.zeros((6, 8), np.uint8), np.ones((12, 16), np.uint8)
+    house[0] = 11  # unlabelled
+    found = Stock([alone("a", sky), alone("b", house)], torch.device("cpu")).weights([1, 1], 10)
+    assert found[:3].tolist() == pytest.approx([1 / np.log(1.52), 1 / np.log(1.52), 1 / np.log(1.02)])
+
+
+def test_tints_change_colours_and_nothing_else():
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.stock import random_tints, tinted
+
+    rgb = torch.rand(2, 3, 4, 5, generator=torch.Generator().manual_seed(1)) / 2 + 0.25
+    assert torch.allclose(tinted(rgb, torch.ones(2, 6)), rgb, atol=1e-6)
+    for factor, expected in [
+        (0, rgb * 0.8),
+        (1, rgb.mean((1, 2, 3), keepdim=True) + 0.8 * (rgb - rgb.mean((1, 2, 3), keepdim=True))),
+        (2, rgb.mean(1, keepdim=True) + 0.8 * (rgb - rgb.mean(1, keepdim=True))),
+        (4, rgb * torch.tensor([1, 0.8, 1])[:, None, None]),
+    ]:
+        tints = torch.ones(2, 6)
+        tints[:, factor] = 0.8
+        assert torch.allclose(tinted(rgb, tints), expected, atol=1e-5), factor
+    drawn = random_tints(50, 4, 0.4, 1)
+    assert 0.6 <= drawn.min() < 0.62 and abs(drawn[..., 3:] - 1).max() <= 0.2 and len(np.unique(drawn)) == drawn.size
+
+
 def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
     ids = np.full((240, 320), 1, np.uint8)  # sky
     ids[100:200, 100:200:3] = 15  # twigs

@@ -38,6 +38,7 @@ batch  = 10
 rate   = 1e-3
 seeds  = [1, 2, 3]
 balanced = true               # rare classes weigh more in the loss
+colour = 0.4                  # brightness, contrast, saturation and balance are drawn anew by up to ±40 %, for every row
 
 Several counts are one line of a curve: a row `S+P*[M]` stands for `S+P25[M]`, `S+P100[M]` and so on, in `compare` too.
 
@@ -90,11 +91,12 @@ class Training:
     seeds: tuple[int, ...] = (1, 2, 3)
     weights: Path | None = None
     balanced: bool = False
+    colour: float = 0.0
 
     def settings(self) -> list[Any]:
         """Everything that affects the result of a run except its seed."""
         weights = self.weights and [self.weights.name, self.weights.stat().st_size]
-        return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced]
+        return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced, self.colour]
 
 
 @dataclass(frozen=True)
@@ -239,10 +241,12 @@ def read(path: Path, trial: Trial | None = None) -> Experiment:
 
 
 def _training(path: Path, entry: dict[str, Any]) -> Training:
-    known = {"model", "steps", "total", "epochs", "batch", "rate", "seeds", "weights", "balanced"}
+    known = {"model", "steps", "total", "epochs", "batch", "rate", "seeds", "weights", "balanced", "colour"}
     _known(path, "training.", entry, known)
     total = entry.get("total", [])
     entry["total"] = tuple(total) if isinstance(total, list) else (total,)
+    if not 0 <= entry.get("colour", 0) < 1:
+        raise ExperimentError(f"{path}: training.colour: expected 0 to below 1, found {entry['colour']}")
     if "seeds" in entry:
         entry["seeds"] = tuple(entry["seeds"])
     if "weights" in entry:

@@ -94,3 +94,21 @@ def random_cuts(steps: int, batch: int, seed: int) -> np.ndarray:
     cuts = np.random.default_rng((seed, 1)).random((steps, batch, 4), np.float32)
     cuts[..., 0] = 1 + cuts[..., 0] * (ZOOM - 1)
     return cuts
+
+
+def random_tints(steps: int, batch: int, spread: float, seed: int) -> np.ndarray:
+    """What `tinted` takes, at random: (steps, batch, 6) factors up to `spread` above or below 1, balance half of it."""
+    tints = np.random.default_rng((seed, 2)).uniform(-spread, spread, (steps, batch, 6)).astype(np.float32)
+    tints[..., 3:] /= 2
+    return 1 + tints
+
+
+def tinted(rgb: torch.Tensor, tints: torch.Tensor) -> torch.Tensor:
+    """Images (B, 3, h, w), 0 to 1, with other colours: `tints` (B, 6) are the factors of brightness, contrast about the
+    image's mean, saturation about each pixel's mean, and of each channel."""
+    brightness, contrast, saturation = (tints[:, i, None, None, None] for i in range(3))
+    rgb = rgb * brightness * tints[:, 3:, None, None]
+    mean = rgb.mean((1, 2, 3), keepdim=True)
+    rgb = mean + (rgb - mean) * contrast
+    grey = rgb.mean(1, keepdim=True)
+    return (grey + (rgb - grey) * saturation).clamp(0, 1)

@@ -18,7 +18,7 @@ from trove.train.data import Pictures, mixed_batches
 from trove.train.experiment import Experiment, Pool, Trial, read
 from trove.train.labels import IGNORED, TARGETS
 from trove.train.models import network
-from trove.train.stock import MIDDLE, Stock, random_cuts
+from trove.train.stock import MIDDLE, Stock, random_cuts, random_tints, tinted
 
 # Steps between two lines of the curve, and before a GPU's steps are recorded.
 _LINE_EVERY, _WARM_UP = 20, 5
@@ -184,6 +184,8 @@ class _Step:
         rates = training.rate * (1 - np.arange(steps) / (steps + 1)) ** 0.9
         self._members = torch.from_numpy(members).to(device)
         self._cuts = torch.from_numpy(random_cuts(steps, training.batch, stage.seed)).to(device)
+        tints = random_tints(steps, training.batch, training.colour, stage.seed) if training.colour else None
+        self._tints = None if tints is None else torch.from_numpy(tints).to(device)
         self._rates = torch.from_numpy(rates.astype(np.float32)).to(device)
         self.at = torch.zeros(1, dtype=torch.int64, device=device)
         self.losses = torch.zeros(steps, device=device)
@@ -217,6 +219,8 @@ class _Step:
     def _once(self) -> None:
         self.optimiser.zero_grad(set_to_none=True)
         rgb, truth = self._stock.cut(self._members[self.at][0], self._cuts[self.at][0], self._size)
+        if self._tints is not None:
+            rgb = tinted(rgb, self._tints[self.at][0]).contiguous(memory_format=torch.channels_last)
         with _autocast(self._stock.device):
             logits = self._model(rgb)
         # As in DeepLab v2 the loss is taken at the logits' size.
