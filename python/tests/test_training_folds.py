@@ -89,6 +89,7 @@ def test_places_are_dealt_out_whole(tmp_path):
         assert all(places) and not places[0] & places[1] and not places[0] & places[2] and not places[1] & places[2]
         assert set.union(*places) == {str(i) for i in range(10)}
         seen += [sample.picture for sample in found.val.samples]
+        assert all(sample.labels.is_file() for sample in found.val.samples)
     assert len(seen) == len(set(seen)) == 19
 
 
@@ -117,9 +118,10 @@ def test_trials_are_every_seed_with_every_fold_and_rung(experiment):
 
 
 def test_pictures_of_a_set_may_depend_on_the_fold(experiment, tmp_path):
-    text = EXPERIMENT.replace('[sets.C]\nformat = "camvid"\nroot = "camvid"', "[sets.C]\n" + (
-        'format = "native"\nroot = "twin"\npictures = "colours/{fold}"'
-    ))
+    text = EXPERIMENT.replace(
+        '[sets.C]\nformat = "camvid"\nroot = "camvid"',
+        "[sets.C]\n" + ('format = "native"\nroot = "twin"\npictures = "colours/{fold}"'),
+    )
     frame = tmp_path / "twin/place/v00/k000/ego.front"
     picture(frame / "rgb.png", frame / "class.png", 1)
     experiment.write_text(text)
@@ -170,7 +172,11 @@ def test_what_is_chosen_by_is_not_what_is_reported():
         result("P2", fold="B", total=4, right=9, inner=1),
     ]
     # Over both seeds fold A is better with 4 steps on the inner share, though one seed and the held-out place are not.
-    assert [(r["fold"], r["seed"], r["total"]) for r in table.at_its_best(runs)] == [("A", 1, 4), ("A", 2, 4), ("B", 1, 2)]
+    assert [(r["fold"], r["seed"], r["total"]) for r in table.at_its_best(runs)] == [
+        ("A", 1, 4),
+        ("A", 2, 4),
+        ("B", 1, 2),
+    ]
 
 
 def test_gains_are_over_the_same_fold_and_seed():
@@ -210,7 +216,11 @@ def test_the_report_has_every_rung_and_every_row_at_its_best(experiment, tmp_pat
     ]
     report.write(found, found.rows, results, tmp_path)
     text = (tmp_path / "table.md").read_text()
-    assert [line for line in text.splitlines() if line[:1] == "#"] == ["## 2 steps", "## 4 steps", "## every row at its best"]
+    assert [line for line in text.splitlines() if line[:1] == "#"] == [
+        "## 2 steps",
+        "## 4 steps",
+        "## every row at its best",
+    ]
     best, rung = text.split("## every row at its best")[1], text.split("## 4 steps")[1].split("##")[0]
     assert best.strip() == rung.strip()
     assert "| P* | 2 | 12 |" in (tmp_path / "learning.md").read_text()
@@ -223,7 +233,15 @@ def test_the_report_has_every_rung_and_every_row_at_its_best(experiment, tmp_pat
 def test_numbers_of_idd_lite_are_its_classes():
     assert labels.lookup("idd-lite", "idd-lite")[:8].tolist() == [0, 1, 2, 3, 4, 5, 6, 255]
     ours = labels.lookup("native", "idd-lite")
-    named = {1: "sky", 2: "vehicle", 7: "living thing", 8: "far object", 9: "drivable", 10: "roadside object", 19: "non-drivable"}
+    named = {
+        1: "sky",
+        2: "vehicle",
+        7: "living thing",
+        8: "far object",
+        9: "drivable",
+        10: "roadside object",
+        19: "non-drivable",
+    }
     assert {i: labels.IDD_LITE[ours[i]] for i in named} == named
     with pytest.raises(ValueError, match="numbered as camvid"):
         labels.lookup("camvid", "idd-lite")

@@ -187,7 +187,9 @@ def read(path: Path, trial: Trial | None = None) -> Experiment:
     training = _training(path, dict(table.get("training", {})))
     sets = table.get("sets", {})
     if ("val" in table) == ("folds" in table):
-        raise ExperimentError(f"{path}: expected a section [val] or [folds], found {'both' if 'val' in table else 'none'}")
+        raise ExperimentError(
+            f"{path}: expected a section [val] or [folds], found {'both' if 'val' in table else 'none'}"
+        )
     split = _folds(path, table["folds"], sets) if "folds" in table else None
     names = tuple(split.names) if split else ("",)
     trial = trial or Trial(names[0], training.seeds[0], (training.total or (0,))[0])
@@ -197,7 +199,9 @@ def read(path: Path, trial: Trial | None = None) -> Experiment:
     for name, entry in sets.items():
         if "of" not in entry:
             held = split is not None and name == split.of
-            pools[name] = split.training(trial.fold) if split and held else _pool(path, f"sets.{name}", entry, trial.fold)
+            pools[name] = (
+                split.training(trial.fold) if split and held else _pool(path, f"sets.{name}", entry, trial.fold)
+            )
     counts: dict[str, list[str]] = {}
     for name, entry in sets.items():
         if "of" in entry:

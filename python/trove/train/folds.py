@@ -54,7 +54,9 @@ class Folds:
         self._parts: dict[str, tuple[list[Sample], list[Sample]]] = {}
         for i, name in enumerate(self.names):
             order = {place: n for n, place in enumerate(dealt[i::count])}
-            samples = sorted((s for s in whole.samples if s.place in order), key=lambda s: (order[s.place], s.picture.name))
+            samples = sorted(
+                (s for s in whole.samples if s.place in order), key=lambda s: (order[s.place], s.picture.name)
+            )
             cut = round(len(samples) * (1 - inner))
             if len(order) > 1:
                 cut = next((n for n in range(cut, 0, -1) if samples[n].place != samples[n - 1].place), 0)

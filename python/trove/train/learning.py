@@ -102,7 +102,7 @@ def picture(curves: dict[str, Line]) -> str:
     counts = np.concatenate([line.counts for line in curves.values()])
     means = np.concatenate([line.mious.mean(1) for line in curves.values()])
     least, most = np.floor(means.min() - 1), np.ceil(means.max() + 1)
-    span = max(np.log(counts.max() / counts.min()), 1e-9)
+    span = max(float(np.log(counts.max() / counts.min())), 1e-9)
 
     def x(count: float) -> float:
         return _LEFT + 20 + (_WIDTH - _LEFT - 40) * float(np.log(count / counts.min())) / span
@@ -111,8 +111,10 @@ def picture(curves: dict[str, Line]) -> str:
         return _BOTTOM - (_BOTTOM - 20) * float((value - least) / (most - least))
 
     parts = [f'<path d="M{_LEFT} 20V{_BOTTOM}H{_WIDTH - 10}" fill="none" stroke="#888"/>']
-    for count in sorted({round(float(c)) for c in counts}):
-        parts.append(f'<text x="{x(count):.1f}" y="{_BOTTOM + 18}" text-anchor="middle">{count}</text>')
+    parts += [
+        f'<text x="{x(count):.1f}" y="{_BOTTOM + 18}" text-anchor="middle">{count}</text>'
+        for count in sorted({round(float(c)) for c in counts})
+    ]
     for value in np.arange(least, most + 1, max(1, (most - least) // 8)):
         parts.append(f'<text x="{_LEFT - 6}" y="{y(value) + 4:.1f}" text-anchor="end">{value:.0f}</text>')
         parts.append(f'<path d="M{_LEFT} {y(value):.1f}H{_WIDTH - 10}" stroke="#ddd"/>')
@@ -122,7 +124,9 @@ def picture(curves: dict[str, Line]) -> str:
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in ends)
         parts.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2"/>')
         parts += [f'<circle cx="{a:.1f}" cy="{b:.1f}" r="3" fill="{colour}"/>' for a, b in ends]
-        parts.append(f'<text x="{_WIDTH - 16}" y="{_BOTTOM - 14 - 18 * i}" text-anchor="end" fill="{colour}">{star}</text>')
+        parts.append(
+            f'<text x="{_WIDTH - 16}" y="{_BOTTOM - 14 - 18 * i}" text-anchor="end" fill="{colour}">{star}</text>'
+        )
     parts.append(f'<text x="{_WIDTH / 2}" y="{_BOTTOM + 40}" text-anchor="middle">real pictures</text>')
     parts.append('<text x="8" y="14">mIoU, %</text>')
     return (

@@ -34,9 +34,7 @@ class Stock:
     def __len__(self) -> int:
         return len(self._items)
 
-    def cut(
-        self, chosen: torch.Tensor, cuts: torch.Tensor, size: tuple[int, int]
-    ) -> tuple[torch.Tensor, torch.Tensor]:
+    def cut(self, chosen: torch.Tensor, cuts: torch.Tensor, size: tuple[int, int]) -> tuple[torch.Tensor, torch.Tensor]:
         """Images (B, 3, h, w), 0 to 1, channels last, and labels (B, h, w), of `size` (width, height).
 
         `cuts` (B, 4) are zooms from 1 on, places from 0 to 1 along both axes, and whether to mirror (above 0.5): the

@@ -15,7 +15,8 @@ from torch.nn import functional as F
 
 from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
-from trove.train.experiment import Experiment, Pool, Trial, read
+from trove.train.experiment import Experiment, Trial, read
+from trove.train.folds import Pool
 from trove.train.labels import IGNORED, TARGETS
 from trove.train.models import network
 from trove.train.stock import MIDDLE, Stock, random_cuts, random_tints, tinted
@@ -41,7 +42,8 @@ def measure(model: nn.Module, stock: Stock, size: tuple[int, int], classes: int)
             counted = truth != IGNORED
             pairs = truth[counted] * classes + logits.argmax(1)[counted]
             confusion += torch.bincount(pairs, minlength=classes * classes)
-    return confusion.cpu().numpy().reshape(classes, classes)
+    counts: np.ndarray = confusion.cpu().numpy().reshape(classes, classes)
+    return counts
 
 
 def run_rows(path: Path, out: Path, threads: int, trial: Trial, rows: list[str]) -> list[dict[str, Any]]:
@@ -74,9 +76,7 @@ def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None])
     return found
 
 
-def _found(
-    experiment: Experiment, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]
-) -> dict[str, Any]:
+def _found(experiment: Experiment, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]) -> dict[str, Any]:
     """The confusion matrices of the network that is trained in `folders`, one a stage, its curve and time."""
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     # Images have one size, so that the fastest convolutions are worth finding.
