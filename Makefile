@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-merge bench-ray bench-dry-run bench-view clean
+.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -146,6 +146,7 @@ lint: $(VENV)/.lint-installed
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+	packaging/ptx.sh --check
 	for patch in tests/planted/*.patch; do git apply --check "$$patch" || exit 1; done
 
 # Licences, sources and bans of what is linked hang on these files alone; tests/denied.sha256 says with which they were last
@@ -190,6 +191,14 @@ bench-cycles: $(VENV)/.test-installed .venv-cycles/.installed
 bench-rays: install
 	TROVE_EMBREE="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')" \
 	cargo run --locked --release -p trove --example ray_rates
+
+# Rays on this machine's NVIDIA card, and whether it finds what the processor does.
+bench-card:
+	cargo run --locked --release -p trove --example card_rates
+
+# What cards run, compiled anew after a change of crates/trove-trace.
+ptx:
+	packaging/ptx.sh
 
 # Labels alone, of six cameras.
 bench-labels: install

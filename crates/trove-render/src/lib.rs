@@ -70,6 +70,7 @@
 
 mod accel;
 mod cache;
+mod card;
 mod denoise;
 mod error;
 mod film;
@@ -93,6 +94,7 @@ mod texture;
 mod voxels;
 
 pub use accel::KernelChoice;
+pub use card::{Card, CardRate};
 pub use denoise::Denoising;
 pub use error::RenderError;
 pub use light::{BakedSky, SUN_RADIUS_RAD, bake_sky};

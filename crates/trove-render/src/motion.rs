@@ -7,7 +7,7 @@ use trove_model::SensorRay;
 const SPAN_S: f64 = SensorRay::MOVING_S;
 
 /// A ray's time at the moment of the labels, of 0 (`SPAN_S` before it) to 1 (after it).
-pub(crate) const MIDDLE: f32 = 0.5;
+pub(crate) const MIDDLE: f32 = trove_trace::Motion::MIDDLE;
 
 /// A ray's time some seconds after the moment of the labels.
 pub(crate) fn ray_time(seconds: f64) -> f32 {
@@ -78,11 +78,12 @@ impl<A: Copy> Motion<A> {
 impl Motion {
     /// At a ray's time.
     pub(crate) fn at(&self, time: f32) -> Affine3A {
-        let towards = |end: Affine3A, share: f32| Affine3A {
-            matrix3: self.middle.matrix3 * (1.0 - share) + end.matrix3 * share,
-            translation: self.middle.translation * (1.0 - share) + end.translation * share,
-        };
-        self.stretch(time).map_or(self.middle, |(end, share)| towards(end, share))
+        self.flat().map_or(self.middle, |motion| motion.at(time))
+    }
+
+    /// As kernels keep it; `None` for what stands.
+    pub(crate) fn flat(&self) -> Option<trove_trace::Motion> {
+        Some(trove_trace::Motion { middle: self.middle, ends: self.ends? })
     }
 
     /// Every placement through which it goes lies between these.

@@ -3,6 +3,8 @@
 use glam::Vec3;
 use trove_model::InstanceId;
 
+pub(crate) use trove_trace::Hit;
+
 use crate::motion::MIDDLE;
 
 /// A keyframe beside the one that is seen; also an index.
@@ -41,16 +43,4 @@ impl Ray {
     pub(crate) fn then(&self, origin: Vec3, direction: Vec3) -> Self {
         Self { time: self.time, ..Self::new(origin, direction) }
     }
-}
-
-/// Where a ray meets a triangle: the point is (1 − u − v)·a + u·b + v·c.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Hit {
-    pub(crate) t: f32,
-    /// Index into the scene's instances.
-    pub(crate) instance: u32,
-    /// Index into the mesh's triangles.
-    pub(crate) triangle: u32,
-    pub(crate) u: f32,
-    pub(crate) v: f32,
 }

@@ -9,6 +9,7 @@ use trove_model::{
 };
 
 use crate::accel::{self, Kernel, KernelChoice};
+use crate::card::{self, Card, CardRate};
 use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
@@ -98,6 +99,14 @@ impl Renderer {
     /// Measures how long the rays of one sample a pixel take one thread, and the bare kernel.
     pub fn ray_times(&self, scene: &PreparedScene, shot: &Shot) -> RayTimes {
         self.pool.install(|| path::ray_times(scene, shot))
+    }
+
+    /// Measures how fast a card traces the rays of one sample a pixel, and compares what it finds.
+    ///
+    /// # Errors
+    /// What the card refuses: most likely it is full.
+    pub fn card_rates(&self, scene: &PreparedScene, shot: &Shot, card: &Card) -> Result<Vec<CardRate>, String> {
+        card::card_rates(scene, shot, card)
     }
 
     /// The pixels through whose centres two scenes, each with itself made ready, differ in what is met first: in class,

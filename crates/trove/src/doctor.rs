@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use serde_json::json;
-use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
+use trove_render::{Card, Denoising, KernelChoice, Renderer, RendererOptions};
 
 use crate::library;
 
@@ -15,7 +15,8 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     let found = Renderer::new(&options)?.capabilities();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let memory_gib = memory_gib();
-    let gpus = gpus();
+    let card = Card::find();
+    let card = card.as_ref().map(Card::about);
     if as_json {
         let report = json!({
             "version": env!("CARGO_PKG_VERSION"),
@@ -25,7 +26,8 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
             "human_body": body,
             "threads": threads,
             "memory_gib": memory_gib,
-            "gpus": gpus,
+            "card": card.as_ref().ok(),
+            "card_missing": card.as_ref().err(),
             "cache": crate::cache::folder(),
         });
         println!("{}", serde_json::to_string_pretty(&report)?);
@@ -54,7 +56,12 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     }
     println!("threads     {threads}");
     println!("memory      {}", memory_gib.map_or("unknown".into(), |gib| format!("{gib:.1} GiB")));
-    println!("GPU         {}", if gpus.is_empty() { "none (not needed)".into() } else { gpus.join(", ") });
+    match card {
+        Ok(about) => {
+            println!("card        {about}; it traces rays as the processor does, but pictures do not use it yet")
+        }
+        Err(why) => println!("card        none, and none is needed: {why}"),
+    }
     match crate::cache::folder() {
         Some(cache) => println!("cache       {}", cache.display()),
         None => println!("cache       none: set TROVE_CACHE to a folder, or each run scans large datasets again"),
@@ -68,16 +75,4 @@ fn memory_gib() -> Option<f64> {
     let line = info.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
     let kib: f64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
     Some(kib / 1024.0 / 1024.0)
-}
-
-/// Models of NVIDIA cards, where their driver tells. They are not used yet.
-fn gpus() -> Vec<String> {
-    let Ok(cards) = std::fs::read_dir("/proc/driver/nvidia/gpus") else { return Vec::new() };
-    let mut models: Vec<String> = cards
-        .flatten()
-        .filter_map(|card| std::fs::read_to_string(card.path().join("information")).ok())
-        .filter_map(|text| text.lines().find_map(|line| line.strip_prefix("Model:").map(|m| m.trim().to_owned())))
-        .collect();
-    models.sort();
-    models
 }

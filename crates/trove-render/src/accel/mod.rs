@@ -5,15 +5,17 @@
 //! alike. Nothing is called back: what counts as a hit follows from data that could lie on a card as well.
 
 mod embree;
+mod flat;
+mod hierarchy;
 mod kernel;
 mod obvhs;
 mod shapes;
-mod watertight;
 
 use std::path::PathBuf;
 
 use crate::RenderError;
 
+pub(crate) use flat::{Flat, Here, Hold, asked};
 pub(crate) use kernel::{Accel, Coherence, Kernel, PACKET};
 pub(crate) use shapes::Shapes;
 

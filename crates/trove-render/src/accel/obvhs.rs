@@ -1,20 +1,16 @@
-//! The built-in kernel: obvhs's binary hierarchy over instances, and one over each mesh's triangles.
+//! The built-in kernel: obvhs's hierarchies, one over instances and one over each mesh's triangles, traced through by
+//! `trove_trace`.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use glam::{Affine3A, Vec3, Vec3A};
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::{build_bvh2, build_bvh2_from_tris};
-use obvhs::ray::RayHit;
-use obvhs::triangle::Triangle;
 use trove_model::Mesh;
+use trove_trace::{Corners, Pair, Tables};
 
+use super::hierarchy::Hierarchy;
 use super::kernel::{Accel, Coherence, Kernel};
 use super::shapes::Shapes;
-use super::watertight::Sheared;
 use crate::RenderError;
 use crate::cache::Cache;
 use crate::motion::MIDDLE;
@@ -28,9 +24,10 @@ pub(super) struct Obvhs {
 }
 
 /// A mesh's hierarchy with its triangles in the order of the leaves.
-struct Bottom {
-    bvh: Bvh2,
-    triangles: Vec<[Vec3; 3]>,
+pub(super) struct Bottom {
+    pub(super) pairs: Vec<Pair>,
+    pub(super) corners: Vec<Corners>,
+    pub(super) root: u32,
 }
 
 /// A mesh's hierarchy where it stands.
@@ -44,7 +41,8 @@ pub(super) struct Top {
 /// A two-level scene.
 struct Scene {
     shapes: Arc<Shapes>,
-    bvh: Bvh2,
+    /// Over the boxes of instances, whose indices are in the order of the leaves; `None` where nothing is.
+    over: Option<Hierarchy>,
     /// By index of the instance.
     tops: Vec<Top>,
 }
@@ -63,14 +61,25 @@ impl Kernel for Obvhs {
         self.built.make_all(placed.iter().map(|p| &p.mesh), Bottom::new);
         let top = |p: &Placed| Top::new(shapes, p, self.built.get(&p.mesh, Bottom::new));
         let tops: Vec<Top> = placed.iter().map(top).collect();
-        let boxes: Vec<Aabb> = placed.iter().map(box_world).collect();
-        let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
-        Ok(Box::new(Scene { shapes: shapes.clone(), bvh, tops }))
+        Ok(Box::new(Scene { shapes: shapes.clone(), over: over(placed), tops }))
     }
 }
 
-/// Box around a placed mesh wherever it moves; an empty mesh gets an empty box, which no ray meets.
-fn box_world(placed: &Placed) -> Aabb {
+/// The hierarchy over all instances that have triangles, whose indices are its order; `None` without any.
+pub(super) fn over(placed: &[Placed]) -> Option<Hierarchy> {
+    let (boxed, boxes): (Vec<u32>, Vec<Aabb>) = (0..).zip(placed).filter_map(|(i, p)| Some((i, box_world(p)?))).unzip();
+    (!boxes.is_empty()).then(|| {
+        let mut over = Hierarchy::over_boxes(&boxes);
+        over.order.iter_mut().for_each(|place| *place = boxed[*place as usize]);
+        over
+    })
+}
+
+/// Box around a placed mesh wherever it moves; `None` without triangles.
+fn box_world(placed: &Placed) -> Option<Aabb> {
+    if placed.mesh.triangles.is_empty() {
+        return None;
+    }
     let at = |m: Affine3A| placed.mesh.positions.iter().map(move |&p| m.transform_point3a(p.into()));
     let points = placed.world_from_mesh.corners().flat_map(at);
     let mut bounds: Option<Aabb> = None;
@@ -78,21 +87,21 @@ fn box_world(placed: &Placed) -> Aabb {
         bounds.get_or_insert(Aabb::from_point(p)).extend(p);
     }
     // A hair larger, because rays are moved to the mesh's coordinates and triangles are not moved to World.
-    bounds.map_or(Aabb::new(Vec3A::ZERO, Vec3A::ZERO), |b| {
+    bounds.map(|b| {
         let margin = (b.max.abs().max(b.min.abs()) * 1e-6).max(Vec3A::splat(1e-6));
         Aabb::new(b.min - margin, b.max + margin)
     })
 }
 
 impl Bottom {
-    fn new(mesh: &Mesh) -> Self {
+    pub(super) fn new(mesh: &Mesh) -> Self {
         let corners = |t: &[u32; 3]| t.map(|i| mesh.positions[i as usize]);
         let all: Vec<[Vec3; 3]> = mesh.triangles.iter().map(corners).collect();
-        let boxed: Vec<_> =
-            all.iter().map(|&[a, b, c]| Triangle { v0: a.into(), v1: b.into(), v2: c.into() }).collect();
-        let bvh = build_bvh2_from_tris(&boxed, BvhBuildParams::medium_build(), &mut Duration::default());
-        let triangles = bvh.primitive_indices.iter().map(|&i| all[i as usize]).collect();
-        Self { bvh, triangles }
+        if all.is_empty() {
+            return Self { pairs: Vec::new(), corners: Vec::new(), root: 0 };
+        }
+        let Hierarchy { pairs, root, order } = Hierarchy::over_triangles(&all);
+        Self { pairs, corners: order.iter().map(|&i| Corners::new(all[i as usize], i)).collect(), root }
     }
 }
 
@@ -109,81 +118,93 @@ impl Top {
 
     /// The nearest hit that is no hole.
     pub(super) fn closest(&self, shapes: &Shapes, ray: &Ray, instance: u32) -> Option<Hit> {
-        let is_seen = &mut |hit: &Hit| shapes.is_seen(hit, ray.through_glass);
-        self.intersect(shapes, ray, instance, ray.t_max, false, is_seen)
-    }
-
-    /// The nearest hit before `t_max`; `stop_at_any` ends at the first that counts.
-    fn intersect(
-        &self,
-        shapes: &Shapes,
-        ray: &Ray,
-        instance: u32,
-        t_max: f32,
-        stop_at_any: bool,
-        counts: &mut impl FnMut(&Hit) -> bool,
-    ) -> Option<Hit> {
-        if self.bottom.triangles.is_empty() {
+        if self.bottom.corners.is_empty() {
             return None;
         }
-        let motion = &shapes.placed[instance as usize].world_from_mesh;
-        let moved = motion.ends.is_some() && ray.time != MIDDLE;
-        let mesh_from_world = if moved { motion.at(ray.time).inverse() } else { self.mesh_from_world };
-        let origin = mesh_from_world.transform_point3(ray.origin);
-        let direction = mesh_from_world.transform_vector3(ray.direction);
-        let sheared = Sheared::new(origin, direction);
-        let mut nearest: Option<Hit> = None;
-        let mut meet = |ray: &obvhs::ray::Ray, index: usize| {
-            let Some((t, u, v)) = sheared.intersect(&self.bottom.triangles[index], ray.tmin, ray.tmax) else {
-                return f32::INFINITY;
-            };
-            let hit = Hit { t, instance, triangle: self.bottom.bvh.primitive_indices[index], u, v };
-            if self.judged && !counts(&hit) {
-                return f32::INFINITY;
-            }
-            nearest = Some(hit);
-            t
-        };
-        let local = obvhs::ray::Ray::new(origin.into(), direction.into(), ray.t_min, t_max);
-        if stop_at_any {
-            self.bottom.bvh.ray_traverse_miss(local, &mut meet);
-        } else {
-            self.bottom.bvh.ray_traverse(local, &mut RayHit::none(), &mut meet);
-        }
-        nearest
+        let one = One { top: self, placed: &shapes.placed[instance as usize] };
+        let is_seen = |hit: &Hit| !self.judged || shapes.is_seen(hit, ray.through_glass);
+        trove_trace::closest_on(&one, &flat(ray), instance, is_seen)
+    }
+
+    fn mesh(&self) -> trove_trace::Mesh<'_> {
+        let Bottom { pairs, corners, root } = &*self.bottom;
+        trove_trace::Mesh { pairs, corners, root: *root }
+    }
+
+    /// At a ray's time, as `placed` moves.
+    fn mesh_from_world(&self, placed: &Placed, time: f32) -> Affine3A {
+        let motion = &placed.world_from_mesh;
+        let moved = motion.ends.is_some() && time != MIDDLE;
+        if moved { motion.at(time).inverse() } else { self.mesh_from_world }
+    }
+}
+
+/// One instance without a hierarchy over it.
+struct One<'a> {
+    top: &'a Top,
+    placed: &'a Placed,
+}
+
+impl Tables for One<'_> {
+    fn top(&self) -> (&[Pair], u32) {
+        (&[], 0)
+    }
+
+    fn instance(&self, place: u32) -> u32 {
+        place
+    }
+
+    fn mesh(&self, _: u32) -> trove_trace::Mesh<'_> {
+        self.top.mesh()
+    }
+
+    fn mesh_from_world(&self, _: u32, time: f32) -> Affine3A {
+        self.top.mesh_from_world(self.placed, time)
+    }
+}
+
+/// A scene in which something is.
+struct All<'a> {
+    scene: &'a Scene,
+    over: &'a Hierarchy,
+}
+
+impl Tables for All<'_> {
+    #[inline(always)]
+    fn top(&self) -> (&[Pair], u32) {
+        (&self.over.pairs, self.over.root)
+    }
+
+    #[inline(always)]
+    fn instance(&self, place: u32) -> u32 {
+        self.over.order[place as usize]
+    }
+
+    #[inline(always)]
+    fn mesh(&self, instance: u32) -> trove_trace::Mesh<'_> {
+        self.scene.tops[instance as usize].mesh()
+    }
+
+    #[inline(always)]
+    fn mesh_from_world(&self, instance: u32, time: f32) -> Affine3A {
+        self.scene.tops[instance as usize].mesh_from_world(&self.scene.shapes.placed[instance as usize], time)
     }
 }
 
 impl Scene {
+    fn all(&self) -> Option<All<'_>> {
+        self.over.as_ref().map(|over| All { scene: self, over })
+    }
+
     /// The nearest hit that counts, on an instance that does.
-    fn intersect(&self, ray: &Ray, enters: impl Fn(u32) -> bool, mut counts: impl FnMut(&Hit) -> bool) -> Option<Hit> {
-        let mut nearest = None;
-        let meet = |world: &obvhs::ray::Ray, index: usize| {
-            let instance = self.bvh.primitive_indices[index];
-            if !enters(instance) {
-                return f32::INFINITY;
-            }
-            let top = &self.tops[instance as usize];
-            let hit = top.intersect(&self.shapes, ray, instance, world.tmax, false, &mut counts);
-            let t = hit.map_or(f32::INFINITY, |hit| hit.t);
-            nearest = hit.or(nearest);
-            t
-        };
-        self.bvh.ray_traverse(in_world(ray), &mut RayHit::none(), meet);
-        nearest
+    fn nearest(&self, ray: &Ray, enters: impl Fn(u32) -> bool, counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let counts = |hit: &Hit| !self.tops[hit.instance as usize].judged || counts(hit);
+        trove_trace::closest(&self.all()?, &flat(ray), enters, counts)
     }
 
     fn is_blocked(&self, ray: &Ray, enters: impl Fn(u32) -> bool, mut counts: impl FnMut(&Hit) -> bool) -> bool {
-        let meet = |_: &obvhs::ray::Ray, index: usize| {
-            let instance = self.bvh.primitive_indices[index];
-            if !enters(instance) {
-                return f32::INFINITY;
-            }
-            let top = &self.tops[instance as usize];
-            let hit = top.intersect(&self.shapes, ray, instance, ray.t_max, true, &mut counts);
-            hit.map_or(f32::INFINITY, |hit| hit.t)
-        };
-        !self.bvh.ray_traverse_miss(in_world(ray), meet)
+        let counts = |hit: &Hit| !self.tops[hit.instance as usize].judged || counts(hit);
+        self.all().is_some_and(|all| trove_trace::any(&all, &flat(ray), enters, counts).is_some())
     }
 }
 
@@ -193,7 +214,7 @@ impl Accel for Scene {
         let shapes = &self.shapes;
         for (ray, hit) in rays.iter().zip(hits) {
             let enters = |instance| !shapes.is_passed(ray, instance);
-            *hit = self.intersect(ray, enters, |hit| shapes.is_seen(hit, ray.through_glass));
+            *hit = self.nearest(ray, enters, |hit| shapes.is_seen(hit, ray.through_glass));
         }
     }
 
@@ -219,7 +240,7 @@ impl Accel for Scene {
     }
 
     fn bare_closest(&self, rays: &[Ray]) -> usize {
-        rays.iter().filter(|ray| self.intersect(ray, |_| true, |_| true).is_some()).count()
+        rays.iter().filter(|ray| self.nearest(ray, |_| true, |_| true).is_some()).count()
     }
 
     fn bare_any(&self, rays: &[Ray]) -> usize {
@@ -227,6 +248,8 @@ impl Accel for Scene {
     }
 }
 
-fn in_world(ray: &Ray) -> obvhs::ray::Ray {
-    obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), ray.t_min, ray.t_max)
+/// What tracing needs of a ray.
+pub(super) fn flat(ray: &Ray) -> trove_trace::Ray {
+    let &Ray { origin, direction, t_min, t_max, time, .. } = ray;
+    trove_trace::Ray { origin, t_min, direction, t_max, time }
 }

@@ -33,6 +33,13 @@ impl Opacity {
         Self { holes: Some((Arc::new(mask), Vec2::ONE)), pane: None }
     }
 
+    /// A clear pane without holes.
+    #[cfg(test)]
+    pub(crate) fn pane_of_glass() -> Self {
+        let pane = Pane { tint: Vec3::ONE, transmission: 1.0, metalness: 0.0, f0: 0.04, alpha: 0.01 };
+        Self { holes: None, pane: Some(pane) }
+    }
+
     /// Whether nothing ever passes.
     pub(crate) fn is_opaque(&self) -> bool {
         self.holes.is_none() && self.pane.is_none()
@@ -41,6 +48,11 @@ impl Opacity {
     /// Whether it has holes.
     pub(crate) fn has_holes(&self) -> bool {
         self.holes.is_some()
+    }
+
+    /// The cells of its holes, if it has any, and what texture coordinates are multiplied by.
+    pub(crate) fn holes(&self) -> Option<(trove_trace::Mask<'_>, Vec2)> {
+        self.holes.as_ref().map(|(mask, scale)| (mask.cells(), *scale))
     }
 
     /// Whether the surface is there, at texture coordinates before scaling.

@@ -13,8 +13,8 @@ use trove_model::{Raster, Shot};
 
 use crate::PreparedScene;
 use crate::prepare::Carrier;
-pub(crate) use rates::ray_times;
 pub use rates::{RaySeconds, RayTimes};
+pub(crate) use rates::{ray_sorts, ray_times};
 use tile::{Eye, Tile};
 use wave::Wave;
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 use glam::Vec3;
 use trove_model::Shot;
 
-use super::integrate::{Path, Shadows, Vertex};
+use super::integrate::{Path, Shadow, Shadows, Vertex};
 use super::tile::{Eye, tiles};
 use super::wave::{self, Wave};
 use crate::PreparedScene;
@@ -66,6 +66,44 @@ pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
         closest(scene, &mut times.bounce, &paths, Coherence::Incoherent);
     }
     times
+}
+
+/// Rays of one sample a pixel by sort, and whether they only ask if anything is met.
+pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, Vec<Ray>, bool); 5] {
+    let carrier = Carrier::new(scene, shot.carrier);
+    let eye = Eye { scene, shot, carrier: &carrier };
+    let mut wave = Wave::default();
+    let (mut closest, mut shadows) = ([const { Vec::new() }; 3], Shadows::default());
+    for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
+        tile.start(&eye, &mut wave);
+        let mut paths = std::mem::take(&mut wave.paths);
+        for (bounce, rays) in closest.iter_mut().enumerate() {
+            let all = paths.iter().map(|path| path.ray);
+            rays.extend(all.clone());
+            if bounce == 2 {
+                break;
+            }
+            let mut hits = vec![None; paths.len()];
+            scene.closest(&all.collect::<Vec<_>>(), Coherence::Incoherent, &mut hits);
+            let mut unused = Shadows::default();
+            let shadows = if bounce == 0 { &mut shadows } else { &mut unused };
+            let mut hits = (0..).zip(hits);
+            paths.retain_mut(|path| {
+                let (index, hit) = hits.next().expect("one for each path");
+                Vertex { scene, index, shadows }.advance(path, hit)
+            });
+        }
+    }
+    // Shares of panes are no question of what is met.
+    let asked = |list: Vec<Shadow>| list.into_iter().map(|shadow| Ray { through_glass: true, ..shadow.ray }).collect();
+    let [camera, first, second] = closest;
+    [
+        ("camera", camera, false),
+        ("first bounce", first, false),
+        ("second bounce", second, false),
+        ("to the sun", asked(shadows.to_sun), true),
+        ("to sky and lamps", asked(shadows.to_rest), true),
+    ]
 }
 
 /// What the paths' rays meet, both ways.

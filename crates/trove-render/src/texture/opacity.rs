@@ -2,6 +2,7 @@
 
 use glam::Vec2;
 use trove_model::Texture;
+use trove_trace::Mask;
 
 use super::mip_map::MipMap;
 
@@ -12,12 +13,8 @@ const SIDE_MAX: u32 = 4096;
 
 /// Cells of a repeating texture whose alpha reaches the cut-off, in blocks of 8×8 bits.
 pub(crate) struct OpacityMask {
-    /// Powers of two, at least 8.
-    width: i32,
-    height: i32,
-    /// Blocks in a row of them, as a power of two.
-    row_shift: u32,
-    /// Bit 8·y + x of a block; rows run up with v.
+    /// As in [`Mask`].
+    size: [i32; 2],
     blocks: Vec<u64>,
     cutoff: f32,
 }
@@ -34,13 +31,7 @@ impl OpacityMask {
             let (x, y) = (i % columns * 8, i / columns * 8);
             (0..64).fold(0u64, |bits, k| bits | u64::from(bit(x + k % 8, y + k / 8)) << k)
         };
-        Self {
-            width: width as i32,
-            height: height as i32,
-            row_shift: columns.trailing_zeros(),
-            blocks: (0..columns * rows).map(block).collect(),
-            cutoff,
-        }
+        Self { size: [width as i32, height as i32], blocks: (0..columns * rows).map(block).collect(), cutoff }
     }
 
     /// The cut-off that it was made for.
@@ -50,21 +41,13 @@ impl OpacityMask {
 
     /// Whether the surface is there at `uv`.
     pub(crate) fn covers(&self, uv: Vec2) -> bool {
-        self.bit(floor(uv.x * self.width as f32), floor(uv.y * self.height as f32))
+        self.cells().covers(uv)
     }
 
-    /// A cell, counted from the lower left, repeating.
-    fn bit(&self, x: i32, y: i32) -> bool {
-        let (x, y) = (x & (self.width - 1), y & (self.height - 1));
-        let block = ((y >> 3) << self.row_shift) | (x >> 3);
-        self.blocks[block as usize] >> (((y & 7) << 3) | (x & 7)) & 1 != 0
+    /// As kernels look at it.
+    pub(crate) fn cells(&self) -> Mask<'_> {
+        Mask { size: self.size, blocks: &self.blocks }
     }
-}
-
-/// The largest whole number that is not above `x`; the library's `floor` is a call on many processors.
-fn floor(x: f32) -> i32 {
-    let whole = x as i32;
-    whole - i32::from(whole as f32 > x)
 }
 
 #[cfg(test)]

@@ -1,0 +1,137 @@
+//! A scene's shapes as tables of plain numbers, which lie in this processor's memory or in a card's.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+use std::sync::Arc;
+
+use glam::Vec2;
+use trove_model::Mesh;
+use trove_trace::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, Motion, NONE, Placement, Table};
+
+use super::hierarchy::Hierarchy;
+use super::obvhs::{Bottom, over};
+use super::shapes::Shapes;
+use crate::ray::Ray;
+
+/// The tables of a scene in which something is.
+pub(crate) struct Flat {
+    shapes: Arc<Shapes>,
+    over: Hierarchy,
+    placements: Vec<Placement>,
+    motions: Vec<Motion>,
+    meshes: Vec<(Bottom, Vec<Look>)>,
+    materials: Vec<u32>,
+}
+
+impl Flat {
+    /// `None` where nothing is in the scene.
+    pub(crate) fn new(shapes: &Arc<Shapes>) -> Option<Self> {
+        let over = over(&shapes.placed)?;
+        let (mut placements, mut motions, mut materials) = (Vec::new(), Vec::new(), Vec::new());
+        let mut meshes: Vec<(&Arc<Mesh>, bool)> = Vec::new();
+        let mut numbers: BTreeMap<usize, u32> = BTreeMap::new();
+        for placed in &shapes.placed {
+            let mesh = *numbers.entry(Arc::as_ptr(&placed.mesh) as usize).or_insert_with(|| {
+                meshes.push((&placed.mesh, false));
+                meshes.len() as u32 - 1
+            });
+            let judged = shapes.lets_pass(placed);
+            meshes[mesh as usize].1 |= judged;
+            let [previous, next] = placed.stays;
+            placements.push(Placement {
+                mesh_from_world: placed.world_from_mesh.middle.inverse(),
+                motion: placed.world_from_mesh.flat().map_or(NONE, |motion| listed(&mut motions, [motion])),
+                mesh,
+                id: placed.id.0,
+                stays: u32::from(previous) | u32::from(next) << 1,
+                materials: if judged { listed(&mut materials, placed.materials.iter().copied()) } else { NONE },
+            });
+        }
+        let meshes = meshes
+            .into_iter()
+            .map(|(mesh, judged)| (Bottom::new(mesh), if judged { looks(mesh) } else { Vec::new() }))
+            .collect();
+        Some(Self { shapes: shapes.clone(), over, placements, motions, meshes, materials })
+    }
+
+    /// The tables in some memory, into which `hold` puts each of them.
+    pub(crate) fn scene<E>(&self, hold: &mut impl Hold<Error = E>) -> Result<FlatScene, E> {
+        let mut meshes = Vec::with_capacity(self.meshes.len());
+        for (bottom, looks) in &self.meshes {
+            meshes.push(FlatMesh {
+                pairs: hold.hold(&bottom.pairs)?,
+                corners: hold.hold(&bottom.corners)?,
+                looks: hold.hold(looks)?,
+                root: bottom.root,
+            });
+        }
+        let mut opacities = Vec::with_capacity(self.shapes.opacities.len());
+        for opacity in self.shapes.opacities.iter() {
+            let is_pane = u32::from(opacity.is_pane());
+            opacities.push(match opacity.holes() {
+                Some((mask, scale)) => FlatOpacity { holes: hold.hold(mask.blocks)?, size: mask.size, scale, is_pane },
+                None => FlatOpacity { holes: Table::at(0, 0), size: [8; 2], scale: Vec2::ONE, is_pane },
+            });
+        }
+        Ok(FlatScene {
+            pairs: hold.hold(&self.over.pairs)?,
+            order: hold.hold(&self.over.order)?,
+            placements: hold.hold(&self.placements)?,
+            motions: hold.hold(&self.motions)?,
+            meshes: hold.hold(&meshes)?,
+            materials: hold.hold(&self.materials)?,
+            opacities: hold.hold(&opacities)?,
+            root: self.over.root,
+        })
+    }
+}
+
+/// A memory that tables are put into.
+pub(crate) trait Hold {
+    type Error;
+
+    /// Where the values lie from now on.
+    fn hold<T: Copy + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Self::Error>;
+}
+
+/// Copies in the processor's memory.
+#[derive(Default)]
+pub(crate) struct Here(Vec<Box<dyn Any>>);
+
+impl Hold for Here {
+    type Error = Infallible;
+
+    fn hold<T: Copy + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Infallible> {
+        let copies = Box::new(values.to_vec());
+        let table = Table::at(copies.as_ptr() as u64, copies.len());
+        self.0.push(copies);
+        Ok(table)
+    }
+}
+
+/// A ray as the tables' functions want it.
+pub(crate) fn asked(ray: &Ray) -> Asked {
+    Asked {
+        ray: super::obvhs::flat(ray),
+        past: ray.past.map_or(0, |id| id.0),
+        stays: ray.beside.map_or(0, |beside| 1 << beside as u32),
+        through_glass: u32::from(ray.through_glass),
+    }
+}
+
+/// Puts values at the end of a table; the index of the first.
+fn listed<T>(table: &mut Vec<T>, values: impl IntoIterator<Item = T>) -> u32 {
+    let first = table.len() as u32;
+    table.extend(values);
+    first
+}
+
+fn looks(mesh: &Mesh) -> Vec<Look> {
+    let corners = |t: &[u32; 3]| if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { t.map(|i| mesh.uvs[i as usize]) };
+    let look = |(i, t): (usize, &[u32; 3])| Look { uvs: corners(t), slot: u32::from(mesh.slot(i)) };
+    mesh.triangles.iter().enumerate().map(look).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,59 @@
+//! Flat tables and a ray → what the ray meets, on a processor or, compiled to PTX, on a graphics card.
+//!
+//! What goes in: hierarchies of boxes over triangles and over the instances of meshes, as tables of plain numbers, and a
+//! ray. What comes out: the nearest hit that counts. This crate must not know what the meshes show, nor who asks; it has no
+//! standard library, no allocation and no dynamic dispatch, since a card has none of them.
+//!
+//! ```
+//! use glam::{Affine3A, Vec3};
+//! use trove_trace::{Corners, Mesh, Pair, Ray, Tables, leaf};
+//!
+//! /// One triangle, in World as it is.
+//! struct One([Corners; 1]);
+//!
+//! impl Tables for One {
+//!     fn top(&self) -> (&[Pair], u32) {
+//!         (&[], leaf(0, 1))
+//!     }
+//!     fn instance(&self, place: u32) -> u32 {
+//!         place
+//!     }
+//!     fn mesh(&self, _: u32) -> Mesh<'_> {
+//!         Mesh { pairs: &[], corners: &self.0, root: leaf(0, 1) }
+//!     }
+//!     fn mesh_from_world(&self, _: u32, _: f32) -> Affine3A {
+//!         Affine3A::IDENTITY
+//!     }
+//! }
+//!
+//! let one = One([Corners::new([Vec3::ZERO, Vec3::X, Vec3::Y], 7)]);
+//! let down = Ray { origin: Vec3::new(0.25, 0.5, 2.0), direction: -Vec3::Z, t_min: 0.0, t_max: f32::INFINITY, time: 0.5 };
+//! let hit = trove_trace::closest(&one, &down, |_instance| true, |_hit| true).expect("it runs through the triangle");
+//! assert_eq!((hit.t, hit.triangle, hit.u, hit.v), (2.0, 7, 0.25, 0.5));
+//! ```
+
+#![no_std]
+#![cfg_attr(target_arch = "nvptx64", feature(abi_ptx, stdarch_nvptx))]
+
+mod beam;
+#[cfg(target_arch = "nvptx64")]
+mod card;
+mod flat;
+mod mask;
+mod motion;
+mod pair;
+mod ray;
+mod sheared;
+mod stack;
+mod tables;
+mod trace;
+
+pub use flat::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, NONE, Placement, Table};
+pub use mask::Mask;
+pub use motion::Motion;
+pub use pair::{LEAF_MOST, Pair, inner, leaf};
+pub use ray::{Hit, Ray};
+pub use sheared::Corners;
+pub use stack::DEPTH;
+pub use tables::{Mesh, Tables};
+pub use trace::{any, closest, closest_on};

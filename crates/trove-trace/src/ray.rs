@@ -1,0 +1,35 @@
+//! Rays and what they meet.
+
+use glam::Vec3;
+
+/// A ray in World; distances are in lengths of `direction`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Ray {
+    /// Where it starts, World.
+    pub origin: Vec3,
+    /// Hits before this distance do not count.
+    pub t_min: f32,
+    /// Where it runs, World, of any length but 0.
+    pub direction: Vec3,
+    /// Nor do those from this distance on.
+    pub t_max: f32,
+    /// When, from 0 to 1; the moment of the labels is 0.5.
+    pub time: f32,
+}
+
+/// Where a ray meets a triangle: the point is (1 − u − v)·a + u·b + v·c.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Hit {
+    /// Distance, lengths of the ray's direction.
+    pub t: f32,
+    /// Index into the scene's instances.
+    pub instance: u32,
+    /// Index into the mesh's triangles.
+    pub triangle: u32,
+    /// Share of the second corner.
+    pub u: f32,
+    /// Share of the third corner.
+    pub v: f32,
+}
