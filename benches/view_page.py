@@ -84,7 +84,9 @@ def a_scene(options, text, folder, playwright):
         first_s = time.monotonic() - begun
         tab.wait_for_timeout(3000)
         moving = tab.evaluate(TURN, options.seconds)
-        print(f"{width}×{height}: first picture after {first_s:.1f} s, moves at {moving:.0f} images a second", flush=True)
+        print(
+            f"{width}×{height}: first picture after {first_s:.1f} s, moves at {moving:.0f} images a second", flush=True
+        )
         browser.close()
 
 
@@ -124,15 +126,17 @@ def many_frames(options, text, folder, playwright):
 
 def of_the_browser_mb():
     """Memory of the Chromium that this benchmark started."""
-    kept = 0
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            if process.joinpath("cmdline").read_bytes().startswith(str(chromium.program()).encode()):
-                fields = dict(line.split(":", 1) for line in process.joinpath("status").read_text().splitlines())
-                kept += int(fields["VmRSS"].split()[0])
-        except (OSError, KeyError):
-            continue  # it has ended, or has none
-    return kept / 1e3
+    return sum(resident_mb(process) for process in Path("/proc").glob("[0-9]*"))
+
+
+def resident_mb(process):
+    try:
+        if not process.joinpath("cmdline").read_bytes().startswith(str(chromium.program()).encode()):
+            return 0
+        fields = dict(line.split(":", 1) for line in process.joinpath("status").read_text().splitlines())
+    except OSError:
+        return 0  # it has ended
+    return int(fields["VmRSS"].split()[0]) / 1e3 if "VmRSS" in fields else 0
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ import chromium
 import pytest
 
 
-
 def trove(*args, **more):
     """Runs the program and returns what it did."""
     command = [sys.executable, "-m", "trove", *map(str, args)]
