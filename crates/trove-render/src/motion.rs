@@ -52,25 +52,15 @@ impl Motion<DAffine3> {
 
     /// At a ray's time.
     pub(crate) fn at(&self, time: f32) -> DAffine3 {
-        let towards = |end: DAffine3, share: f32| {
-            let share = f64::from(share);
-            DAffine3 {
-                matrix3: self.middle.matrix3 * (1.0 - share) + end.matrix3 * share,
-                translation: self.middle.translation * (1.0 - share) + end.translation * share,
-            }
-        };
-        self.stretch(time).map_or(self.middle, |(end, share)| towards(end, share))
-    }
-}
-
-impl<A: Copy> Motion<A> {
-    /// The end towards which it is at a ray's time, and the share of the way; `None` in the middle.
-    fn stretch(&self, time: f32) -> Option<(A, f32)> {
-        let [before, after] = self.ends?;
-        if time < MIDDLE {
-            Some((before, 1.0 - 2.0 * time))
-        } else {
-            (time > MIDDLE).then_some((after, 2.0 * time - 1.0))
+        let Some([before, after]) = self.ends else { return self.middle };
+        let (end, share) = if time < MIDDLE { (before, 1.0 - 2.0 * time) } else { (after, 2.0 * time - 1.0) };
+        if share == 0.0 {
+            return self.middle;
+        }
+        let share = f64::from(share);
+        DAffine3 {
+            matrix3: self.middle.matrix3 * (1.0 - share) + end.matrix3 * share,
+            translation: self.middle.translation * (1.0 - share) + end.translation * share,
         }
     }
 }

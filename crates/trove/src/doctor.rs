@@ -37,7 +37,7 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     println!("ray kernel  {}", found.kernel);
     if found.kernel.starts_with("obvhs") {
         println!(
-            "            Embree is two to five times faster: pip install embreex, or set TROVE_EMBREE to its library"
+            "            Embree is two to three times faster: pip install embreex, or set TROVE_EMBREE to its library"
         );
     }
     match &found.denoiser {

@@ -55,8 +55,8 @@ struct Costs {
     correction: f64,
 }
 
-/// Renders frames of one moment in the temporary folder, small ones where light is followed, and says what the recipe, or a share of it, will take: on this machine,
-/// and on so many like it.
+/// Renders frames of one moment in the temporary folder, small ones where light is followed, and says what the recipe, or
+/// a share of it, will take: on this machine, and on so many like it.
 ///
 /// # Errors
 /// As [`generate`].

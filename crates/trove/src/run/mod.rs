@@ -73,7 +73,7 @@ pub struct RunOptions {
     pub share: Option<Share>,
     /// Folders with frames of the same recipe that are taken over.
     pub adopt: Vec<PathBuf>,
-    /// To measure, of one moment of one scene: the first frames, and the first of each kind that lies beside them.
+    /// To measure, of one moment of one scene: what is begun in ten seconds, of each kind of frame by itself.
     pub trial: bool,
     /// Whom the run tells how far it is, and who may end it.
     pub watch: Watch,
@@ -521,8 +521,7 @@ impl Run<'_> {
                 let mut prepare_s = started.elapsed().as_secs_f64();
                 let mut tried = BTreeMap::new();
                 for key in keys {
-                    let kind_began = *tried.entry(key.sensed).or_insert_with(Instant::now);
-                    if self.trial && kind_began.elapsed() > TRIAL {
+                    if self.trial && tried.entry(key.sensed).or_insert_with(Instant::now).elapsed() > TRIAL {
                         continue;
                     }
                     let prepare_s = std::mem::take(&mut prepare_s);
@@ -693,10 +692,11 @@ impl Run<'_> {
         self.settle()?;
         self.progress.finish();
         let sites = std::mem::take(&mut self.sites);
-        let made: BTreeSet<&str> = self.rendered.iter().map(|frame| frame.path.as_str()).collect();
         let of_site = |site: &SiteSummary| {
             let mut keys = self.wanted(&site.scene, site.variation, &site.file, Slice::ALL);
-            keys.retain(|key| !self.trial || made.contains(key.path().as_str()));
+            if self.trial {
+                keys.retain(|key| self.rendered.iter().any(|frame| frame.path == key.path()));
+            }
             keys
         };
         let keys: Vec<(&SiteSummary, FrameKey)> =
