@@ -2,6 +2,7 @@
 frames opens and pages; see benches/README.md."""
 
 import argparse
+import http.server
 import json
 import os
 import subprocess
@@ -30,8 +31,33 @@ spp = 1
 count = 5
 """
 SHAPES = "trove.three.scene.children[0].children[0].children.length > 0"
-IMAGE = "document.getElementById('picture').dataset.shows"
-HEAP = "performance.memory.usedJSHeapSize / 1e6"
+# Presses the keys of somebody who looks at all moments of one camera, back through those of the next, and so on, and tells
+# PORT every so often how many pages there were, milliseconds since the page began to load, and megabytes of its heap.
+PAGING = """<script>(async () => {
+  const shows = () => document.getElementById("picture").dataset.shows;
+  const rest = (milliseconds) => new Promise((then) => setTimeout(then, milliseconds));
+  async function page(key) {
+    const before = shows();
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    for (let tries = 0; tries < 500 && shows() === before; tries++) await rest(5);
+  }
+  const tell = (pages) => {
+    gc();
+    const told = [pages, performance.now(), performance.memory.usedJSHeapSize / 1e6];
+    return fetch(`http://127.0.0.1:PORT/${told.join("/")}`, { mode: "no-cors" });
+  };
+  while (!shows()) await rest(5);
+  await tell(0);
+  const [there, back] = ["ArrowRight", "ArrowLeft"].map((key) => Array(39).fill(key));
+  for (let pages = 240; ; pages += 240) {
+    for (let camera = 0; camera < 6; camera++) await page("[");
+    for (let camera = 0; camera < 6; camera++) {
+      for (const key of camera % 2 ? back : there) await page(key);
+      await page("]");
+    }
+    await tell(pages);
+  }
+})();</script>"""
 # Turns around the vehicle for as long; images that were drawn, a second.
 TURN = """async (seconds) => {
   const { camera, controls, renderer } = trove.three, render = renderer.render.bind(renderer);
@@ -59,7 +85,7 @@ def main():
     recipe = RECIPE.format(data=Path(data).absolute())
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         a_scene(options, recipe, Path(folder), playwright)
-        many_frames(options, recipe + MANY, Path(folder), playwright)
+        many_frames(options, recipe + MANY, Path(folder))
 
 
 def made(trove, source, page):
@@ -90,38 +116,38 @@ def a_scene(options, text, folder, playwright):
         browser.close()
 
 
-def many_frames(options, text, folder, playwright):
+def many_frames(options, text, folder):
+    """Without a debugger, whose side of the browser keeps what a page has loaded."""
     recipe, frames, page = folder / "many.toml", folder / "many", folder / "many.html"
     recipe.write_text(text)
     subprocess.run([options.trove, "generate", recipe, "--out", frames], check=True, capture_output=True)
     made(options.trove, frames, page)
-    browser = chromium.launch(playwright, "--enable-precise-memory-info", "--js-flags=--expose-gc")
-    tab = browser.new_page(viewport={"width": 1440, "height": 900})
-    begun = time.monotonic()
-    tab.goto(page.as_uri())
-    tab.wait_for_function(IMAGE)
-    first_s = time.monotonic() - begun
-    # It opens with the camera that looks ahead.
-    for _ in range(5):
-        tab.keyboard.press("[")
-    tab.wait_for_timeout(5000)
+    told = []
 
-    def memory():
-        tab.evaluate("gc()")
-        return f"{tab.evaluate(HEAP):.1f} MB in the heap, {of_the_browser_mb():.0f} MB in Chromium"
+    class Told(http.server.BaseHTTPRequestHandler):
+        def do_GET(self):
+            pages, since_ms, heap_mb = (float(word) for word in self.path[1:].split("/"))
+            each = f", {(since_ms - told[-1]) / 240:.0f} ms each" if told else ""
+            told.append(since_ms)
+            memory = f"{heap_mb:.1f} MB in the heap, {of_the_browser_mb():.0f} MB in Chromium"
+            print(f"{pages:.0f} pages after {since_ms / 1e3:.1f} s{each}: {memory}", flush=True)
+            self.send_response(204)
+            self.end_headers()
 
-    print(f"first image after {first_s:.1f} s; {memory()}", flush=True)
-    # Through all moments of one camera, back through those of the next, and so on.
-    there, back, camera = ["ArrowRight"] * 39, ["ArrowLeft"] * 39, ["]"]
-    keys = (there + camera + back + camera) * 3
-    begun = time.monotonic()
-    for key in keys[:-1]:
-        before = tab.evaluate(IMAGE)
-        tab.keyboard.press(key)
-        tab.wait_for_function(f"(before) => {IMAGE} !== before", arg=before)
-    each_s = (time.monotonic() - begun) / len(keys)
-    print(f"after {len(keys)} pages, {each_s:.2f} s each: {memory()}", flush=True)
-    browser.close()
+        def log_message(self, *_):
+            pass
+
+    with http.server.HTTPServer(("127.0.0.1", 0), Told) as server:
+        page.write_text(page.read_text() + PAGING.replace("PORT", str(server.server_port)))
+        flags = ["--enable-precise-memory-info", "--js-flags=--expose-gc", f"--user-data-dir={folder / 'profile'}"]
+        command, env = chromium.command("--headless", "--window-size=1440,900", *flags, page.as_uri())
+        browser = subprocess.Popen(command, env=env, stderr=subprocess.DEVNULL)
+        try:
+            while len(told) < 9:
+                server.handle_request()
+        finally:
+            browser.kill()
+            browser.wait()
 
 
 def of_the_browser_mb():

@@ -167,6 +167,31 @@ def test_a_dry_run_tells_what_a_recipe_will_take(mixed, whole, tmp_path):
     assert done.returncode == 2, done.stderr
 
 
+CAMERA = """
+[[camera]]
+name = "{name}"
+size_px = [320, 180]
+position_m = [1.6, 0.0, 1.5]
+pitch_deg = {pitch_deg}
+horizontal_fov_deg = 60
+"""
+
+
+def test_a_dry_run_of_labels_tries_cameras_that_differ_at_their_full_size(recipe, tmp_path):
+    (tmp_path / "rig.toml").write_text(
+        "".join(CAMERA.format(name=name, pitch_deg=pitch) for name, pitch in [("street", 0), ("sky", 89)])
+    )
+    text = recipe.read_text().replace("keyframes = [1, 2]", "keyframes = [1]").replace("other_vehicles = 1\n", "")
+    text = text.replace('["CAM_FRONT", "CAM_BACK"]', '"rig.toml"').replace("scale = 0.1\nspp = 4", "light = false")
+    labels = tmp_path / "labels.toml"
+    labels.write_text(text)
+    told, done = package.estimate(labels), run("generate", labels, "--out", tmp_path / "out")
+    sizes = {name: len(data) for name, data in files(tmp_path / "out").items()}
+    of_the_sky = sum(size for name, size in sizes.items() if "sky" in name)
+    assert told["frames"] == done["frames"] == 2 and of_the_sky < sum(sizes.values()) / 6
+    assert told["bytes"] == pytest.approx(sum(sizes.values()), rel=0.02)
+
+
 @pytest.mark.parametrize("part", ["0/2", "3/2", "2", "a/b"])
 def test_a_part_that_is_none_is_refused(mixed, tmp_path, part):
     done = trove("generate", mixed, "--part", part, "--out", tmp_path / "out")

@@ -25,12 +25,17 @@ def program():
     return str(INSTALLED) if INSTALLED.is_file() else shutil.which("chromium") or shutil.which("google-chrome")
 
 
+def command(*arguments):
+    """Starts it, with its environment for `subprocess.Popen`; it needs a folder for its profile among the arguments."""
+    return [program(), *_ARGUMENTS, *arguments], _environment()
+
+
 def launch(playwright, *arguments):
     """A Chromium, driven by Playwright; as it is one process, it ends with its first page."""
-    libraries = f"{INSTALLED.parent / 'lib'}:{os.environ.get('LD_LIBRARY_PATH', '')}"
     return playwright.chromium.launch(
-        executable_path=program(),
-        args=[*_ARGUMENTS, *arguments],
-        env={**os.environ, "LD_LIBRARY_PATH": libraries},
-        timeout=60_000,
+        executable_path=program(), args=[*_ARGUMENTS, *arguments], env=_environment(), timeout=60_000
     )
+
+
+def _environment():
+    return {**os.environ, "LD_LIBRARY_PATH": f"{INSTALLED.parent / 'lib'}:{os.environ.get('LD_LIBRARY_PATH', '')}"}

@@ -59,13 +59,13 @@
   const frameChunk = (frame) => chunk(frame.id, (content) => ({ ...content, read: new Map() }));
   const sceneChunk = () => chunk(scene().id);
 
+  /** Not by an `Image`, whose pixels the browser keeps for long. */
   async function pixels(uri) {
-    const picture = new Image();
-    picture.src = uri;
-    await picture.decode();
-    const canvas = new OffscreenCanvas(picture.naturalWidth, picture.naturalHeight);
+    const bitmap = await createImageBitmap(await (await fetch(uri)).blob());
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
     const context = canvas.getContext("2d", { willReadFrequently: true });
-    context.drawImage(picture, 0, 0);
+    context.drawImage(bitmap, 0, 0);
+    bitmap.close();
     return context.getImageData(0, 0, canvas.width, canvas.height);
   }
 

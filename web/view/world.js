@@ -25,6 +25,7 @@ function world(canvas, page) {
     { ratio: 0.6 * PIXEL, fine: true },
     { ratio: 0.75 * PIXEL, fine: false },
     { ratio: 0.45 * PIXEL, fine: false },
+    { ratio: 0.33 * PIXEL, fine: false },
   ];
   const [REST_MS, SLOW_MS, FAST_MS] = [250, 28, 9];
   const gl = renderer.getContext();
