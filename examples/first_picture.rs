@@ -36,6 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 cloud_cover: 0.2,
                 cloud_seed: 7,
             }),
+            fog: None,
         },
         provenance: Vec::new(),
     };

@@ -203,7 +203,8 @@ pub fn build_at(
         next_id += 1;
     }
     settings.weather.treat(&mut assembly);
-    let light = light(drive, bounds, &settings.light, seeds.light.child("light"));
+    let fog = settings.weather.fog_over(drive);
+    let light = Light { fog, ..light(drive, bounds, &settings.light, seeds.light.child("light")) };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     switch_on(&light, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());

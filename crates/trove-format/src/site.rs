@@ -176,6 +176,9 @@ pub struct Factors {
     pub traffic: f64,
     /// How wet the ground is, 0 (dry) to 1.
     pub wetness: f64,
+    /// Meteorological optical range of fog, metres; absent in clear air.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub visibility_m: Option<f64>,
     /// What was added to the recipe's exposure, stops.
     pub exposure_ev: f64,
     /// Height of the cameras above their recorded positions, metres.

@@ -51,6 +51,7 @@ fn site() -> SiteFile {
             light: LightFactor::Picture { environment: "noon.hdr".into(), rotation_deg: 90.0 },
             traffic: 1.0,
             wetness: 0.0,
+            visibility_m: None,
             exposure_ev: 0.0,
             camera_height_m: 0.0,
             camera_pitch_deg: 0.0,

@@ -1,10 +1,10 @@
-//! Where the light comes from.
+//! Where the light comes from, and what the air does to it.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-/// Everything that is infinitely far away.
+/// Everything that is infinitely far away, and the fog before it.
 ///
 /// Radiance is in units in which a white diffuse surface under a clear midday sun leaves about 1 (so the sky is
 /// about 0.1 and a street lamp's glass a few); exposure brings it to the picture.
@@ -12,6 +12,27 @@ use glam::DVec3;
 pub struct Light {
     /// Sky.
     pub environment: Environment,
+    /// Fog; `None`: clear air.
+    pub fog: Option<Fog>,
+}
+
+/// Droplets in the air, fewer the higher up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fog {
+    /// Meteorological optical range at the ground, metres: of light that goes so far on a level way 5 % is left (WMO No. 8,
+    /// by Koschmieder's law).
+    pub visibility_m: f64,
+    /// So far above the ground there is 1/e of it, metres.
+    pub height_m: f64,
+    /// z of the ground, World, metres.
+    pub ground_z_m: f64,
+}
+
+impl Fog {
+    /// What a metre takes from light at the ground, as the exponent of its loss.
+    pub fn extinction_per_m(&self) -> f64 {
+        20.0f64.ln() / self.visibility_m
+    }
 }
 
 /// A sky.

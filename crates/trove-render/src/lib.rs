@@ -40,7 +40,7 @@
 //!     .at_rest()],
 //!     others: Default::default(),
 //!     keyframes_apart_s: [f64::INFINITY; 2],
-//!     light: Light { environment: Environment::Map(Arc::new(sky)) },
+//!     light: Light { environment: Environment::Map(Arc::new(sky)), fog: None },
 //!     provenance: Vec::new(),
 //! };
 //! let lens = Lens {
@@ -74,6 +74,7 @@ mod card;
 mod denoise;
 mod error;
 mod film;
+mod fog;
 mod labels;
 mod lidar;
 mod light;

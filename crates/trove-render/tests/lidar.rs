@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Class, Environment, EnvironmentMap, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh, Placement,
-    Pose, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
+    Class, Environment, EnvironmentMap, Fog, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh,
+    Placement, Pose, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -157,6 +157,41 @@ fn glass_lets_the_beam_pass_and_sheeting_shines() {
 }
 
 #[test]
+fn fog_takes_from_echoes_on_both_ways_and_sends_some_of_its_own() {
+    let fog = Fog { visibility_m: 60.0, height_m: 1e6, ground_z_m: PLACE.z };
+    let walled = |fog: Option<Fog>, ahead_m: f64| {
+        let mut scene = scene(vec![wall(1, Class::Building, ahead_m, 40.0, 0)]);
+        scene.light.fog = fog;
+        scene
+    };
+    let mut shot = straight_ahead();
+    // What is near is not told, so that the wall's echo is the strongest.
+    (shot.scanner.nearest_m, shot.scanner.reach_m) = (9.0, 1000.0);
+    let clear = f64::from(sweep(&walled(None, 10.0), &shot, 1)[0].intensity);
+    let dim = f64::from(sweep(&walled(Some(fog), 10.0), &shot, 1)[0].intensity);
+    assert!((dim - clear * 0.05f64.powf(2.0 * 10.0 / 60.0)).abs() < 1.0, "{clear} {dim}");
+
+    // Beams into the open: droplets near the sensor, fewer the farther away, and none in clear air.
+    let mut open = self::shot(still(), 0.05);
+    (open.scanner.reach_m, open.scanner.columns) = (100.0, 2000);
+    let nothing = |fog| {
+        let mut scene = scene(vec![wall(1, Class::Building, 190.0, 0.1, 0)]);
+        scene.light.fog = fog;
+        sweep(&scene, &open, 2)
+    };
+    let of_droplets = nothing(Some(fog));
+    assert!(of_droplets.len() > 1000 && of_droplets.iter().all(|point| point.class == Class::Void));
+    let within = |from_m: f64, to_m: f64| {
+        of_droplets.iter().filter(|point| (from_m..to_m).contains(&point.position_m.length())).count()
+    };
+    assert!(within(1.0, 2.0) > 2 * within(2.0, 4.0) && within(20.0, 200.0) == 0, "{}", within(2.0, 4.0));
+    assert!(nothing(None).iter().all(|point| point.class != Class::Void));
+    // A wall that is in sight in clear air, and is not 60 m into fog.
+    let seen = |fog| sweep(&walled(fog, 58.0), &open, 2).iter().filter(|point| point.instance.0 == 1).count();
+    assert!(seen(None) > 100 && seen(Some(fog)) == 0, "{} {}", seen(None), seen(Some(fog)));
+}
+
+#[test]
 fn any_number_of_threads_makes_the_same_sweep() {
     let scene = scene(vec![wall(1, Class::Building, 45.0, 40.0, 0), wall(2, Class::Car, 12.0, 1.0, 0)]);
     let mut shot = shot(still(), 0.05);
@@ -265,7 +300,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         instances,
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)) },
+        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None },
         provenance: Vec::new(),
     }
 }

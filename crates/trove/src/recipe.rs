@@ -11,13 +11,14 @@ mod sensors;
 mod standpoint;
 mod time;
 mod variations;
+mod weather;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
-use trove_build::{PictureSize, Weather};
+use trove_build::PictureSize;
 use trove_files::{LARGEST_TEXT, read_text};
 use trove_format::FrameFile;
 use trove_model::LabelSettings;
@@ -41,6 +42,7 @@ pub use sensors::{SensorKind, SensorSection, SensorsSection};
 pub use standpoint::Standpoint;
 pub use time::TimeSection;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
+pub use weather::WeatherSection;
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -321,18 +323,6 @@ pub enum OwnRig {
     Preset(&'static str),
 }
 
-/// `[weather]`
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct WeatherSection {
-    /// 0 (dry) to 1 (after heavy rain).
-    pub wetness: f64,
-    /// 0 (washed) to 1 (as streets are).
-    pub dirt: f64,
-    /// What time of the year plants show.
-    pub season: SeasonChoice,
-}
-
 /// `[render]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
@@ -394,13 +384,6 @@ impl Default for AssetsSection {
 impl Default for ViewsSection {
     fn default() -> Self {
         Self { rig: Rig::All, other_vehicles: 0 }
-    }
-}
-
-impl Default for WeatherSection {
-    fn default() -> Self {
-        let Weather { dirt, wetness, season: _ } = Weather::default();
-        Self { wetness, dirt, season: SeasonChoice::default() }
     }
 }
 
@@ -532,9 +515,7 @@ impl Recipe {
         sensors::check_all(&self.sensors)?;
         grids::check_all(&self.grids, &self.sensors)?;
         self.light.check()?;
-        for (key, share) in [("weather.wetness", self.weather.wetness), ("weather.dirt", self.weather.dirt)] {
-            check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
-        }
+        self.weather.check(self.variations.visibility_m.is_some())?;
         check("assets.top_k", assets.top_k, assets.top_k > 0, "1 or more")?;
         check("assets.texture_scale", assets.texture_scale, matches!(assets.texture_scale, 1 | 2 | 4), "1, 2 or 4")?;
         self.variations.check(&self.light)?;
@@ -589,11 +570,6 @@ impl Recipe {
             Denoise::Switched(true) => Denoising::Best,
             Denoise::Quickly(Quickly::Fast) => Denoising::Fast,
         }
-    }
-
-    /// What weather has done to the place.
-    pub fn weather(&self) -> Weather {
-        Weather { dirt: self.weather.dirt, wetness: self.weather.wetness, season: self.weather.season.into() }
     }
 
     /// The cameras in place of the recorded ones; `None` where these are meant.

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings};
+use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings, Weather};
 use trove_format::{Factors, LightFactor};
-use trove_model::{Drive, Environment, ExposureRule, Locale, MapProjection, Provenance, Random, Report, Season, Seed};
+use trove_model::{
+    Drive, Environment, ExposureRule, Fog, Locale, MapProjection, Provenance, Random, Report, Season, Seed,
+};
 use trove_read::locale;
 
 use crate::recipe::{Factor, Range, Recipe};
@@ -24,6 +26,7 @@ pub(crate) struct Variation {
     borders: Option<Provenance>,
     season: Option<Season>,
     wetness: f64,
+    fog: Option<Fog>,
     traffic: Traffic,
     light: Light,
     /// Added to the recipe's exposure, stops.
@@ -65,11 +68,16 @@ impl Variation {
         let drawn = random(Factor::Place).and_then(|mut random| random.pick(&places).cloned());
         let borders = if drawn.is_some() { Some(locale::provenance()) } else { sources.borders() };
         let (place, locale) = drawn.unwrap_or(([origin_lat_deg, origin_lon_deg], recorded));
-        let weather = recipe.weather();
+        let weather = recipe.weather.weather();
         let season = random(Factor::Season).and_then(|mut random| random.pick(&section.seasons()).copied());
         let wetness = random(Factor::Wetness).map(|mut random| {
             let is_dry = random.chance(section.dry_share);
             if is_dry { 0.0 } else { within(section.wetness(), &mut random) }
+        });
+        let fog = random(Factor::Fog).map(|mut random| {
+            let is_there = random.chance(section.fog_share);
+            let visibility_m = within(section.visibility_m().map(f64::ln), &mut random).exp();
+            is_there.then(|| recipe.weather.fog(visibility_m))
         });
         let traffic = random(Factor::Traffic)
             .map(|mut random| Traffic { density: within(section.traffic(), &mut random), cyclists: section.cyclists });
@@ -98,6 +106,7 @@ impl Variation {
             borders,
             season: season.map_or(weather.season, Into::into),
             wetness: wetness.unwrap_or(weather.wetness),
+            fog: fog.unwrap_or(weather.fog),
             traffic: traffic.unwrap_or_default(),
             light: light(recipe, drive, place[1], random(Factor::Light))?,
             exposure_ev: exposure_ev.unwrap_or(0.0),
@@ -126,7 +135,7 @@ impl Variation {
             top_k: recipe.assets.top_k,
             traffic: self.traffic,
             light,
-            weather: trove_build::Weather { season: self.season, wetness: self.wetness, ..recipe.weather() },
+            weather: Weather { season: self.season, wetness: self.wetness, fog: self.fog, ..recipe.weather.weather() },
             on_disagreement: recipe.map.on_disagreement.into(),
             locale: self.locale.clone(),
             borders: self.borders.clone(),
@@ -160,6 +169,7 @@ impl Variation {
             light: self.light_factor(recipe, site),
             traffic: self.traffic.density,
             wetness: self.wetness,
+            visibility_m: self.fog.map(|fog| fog.visibility_m),
             exposure_ev: self.exposure_ev,
             camera_height_m: self.lift_m,
             camera_pitch_deg: self.pitch_deg,

@@ -1,6 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
-use trove_model::{Class, Material, Season};
+use trove_model::{Class, Drive, Fog, Material, Season};
 
 use crate::assembly::Assembly;
 
@@ -14,16 +14,25 @@ pub struct Weather {
     pub wetness: f64,
     /// What time of the year plants show; `None`: that of the light, which is the recording's unless it was chosen.
     pub season: Option<Season>,
+    /// Fog above the lowest point of the driven path, whatever its own ground; `None`: clear air.
+    pub fog: Option<Fog>,
 }
 
 impl Default for Weather {
-    /// Dry, as dirty as streets are, in the season of the recording.
+    /// Dry, as dirty as streets are, in the season of the recording and in clear air.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0, season: None }
+        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None }
     }
 }
 
 impl Weather {
+    /// Its fog over the ground of a drive.
+    pub(crate) fn fog_over(self, drive: &Drive) -> Option<Fog> {
+        let path_z = drive.keyframes.iter().map(|k| k.world_from_ego.translation.z);
+        let ground_z_m = path_z.reduce(f64::min).unwrap_or(0.0);
+        self.fog.map(|fog| Fog { ground_z_m, ..fog })
+    }
+
     /// Treats the materials of a place that has been put together.
     pub(crate) fn treat(self, assembly: &mut Assembly) {
         let materials = &mut assembly.stock.materials;

@@ -1,10 +1,11 @@
 //! A LiDAR's sweep: beams fill cones, each surface in them sends back its share, and the detector tells some of it.
 //!
 //! A beam is seven rays of equal power, its middle and a ring about it. What they meet at one range is one echo; leaves and
-//! edges leave several, and so does glass, which is met and passed.
+//! edges leave several, and so does glass, which is met and passed. Fog takes of the light on both ways and sends some back.
 
 mod detector;
 mod echo;
+mod fog;
 mod reflectance;
 
 use glam::DVec3;
@@ -13,6 +14,7 @@ use trove_model::{LidarPoint, LidarShot, PointCloud, SensorRay};
 
 use crate::PreparedScene;
 use crate::accel::Coherence;
+use crate::fog::Fog;
 use crate::prepare::Carrier;
 use crate::ray::Ray;
 use crate::sight::{self, Seen};
@@ -56,8 +58,15 @@ fn points(scene: &PreparedScene, shot: &LidarShot, carrier: &Carrier, column: us
     let mut points = Vec::with_capacity(rings);
     for (ring, parts) in met.into_iter().enumerate() {
         let middle = shot.ray(column, ring);
-        let random = shot.seed.nth((column * rings + ring) as u64).random();
-        let told = detector::told(&shot.scanner, echo::echoes(parts, shot.scanner.pulse_m), random);
+        let seed = shot.seed.nth((column * rings + ring) as u64);
+        let free_m = parts.iter().filter(|part| part.is_middle).map(|part| part.range_m).fold(f64::INFINITY, f64::min);
+        let mut echoes = echo::echoes(parts, shot.scanner.pulse_m);
+        if let Some(fog) = &scene.fog {
+            let of_fog = fog::echo(fog, &shot.scanner, &middle, free_m, seed.child("fog").random());
+            echoes.extend(of_fog);
+            echoes.sort_by(|a, b| a.range_m.total_cmp(&b.range_m));
+        }
+        let told = detector::told(&shot.scanner, echoes, seed.random());
         points.extend((0..).zip(told).map(|(number, told)| LidarPoint {
             position_m: lidar_from_world.point(middle.origin + middle.direction * told.range_m),
             intensity: told.intensity,
@@ -135,10 +144,12 @@ fn backscattered(scene: &PreparedScene, shot: &LidarShot, seen: &Seen, looks: &m
 
 fn part(scene: &PreparedScene, way: &Way, seen: &Seen, share: f32) -> Part {
     let class = scene.instances[seen.hit.instance as usize].class;
+    let clear = |fog: &Fog| fog.transmittance(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32);
+    let left = way.left * scene.fog.as_ref().map_or(1.0, clear);
     Part {
         range_m: seen.range_m,
-        // There and back through the same panes.
-        power: share * way.left * way.left / RAYS as f32,
+        // There and back through the same panes and the same air.
+        power: share * left * left / RAYS as f32,
         point: way.exact.origin + way.exact.direction * seen.range_m,
         normal: seen.normal,
         is_middle: way.is_middle,

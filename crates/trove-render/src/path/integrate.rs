@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::PreparedScene;
+use crate::fog;
 use crate::light::LightSample;
 use crate::material::Bsdf;
 use crate::ray::{Hit, Ray};
@@ -13,6 +14,8 @@ use crate::surface::Surface;
 const MAX_BOUNCES: u32 = 6;
 /// Panes and cut-outs that a path may pass straight.
 const MAX_PASSAGES: u32 = 16;
+/// Droplets that a path may meet.
+const MAX_DROPLETS: u32 = 64;
 /// Paths that carry less than one over this end by chance, the likelier the less they carry. On streets
 /// at 2 spp, 2 instead of 3 saves a tenth of the time for 2 to 4 % more error after denoising.
 const ROULETTE: f32 = 2.0;
@@ -60,6 +63,7 @@ pub(crate) struct Path {
     /// Times that it has scattered.
     pub(crate) bounce: u32,
     passages: u32,
+    droplets: u32,
     /// Where it last scattered; `None` before.
     scattered: Option<Scattered>,
     radiance: Vec3,
@@ -77,6 +81,7 @@ impl Path {
             throughput: Vec3::ONE,
             bounce: 0,
             passages: 0,
+            droplets: 0,
             scattered: None,
             radiance: Vec3::ZERO,
             guide: None,
@@ -92,6 +97,13 @@ impl Path {
         if largest.is_finite() {
             self.radiance += if largest > most { light * (most / largest) } else { light };
         }
+    }
+
+    /// Lets it end by chance, the likelier the less it carries; false where it has.
+    fn survives(&mut self, u: f32) -> bool {
+        let survival = (self.throughput.max_element() * ROULETTE).min(0.95);
+        self.throughput /= survival;
+        u < survival
     }
 
     /// What it brought, once it has ended.
@@ -140,6 +152,13 @@ impl Vertex<'_> {
     /// Gathers light, asks for more behind shadow rays, and sends the path on; false when it has ended.
     pub(crate) fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
         let lights = &self.scene.lights;
+        if let Some(fog) = &self.scene.fog {
+            let [u, _] = path.sampler.next2();
+            let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
+            if let Some(t) = fog.met(path.ray.origin, path.ray.direction, t_max, u) {
+                return self.scatter(path, t, hit);
+            }
+        }
         let Some(hit) = hit else {
             let direction = path.ray.direction;
             // Weighed against finding the same light by light sampling.
@@ -166,8 +185,9 @@ impl Vertex<'_> {
 
         let [u_light, dither] = path.sampler.next2();
         let bsdf = material.shade(&surface, path.cone.width_m * SHARPNESS, dither);
-        if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2) {
-            path.guide = Some((path.guide_filter * bsdf.albedo, surface.shading));
+        // In fog mirrors and panes guide too: what droplets keep paths from would show as noise behind them.
+        if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2 || self.scene.fog.is_some()) {
+            path.guide = Some(self.guide(path, hit.t, bsdf.albedo, surface.shading));
         }
 
         let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
@@ -195,28 +215,71 @@ impl Vertex<'_> {
 
         path.bounce += 1;
         path.throughput *= next.weight;
-        let survival = (path.throughput.max_element() * ROULETTE).min(0.95);
-        if u_roulette >= survival {
+        if !path.survives(u_roulette) {
             return false;
         }
-        path.throughput /= survival;
         path.scattered = Some(Scattered { point: surface.point, lit_side, pdf });
         path.cone.spread_rad += next.spread_rad;
         path.ray = path.ray.then(surface.leave(next.wi), next.wi);
         path.bounce <= MAX_BOUNCES
     }
 
+    /// Sends the path on from a droplet `t` metres along it; what lies behind guides the denoiser all the same.
+    fn scatter(&mut self, path: &mut Path, t: f32, hit: Option<Hit>) -> bool {
+        let (lights, direction) = (&self.scene.lights, path.ray.direction);
+        if path.guide.is_none() {
+            path.guide = Some(hit.map_or((path.guide_filter, Vec3::ZERO), |hit| {
+                let (surface, material) = self.scene.surface(&hit, &path.ray);
+                let width_m = path.cone.width_m + path.cone.spread_rad * hit.t;
+                let bsdf = material.shade(&surface, width_m * SHARPNESS, 0.5);
+                self.guide(path, hit.t, bsdf.albedo, surface.shading)
+            }));
+        }
+        let point = path.ray.origin + direction * t;
+        path.cone.width_m += path.cone.spread_rad * t;
+        let on_sun = path.sampler.next2();
+        let [u_light, u_roulette] = path.sampler.next2();
+        let [u0, u1] = path.sampler.next2();
+        let sun = lights.sample_sun(on_sun);
+        let rest = lights.sample_rest(point, Vec3::ZERO, [u_light, u0, u1]);
+        let mut ask = |light: LightSample| {
+            let phase = fog::phase(direction.dot(light.wi));
+            self.shadow(path, point, Vec3::splat(phase), phase, &light)
+        };
+        let [sun, rest] = [sun.map(&mut ask), rest.map(&mut ask)];
+        self.shadows.to_sun.extend(sun);
+        self.shadows.to_rest.extend(rest);
+
+        path.droplets += 1;
+        if path.droplets > MAX_DROPLETS || !path.survives(u_roulette) {
+            return false;
+        }
+        let on = fog::scatter(direction, path.sampler.next2());
+        path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf: fog::phase(direction.dot(on)) });
+        path.ray = path.ray.then(point, on);
+        true
+    }
+
+    /// What guides the denoiser at a surface: fog before it is white and faces nowhere.
+    fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
+        let clear = self.scene.fog.map_or(1.0, |fog| fog.transmittance(path.ray.origin, path.ray.direction, t));
+        (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
+    }
+
     /// The ray that asks for light which a surface sends on straight from where a light sample lies.
     fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) -> Option<Shadow> {
         let light = light?;
         let (f, pdf_bsdf) = bsdf.eval(light.wi);
-        if f == Vec3::ZERO {
-            return None;
-        }
+        (f != Vec3::ZERO).then(|| self.shadow(path, surface.leave(light.wi), f, pdf_bsdf, &light))
+    }
+
+    /// The ray that asks for light at a point of which so much is sent on, in a direction that would be drawn so often.
+    fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
-        let ray = Ray { t_max, ..path.ray.then(surface.leave(light.wi), light.wi) };
-        let weight = power_heuristic(light.pdf, pdf_bsdf) / light.pdf;
+        let ray = Ray { t_max, ..path.ray.then(origin, light.wi) };
+        let clear = self.scene.fog.map_or(1.0, |fog| fog.transmittance(origin, light.wi, t_max));
+        let weight = power_heuristic(light.pdf, pdf) / light.pdf * clear;
         let light = path.throughput * f * light.radiance * weight;
-        Some(Shadow { path: self.index, ray, light, bounce: path.bounce + 1 })
+        Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }
     }
 }

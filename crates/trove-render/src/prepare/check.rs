@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use trove_model::{Environment, Material, Mesh, Placement, Scene};
+use trove_model::{Environment, Light, Material, Mesh, Placement, Scene};
 
 use crate::RenderError;
 
@@ -63,7 +63,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), RenderError> {
             return refuse(place(), "an invertible placement", format!("determinant {volume:e}"));
         }
     }
-    check_light(&scene.light.environment)
+    check_light(&scene.light)
 }
 
 /// Takes the material apart whole: a new field does not compile until it is looked at.
@@ -101,8 +101,14 @@ fn is_finite(material: &Material) -> bool {
     numbers.into_iter().all(|n| n.is_finite()) && base_color.is_finite() && emission.is_finite() && uv_scale.is_finite()
 }
 
-fn check_light(environment: &Environment) -> Result<(), RenderError> {
-    match environment {
+fn check_light(light: &Light) -> Result<(), RenderError> {
+    if let Some(fog) = &light.fog {
+        let is_sound = |n: f64| n > 0.0 && n.is_finite();
+        if !(is_sound(fog.visibility_m) && is_sound(fog.height_m) && fog.ground_z_m.is_finite()) {
+            return refuse("fog".into(), "visibility and height of more than 0 m over a ground", format!("{fog:?}"));
+        }
+    }
+    match &light.environment {
         Environment::Sky(sky) => {
             let numbers = [sky.turbidity, sky.ground_albedo, sky.cloud_cover];
             if !sky.to_sun.is_finite() || sky.to_sun.length() < 1e-6 || !numbers.iter().all(|n| n.is_finite()) {

@@ -5,11 +5,12 @@ mod check;
 
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec3};
+use glam::{DAffine3, Vec3, bvec3};
 use trove_model::{Class, Instance, Mesh, Origin, Placement, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
+use crate::fog::Fog;
 use crate::light::{LastSurroundings, Lights};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
@@ -26,6 +27,7 @@ pub struct PreparedScene {
     pub(crate) instances: Vec<PreparedInstance>,
     pub(crate) materials: Vec<PreparedMaterial>,
     pub(crate) lights: Lights,
+    pub(crate) fog: Option<Fog>,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
@@ -104,7 +106,8 @@ impl PreparedScene {
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
-        Ok(Self { shapes, instances, materials, lights, accel: accel?, others, has_beside })
+        let fog = scene.light.fog.as_ref().map(|fog| Fog::new(fog, lowest_z(scene)));
+        Ok(Self { shapes, instances, materials, lights, fog, accel: accel?, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.
@@ -162,6 +165,18 @@ impl PreparedScene {
         let placed = self.placed(hit.instance);
         (Surface::new(placed, hit, ray), &self.materials[placed.material(hit)])
     }
+}
+
+/// z of the lowest point, or one below it, World; where there is nothing, the lowest number.
+fn lowest_z(scene: &Scene) -> f32 {
+    let bounds: Vec<_> = scene.meshes.iter().map(|mesh| mesh.bounds()).collect();
+    let lowest = |instance: &Instance| {
+        let (low, high) = bounds[instance.mesh]?;
+        let corners = (0..8).map(|i| bvec3(i & 1 == 0, i & 2 == 0, i & 4 == 0));
+        let corners = corners.map(|is_low| Vec3::select(is_low, low, high).as_dvec3());
+        corners.map(|corner| instance.world_from_mesh.transform_point3(corner).z as f32).reduce(f32::min)
+    };
+    scene.instances.iter().filter_map(lowest).reduce(f32::min).unwrap_or(f32::MIN)
 }
 
 impl PreparedInstance {

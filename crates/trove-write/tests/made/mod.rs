@@ -263,6 +263,7 @@ fn factors() -> Factors {
         light,
         traffic: 1.0,
         wetness: 0.0,
+        visibility_m: None,
         exposure_ev: 0.0,
         camera_height_m: 0.0,
         camera_pitch_deg: 0.0,

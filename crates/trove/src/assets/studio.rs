@@ -71,7 +71,7 @@ impl Studio {
             instances,
             others: Default::default(),
             keyframes_apart_s: [f64::INFINITY; 2],
-            light: Light { environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())) },
+            light: Light { environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())), fog: None },
             provenance: Vec::new(),
         };
         (scene, self.shot(low, high))

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::check::check;
 use super::light::LightSection;
 use super::season::SeasonChoice;
+use super::weather::VISIBILITY_M;
 
 /// What may differ between variations; each has a seed of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
@@ -37,6 +38,8 @@ pub enum Factor {
     Traffic,
     /// Rain that has fallen.
     Wetness,
+    /// Fog and haze.
+    Fog,
     /// Stops about the recipe's exposure.
     Exposure,
     /// Height and pitch of the cameras.
@@ -48,9 +51,9 @@ pub enum Factor {
 impl Factor {
     /// Every factor.
     #[rustfmt::skip]
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Place, Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
-        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Exposure, Self::Camera, Self::Rigs,
+        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Fog, Self::Exposure, Self::Camera, Self::Rigs,
     ];
 
     /// Its name in recipes.
@@ -68,6 +71,7 @@ impl Factor {
             Self::Light => "light",
             Self::Traffic => "traffic",
             Self::Wetness => "wetness",
+            Self::Fog => "fog",
             Self::Exposure => "exposure",
             Self::Camera => "camera",
             Self::Rigs => "rigs",
@@ -98,6 +102,12 @@ pub struct VariationsSection {
     pub wetness: Option<Range>,
     /// Share of the variations that are dry where wetness is drawn.
     pub dry_share: f64,
+    /// As `weather.visibility_m`, drawn evenly by its logarithm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visibility_m: Option<Range>,
+    /// Share of the variations that have fog where it is drawn.
+    #[serde(skip_serializing_if = "is_one")]
+    pub fog_share: f64,
     /// Road users against the recorded number.
     pub traffic: Option<Range>,
     /// Cyclists among added road users, against what is usual at the place.
@@ -142,6 +152,8 @@ impl Default for VariationsSection {
             seasons: None,
             wetness: None,
             dry_share: 0.5,
+            visibility_m: None,
+            fog_share: 1.0,
             traffic: None,
             cyclists: 1.0,
             exposure_ev: None,
@@ -174,6 +186,11 @@ impl VariationsSection {
         self.wetness.unwrap_or([0.0, 0.8])
     }
 
+    /// How far one may see where there is fog.
+    pub fn visibility_m(&self) -> Range {
+        self.visibility_m.unwrap_or([50.0, 500.0])
+    }
+
     /// How many road users there may be against the recorded number.
     pub fn traffic(&self) -> Range {
         self.traffic.unwrap_or([0.5, 2.0])
@@ -193,12 +210,13 @@ impl VariationsSection {
     }
 
     /// Every key with a range: its factor, its name, and whether it is given.
-    fn ranges(&self) -> [(Factor, &'static str, bool); 12] {
+    fn ranges(&self) -> [(Factor, &'static str, bool); 13] {
         let light = &self.light;
         [
             (Factor::Place, "places", self.places.is_some()),
             (Factor::Season, "seasons", self.seasons.is_some()),
             (Factor::Wetness, "wetness", self.wetness.is_some()),
+            (Factor::Fog, "visibility_m", self.visibility_m.is_some()),
             (Factor::Traffic, "traffic", self.traffic.is_some()),
             (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
             (Factor::Camera, "camera_height_m", self.camera_height_m.is_some()),
@@ -223,9 +241,11 @@ impl VariationsSection {
             )
         };
         check("variations.count", self.count, (1..=100).contains(&self.count), "1 to 100")?;
-        let share = self.dry_share;
-        check("variations.dry_share", share, (0.0..=1.0).contains(&share), "0 to 1")?;
+        for (key, share) in [("dry_share", self.dry_share), ("fog_share", self.fog_share)] {
+            check(&format!("variations.{key}"), share, (0.0..=1.0).contains(&share), "0 to 1")?;
+        }
         within("wetness", self.wetness, [0.0, 1.0])?;
+        within("visibility_m", self.visibility_m, VISIBILITY_M)?;
         within("traffic", self.traffic, [0.0, 10.0])?;
         check("variations.cyclists", self.cyclists, (0.0..=100.0).contains(&self.cyclists), "0 to 100")?;
         within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
@@ -301,8 +321,16 @@ impl VariationsSection {
 impl Factor {
     /// Whether it differs only where a range is given, or where it is named.
     fn needs_range(self) -> bool {
-        matches!(self, Self::Place | Self::Season | Self::Traffic | Self::Wetness | Self::Exposure | Self::Camera)
+        matches!(
+            self,
+            Self::Place | Self::Season | Self::Traffic | Self::Wetness | Self::Fog | Self::Exposure | Self::Camera
+        )
     }
+}
+
+/// What folders that were begun without it stand for.
+fn is_one(share: &f64) -> bool {
+    *share == 1.0
 }
 
 impl VariedLight {
@@ -340,6 +368,11 @@ mod tests {
     fn a_range_out_of_sense_names_key_expectation_and_remedy() {
         for (text, expect) in [
             ("count = 0\n", "variations.count: expected 1 to 100, found 0"),
+            (
+                "visibility_m = [5, 200]\n",
+                "variations.visibility_m: expected two numbers from 10 to 50000, the smaller first",
+            ),
+            ("fog_share = 2\n", "variations.fog_share: expected 0 to 1, found 2"),
             ("wetness = [0.5, 0.2]\n", "variations.wetness: expected two numbers from 0 to 1, the smaller first"),
             ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),
             ("[variations.light]\nhours = [7, 25]\n", "variations.light.hours"),

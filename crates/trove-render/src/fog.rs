@@ -1,0 +1,171 @@
+//! Fog between surfaces: droplets that scatter light mostly onwards, swallow none, and thin out with height.
+//!
+//! How thick it is falls exponentially upwards, so that the depth along a ray, and the place where a ray is scattered, have
+//! closed forms. Below the lowest point of the scene there is none: rays that leave the map see its ground as in clear air.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+
+use crate::sampling::Basis;
+
+/// Mean cosine of scattering by water droplets of fog, 5 to 20 µm (Deirmendjian 1969: 0.84 to 0.87).
+const ASYMMETRY: f32 = 0.85;
+
+/// Fog of a scene.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fog {
+    extinction_per_m: f32,
+    height_m: f32,
+    ground_z: f32,
+    /// There is none below.
+    lowest_z: f32,
+}
+
+impl Fog {
+    pub(crate) fn new(fog: &trove_model::Fog, lowest_z: f32) -> Self {
+        Self {
+            extinction_per_m: fog.extinction_per_m() as f32,
+            height_m: fog.height_m as f32,
+            ground_z: fog.ground_z_m as f32,
+            lowest_z,
+        }
+    }
+
+    /// What a metre takes at a height.
+    pub(crate) fn extinction_per_m(&self, z: f32) -> f32 {
+        if z < self.lowest_z { 0.0 } else { self.extinction_per_m * ((self.ground_z - z) / self.height_m).exp() }
+    }
+
+    /// Share of light that passes along a unit direction for `t` metres.
+    pub(crate) fn transmittance(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
+        let (thick, up) = (self.extinction_per_m(origin.z), direction.z / self.height_m);
+        if thick <= 0.0 {
+            return 1.0;
+        }
+        let t = t.min(self.way_down(origin, direction));
+        let x = up * t;
+        let depth = if t.is_infinite() && up <= 0.0 {
+            f32::INFINITY
+        } else if x.abs() < 1e-4 {
+            // Hardly any slope: (1 − e^(−x)) / x is 1 − x / 2.
+            thick * t * (1.0 - 0.5 * x)
+        } else {
+            thick * -(-x).exp_m1() / up
+        };
+        (-depth).exp()
+    }
+
+    /// How far light goes before it meets a droplet, metres, less than `t_max`; drawn with the density of that.
+    pub(crate) fn met(&self, origin: Vec3, direction: Vec3, t_max: f32, u: f32) -> Option<f32> {
+        let (thick, up) = (self.extinction_per_m(origin.z), direction.z / self.height_m);
+        if thick <= 0.0 {
+            return None;
+        }
+        let depth = -(-u).ln_1p();
+        let x = depth * up / thick;
+        // Upwards there may not be as much.
+        let t = if x >= 1.0 {
+            f32::INFINITY
+        } else if x.abs() < 1e-4 {
+            depth / thick * (1.0 + 0.5 * x)
+        } else {
+            -(-x).ln_1p() / up
+        };
+        (t < t_max.min(self.way_down(origin, direction))).then_some(t)
+    }
+
+    /// How far it is down to where there is none.
+    fn way_down(&self, origin: Vec3, direction: Vec3) -> f32 {
+        if direction.z < 0.0 { (origin.z - self.lowest_z).max(0.0) / -direction.z } else { f32::INFINITY }
+    }
+}
+
+/// Share of light from a direction that is scattered into another, a steradian, by the cosine between the ways (Henyey,
+/// Greenstein 1941); also the density of [`scatter`].
+pub(crate) fn phase(cos: f32) -> f32 {
+    let g = ASYMMETRY;
+    let square = 1.0 + g * g - 2.0 * g * cos;
+    (1.0 - g * g) / (4.0 * PI * square * square.sqrt())
+}
+
+/// A way on from a unit direction.
+pub(crate) fn scatter(direction: Vec3, u: [f32; 2]) -> Vec3 {
+    let g = ASYMMETRY;
+    let inner = (1.0 - g * g) / (1.0 - g + 2.0 * g * u[0]);
+    let cos = ((1.0 + g * g - inner * inner) / (2.0 * g)).clamp(-1.0, 1.0);
+    let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.0 * PI * u[1]);
+    Basis::about(direction).to_world(Vec3::new(sin * turn.cos(), sin * turn.sin(), cos)).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use trove_model::Seed;
+
+    use super::*;
+
+    const FOG: Fog = Fog { extinction_per_m: 0.03, height_m: 40.0, ground_z: 2.0, lowest_z: -5.0 };
+
+    /// The depth by many short steps.
+    fn depth(origin: Vec3, direction: Vec3, t: f32) -> f64 {
+        let n = 200_000;
+        let step = f64::from(t) / f64::from(n);
+        let at = |i: i32| f64::from(origin.z) + f64::from(direction.z) * step * (f64::from(i) + 0.5);
+        let thick = |z: f64| if z < -5.0 { 0.0 } else { 0.03 * ((2.0 - z) / 40.0).exp() };
+        (0..n).map(|i| thick(at(i)) * step).sum()
+    }
+
+    #[test]
+    fn light_passes_as_the_sum_of_short_steps_says() {
+        let ways = [Vec3::X, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.8, 0.0, -0.6), Vec3::new(1.0, 0.0, 1e-5).normalize()];
+        for direction in ways {
+            for (z, t) in [(2.0, 10.0), (30.0, 150.0), (-4.9, 3.0)] {
+                let origin = Vec3::Z * z;
+                let (found, expected) = (FOG.transmittance(origin, direction, t), (-depth(origin, direction, t)).exp());
+                assert!((f64::from(found) - expected).abs() < 1e-4, "{direction} {z} {t}: {found} {expected}");
+            }
+        }
+        // All of what lies above: 0.03 · 40.
+        assert!((FOG.transmittance(Vec3::Z * 2.0, Vec3::Z, f32::INFINITY) - (-1.2f32).exp()).abs() < 1e-6);
+        assert_eq!(FOG.transmittance(Vec3::Z * 2.0, Vec3::X, f32::INFINITY), 0.0);
+    }
+
+    #[test]
+    fn as_much_meets_droplets_as_does_not_pass() {
+        let mut random = Seed(4).random();
+        for direction in [Vec3::X, Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.8, 0.0, -0.6)] {
+            for t in [7.0, 30.0, f32::INFINITY] {
+                let (draws, origin) = (40_000, Vec3::Z * 3.0);
+                let met = (0..draws).filter(|_| FOG.met(origin, direction, t, random.unit() as f32).is_some()).count();
+                let (found, expected) =
+                    (met as f64 / draws as f64, 1.0 - f64::from(FOG.transmittance(origin, direction, t)));
+                // Five standard deviations.
+                let slack = 5.0 * (expected * (1.0 - expected) / draws as f64).sqrt() + 1e-6;
+                assert!((found - expected).abs() < slack, "{direction} {t}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn ways_on_are_drawn_as_the_phase_function_says() {
+        let mut random = Seed(5).random();
+        let direction = Vec3::new(0.3, -0.5, 0.4).normalize();
+        // Over twenty equal steps of the cosine.
+        let (draws, mut drawn, mut sum) = (200_000, [0.0f64; 20], 0.0);
+        for _ in 0..draws {
+            let cos = scatter(direction, [random.unit() as f32, random.unit() as f32]).dot(direction);
+            drawn[(((cos + 1.0) * 10.0) as usize).min(19)] += 1.0;
+            sum += f64::from(cos);
+        }
+        assert!((sum / f64::from(draws) - f64::from(ASYMMETRY)).abs() < 2e-3);
+        for (i, found) in drawn.iter().enumerate() {
+            let share: f64 = (0..1000)
+                .map(|k| f64::from(phase(-1.0 + 0.1 * (i as f32 + (k as f32 + 0.5) / 1000.0))) * 1e-4)
+                .sum::<f64>()
+                * 2.0
+                * std::f64::consts::PI;
+            let expected = share * f64::from(draws);
+            assert!((found - expected).abs() < 5.0 * expected.sqrt() + 1.0, "{i}: {found} {expected}");
+        }
+    }
+}

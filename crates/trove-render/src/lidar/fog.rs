@@ -1,0 +1,27 @@
+//! What fog itself sends back of a beam.
+
+use std::f64::consts::PI;
+
+use trove_model::{Class, InstanceId, Random, Scanner, SensorRay};
+
+use super::echo::Echo;
+use crate::fog::Fog;
+
+/// Extinction for backscatter of water droplets at 905 nm, steradians (O'Connor, Illingworth, Hogan 2004: 18.8).
+const LIDAR_RATIO_SR: f64 = 18.8;
+
+/// The echo of the droplets in one length of a pulse, free of surfaces up to `free_m`. Where along the beam they send back
+/// enough at once to be told is chance, by the squares with which their light fades.
+pub(super) fn echo(fog: &Fog, scanner: &Scanner, middle: &SensorRay, free_m: f64, mut random: Random) -> Option<Echo> {
+    let (near_m, far_m) = (scanner.nearest_m.max(scanner.pulse_m), scanner.farthest_m.min(free_m));
+    if far_m <= near_m {
+        return None;
+    }
+    let range_m = 1.0 / (1.0 / near_m + random.unit() * (1.0 / far_m - 1.0 / near_m));
+    let (origin, direction) = (middle.origin.as_vec3(), middle.direction.as_vec3());
+    let clear = f64::from(fog.transmittance(origin, direction, range_m as f32));
+    let thick = f64::from(fog.extinction_per_m(origin.z + direction.z * range_m as f32));
+    // A white matt surface sends back 1/π a steradian.
+    let power = PI * thick * scanner.pulse_m / LIDAR_RATIO_SR * clear * clear;
+    Some(Echo { range_m, power: power as f32, class: Class::Void, instance: InstanceId(0) })
+}

@@ -1,0 +1,108 @@
+//! `[weather]`: what rain, use and the season have left, and the air.
+
+use anyhow::{Result, ensure};
+use serde::{Deserialize, Serialize};
+use trove_build::Weather;
+use trove_model::Fog;
+
+use super::check::check;
+use super::season::SeasonChoice;
+
+/// Least and most of visibilities, metres: the densest fogs, and haze.
+pub(super) const VISIBILITY_M: [f64; 2] = [10.0, 50_000.0];
+/// The same of heights over which fog thins out.
+const FOG_HEIGHT_M: [f64; 2] = [2.0, 5000.0];
+
+/// `[weather]`
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WeatherSection {
+    /// 0 (dry) to 1 (after heavy rain).
+    pub wetness: f64,
+    /// 0 (washed) to 1 (as streets are).
+    pub dirt: f64,
+    /// What time of the year plants show.
+    pub season: SeasonChoice,
+    /// Meteorological optical range of fog or haze, metres; without it the air is clear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visibility_m: Option<f64>,
+    /// So far above the ground there is 1/e of the fog, metres; without it as [`fog_height_m`] says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fog_height_m: Option<f64>,
+}
+
+impl Default for WeatherSection {
+    fn default() -> Self {
+        let Weather { dirt, wetness, season: _, fog: _ } = Weather::default();
+        Self { wetness, dirt, season: SeasonChoice::default(), visibility_m: None, fog_height_m: None }
+    }
+}
+
+impl WeatherSection {
+    /// What weather has done to the place, with fog of the visibility that is told.
+    pub fn weather(&self) -> Weather {
+        let fog = self.visibility_m.map(|visibility_m| self.fog(visibility_m));
+        Weather { dirt: self.dirt, wetness: self.wetness, season: self.season.into(), fog }
+    }
+
+    /// Fog of a visibility, over a ground at 0.
+    pub fn fog(&self, visibility_m: f64) -> Fog {
+        let height_m = self.fog_height_m.unwrap_or_else(|| fog_height_m(visibility_m));
+        Fog { visibility_m, height_m, ground_z_m: 0.0 }
+    }
+
+    /// `varies`: whether variations draw a visibility.
+    pub(super) fn check(&self, varies: bool) -> Result<()> {
+        for (key, share) in [("weather.wetness", self.wetness), ("weather.dirt", self.dirt)] {
+            check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
+        }
+        let metres =
+            [("visibility_m", self.visibility_m, VISIBILITY_M), ("fog_height_m", self.fog_height_m, FOG_HEIGHT_M)];
+        for (key, value, [least, most]) in metres {
+            let Some(value) = value else { continue };
+            let expected = format!("{least} to {most} metres");
+            check(&format!("weather.{key}"), value, (least..=most).contains(&value), &expected)?;
+        }
+        ensure!(
+            self.fog_height_m.is_none() || self.visibility_m.is_some() || varies,
+            "weather.fog_height_m: expected fog, found clear air; add weather.visibility_m"
+        );
+        Ok(())
+    }
+}
+
+/// Fog through which about a third of the sun's light comes straight, as long as it is neither a mist on the ground nor as
+/// high as haze.
+fn fog_height_m(visibility_m: f64) -> f64 {
+    (0.4 * visibility_m).clamp(30.0, 1000.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::Recipe;
+
+    fn weather(text: &str) -> Result<WeatherSection> {
+        let text = format!("[drive]\ndataset = \"nuscenes\"\nroot = \"data\"\n[weather]\n{text}");
+        Ok(Recipe::parse(&text)?.weather)
+    }
+
+    #[test]
+    fn fog_is_there_where_a_visibility_is_and_nowhere_else() {
+        assert_eq!(weather("wetness = 0.5").unwrap().weather().fog, None);
+        let fog = |text| weather(text).unwrap().weather().fog.unwrap();
+        assert_eq!((fog("visibility_m = 200").height_m, fog("visibility_m = 20").height_m), (80.0, 30.0));
+        let low = fog("visibility_m = 200\nfog_height_m = 8");
+        // 5 % is left after 200 m.
+        assert_eq!((low.visibility_m, low.height_m), (200.0, 8.0));
+        assert!(((-low.extinction_per_m() * 200.0).exp() - 0.05).abs() < 1e-12);
+        for (text, expected) in [
+            ("visibility_m = 5", "weather.visibility_m: expected 10 to 50000 metres, found 5"),
+            ("visibility_m = 50\nfog_height_m = 0", "weather.fog_height_m: expected 2 to 5000 metres, found 0"),
+            ("fog_height_m = 20", "add weather.visibility_m"),
+        ] {
+            let found = weather(text).unwrap_err().to_string();
+            assert!(found.contains(expected), "{found}");
+        }
+    }
+}
