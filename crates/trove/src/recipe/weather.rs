@@ -26,7 +26,7 @@ pub struct WeatherSection {
     /// Meteorological optical range of fog or haze, metres; without it the air is clear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub visibility_m: Option<f64>,
-    /// So far above the ground there is 1/e of the fog, metres; without it as [`fog_height_m`] says.
+    /// So far above the ground there is 1/e of the fog, metres; without it 0.4 times the visibility, 30 to 1000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fog_height_m: Option<f64>,
 }
