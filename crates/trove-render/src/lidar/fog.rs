@@ -4,15 +4,16 @@ use std::f64::consts::PI;
 
 use trove_model::{Class, InstanceId, Random, Scanner, SensorRay};
 
-use super::echo::Echo;
+use super::echo::{Echo, Part};
 use crate::fog::Fog;
 
 /// Extinction for backscatter of water droplets at 905 nm, steradians (O'Connor, Illingworth, Hogan 2004: 18.8).
 const LIDAR_RATIO_SR: f64 = 18.8;
 
-/// The echo of the droplets in one length of a pulse, free of surfaces up to `free_m`. Where along the beam they send back
+/// The echo of the droplets in one length of a pulse, before what the beam's middle meets. Where along the beam they send back
 /// enough at once to be told is chance, by the squares with which their light fades.
-pub(super) fn echo(fog: &Fog, scanner: &Scanner, middle: &SensorRay, free_m: f64, mut random: Random) -> Option<Echo> {
+pub(super) fn echo(fog: &Fog, scanner: &Scanner, middle: &SensorRay, met: &[Part], mut random: Random) -> Option<Echo> {
+    let free_m = met.iter().filter(|part| part.is_middle).map(|part| part.range_m).fold(f64::INFINITY, f64::min);
     let (near_m, far_m) = (scanner.nearest_m.max(scanner.pulse_m), scanner.farthest_m.min(free_m));
     if far_m <= near_m {
         return None;

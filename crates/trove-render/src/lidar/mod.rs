@@ -14,7 +14,6 @@ use trove_model::{LidarPoint, LidarShot, PointCloud, SensorRay};
 
 use crate::PreparedScene;
 use crate::accel::Coherence;
-use crate::fog::Fog;
 use crate::prepare::Carrier;
 use crate::ray::Ray;
 use crate::sight::{self, Seen};
@@ -59,11 +58,11 @@ fn points(scene: &PreparedScene, shot: &LidarShot, carrier: &Carrier, column: us
     for (ring, parts) in met.into_iter().enumerate() {
         let middle = shot.ray(column, ring);
         let seed = shot.seed.nth((column * rings + ring) as u64);
-        let free_m = parts.iter().filter(|part| part.is_middle).map(|part| part.range_m).fold(f64::INFINITY, f64::min);
+        let random = || seed.child("fog").random();
+        let of_fog = scene.fog.and_then(|fog| fog::echo(&fog, &shot.scanner, &middle, &parts, random()));
         let mut echoes = echo::echoes(parts, shot.scanner.pulse_m);
-        if let Some(fog) = &scene.fog {
-            let of_fog = fog::echo(fog, &shot.scanner, &middle, free_m, seed.child("fog").random());
-            echoes.extend(of_fog);
+        if let Some(of_fog) = of_fog {
+            echoes.push(of_fog);
             echoes.sort_by(|a, b| a.range_m.total_cmp(&b.range_m));
         }
         let told = detector::told(&shot.scanner, echoes, seed.random());
@@ -144,8 +143,7 @@ fn backscattered(scene: &PreparedScene, shot: &LidarShot, seen: &Seen, looks: &m
 
 fn part(scene: &PreparedScene, way: &Way, seen: &Seen, share: f32) -> Part {
     let class = scene.instances[seen.hit.instance as usize].class;
-    let clear = |fog: &Fog| fog.transmittance(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32);
-    let left = way.left * scene.fog.as_ref().map_or(1.0, clear);
+    let left = way.left * scene.clear(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32);
     Part {
         range_m: seen.range_m,
         // There and back through the same panes and the same air.

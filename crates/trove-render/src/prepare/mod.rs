@@ -81,11 +81,12 @@ impl PreparedScene {
             scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).unzip();
         let opacities: Arc<[_]> = opacities.into();
         let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
-        let feet_z: Vec<f32> = scene.meshes.iter().map(|m| m.bounds().map_or(0.0, |(low, _)| low.z)).collect();
+        let bounds: Vec<_> = scene.meshes.iter().map(|m| m.bounds()).collect();
+        let foot_z = |mesh: usize| bounds[mesh].map_or(0.0, |(low, _)| low.z);
         let place = |i: &Instance, now: Placement, way: &Motion<DAffine3>, stays: [bool; 2]| {
             let materials = i.materials.iter().map(|&m| m as u32).collect();
             let is_carrier = i.object.as_ref().is_some_and(|object| object.origin == Origin::Carrier);
-            Placed::new(i.id, scene.meshes[now.mesh].clone(), feet_z[now.mesh], materials, way, stays, is_carrier)
+            Placed::new(i.id, scene.meshes[now.mesh].clone(), foot_z(now.mesh), materials, way, stays, is_carrier)
         };
         let placed = scene.instances.iter().zip(&instances).map(|(instance, prepared)| {
             let stays = prepared.then.each_ref().map(|then| matches!(then, Then::Stays));
@@ -106,7 +107,7 @@ impl PreparedScene {
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
-        let fog = scene.light.fog.as_ref().map(|fog| Fog::new(fog, lowest_z(scene)));
+        let fog = scene.light.fog.as_ref().map(|fog| Fog::new(fog, lowest_z(scene, &bounds)));
         Ok(Self { shapes, instances, materials, lights, fog, accel: accel?, others, has_beside })
     }
 
@@ -150,6 +151,11 @@ impl PreparedScene {
         hits.iter().map(Option::is_some).collect()
     }
 
+    /// Share of light that the air lets pass along a unit direction for `t` metres.
+    pub(crate) fn clear(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
+        self.fog.map_or(1.0, |fog| fog.transmittance(origin, direction, t))
+    }
+
     /// The kernel, to be measured.
     pub(crate) fn accel(&self) -> &dyn Accel {
         &*self.accel
@@ -167,9 +173,8 @@ impl PreparedScene {
     }
 }
 
-/// z of the lowest point, or one below it, World; where there is nothing, the lowest number.
-fn lowest_z(scene: &Scene) -> f32 {
-    let bounds: Vec<_> = scene.meshes.iter().map(|mesh| mesh.bounds()).collect();
+/// z of the lowest point, or one below it, World, by the bounds of meshes; where there is nothing, the lowest number.
+fn lowest_z(scene: &Scene, bounds: &[Option<(Vec3, Vec3)>]) -> f32 {
     let lowest = |instance: &Instance| {
         let (low, high) = bounds[instance.mesh]?;
         let corners = (0..8).map(|i| bvec3(i & 1 == 0, i & 2 == 0, i & 4 == 0));
