@@ -1,5 +1,7 @@
 //! Images of which only some parts are known.
 
+use std::ops::Range;
+
 use crate::Raster;
 
 /// Squares of an image that are looked at: one of so many, spread over it like bricks.
@@ -34,8 +36,13 @@ impl Patches {
 
     /// Columns below `width` of a row of pixels that are in one.
     pub fn columns(self, width: u32, y: u32) -> impl Iterator<Item = u32> {
+        self.runs(width, y).flatten()
+    }
+
+    /// The same, each square's as one run.
+    fn runs(self, width: u32, y: u32) -> impl Iterator<Item = Range<u32>> {
         let squares = (0..width.div_ceil(Self::SIDE)).filter(move |column| self.hold_square(*column, y / Self::SIDE));
-        squares.flat_map(move |column| column * Self::SIDE..((column + 1) * Self::SIDE).min(width))
+        squares.map(move |column| column * Self::SIDE..((column + 1) * Self::SIDE).min(width))
     }
 }
 
@@ -59,9 +66,13 @@ impl<T> InPatches<T> {
 
     /// Pixels that are known (column, row), with their values.
     pub fn pixels(&self) -> impl Iterator<Item = ([u32; 2], &T)> {
-        let Raster { width, height, .. } = self.raster;
-        let columns = move |y| self.patches.columns(width, y).map(move |x| ([x, y], self.raster.at(x, y)));
-        (0..height).flat_map(columns)
+        let rows = (0..).zip(self.raster.data.chunks(self.raster.width.max(1) as usize));
+        rows.flat_map(|(y, row)| {
+            let runs = self.patches.runs(self.raster.width, y);
+            runs.flat_map(move |run| {
+                run.clone().zip(&row[run.start as usize..run.end as usize]).map(move |(x, value)| ([x, y], value))
+            })
+        })
     }
 }
 

@@ -279,9 +279,12 @@ impl StoredFrame {
         wrong: &str,
     ) -> Result<Raster<T>, WriteError> {
         let table: [Option<T>; 256] = std::array::from_fn(|value| of(value as u8));
-        let known =
-            |value: &u8| table[usize::from(*value)].ok_or_else(|| self.damaged(file, format!("{value}, {wrong}")));
-        let data = greys.as_raw().iter().map(known).collect::<Result<_, _>>()?;
+        let meant = |value: &u8| table[usize::from(*value)];
+        let data: Vec<T> = greys.as_raw().iter().filter_map(meant).collect();
+        if data.len() < greys.as_raw().len() {
+            let value = greys.as_raw().iter().find(|value| meant(value).is_none()).copied().unwrap_or_default();
+            return Err(self.damaged(file, format!("{value}, {wrong}")));
+        }
         Ok(Raster { width: greys.width(), height: greys.height(), data })
     }
 

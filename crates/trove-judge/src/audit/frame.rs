@@ -155,8 +155,9 @@ pub(super) fn is_porous(class: Class) -> bool {
 
 /// Pixels with their values.
 pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
-    let rows = (0..).zip(raster.data.chunks(raster.width.max(1) as usize));
-    rows.flat_map(|(y, row)| (0..).zip(row).map(move |(x, value)| ([x, y], value)))
+    let width = raster.width.max(1);
+    // Where a pixel lies is reckoned only where someone asks.
+    (0..).zip(&raster.data).map(move |(i, value): (u32, _)| ([i % width, i / width], value))
 }
 
 /// The 3 × 3 values around a pixel, as far as they are in the image.

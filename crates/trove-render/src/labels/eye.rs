@@ -4,12 +4,16 @@ use glam::{DVec2, DVec3};
 use trove_model::{Class, InstanceId, Occlusion, SensorRay, Shot};
 
 use super::flow::{Arrow, Neighbour, Spot};
-use super::layers::{ExtraRow, Row, put};
+use super::layers::{Band, ExtraBand, put};
 use super::pixel::{OUTSIDE, SKY};
 use crate::PreparedScene;
 use crate::accel::PACKET;
 use crate::prepare::Carrier;
 use crate::sight::{self, Seen};
+
+/// Pixels along a side of the square whose rays are traced together: they run more alike than those of a line.
+pub(super) const SIDE: u32 = 4;
+const _: () = assert!((SIDE * SIDE) as usize == PACKET);
 
 /// What is not defined.
 const NOTHING: [f32; 3] = [f32::NAN; 3];
@@ -24,7 +28,8 @@ pub(super) struct Eye<'a> {
 
 /// A pixel inside the lens's image circle.
 struct Pixel {
-    column: usize,
+    /// In its band.
+    index: usize,
     centre: DVec2,
     /// In World.
     direction: DVec3,
@@ -38,37 +43,38 @@ impl<'a> Eye<'a> {
         Self { scene, shot, carrier, neighbours: Neighbour::both(scene, shot) }
     }
 
-    /// Fills in a row of the picture.
-    pub(super) fn look(&self, y: u32, row: &mut Row<'_>) {
+    /// Fills in a band of [`SIDE`] rows of the picture, or what is left of it, from row `top` on.
+    pub(super) fn look(&self, top: u32, band: &mut Band<'_>) {
         let width = self.shot.lens.width_px;
+        let rows = band.shown.len() as u32 / width;
         let mut pixels: Vec<Pixel> = Vec::with_capacity(PACKET);
         let mut rays: Vec<SensorRay> = Vec::with_capacity(PACKET);
         let mut arrows: [Vec<(usize, Arrow)>; 2] = [Vec::with_capacity(PACKET), Vec::with_capacity(PACKET)];
-        for first in (0..width).step_by(PACKET) {
+        for left in (0..width).step_by(SIDE as usize) {
             pixels.clear();
             rays.clear();
-            for x in first..width.min(first + PACKET as u32) {
-                let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let column = x as usize;
+            for (y, x) in (0..rows).flat_map(|y| (left..width.min(left + SIDE)).map(move |x| (y, x))) {
+                let centre = DVec2::new(f64::from(x) + 0.5, f64::from(top + y) + 0.5);
+                let index = (y * width + x) as usize;
                 let Some(direction_camera) = self.shot.lens.unproject(centre) else {
-                    outside(row, column);
+                    outside(band, index);
                     continue;
                 };
                 let ray = self.shot.label_ray(direction_camera);
                 rays.push(ray);
-                pixels.push(Pixel { column, centre, direction: ray.direction, ahead: direction_camera.z });
+                pixels.push(Pixel { index, centre, direction: ray.direction, ahead: direction_camera.z });
             }
             for (pixel, seen) in pixels.iter().zip(sight::seen(self.scene, &self.carrier, &rays)) {
                 let leads = match seen {
-                    Some(seen) => self.surface(row, pixel, &seen),
-                    None => self.sky(row, pixel),
+                    Some(seen) => self.surface(band, pixel, &seen),
+                    None => self.sky(band, pixel),
                 };
                 for ((side, arrow), arrows) in leads.into_iter().enumerate().zip(&mut arrows) {
-                    row.flow[side][pixel.column] = arrow.flow;
-                    arrows.push((pixel.column, arrow));
+                    band.flow[side][pixel.index] = arrow.flow;
+                    arrows.push((pixel.index, arrow));
                 }
             }
-            for ((neighbour, arrows), layer) in self.neighbours.iter().zip(&mut arrows).zip(&mut row.occlusion) {
+            for ((neighbour, arrows), layer) in self.neighbours.iter().zip(&mut arrows).zip(&mut band.occlusion) {
                 neighbour.occlusion(arrows, layer);
                 arrows.clear();
             }
@@ -76,37 +82,37 @@ impl<'a> Eye<'a> {
     }
 
     /// What a pixel shows of a surface, and where that leads.
-    fn surface(&self, row: &mut Row<'_>, pixel: &Pixel, seen: &Seen) -> [Arrow; 2] {
-        let (x, hit) = (pixel.column, &seen.hit);
+    fn surface(&self, band: &mut Band<'_>, pixel: &Pixel, seen: &Seen) -> [Arrow; 2] {
+        let (i, hit) = (pixel.index, &seen.hit);
         let spot = Spot {
             point: self.shot.world_from_camera.translation + pixel.direction * seen.range_m,
             normal: seen.normal,
         };
         let then = self.neighbours.each_ref().map(|neighbour| neighbour.carried(hit, spot));
-        row.shown[x] = hit.instance;
-        row.exact_range_m[x] = seen.range_m;
-        row.class[x] = self.scene.instances[hit.instance as usize].class;
-        row.instance[x] = self.scene.placed(hit.instance).id.0;
-        row.depth_m[x] = (seen.range_m * pixel.ahead) as f32;
-        row.normal[x] = self.shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array();
-        self.extra(&mut row.extra, x, seen, spot.point, then);
+        band.shown[i] = hit.instance;
+        band.exact_range_m[i] = seen.range_m;
+        band.class[i] = self.scene.instances[hit.instance as usize].class;
+        band.instance[i] = self.scene.placed(hit.instance).id.0;
+        band.depth_m[i] = (seen.range_m * pixel.ahead) as f32;
+        band.normal[i] = self.shot.world_from_camera.inverse().vector(seen.normal).as_vec3().to_array();
+        self.extra(&mut band.extra, i, seen, spot.point, then);
         std::array::from_fn(|side| self.neighbours[side].arrow(pixel.centre, then[side]))
     }
 
-    fn extra(&self, row: &mut ExtraRow<'_>, x: usize, seen: &Seen, point: DVec3, then: [Option<Spot>; 2]) {
-        put(&mut row.range_m, x, || seen.range_m as f32);
-        put(&mut row.normal_world, x, || seen.normal.as_vec3().to_array());
-        if row.albedo.is_some() || row.roughness.is_some() {
+    fn extra(&self, band: &mut ExtraBand<'_>, i: usize, seen: &Seen, point: DVec3, then: [Option<Spot>; 2]) {
+        put(&mut band.range_m, i, || seen.range_m as f32);
+        put(&mut band.normal_world, i, || seen.normal.as_vec3().to_array());
+        if band.albedo.is_some() || band.roughness.is_some() {
             let (surface, material) = self.scene.surface(&seen.hit, &seen.ray);
             let (albedo, roughness) = material.look(&surface);
-            put(&mut row.albedo, x, || albedo.to_array());
-            put(&mut row.roughness, x, || roughness);
+            put(&mut band.albedo, i, || albedo.to_array());
+            put(&mut band.roughness, i, || roughness);
         }
-        for ((layer, then), is_there) in row.scene_flow.iter_mut().zip(then).zip(self.scene.has_beside) {
+        for ((layer, then), is_there) in band.scene_flow.iter_mut().zip(then).zip(self.scene.has_beside) {
             let way = then.filter(|_| is_there).map(|then| (then.point - point).as_vec3().to_array());
-            put(layer, x, || way.unwrap_or(NOTHING));
+            put(layer, i, || way.unwrap_or(NOTHING));
         }
-        put(&mut row.object_coordinates, x, || {
+        put(&mut band.object_coordinates, i, || {
             let is_object = self.scene.placed(seen.hit.instance).id != InstanceId(0);
             let object = self.scene.instances[seen.hit.instance as usize].object.as_deref().filter(|_| is_object);
             object.map_or(NOTHING, |object| {
@@ -117,32 +123,32 @@ impl<'a> Eye<'a> {
     }
 
     /// What a pixel shows of the sky, and where that leads.
-    fn sky(&self, row: &mut Row<'_>, pixel: &Pixel) -> [Arrow; 2] {
-        nothing(row, pixel.column, SKY, Class::Sky);
+    fn sky(&self, band: &mut Band<'_>, pixel: &Pixel) -> [Arrow; 2] {
+        nothing(band, pixel.index, SKY, Class::Sky);
         self.neighbours.each_ref().map(|neighbour| neighbour.arrow_of_sky(pixel.centre, pixel.direction))
     }
 }
 
 /// A pixel that no ray belongs to.
-fn outside(row: &mut Row<'_>, x: usize) {
-    nothing(row, x, OUTSIDE, Class::Void);
-    row.flow.iter_mut().for_each(|flow| flow[x] = [f32::NAN; 2]);
-    row.occlusion.iter_mut().for_each(|occlusion| occlusion[x] = Occlusion::Undefined);
+fn outside(band: &mut Band<'_>, i: usize) {
+    nothing(band, i, OUTSIDE, Class::Void);
+    band.flow.iter_mut().for_each(|flow| flow[i] = [f32::NAN; 2]);
+    band.occlusion.iter_mut().for_each(|occlusion| occlusion[i] = Occlusion::Undefined);
 }
 
 /// A pixel without a surface.
-fn nothing(row: &mut Row<'_>, x: usize, shown: u32, class: Class) {
-    row.shown[x] = shown;
-    row.exact_range_m[x] = f64::INFINITY;
-    row.class[x] = class;
-    row.instance[x] = 0;
-    row.depth_m[x] = f32::INFINITY;
-    row.normal[x] = [0.0; 3];
-    let extra = &mut row.extra;
-    put(&mut extra.range_m, x, || f32::INFINITY);
-    put(&mut extra.normal_world, x, || [0.0; 3]);
-    put(&mut extra.albedo, x, || NOTHING);
-    put(&mut extra.roughness, x, || f32::NAN);
-    extra.scene_flow.iter_mut().for_each(|layer| put(layer, x, || NOTHING));
-    put(&mut extra.object_coordinates, x, || NOTHING);
+fn nothing(band: &mut Band<'_>, i: usize, shown: u32, class: Class) {
+    band.shown[i] = shown;
+    band.exact_range_m[i] = f64::INFINITY;
+    band.class[i] = class;
+    band.instance[i] = 0;
+    band.depth_m[i] = f32::INFINITY;
+    band.normal[i] = [0.0; 3];
+    let extra = &mut band.extra;
+    put(&mut extra.range_m, i, || f32::INFINITY);
+    put(&mut extra.normal_world, i, || [0.0; 3]);
+    put(&mut extra.albedo, i, || NOTHING);
+    put(&mut extra.roughness, i, || f32::NAN);
+    extra.scene_flow.iter_mut().for_each(|layer| put(layer, i, || NOTHING));
+    put(&mut extra.object_coordinates, i, || NOTHING);
 }

@@ -1,4 +1,4 @@
-//! The labels of a picture while they are made: several threads fill a row each.
+//! The labels of a picture while they are made: several threads fill a band of rows each.
 
 use std::slice::ChunksMut;
 
@@ -13,8 +13,9 @@ pub(super) struct Layers {
     pub labels: Labels,
 }
 
-/// A row of it. Of two layers, the first is of the previous keyframe.
-pub(super) struct Row<'a> {
+/// Rows of it that follow each other, the first pixel of the upper one first. Of two layers, the first is of the previous
+/// keyframe.
+pub(super) struct Band<'a> {
     pub shown: &'a mut [u32],
     pub exact_range_m: &'a mut [f64],
     pub class: &'a mut [Class],
@@ -23,11 +24,11 @@ pub(super) struct Row<'a> {
     pub normal: &'a mut [[f32; 3]],
     pub flow: [&'a mut [[f32; 2]]; 2],
     pub occlusion: [&'a mut [Occlusion]; 2],
-    pub extra: ExtraRow<'a>,
+    pub extra: ExtraBand<'a>,
 }
 
-/// A row of what was asked for.
-pub(super) struct ExtraRow<'a> {
+/// The same of what was asked for.
+pub(super) struct ExtraBand<'a> {
     pub range_m: Option<&'a mut [f32]>,
     pub normal_world: Option<&'a mut [[f32; 3]]>,
     pub albedo: Option<&'a mut [[f32; 3]]>,
@@ -72,26 +73,27 @@ impl Layers {
         Self { shown: Shown { width, instance: vec![0; pixels], range_m: vec![0.0; pixels] }, labels }
     }
 
-    /// All rows, from the top.
-    pub(super) fn rows(&mut self) -> Vec<Row<'_>> {
-        let width = self.shown.width.max(1) as usize;
+    /// All bands of so many rows, from the top; the last one may have fewer.
+    pub(super) fn bands(&mut self, rows: u32) -> Vec<Band<'_>> {
+        let pixels = (self.shown.width.max(1) * rows) as usize;
         let labels = &mut self.labels;
         let extra = &mut labels.extra;
-        let mut shown = self.shown.instance.chunks_mut(width);
-        let mut exact_range_m = self.shown.range_m.chunks_mut(width);
-        let (mut class, mut instance) = (lines(&mut labels.class), lines(&mut labels.instance));
-        let (mut depth_m, mut normal) = (lines(&mut labels.depth_m), lines(&mut labels.normal));
-        let mut flow = [lines(&mut labels.flow_backward), lines(&mut labels.flow_forward)];
-        let mut occlusion = [lines(&mut labels.occluded_backward), lines(&mut labels.occluded_forward)];
-        let mut range_m = extra.range_m.as_mut().map(lines);
-        let mut normal_world = extra.normal_world.as_mut().map(lines);
-        let mut albedo = extra.albedo.as_mut().map(lines);
-        let mut roughness = extra.roughness.as_mut().map(lines);
-        let mut before = extra.scene_flow_backward.as_mut().map(lines);
-        let mut after = extra.scene_flow_forward.as_mut().map(lines);
-        let mut object_coordinates = extra.object_coordinates.as_mut().map(lines);
-        let mut row = || {
-            Some(Row {
+        let mut shown = self.shown.instance.chunks_mut(pixels);
+        let mut exact_range_m = self.shown.range_m.chunks_mut(pixels);
+        let (mut class, mut instance) = (labels.class.data.chunks_mut(pixels), labels.instance.data.chunks_mut(pixels));
+        let (mut depth_m, mut normal) = (labels.depth_m.data.chunks_mut(pixels), labels.normal.data.chunks_mut(pixels));
+        let mut flow = [labels.flow_backward.data.chunks_mut(pixels), labels.flow_forward.data.chunks_mut(pixels)];
+        let mut occlusion =
+            [labels.occluded_backward.data.chunks_mut(pixels), labels.occluded_forward.data.chunks_mut(pixels)];
+        let mut range_m = extra.range_m.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut normal_world = extra.normal_world.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut albedo = extra.albedo.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut roughness = extra.roughness.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut before = extra.scene_flow_backward.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut after = extra.scene_flow_forward.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut object_coordinates = extra.object_coordinates.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut band = || {
+            Some(Band {
                 shown: shown.next()?,
                 exact_range_m: exact_range_m.next()?,
                 class: class.next()?,
@@ -100,7 +102,7 @@ impl Layers {
                 normal: normal.next()?,
                 flow: [flow[0].next()?, flow[1].next()?],
                 occlusion: [occlusion[0].next()?, occlusion[1].next()?],
-                extra: ExtraRow {
+                extra: ExtraBand {
                     range_m: next(&mut range_m),
                     normal_world: next(&mut normal_world),
                     albedo: next(&mut albedo),
@@ -110,21 +112,17 @@ impl Layers {
                 },
             })
         };
-        std::iter::from_fn(&mut row).collect()
+        std::iter::from_fn(&mut band).collect()
     }
 }
 
-fn lines<T>(raster: &mut Raster<T>) -> ChunksMut<'_, T> {
-    raster.data.chunks_mut(raster.width.max(1) as usize)
-}
-
-fn next<'a, T>(lines: &mut Option<ChunksMut<'a, T>>) -> Option<&'a mut [T]> {
-    lines.as_mut().and_then(Iterator::next)
+fn next<'a, T>(bands: &mut Option<ChunksMut<'a, T>>) -> Option<&'a mut [T]> {
+    bands.as_mut().and_then(Iterator::next)
 }
 
 /// Fills a pixel in where its layer was asked for.
-pub(super) fn put<T>(layer: &mut Option<&mut [T]>, x: usize, value: impl FnOnce() -> T) {
+pub(super) fn put<T>(layer: &mut Option<&mut [T]>, i: usize, value: impl FnOnce() -> T) {
     if let Some(layer) = layer {
-        layer[x] = value();
+        layer[i] = value();
     }
 }

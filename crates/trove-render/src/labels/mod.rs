@@ -16,7 +16,7 @@ use trove_model::{ExtraLabel, Labels, Shot};
 pub(crate) use change::changes;
 
 use crate::PreparedScene;
-use eye::Eye;
+use eye::{Eye, SIDE};
 use layers::Layers;
 
 /// All labels of a picture, computed with the current thread pool; `None` once `stop` answers true, which it then does
@@ -24,8 +24,8 @@ use layers::Layers;
 pub(crate) fn render(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn() -> bool + Sync)) -> Option<Labels> {
     let eye = Eye::new(scene, shot);
     let mut layers = Layers::new(shot);
-    let rows = layers.rows().into_par_iter().enumerate();
-    rows.try_for_each(|(y, mut row)| (!stop()).then(|| eye.look(y as u32, &mut row)))?;
+    let bands = layers.bands(SIDE).into_par_iter().enumerate();
+    bands.try_for_each(|(i, mut band)| (!stop()).then(|| eye.look(i as u32 * SIDE, &mut band)))?;
     let Layers { shown, mut labels } = layers;
     if shot.labels.extra.contains(&ExtraLabel::Coverage) {
         labels.extra.coverage = Some(coverage::coverage(&eye, &labels, stop)?);

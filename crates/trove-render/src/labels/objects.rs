@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trove_model::{Cuboid, ExtraLabel, GlassLabels, Mask, ObjectLabel, PixelBox, Pose, SceneObject, Shot};
 
+use super::eye::SIDE;
 use super::keypoints;
 use super::outline;
 use super::pixel::Shown;
@@ -24,6 +25,10 @@ impl Extent {
     /// From one column to another.
     fn run([x0, x1]: [u32; 2], y: u32) -> Self {
         Self { count: x1 + 1 - x0, around: Some(PixelBox { min: [x0, y], max: [x1, y] }) }
+    }
+
+    fn pixel([x, y]: [u32; 2]) -> Self {
+        Self::run([x, x], y)
     }
 
     fn and(self, other: Self) -> Self {
@@ -86,7 +91,7 @@ fn label(
     visible: Extent,
 ) -> Option<ObjectLabel> {
     let hidden = hidden(scene, shot, shown, index);
-    let amodal = hidden.iter().fold(visible, |extent, row| extent.and(row.extent()));
+    let amodal = hidden.iter().fold(visible, |extent, pixel| extent.and(Extent::pixel(*pixel)));
     let wanted = shot.labels.extra.contains(&ExtraLabel::AmodalMasks);
     let camera_from_world = shot.world_from_camera.inverse();
     let corners_camera = object.cuboid.corners_world().map(|corner| camera_from_world.point(corner));
@@ -105,31 +110,15 @@ fn label(
     })
 }
 
-/// Pixels of a row.
-struct Row {
-    y: u32,
-    /// In their order.
-    columns: Vec<u32>,
-}
-
-impl Row {
-    fn extent(&self) -> Extent {
-        let (Some(&first), Some(&last)) = (self.columns.first(), self.columns.last()) else { return Extent::default() };
-        Extent { count: self.columns.len() as u32, ..Extent::run([first, last], self.y) }
-    }
-}
-
 /// The pixels of an instance, seen and hidden.
-fn mask(index: u32, around: PixelBox, shown: &Shown, hidden: &[Row]) -> Mask {
+fn mask(index: u32, around: PixelBox, shown: &Shown, hidden: &[[u32; 2]]) -> Mask {
     let mut mask = Mask::of(around, |x, y| shown.at(x, y).0 == index);
-    for Row { y, columns } in hidden {
-        columns.iter().for_each(|x| *mask.pixels.at_mut(x - mask.min[0], y - mask.min[1]) = true);
-    }
+    hidden.iter().for_each(|[x, y]| *mask.pixels.at_mut(x - mask.min[0], y - mask.min[1]) = true);
     mask
 }
 
-/// The pixels that would show an instance if other things did not hide it.
-fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Vec<Row> {
+/// The pixels, column and row, that would show an instance if other things did not hide it.
+fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Vec<[u32; 2]> {
     let Some((corners_camera, farthest_m)) = bounds_camera(scene, index, shot) else { return Vec::new() };
     let Some(around) = outline::pixels_around(&shot.lens, &outline::project(&shot.lens, &corners_camera)) else {
         return Vec::new();
@@ -142,15 +131,17 @@ fn hidden(scene: &PreparedScene, shot: &Shot, shown: &Shown, index: usize) -> Ve
         let direction = shot.lens.unproject(centre)?;
         Some(Ray { through_glass, ..sight::single(&shot.label_ray(direction)) })
     };
-    (around.min[1]..=around.max[1])
-        .into_par_iter()
-        .map(|y| {
-            let columns = (around.min[0]..=around.max[0]).filter(|&x| may_hide(shown.at(x, y)));
-            let (columns, rays): (Vec<u32>, Vec<Ray>) = columns.filter_map(|x| Some((x, ray(x, y)?))).unzip();
-            let met = columns.into_iter().zip(scene.meets(index as u32, &rays));
-            Row { y, columns: met.filter(|(_, is_met)| *is_met).map(|(x, _)| x).collect() }
-        })
-        .collect()
+    let ([left, top], [right, bottom]) = (around.min, around.max);
+    let bands = (top..bottom + 1).into_par_iter().step_by(SIDE as usize);
+    let in_band = |first: u32| {
+        let last = bottom.min(first + SIDE - 1);
+        // Column by column, so that rays that follow each other run alike.
+        let pixels = (left..=right).flat_map(|x| (first..=last).map(move |y| [x, y]));
+        let asked = pixels.filter(|&[x, y]| may_hide(shown.at(x, y)));
+        let (pixels, rays): (Vec<[u32; 2]>, Vec<Ray>) = asked.filter_map(|[x, y]| Some(([x, y], ray(x, y)?))).unzip();
+        pixels.into_iter().zip(scene.meets(index as u32, &rays)).filter(|(_, is_met)| *is_met).map(|(pixel, _)| pixel)
+    };
+    bands.flat_map_iter(in_band).collect()
 }
 
 /// Corners of the box around an instance's mesh in Camera, and the greatest distance among them; `None` for an empty mesh.

@@ -1,6 +1,6 @@
 //! The object that carries a sensor: its rays pass through it, and through glass where labels tell what is behind.
 
-use glam::Vec3A;
+use glam::{Affine3A, Vec3A};
 use trove_model::{GlassLabels, InstanceId, Shot};
 
 use super::PreparedScene;
@@ -13,9 +13,24 @@ const ABOVE_GROUND_M: f32 = 0.3;
 /// What carries a sensor.
 pub(crate) struct Carrier {
     id: Option<InstanceId>,
-    /// Its box, with the way of the box's coordinates.
-    around: Option<(Motion, [Vec3A; 2])>,
+    around: Option<Around>,
     through_glass: bool,
+}
+
+/// Its box.
+struct Around {
+    /// The way of the box's coordinates.
+    world_from_box: Motion,
+    /// At the moment of the labels.
+    box_from_world: Affine3A,
+    low: Vec3A,
+    high: Vec3A,
+}
+
+impl Around {
+    fn box_from_world(&self, time: f32) -> Affine3A {
+        if time == MIDDLE { self.box_from_world } else { self.world_from_box.at(time).inverse() }
+    }
 }
 
 impl Carrier {
@@ -40,7 +55,8 @@ impl Carrier {
                 p.mesh.positions.iter().map(move |&p| box_from_mesh.transform_point3a(p.into()))
             });
             let empty = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
-            Some((world_from_box, points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])))
+            let [low, high] = points.fold(empty, |[low, high], p| [low.min(p), high.max(p)]);
+            Some(Around { world_from_box, box_from_world, low, high })
         });
         Self { id, around, through_glass: false }
     }
@@ -48,8 +64,8 @@ impl Carrier {
     /// The ray as it passes through the carrier: without its way there, as far as that can be known without tracing it.
     pub(crate) fn past(&self, ray: Ray) -> Ray {
         let ray = Ray { past: self.id, through_glass: self.through_glass, ..ray };
-        let Some((world_from_box, [low, high])) = &self.around else { return ray };
-        let box_from_world = world_from_box.at(ray.time).inverse();
+        let Some(around) = &self.around else { return ray };
+        let (Around { low, high, .. }, box_from_world) = (around, around.box_from_world(ray.time));
         let origin = box_from_world.transform_point3a(ray.origin.into());
         if !(origin.cmpgt(*low) & origin.cmplt(*high)).all() {
             return ray;

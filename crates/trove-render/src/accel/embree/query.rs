@@ -145,18 +145,19 @@ fn raw_ray(ray: &Ray, mask: u32) -> RawRay {
 struct Valid([c_int; PACKET]);
 
 fn packet(rays: &[Ray], mask: impl Fn(&Ray) -> u32) -> (Valid, PacketRays) {
-    let of = |field: fn(&Ray) -> f32| std::array::from_fn(|i| rays.get(i).map_or(0.0, field));
-    let packet = PacketRays {
-        origin: [of(|r| r.origin.x), of(|r| r.origin.y), of(|r| r.origin.z)],
-        t_min: of(|r| r.t_min),
-        direction: [of(|r| r.direction.x), of(|r| r.direction.y), of(|r| r.direction.z)],
-        time: of(|r| r.time),
-        t_max: of(|r| r.t_max),
-        mask: std::array::from_fn(|i| rays.get(i).map_or(0, &mask)),
-        id: std::array::from_fn(|i| i as u32),
-        flags: [0; PACKET],
-    };
-    (Valid(std::array::from_fn(|i| if i < rays.len() { -1 } else { 0 })), packet)
+    let none = [0.0; PACKET];
+    let (mut origin, mut direction) = ([none; 3], [none; 3]);
+    let (mut t_min, mut time, mut t_max, mut masks) = (none, none, none, [0; PACKET]);
+    let mut valid = Valid([0; PACKET]);
+    for (i, ray) in rays.iter().enumerate().take(PACKET) {
+        for axis in 0..3 {
+            origin[axis][i] = ray.origin[axis];
+            direction[axis][i] = ray.direction[axis];
+        }
+        (t_min[i], time[i], t_max[i], masks[i], valid.0[i]) = (ray.t_min, ray.time, ray.t_max, mask(ray), -1);
+    }
+    let id = std::array::from_fn(|i| i as u32);
+    (valid, PacketRays { origin, t_min, direction, time, t_max, mask: masks, id, flags: [0; PACKET] })
 }
 
 /// For surfaces.
