@@ -230,11 +230,20 @@ fn still_point(looked: &Looked, [x, y]: [u32; 2]) -> Option<DVec3> {
     Some(eye.world_from_camera.transform_point3(eye.point([x, y], *depth.at(x, y))?))
 }
 
+/// Depth where flow ends may differ by this share and these metres, …
+const AT: [f64; 2] = [0.03, 0.05];
+/// … and by what a pixel shows of a surface seen so flat, as a cosine: occlusion is not told within that.
+const FLATTEST: f64 = 0.02;
+
 /// Whether what stands still is seen where its flow ends; `None` where that cannot be told.
 fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
-    let expected = to.eye.as_ref()?.camera_from_world.transform_point3(still_point(from, pixel)?).z;
+    let (point, other) = (still_point(from, pixel)?, to.eye.as_ref()?);
+    let expected = other.camera_from_world.transform_point3(point).z;
+    let normal = from.frame.normal.as_ref().and_then(|normal| in_world((from, normal.at(pixel[0], pixel[1])?)));
+    let flatness = normal.map_or(1.0, |n| n.dot((point - other.world_from_camera.translation).normalize()).abs());
+    let share = (1.0 / (other.lens.fx_px * flatness.max(FLATTEST))).max(AT[0]);
     let (least, most) = extremes(to.frame.depth_m.as_ref()?, end);
-    Some(least * 0.97 - 0.05 < expected && expected < most * 1.03 + 0.05)
+    Some(least * (1.0 - share) - AT[1] < expected && expected < most * (1.0 + share) + AT[1])
 }
 
 /// Whether the pixel in which a hidden point's flow ends shows something before the surface that the point lies on, or
