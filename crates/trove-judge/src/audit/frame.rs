@@ -156,7 +156,6 @@ pub(super) fn is_porous(class: Class) -> bool {
 /// Pixels with their values.
 pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
     let width = raster.width.max(1);
-    // Where a pixel lies is reckoned only where someone asks.
     (0..).zip(&raster.data).map(move |(i, value): (u32, _)| ([i % width, i / width], value))
 }
 
