@@ -17,7 +17,6 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw
 
-DATA = Path(os.environ.get("TROVE_TEST_DATA", "."))
 # Ranges whose histograms are compared, metres.
 RANGES_M = [2, 5, 10, 15, 20, 30, 40, 60, 80, 100]
 NEAR_M = 0.5
@@ -75,9 +74,9 @@ def dense(folder):
     return path
 
 
-def recorded(scene):
+def recorded(scene, data):
     """Rows of x, y, z and intensity (0 to 255) of a recorded sweep."""
-    (file,) = DATA.glob(scene["file"])
+    (file,) = data.glob(scene["file"])
     if file.suffix == ".feather":
         from pyarrow import feather
 
@@ -88,13 +87,13 @@ def recorded(scene):
     return real
 
 
-def simulated(trove, scene, folder):
+def simulated(trove, scene, data, folder):
     """The points of all LiDARs, and those of the dense ones, in the frame of the recorded sweep, and the run's timings."""
     lidars = scene["lidars"] | {"DENSE": dense(folder)}
     recipe = folder / "recipe.toml"
     recipe.write_text(
         "seed = 7\n[drive]\n"
-        + scene["recipe"].format(data=DATA.resolve())
+        + scene["recipe"].format(data=data)
         + "\n[render]\nscale = 0.25\nlight = false\n"
         + "".join(f'[sensors.{name}]\nkind = "lidar"\npreset = "{preset}"\n' for name, preset in lidars.items())
     )
@@ -168,10 +167,13 @@ def main():
     parser.add_argument("--trove", nargs="+", default=["trove"], help="the program")
     parser.add_argument("--picture", type=Path, help="where to draw both from above (PNG)")
     arguments = parser.parse_args()
+    if "TROVE_TEST_DATA" not in os.environ:
+        parser.error("TROVE_TEST_DATA: expected the folder with real data, found nothing set")
+    data = Path(os.environ["TROVE_TEST_DATA"]).resolve()
     scene = SCENES[arguments.dataset]
-    real = recorded(scene)
+    real = recorded(scene, data)
     with tempfile.TemporaryDirectory() as folder:
-        points, surfaces, timings = simulated(arguments.trove, scene, Path(folder))
+        points, surfaces, timings = simulated(arguments.trove, scene, data, Path(folder))
         classes = json.loads((Path(folder) / "out/manifest.json").read_text())["classes"]
     names = {row["id"]: row["name"] for row in classes}
     made = np.column_stack([xyz(points), points["intensity"]])

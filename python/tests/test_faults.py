@@ -101,21 +101,30 @@ def test_of_two_runs_at_once_one_is_refused(recipe, finished, tmp_path):
     assert files(out) == files(finished)
 
 
-@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "garbage"])
-def test_a_damaged_cache_is_made_anew(recipe, finished, tmp_path, damage):
-    cache = tmp_path / "cache"
+@pytest.fixture(scope="module")
+def filled(recipe, tmp_path_factory):
+    """A cache that a run has filled."""
+    cache = tmp_path_factory.mktemp("filled")
     usual = Path(os.environ.get("TROVE_CACHE") or Path.home() / ".cache" / "trove")
-    cache.mkdir()
-    # The generated library takes long to make: it is damaged once.
+    # The generated library takes long to make.
     (cache / "assets").mkdir()
     libraries = sorted(usual.glob("assets/*.library"), key=lambda path: path.stat().st_mtime)
     shutil.copy(libraries[-1], cache / "assets")
     environment = {**os.environ, "TROVE_CACHE": str(cache)}
     assert trove("inspect", recipe.parent / "demo/.trove/demo/nuscenes", env=environment).returncode == 0
-    assert trove("generate", recipe, "--out", tmp_path / "first", env=environment).returncode == 0
+    out = tmp_path_factory.mktemp("first")
+    assert trove("generate", recipe, "--out", out, env=environment).returncode == 0
+    return cache
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "garbage"])
+def test_a_damaged_cache_is_made_anew(recipe, finished, filled, tmp_path, damage):
+    cache = shutil.copytree(filled, tmp_path / "cache")
+    environment = {**os.environ, "TROVE_CACHE": str(cache)}
     kept = [path for path in cache.rglob("*") if path.is_file()]
     assert {path.suffix for path in kept} == {".index", "", ".library"}
     for path in kept:
+        # It is damaged once.
         if path.suffix == ".library" and damage != "flipped":
             continue
         data = bytearray(path.read_bytes())

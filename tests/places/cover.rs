@@ -21,13 +21,18 @@ const TURNED_RAD: f64 = 0.02;
 /// The recorded drivable area against the built road, where the recording's map reaches.
 pub(crate) fn road(scene: &Scene, drive: &Drive) -> Vec<String> {
     let Some(map) = &drive.lane_map else { return Vec::new() };
-    let mapped: Vec<Polygon> = map.drivable.iter().chain(&map.carparks).cloned().collect();
+    let areas = map.drivable.iter().chain(&map.carparks);
+    let mapped: Vec<(Bounds, &Polygon)> = areas.filter_map(|area| Some((area.bounds()?, area))).collect();
     // Around what is mapped no other road may be, up to a lane's width; a map without walkways is a map of lanes alone,
     // with holes where they meet.
     let beside_m = if map.walkways.is_empty() { 0.0 } else { 3.5 };
-    let reach = |p: DVec2| mapped.iter().any(|m| m.contains(p) || m.edge_distance_m(p) < beside_m);
+    let is_mapped = |p: DVec2| mapped.iter().any(|(bounds, area)| bounds.contains(p) && area.contains(p));
+    let is_beside = |p: DVec2| {
+        mapped.iter().any(|(bounds, area)| bounds.grown(beside_m).contains(p) && area.edge_distance_m(p) < beside_m)
+    };
+    let reach = |p: DVec2| is_mapped(p) || is_beside(p);
     let is_road = |class: Class| class == Class::Road;
-    let iou = iou(scene, drive, is_road, |p| mapped.iter().any(|m| m.contains(p)), reach);
+    let iou = iou(scene, drive, is_road, is_mapped, reach);
     println!("{}: road IoU {iou:.3}", drive.id);
     (iou < ROAD_IOU).then(|| format!("IoU of the road with the drivable area is {iou:.3}")).into_iter().collect()
 }

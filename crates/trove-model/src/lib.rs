@@ -38,6 +38,8 @@ mod cuboid;
 mod drive;
 mod ego_motion;
 mod facade;
+#[cfg(feature = "serde")]
+mod flat;
 mod frames;
 mod height_field;
 mod human_body;

@@ -27,6 +27,7 @@ pub struct Texture {
     /// Rows; row 0 is the top (v = 1).
     pub height: u32,
     /// `width * height` texels.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub rgba: Vec<[u8; 4]>,
     /// What the numbers mean.
     pub color_space: ColorSpace,

@@ -7,16 +7,22 @@ use glam::{Vec2, Vec3};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mesh {
     /// Vertex positions, metres.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub positions: Vec<Vec3>,
     /// Unit shading normals, one a vertex; empty: every triangle is flat.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex; empty: the mesh's materials have no maps. v runs up the picture.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub uvs: Vec<Vec2>,
     /// What the material's base colour is multiplied by, linear RGB from 0, one a vertex; empty: 1 everywhere.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub tints: Vec<Vec3>,
     /// Indices of vertices.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle the slot of its material; empty: all in slot 0.
+    #[cfg_attr(feature = "serde", serde(with = "crate::flat"))]
     pub slots: Vec<u16>,
 }
 

@@ -133,12 +133,13 @@ fn signed_ring_area_m2(ring: &[DVec2]) -> f64 {
 }
 
 fn ring_contains(ring: &[DVec2], p: DVec2) -> bool {
+    let Some(&(mut a)) = ring.last() else { return false };
     let mut inside = false;
-    for i in 0..ring.len() {
-        let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+    for &b in ring {
         if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
             inside = !inside;
         }
+        a = b;
     }
     inside
 }

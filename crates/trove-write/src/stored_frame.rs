@@ -234,8 +234,8 @@ impl StoredFrame {
     /// # Errors
     /// As for it.
     pub fn numbers_in(&self, file: FrameFile, patches: Patches) -> Result<InPatches<f32>, WriteError> {
-        let InPatches { raster, patches } = self.channels(file, ["Y"], patches)?;
-        Ok(InPatches { raster: raster.map(|[number]| *number), patches })
+        let InPatches { raster: Raster { width, height, data }, patches } = self.channels(file, ["Y"], patches)?;
+        Ok(InPatches { raster: Raster { width, height, data: data.into_flattened() }, patches })
     }
 
     /// Parts of [`StoredFrame::vectors`].

@@ -236,7 +236,7 @@ const AT: [f64; 2] = [0.03, 0.05];
 const FLATTEST: f64 = 0.02;
 
 /// Whether what stands still is seen where its flow ends; `None` where that cannot be told.
-fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
+pub(super) fn is_at_depth(from: &Looked, to: &Looked, pixel: [u32; 2], end: [u32; 2]) -> Option<bool> {
     let (point, other) = (still_point(from, pixel)?, to.eye.as_ref()?);
     let expected = other.camera_from_world.transform_point3(point).z;
     let normal = from.frame.normal.as_ref().and_then(|normal| in_world((from, normal.at(pixel[0], pixel[1])?)));

@@ -155,8 +155,13 @@ pub(super) fn is_porous(class: Class) -> bool {
 
 /// Pixels with their values.
 pub(super) fn pixels<T>(raster: &Raster<T>) -> impl Iterator<Item = ([u32; 2], &T)> {
-    let width = raster.width.max(1);
-    (0..).zip(&raster.data).map(move |(i, value): (u32, _)| ([i % width, i / width], value))
+    // Two divisions a pixel would take longer than most of what is asked of it.
+    let mut next = [0, 0];
+    raster.data.iter().map(move |value| {
+        let [x, y] = next;
+        next = if x + 1 == raster.width { [0, y + 1] } else { [x + 1, y] };
+        ([x, y], value)
+    })
 }
 
 /// The 3 × 3 values around a pixel, as far as they are in the image.

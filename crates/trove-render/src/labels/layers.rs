@@ -85,13 +85,13 @@ impl Layers {
         let mut flow = [labels.flow_backward.data.chunks_mut(pixels), labels.flow_forward.data.chunks_mut(pixels)];
         let mut occlusion =
             [labels.occluded_backward.data.chunks_mut(pixels), labels.occluded_forward.data.chunks_mut(pixels)];
-        let mut range_m = extra.range_m.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut normal_world = extra.normal_world.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut albedo = extra.albedo.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut roughness = extra.roughness.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut before = extra.scene_flow_backward.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut after = extra.scene_flow_forward.as_mut().map(|raster| raster.data.chunks_mut(pixels));
-        let mut object_coordinates = extra.object_coordinates.as_mut().map(|raster| raster.data.chunks_mut(pixels));
+        let mut range_m = chunks(&mut extra.range_m, pixels);
+        let mut normal_world = chunks(&mut extra.normal_world, pixels);
+        let mut albedo = chunks(&mut extra.albedo, pixels);
+        let mut roughness = chunks(&mut extra.roughness, pixels);
+        let mut before = chunks(&mut extra.scene_flow_backward, pixels);
+        let mut after = chunks(&mut extra.scene_flow_forward, pixels);
+        let mut object_coordinates = chunks(&mut extra.object_coordinates, pixels);
         let mut band = || {
             Some(Band {
                 shown: shown.next()?,
@@ -114,6 +114,10 @@ impl Layers {
         };
         std::iter::from_fn(&mut band).collect()
     }
+}
+
+fn chunks<T>(layer: &mut Option<Raster<T>>, pixels: usize) -> Option<ChunksMut<'_, T>> {
+    layer.as_mut().map(|raster| raster.data.chunks_mut(pixels))
 }
 
 fn next<'a, T>(bands: &mut Option<ChunksMut<'a, T>>) -> Option<&'a mut [T]> {

@@ -1,5 +1,6 @@
 //! A texture and ever smaller copies of it, looked up bilinearly.
 
+use std::ops::Range;
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec4};
@@ -59,6 +60,27 @@ impl MipMap {
     pub(super) fn alpha(&self, uv: Vec2) -> f32 {
         self.levels[0].bilinear_alpha(uv)
     }
+
+    /// The least and the greatest alpha that can be at points from `low` to `high`.
+    pub(super) fn alphas(&self, low: Vec2, high: Vec2) -> [f32; 2] {
+        let level = &self.levels[0];
+        let columns = texels([low.x, high.x], level.width);
+        let rows = texels([1.0 - high.y, 1.0 - low.y], level.height);
+        let of_row = |y: usize| columns.clone().map(move |x| (x % level.width as usize, y % level.height as usize));
+        let alphas = rows.flat_map(of_row).map(|(x, y)| level.texels[y * level.width as usize + x][3]);
+        let [least, most] = alphas.fold([u8::MAX, 0], |[least, most], alpha| [least.min(alpha), most.max(alpha)]);
+        [least, most].map(|alpha| f32::from(alpha) / 255.0)
+    }
+}
+
+/// The texels of `n` repeating ones that are looked at from one coordinate to another, counted on where they repeat.
+fn texels([from, to]: [f32; 2], n: u32) -> Range<usize> {
+    let ((first, ..), (_, last, _)) = (between(from, n), between(to, n));
+    let n = n as usize;
+    if (to - from) * n as f32 + 2.0 > n as f32 {
+        return 0..n;
+    }
+    first..last + 1 + if last < first { n } else { 0 }
 }
 
 fn table(color_space: ColorSpace) -> &'static [f32; 256] {

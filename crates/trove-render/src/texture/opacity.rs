@@ -10,6 +10,8 @@ use super::mip_map::MipMap;
 const FINER: u32 = 2;
 /// Sides beyond this many cells would not stay in the caches.
 const SIDE_MAX: u32 = 4096;
+/// Mixed alpha may be beyond what it is mixed from by this.
+const ROUNDING: f32 = 1e-3;
 
 /// Cells of a repeating texture whose alpha reaches the cut-off, in blocks of 8×8 bits.
 pub(crate) struct OpacityMask {
@@ -26,9 +28,15 @@ impl OpacityMask {
         let (width, height) = (side(texture.width), side(texture.height));
         let (columns, rows) = (width / 8, height / 8);
         let size = Vec2::new(width as f32, height as f32);
-        let bit = |x: u32, y: u32| map.alpha((Vec2::new(x as f32, y as f32) + 0.5) / size) >= cutoff;
+        let centre = |x: u32, y: u32| (Vec2::new(x as f32, y as f32) + 0.5) / size;
+        let bit = |x: u32, y: u32| map.alpha(centre(x, y)) >= cutoff;
         let block = |i: u32| {
             let (x, y) = (i % columns * 8, i / columns * 8);
+            // Most blocks are far from any edge.
+            let [least, most] = map.alphas(centre(x, y), centre(x + 7, y + 7));
+            if least - ROUNDING > cutoff || most + ROUNDING < cutoff {
+                return if least > cutoff { u64::MAX } else { 0 };
+            }
             (0..64).fold(0u64, |bits, k| bits | u64::from(bit(x + k % 8, y + k / 8)) << k)
         };
         Self { size: [width as i32, height as i32], blocks: (0..columns * rows).map(block).collect(), cutoff }
@@ -79,6 +87,22 @@ mod tests {
             let uvs = (0..n).map(|_| vec2(random.range(-3.0, 3.0) as f32, random.range(-3.0, 3.0) as f32));
             let differs = uvs.filter(|&uv| mask.covers(uv) != (map.alpha(uv) >= 0.5)).count();
             assert!(differs * 50 < n, "{differs} of {n} for {width}×{height}"); // at the leaves' edges
+        }
+    }
+
+    #[test]
+    fn blocks_far_from_an_edge_are_what_their_cells_are() {
+        for (width, height) in [(64, 64), (96, 160), (3, 1), (5, 7)] {
+            let (texture, map) = leaves(width, height);
+            for cutoff in [0.1, 0.5, 1.0] {
+                let mask = OpacityMask::new(&texture, &map, cutoff);
+                let [columns, rows] = mask.size.map(|side| side as f32);
+                for i in 0..mask.size[0] * mask.size[1] {
+                    let cell = vec2((i % mask.size[0]) as f32, (i / mask.size[0]) as f32);
+                    let uv = (cell + 0.5) / vec2(columns, rows);
+                    assert_eq!(mask.covers(uv), map.alpha(uv) >= cutoff, "{width}×{height}, {cutoff}: {cell}");
+                }
+            }
         }
     }
 

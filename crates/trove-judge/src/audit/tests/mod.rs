@@ -3,7 +3,8 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use trove_model::{Class, InPatches, Occlusion, Raster};
 
-use super::{Audit, Check, LabelForm, LabelledFrame, LabelledSweep, audit};
+use super::flow::{self, Looked};
+use super::{Audit, Check, LabelForm, LabelledFrame, LabelledSweep, audit, frame};
 
 mod street;
 
@@ -104,11 +105,10 @@ const FAULTS: [Fault; 38] = [
     }),
     ("flow takes rows for columns", Check::Flow, |f| change_known(&mut f.flow[0], |flow| flow.reverse())),
     ("the car's flow is the camera's alone", Check::FlowEnds, |f| {
-        let (eye, other) =
-            (f.eye().unwrap(), super::frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
+        let (eye, other) = (f.eye().unwrap(), frame::rigid(&f.table.world_from_camera_next.unwrap(), "").unwrap());
         let (depth, instance) = (f.depth_m.as_ref().unwrap(), f.instance.as_ref().unwrap());
         let flow = &mut f.flow[0].as_mut().unwrap().raster;
-        for (pixel, _) in super::frame::pixels(instance).filter(|(_, id)| **id == CAR) {
+        for (pixel, _) in frame::pixels(instance).filter(|(_, id)| **id == CAR) {
             let point =
                 eye.world_from_camera.transform_point3(eye.point(pixel, *depth.at(pixel[0], pixel[1])).unwrap());
             let end = eye.lens.project(other.inverse().transform_point3(point + DVec3::new(0.0, 2.0, 0.0))).unwrap();
@@ -167,6 +167,37 @@ fn every_planted_fault_is_found_by_its_check() {
             assert!(found.contains(check.name()), "{name}: expected {}, found {found:?}", check.name());
         }
     }
+}
+
+#[test]
+fn a_point_is_at_its_depth_within_what_a_pixel_covers_of_its_surface() {
+    let mut street = Street::new();
+    change(&mut street.frames.get_mut(LATER).unwrap().depth_m, |depth| *depth *= 1.15);
+    let [here, there] = [FRAME, LATER].map(|place| Looked::at(&street.frames[place]));
+    let [ours, theirs] = [&here, &there].map(|looked| looked.eye.as_ref().unwrap());
+    let [class, class_there] = [&here, &there].map(|looked| looked.frame.class.as_ref().unwrap());
+    let depth_m = here.frame.depth_m.as_ref().unwrap();
+    let is_road = |class| class == Class::Road;
+    let [mut flat, mut facing] = [0; 2];
+    for [x, y] in frame::spread(class.width, class.height, u32::MAX).filter(|&[x, y]| is_road(*class.at(x, y))) {
+        let point = ours.world_from_camera.transform_point3(ours.point([x, y], *depth_m.at(x, y)).unwrap());
+        let Some((end, _)) = theirs.sees(point) else { continue };
+        if !frame::around(class_there, end).all(is_road) {
+            continue;
+        }
+        // The road is level: height over distance is the cosine between its normal and the line of sight.
+        let eye_world = theirs.world_from_camera.translation;
+        let covered = point.distance(eye_world) / (eye_world.z * theirs.lens.fx_px);
+        let is_there = flow::is_at_depth(&here, &there, [x, y], end);
+        if covered > 0.17 {
+            flat += 1;
+            assert_eq!(is_there, Some(true), "{x}, {y}: {covered}");
+        } else if covered < 0.04 {
+            facing += 1;
+            assert_eq!(is_there, Some(false), "{x}, {y}: {covered}");
+        }
+    }
+    assert!(flat > 100 && facing > 1000, "{flat}, {facing}");
 }
 
 #[test]
