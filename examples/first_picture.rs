@@ -37,6 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 cloud_seed: 7,
             }),
             fog: None,
+            rain: None,
         },
         provenance: Vec::new(),
     };

@@ -204,7 +204,8 @@ pub fn build_at(
     }
     settings.weather.treat(&mut assembly);
     let fog = settings.weather.fog_over(drive);
-    let light = Light { fog, ..light(drive, bounds, &settings.light, seeds.light.child("light")) };
+    let rain = settings.weather.rain;
+    let light = Light { fog, rain, ..light(drive, bounds, &settings.light, seeds.light.child("light")) };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     switch_on(&light, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());

@@ -179,6 +179,9 @@ pub struct Factors {
     /// Meteorological optical range of fog, metres; absent in clear air.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visibility_m: Option<f64>,
+    /// Rain that falls, millimetres an hour; absent where none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rain_mm_h: Option<f64>,
     /// What was added to the recipe's exposure, stops.
     pub exposure_ev: f64,
     /// Height of the cameras above their recorded positions, metres.

@@ -52,6 +52,7 @@ fn site() -> SiteFile {
             traffic: 1.0,
             wetness: 0.0,
             visibility_m: None,
+            rain_mm_h: None,
             exposure_ev: 0.0,
             camera_height_m: 0.0,
             camera_pitch_deg: 0.0,

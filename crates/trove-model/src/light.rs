@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-/// Everything that is infinitely far away, and the fog before it.
+use crate::Rain;
+
+/// Everything that is infinitely far away, and the air before it.
 ///
 /// Radiance is in units in which a white diffuse surface under a clear midday sun leaves about 1 (so the sky is
 /// about 0.1 and a street lamp's glass a few); exposure brings it to the picture.
@@ -14,6 +16,8 @@ pub struct Light {
     pub environment: Environment,
     /// Fog; `None`: clear air.
     pub fog: Option<Fog>,
+    /// Rain that falls, from clouds that the environment has or not; `None`: none does.
+    pub rain: Option<Rain>,
 }
 
 /// Droplets in the air, fewer the higher up.

@@ -40,7 +40,7 @@
 //!     .at_rest()],
 //!     others: Default::default(),
 //!     keyframes_apart_s: [f64::INFINITY; 2],
-//!     light: Light { environment: Environment::Map(Arc::new(sky)), fog: None },
+//!     light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
 //!     provenance: Vec::new(),
 //! };
 //! let lens = Lens {

@@ -173,7 +173,10 @@ impl Renderer {
                     Err(_) => None,
                 };
                 stats.denoised = clean.is_some();
-                let radiance = clean.unwrap_or(buffers.radiance);
+                let mut radiance = clean.unwrap_or(buffers.radiance);
+                if let Some(rain) = scene.rain {
+                    path::rain::draw(scene, shot, rain, &labels.depth_m, &mut radiance);
+                }
                 let (srgb, exposure_ev) = film::develop(&radiance, shot);
                 Some(Color { radiance, srgb, exposure_ev })
             } else {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use trove_model::{
     Class, Environment, EnvironmentMap, Fog, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh,
-    Placement, Pose, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
+    Placement, Pose, Rain, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -192,6 +192,31 @@ fn fog_takes_from_echoes_on_both_ways_and_sends_some_of_its_own() {
 }
 
 #[test]
+fn rain_takes_from_echoes_on_both_ways_and_a_beam_meets_few_of_its_drops() {
+    let heavy = Rain { rate_mm_h: 100.0 };
+    let walled = |rain: Option<Rain>, ahead_m: f64| {
+        let mut scene = scene(vec![wall(1, Class::Building, ahead_m, 40.0, 0)]);
+        scene.light.rain = rain;
+        scene
+    };
+    let mut shot = straight_ahead();
+    (shot.scanner.nearest_m, shot.scanner.reach_m) = (49.0, 1000.0);
+    let clear = f64::from(sweep(&walled(None, 50.0), &shot, 1)[0].intensity);
+    let dim = f64::from(sweep(&walled(Some(heavy), 50.0), &shot, 1)[0].intensity);
+    assert!((dim - clear * (-2.0 * 50.0 * heavy.extinction_per_m()).exp()).abs() < 1.5, "{clear} {dim}");
+
+    let mut open = self::shot(still(), 0.05);
+    (open.scanner.reach_m, open.scanner.columns) = (100.0, 2000);
+    let drops = |rain| {
+        let points = sweep(&walled(rain, 40.0), &open, 2);
+        points.iter().filter(|point| point.class == Class::Void).count()
+    };
+    let [none, some, many] = [None, Some(Rain { rate_mm_h: 5.0 }), Some(heavy)].map(drops);
+    let beams = open.scanner.columns * open.scanner.elevations_rad.len();
+    assert!(none == 0 && some > 0 && 2 * some < many && many < beams / 5, "{none} {some} {many} of {beams}");
+}
+
+#[test]
 fn any_number_of_threads_makes_the_same_sweep() {
     let scene = scene(vec![wall(1, Class::Building, 45.0, 40.0, 0), wall(2, Class::Car, 12.0, 1.0, 0)]);
     let mut shot = shot(still(), 0.05);
@@ -300,7 +325,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         instances,
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None },
+        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
         provenance: Vec::new(),
     }
 }

@@ -6,11 +6,11 @@ use anyhow::Result;
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings, Weather};
 use trove_format::{Factors, LightFactor};
 use trove_model::{
-    Drive, Environment, ExposureRule, Fog, Locale, MapProjection, Provenance, Random, Report, Season, Seed,
+    Drive, Environment, ExposureRule, Fog, Locale, MapProjection, Provenance, Rain, Random, Report, Season, Seed,
 };
 use trove_read::locale;
 
-use crate::recipe::{Factor, Range, Recipe};
+use crate::recipe::{Factor, Range, Recipe, wet_by};
 use crate::sources::Sources;
 
 const HOUR_NS: f64 = 3.6e12;
@@ -27,6 +27,7 @@ pub(crate) struct Variation {
     season: Option<Season>,
     wetness: f64,
     fog: Option<Fog>,
+    rain: Option<Rain>,
     traffic: Traffic,
     light: Light,
     /// Added to the recipe's exposure, stops.
@@ -43,6 +44,17 @@ enum Light {
     /// Another one, turned counter-clockwise by so many degrees.
     Picture(PathBuf, f64),
     Sky(SkyChoice),
+}
+
+impl Light {
+    /// Rain falls from an overcast sky, unless somebody says how clouded it is.
+    fn under(self, rain: Option<Rain>, recipe: &Recipe) -> Self {
+        let is_told = recipe.light.clouds.or(recipe.variations.light.clouds.map(|[least, _]| least)).is_some();
+        match self {
+            Self::Sky(sky) if rain.is_some() && !is_told => Self::Sky(SkyChoice { clouds: Some(1.0), ..sky }),
+            other => other,
+        }
+    }
 }
 
 impl Variation {
@@ -79,6 +91,12 @@ impl Variation {
             let visibility_m = within(section.visibility_m().map(f64::ln), &mut random).exp();
             is_there.then(|| recipe.weather.fog(visibility_m))
         });
+        let rain = random(Factor::Rain).map(|mut random| {
+            let is_there = random.chance(section.rain_share);
+            let rate_mm_h = within(section.rain_mm_h().map(f64::ln), &mut random).exp();
+            is_there.then_some(Rain { rate_mm_h })
+        });
+        let rain = rain.unwrap_or(weather.rain);
         let traffic = random(Factor::Traffic)
             .map(|mut random| Traffic { density: within(section.traffic(), &mut random), cyclists: section.cyclists });
         let exposure_ev = random(Factor::Exposure).map(|mut random| within(section.exposure_ev(), &mut random));
@@ -105,10 +123,11 @@ impl Variation {
             locale,
             borders,
             season: season.map_or(weather.season, Into::into),
-            wetness: wetness.unwrap_or(weather.wetness),
+            wetness: rain.map_or(0.0, wet_by).max(wetness.unwrap_or(weather.wetness)),
             fog: fog.unwrap_or(weather.fog),
+            rain,
             traffic: traffic.unwrap_or_default(),
-            light: light(recipe, drive, place[1], random(Factor::Light))?,
+            light: light(recipe, drive, place[1], random(Factor::Light))?.under(rain, recipe),
             exposure_ev: exposure_ev.unwrap_or(0.0),
             lift_m,
             pitch_deg,
@@ -135,7 +154,13 @@ impl Variation {
             top_k: recipe.assets.top_k,
             traffic: self.traffic,
             light,
-            weather: Weather { season: self.season, wetness: self.wetness, fog: self.fog, ..recipe.weather.weather() },
+            weather: Weather {
+                season: self.season,
+                wetness: self.wetness,
+                fog: self.fog,
+                rain: self.rain,
+                ..recipe.weather.weather()
+            },
             on_disagreement: recipe.map.on_disagreement.into(),
             locale: self.locale.clone(),
             borders: self.borders.clone(),
@@ -170,6 +195,7 @@ impl Variation {
             traffic: self.traffic.density,
             wetness: self.wetness,
             visibility_m: self.fog.map(|fog| fog.visibility_m),
+            rain_mm_h: self.rain.map(|rain| rain.rate_mm_h),
             exposure_ev: self.exposure_ev,
             camera_height_m: self.lift_m,
             camera_pitch_deg: self.pitch_deg,

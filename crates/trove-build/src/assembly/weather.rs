@@ -1,6 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
-use trove_model::{Class, Drive, Fog, Material, Season};
+use trove_model::{Class, Drive, Fog, Material, Rain, Season};
 
 use crate::assembly::Assembly;
 
@@ -16,12 +16,14 @@ pub struct Weather {
     pub season: Option<Season>,
     /// Fog above the lowest point of the driven path, whatever its own ground; `None`: clear air.
     pub fog: Option<Fog>,
+    /// Rain that falls; `None`: none does.
+    pub rain: Option<Rain>,
 }
 
 impl Default for Weather {
     /// Dry, as dirty as streets are, in the season of the recording and in clear air.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None }
+        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, rain: None }
     }
 }
 

@@ -77,7 +77,7 @@ impl Default for LightChoice {
 /// The light of a place.
 pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: Seed) -> Light {
     let choice = match choice {
-        LightChoice::Map(map) => return Light { environment: Environment::Map(map.clone()), fog: None },
+        LightChoice::Map(map) => return Light { environment: Environment::Map(map.clone()), fog: None, rain: None },
         LightChoice::Sky(sky) => sky,
     };
     let time_ns = drive.keyframes.first().map_or(0, |k| k.time_ns);
@@ -101,7 +101,7 @@ pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: S
         cloud_cover: choice.clouds.unwrap_or(cloud_cover),
         cloud_seed: random.bits(),
     });
-    Light { environment, fog: None }
+    Light { environment, fog: None, rain: None }
 }
 
 /// The sun at a time drawn within the 24 hours around `time_ns`; where it never rises high enough, at its highest.

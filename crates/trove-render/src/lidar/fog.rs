@@ -1,8 +1,8 @@
-//! What fog itself sends back of a beam.
+//! What fog and rain themselves send back of a beam.
 
 use std::f64::consts::PI;
 
-use trove_model::{Class, InstanceId, Random, Scanner, SensorRay};
+use trove_model::{Class, InstanceId, Rain, Random, Scanner, SensorRay};
 
 use super::echo::{Echo, Part};
 use crate::fog::Fog;
@@ -12,7 +12,14 @@ const LIDAR_RATIO_SR: f64 = 18.8;
 
 /// The echo of the droplets in one length of a pulse, before what the beam's middle meets. Where along the beam they send back
 /// enough at once to be told is chance, by the squares with which their light fades.
-pub(super) fn echo(fog: &Fog, scanner: &Scanner, middle: &SensorRay, met: &[Part], mut random: Random) -> Option<Echo> {
+pub(super) fn echo(
+    fog: &Fog,
+    rain: Option<Rain>,
+    scanner: &Scanner,
+    middle: &SensorRay,
+    met: &[Part],
+    mut random: Random,
+) -> Option<Echo> {
     let free_m = met.iter().filter(|part| part.is_middle).map(|part| part.range_m).fold(f64::INFINITY, f64::min);
     let (near_m, far_m) = (scanner.nearest_m.max(scanner.pulse_m), scanner.farthest_m.min(free_m));
     if far_m <= near_m {
@@ -24,5 +31,26 @@ pub(super) fn echo(fog: &Fog, scanner: &Scanner, middle: &SensorRay, met: &[Part
     let thick = f64::from(fog.extinction_per_m(origin.z + direction.z * range_m as f32));
     // A white matt surface sends back 1/π a steradian.
     let power = PI * thick * scanner.pulse_m / LIDAR_RATIO_SR * clear * clear;
+    // Drops of rain are so few that a beam meets several or none.
+    let power = power
+        * rain.map_or(1.0, |rain| {
+            let share = (rain.extinction_per_m() / thick).min(1.0);
+            let mean = rain.drops_per_m3(0.0) * PI * (range_m * scanner.divergence_rad / 2.0).powi(2) * scanner.pulse_m;
+            1.0 - share + share * counted(mean, &mut random) / mean
+        });
     Some(Echo { range_m, power: power as f32, class: Class::Void, instance: InstanceId(0) })
+}
+
+/// How many there are where there are `mean` on average, by chance; of many, as many.
+fn counted(mean: f64, random: &mut Random) -> f64 {
+    if mean > 50.0 {
+        return mean;
+    }
+    // Products of numbers from 0 to 1 until they are below e^−mean (Knuth).
+    let (mut count, mut product) = (0.0, random.unit());
+    while product > (-mean).exp() {
+        count += 1.0;
+        product *= random.unit();
+    }
+    count
 }

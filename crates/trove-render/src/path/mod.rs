@@ -2,6 +2,7 @@
 
 mod camera;
 mod integrate;
+pub(crate) mod rain;
 mod rates;
 mod tile;
 mod wave;

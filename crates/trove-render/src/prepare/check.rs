@@ -108,6 +108,9 @@ fn check_light(light: &Light) -> Result<(), RenderError> {
             return refuse("fog".into(), "visibility and height of more than 0 m over a ground", format!("{fog:?}"));
         }
     }
+    if let Some(rain) = light.rain.filter(|rain| !(rain.rate_mm_h > 0.0 && rain.rate_mm_h.is_finite())) {
+        return refuse("rain".into(), "more than 0 mm an hour", format!("{rain:?}"));
+    }
     match &light.environment {
         Environment::Sky(sky) => {
             let numbers = [sky.turbidity, sky.ground_albedo, sky.cloud_cover];

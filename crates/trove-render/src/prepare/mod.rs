@@ -6,7 +6,7 @@ mod check;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec3, bvec3};
-use trove_model::{Class, Instance, Mesh, Origin, Placement, Scene, SceneObject};
+use trove_model::{Class, Instance, Mesh, Origin, Placement, Rain, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -27,7 +27,9 @@ pub struct PreparedScene {
     pub(crate) instances: Vec<PreparedInstance>,
     pub(crate) materials: Vec<PreparedMaterial>,
     pub(crate) lights: Lights,
+    /// And what rain takes from light.
     pub(crate) fog: Option<Fog>,
+    pub(crate) rain: Option<Rain>,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
@@ -107,8 +109,9 @@ impl PreparedScene {
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
-        let fog = scene.light.fog.as_ref().map(|fog| Fog::new(fog, lowest_z(scene, &bounds)));
-        Ok(Self { shapes, instances, materials, lights, fog, accel: accel?, others, has_beside })
+        let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
+        let rain = scene.light.rain;
+        Ok(Self { shapes, instances, materials, lights, fog, rain, accel: accel?, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.

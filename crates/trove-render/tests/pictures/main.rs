@@ -11,7 +11,7 @@ mod studio;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
-use trove_model::{ColorSpace, Fog, InstanceId, Material, Mesh, Scene, Shot, Texture};
+use trove_model::{ColorSpace, Fog, InstanceId, Material, Mesh, Rain, Scene, Shot, Texture};
 use trove_render::{KernelChoice, RenderError, Renderer};
 
 use studio::*;
@@ -62,6 +62,29 @@ fn a_black_ball_in_fog_fades_by_koschmieder_s_law_into_white() {
         assert!((on_it / expected - 1.0).abs() < 0.01, "{away_m} m: {on_it} instead of {expected}");
         assert!((beside - 1.0).abs() < 0.01, "{away_m} m: {beside} beside it");
     }
+}
+
+#[test]
+fn rain_in_a_white_world_is_not_seen_and_before_a_black_wall_it_is() {
+    let renderer = renderer(KernelChoice::Obvhs, 2);
+    let mut scene = empty(uniform(1.0));
+    scene.light.rain = Some(Rain { rate_mm_h: 60.0 });
+    let shot = Shot { spp: 64, ..shot(DVec3::ZERO, DVec3::Y, 0.5) };
+    let black = || Material { ior: 1.0, ..Material::plain("black", Vec3::ZERO, 1.0) };
+    let at = |y: f64, z: f64, size: f64| {
+        DAffine3::from_scale_rotation_translation(DVec3::splat(size), DQuat::IDENTITY, DVec3::new(0.0, y, z))
+    };
+    // A grain of dust that says where rain ends below.
+    put(&mut scene, ball(), black(), at(0.0, -30.0, 0.01));
+    let white = mean(&take(&renderer, &scene, &shot));
+    assert!((white - 1.0).abs() < 0.01, "{white}");
+    put(&mut scene, ball(), black(), at(25.0, 0.0, 14.0));
+    let before_black = take(&renderer, &scene, &shot);
+    // Streaks stand out from the air between them.
+    let mut values: Vec<f32> = before_black.data.iter().map(|rgb| rgb[1]).collect();
+    values.sort_by(f32::total_cmp);
+    let [middle, bright] = [0.5, 0.99].map(|share| values[(values.len() as f64 * share) as usize]);
+    assert!(middle < 0.2 && bright > middle + 0.02, "{middle} {bright}");
 }
 
 #[test]

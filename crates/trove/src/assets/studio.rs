@@ -71,7 +71,11 @@ impl Studio {
             instances,
             others: Default::default(),
             keyframes_apart_s: [f64::INFINITY; 2],
-            light: Light { environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())), fog: None },
+            light: Light {
+                environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())),
+                fog: None,
+                rain: None,
+            },
             provenance: Vec::new(),
         };
         (scene, self.shot(low, high))

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::check::check;
 use super::light::LightSection;
 use super::season::SeasonChoice;
-use super::weather::VISIBILITY_M;
+use super::weather::{RAIN_MM_H, VISIBILITY_M};
 
 /// What may differ between variations; each has a seed of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
@@ -40,6 +40,8 @@ pub enum Factor {
     Wetness,
     /// Fog and haze.
     Fog,
+    /// Rain that falls.
+    Rain,
     /// Stops about the recipe's exposure.
     Exposure,
     /// Height and pitch of the cameras.
@@ -51,9 +53,10 @@ pub enum Factor {
 impl Factor {
     /// Every factor.
     #[rustfmt::skip]
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Place, Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
-        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Fog, Self::Exposure, Self::Camera, Self::Rigs,
+        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Fog, Self::Rain, Self::Exposure, Self::Camera,
+        Self::Rigs,
     ];
 
     /// Its name in recipes.
@@ -72,6 +75,7 @@ impl Factor {
             Self::Traffic => "traffic",
             Self::Wetness => "wetness",
             Self::Fog => "fog",
+            Self::Rain => "rain",
             Self::Exposure => "exposure",
             Self::Camera => "camera",
             Self::Rigs => "rigs",
@@ -108,6 +112,12 @@ pub struct VariationsSection {
     /// Share of the variations that have fog where it is drawn.
     #[serde(skip_serializing_if = "is_one")]
     pub fog_share: f64,
+    /// As `weather.rain_mm_h`, drawn evenly by its logarithm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rain_mm_h: Option<Range>,
+    /// Share of the variations in which it rains where rain is drawn.
+    #[serde(skip_serializing_if = "is_one")]
+    pub rain_share: f64,
     /// Road users against the recorded number.
     pub traffic: Option<Range>,
     /// Cyclists among added road users, against what is usual at the place.
@@ -154,6 +164,8 @@ impl Default for VariationsSection {
             dry_share: 0.5,
             visibility_m: None,
             fog_share: 1.0,
+            rain_mm_h: None,
+            rain_share: 1.0,
             traffic: None,
             cyclists: 1.0,
             exposure_ev: None,
@@ -191,6 +203,11 @@ impl VariationsSection {
         self.visibility_m.unwrap_or([50.0, 500.0])
     }
 
+    /// How much it may rain where it does.
+    pub fn rain_mm_h(&self) -> Range {
+        self.rain_mm_h.unwrap_or([2.0, 50.0])
+    }
+
     /// How many road users there may be against the recorded number.
     pub fn traffic(&self) -> Range {
         self.traffic.unwrap_or([0.5, 2.0])
@@ -210,13 +227,14 @@ impl VariationsSection {
     }
 
     /// Every key with a range: its factor, its name, and whether it is given.
-    fn ranges(&self) -> [(Factor, &'static str, bool); 13] {
+    fn ranges(&self) -> [(Factor, &'static str, bool); 14] {
         let light = &self.light;
         [
             (Factor::Place, "places", self.places.is_some()),
             (Factor::Season, "seasons", self.seasons.is_some()),
             (Factor::Wetness, "wetness", self.wetness.is_some()),
             (Factor::Fog, "visibility_m", self.visibility_m.is_some()),
+            (Factor::Rain, "rain_mm_h", self.rain_mm_h.is_some()),
             (Factor::Traffic, "traffic", self.traffic.is_some()),
             (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
             (Factor::Camera, "camera_height_m", self.camera_height_m.is_some()),
@@ -241,11 +259,13 @@ impl VariationsSection {
             )
         };
         check("variations.count", self.count, (1..=100).contains(&self.count), "1 to 100")?;
-        for (key, share) in [("dry_share", self.dry_share), ("fog_share", self.fog_share)] {
+        let shares = [("dry_share", self.dry_share), ("fog_share", self.fog_share), ("rain_share", self.rain_share)];
+        for (key, share) in shares {
             check(&format!("variations.{key}"), share, (0.0..=1.0).contains(&share), "0 to 1")?;
         }
         within("wetness", self.wetness, [0.0, 1.0])?;
         within("visibility_m", self.visibility_m, VISIBILITY_M)?;
+        within("rain_mm_h", self.rain_mm_h, RAIN_MM_H)?;
         within("traffic", self.traffic, [0.0, 10.0])?;
         check("variations.cyclists", self.cyclists, (0.0..=100.0).contains(&self.cyclists), "0 to 100")?;
         within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
@@ -323,7 +343,14 @@ impl Factor {
     fn needs_range(self) -> bool {
         matches!(
             self,
-            Self::Place | Self::Season | Self::Traffic | Self::Wetness | Self::Fog | Self::Exposure | Self::Camera
+            Self::Place
+                | Self::Season
+                | Self::Traffic
+                | Self::Wetness
+                | Self::Fog
+                | Self::Rain
+                | Self::Exposure
+                | Self::Camera
         )
     }
 }
@@ -373,6 +400,7 @@ mod tests {
                 "variations.visibility_m: expected two numbers from 10 to 50000, the smaller first",
             ),
             ("fog_share = 2\n", "variations.fog_share: expected 0 to 1, found 2"),
+            ("rain_mm_h = [0, 9]\n", "variations.rain_mm_h: expected two numbers from 0.1 to 200, the smaller first"),
             ("wetness = [0.5, 0.2]\n", "variations.wetness: expected two numbers from 0 to 1, the smaller first"),
             ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),
             ("[variations.light]\nhours = [7, 25]\n", "variations.light.hours"),

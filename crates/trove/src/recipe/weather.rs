@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::Weather;
-use trove_model::Fog;
+use trove_model::{Fog, Rain};
 
 use super::check::check;
 use super::season::SeasonChoice;
@@ -12,6 +12,9 @@ use super::season::SeasonChoice;
 pub(super) const VISIBILITY_M: [f64; 2] = [10.0, 50_000.0];
 /// The same of heights over which fog thins out.
 const FOG_HEIGHT_M: [f64; 2] = [2.0, 5000.0];
+
+/// The same of rain, millimetres an hour: a drizzle, and the heaviest cloudbursts.
+pub(super) const RAIN_MM_H: [f64; 2] = [0.1, 200.0];
 
 /// `[weather]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -29,12 +32,16 @@ pub struct WeatherSection {
     /// So far above the ground there is 1/e of the fog, metres; without it 0.4 times the visibility, 30 to 1000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fog_height_m: Option<f64>,
+    /// Rain that falls, millimetres of water an hour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rain_mm_h: Option<f64>,
 }
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness, season: _, fog: _ } = Weather::default();
-        Self { wetness, dirt, season: SeasonChoice::default(), visibility_m: None, fog_height_m: None }
+        let Weather { dirt, wetness, season: _, fog: _, rain: _ } = Weather::default();
+        let season = SeasonChoice::default();
+        Self { wetness, dirt, season, visibility_m: None, fog_height_m: None, rain_mm_h: None }
     }
 }
 
@@ -42,7 +49,8 @@ impl WeatherSection {
     /// What weather has done to the place, with fog of the visibility that is told.
     pub fn weather(&self) -> Weather {
         let fog = self.visibility_m.map(|visibility_m| self.fog(visibility_m));
-        Weather { dirt: self.dirt, wetness: self.wetness, season: self.season.into(), fog }
+        let rain = self.rain_mm_h.map(|rate_mm_h| Rain { rate_mm_h });
+        Weather { dirt: self.dirt, wetness: self.wetness, season: self.season.into(), fog, rain }
     }
 
     /// Fog of a visibility, over a ground at 0.
@@ -58,9 +66,11 @@ impl WeatherSection {
         }
         let metres =
             [("visibility_m", self.visibility_m, VISIBILITY_M), ("fog_height_m", self.fog_height_m, FOG_HEIGHT_M)];
-        for (key, value, [least, most]) in metres {
+        let metres = metres.map(|(key, value, range)| (key, value, range, "metres"));
+        let rain = ("rain_mm_h", self.rain_mm_h, RAIN_MM_H, "millimetres an hour");
+        for (key, value, [least, most], unit) in metres.into_iter().chain([rain]) {
             let Some(value) = value else { continue };
-            let expected = format!("{least} to {most} metres");
+            let expected = format!("{least} to {most} {unit}");
             check(&format!("weather.{key}"), value, (least..=most).contains(&value), &expected)?;
         }
         ensure!(
@@ -69,6 +79,11 @@ impl WeatherSection {
         );
         Ok(())
     }
+}
+
+/// How wet rain keeps the ground: from about 1 mm an hour on there are puddles.
+pub fn wet_by(rain: Rain) -> f64 {
+    (0.5 + 0.25 * rain.rate_mm_h.log10()).clamp(0.4, 1.0)
 }
 
 /// Fog through which about a third of the sun's light comes straight, as long as it is neither a mist on the ground nor as
@@ -100,6 +115,7 @@ mod tests {
             ("visibility_m = 5", "weather.visibility_m: expected 10 to 50000 metres, found 5"),
             ("visibility_m = 50\nfog_height_m = 0", "weather.fog_height_m: expected 2 to 5000 metres, found 0"),
             ("fog_height_m = 20", "add weather.visibility_m"),
+            ("rain_mm_h = 0", "weather.rain_mm_h: expected 0.1 to 200 millimetres an hour, found 0"),
         ] {
             let found = weather(text).unwrap_err().to_string();
             assert!(found.contains(expected), "{found}");
