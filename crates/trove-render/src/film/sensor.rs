@@ -1,12 +1,10 @@
 //! The faults of a real camera: what the lens does to the light, and the noise of counting it.
 
 use rayon::prelude::*;
-use trove_model::{Random, Raster, Seed, SensorModel};
+use trove_model::{Raster, Seed, SensorModel};
 
 use super::tone::WHITE;
-
-/// Electrons from which on their count is drawn from a normal distribution, which is near enough then.
-const MANY: f64 = 40.0;
+use crate::sampling::poisson;
 
 /// Light behind the lens: darker and with fringes of colour in the corners, slightly blurred.
 pub(super) fn optics(radiance: &Raster<[f32; 3]>, sensor: &SensorModel) -> Raster<[f32; 3]> {
@@ -77,21 +75,6 @@ pub(super) fn counted(exposed: [f32; 3], sensor: &SensorModel, seed: Seed, index
         let counted = poisson(f64::from(light) * per_unit, &mut random).min(sensor.full_well_e);
         ((counted + sensor.read_noise_e * random.normal()) / per_unit).max(0.0) as f32
     })
-}
-
-/// A draw from the Poisson distribution.
-fn poisson(mean: f64, random: &mut Random) -> f64 {
-    if mean >= MANY {
-        return (mean + mean.sqrt() * random.normal()).round().max(0.0);
-    }
-    // Inversion: the chances of 0, 1, 2 … are gone through until the drawn number is used up.
-    let (mut left, mut chance, mut count) = (random.unit(), (-mean).exp(), 0.0);
-    while left >= chance && count < 10.0 * MANY {
-        left -= chance;
-        count += 1.0;
-        chance *= mean / count;
-    }
-    count
 }
 
 #[cfg(test)]

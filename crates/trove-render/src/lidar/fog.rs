@@ -6,6 +6,7 @@ use trove_model::{Class, InstanceId, Rain, Random, Scanner, SensorRay};
 
 use super::echo::{Echo, Part};
 use crate::fog::Fog;
+use crate::sampling::poisson;
 
 /// Extinction for backscatter of water droplets at 905 nm, steradians (O'Connor, Illingworth, Hogan 2004: 18.8).
 const LIDAR_RATIO_SR: f64 = 18.8;
@@ -36,21 +37,7 @@ pub(super) fn echo(
         * rain.map_or(1.0, |rain| {
             let share = (rain.extinction_per_m() / thick).min(1.0);
             let mean = rain.drops_per_m3(0.0) * PI * (range_m * scanner.divergence_rad / 2.0).powi(2) * scanner.pulse_m;
-            1.0 - share + share * counted(mean, &mut random) / mean
+            1.0 - share + share * poisson(mean, &mut random) / mean
         });
     Some(Echo { range_m, power: power as f32, class: Class::Void, instance: InstanceId(0) })
-}
-
-/// How many there are where there are `mean` on average, by chance; of many, as many.
-fn counted(mean: f64, random: &mut Random) -> f64 {
-    if mean > 50.0 {
-        return mean;
-    }
-    // Products of numbers from 0 to 1 until they are below e^−mean (Knuth).
-    let (mut count, mut product) = (0.0, random.unit());
-    while product > (-mean).exp() {
-        count += 1.0;
-        product *= random.unit();
-    }
-    count
 }

@@ -5,8 +5,12 @@ mod sampler;
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use glam::Vec3;
+use trove_model::Random;
 
 pub(crate) use sampler::Sampler;
+
+/// Mean count from which on it is drawn from a normal distribution, which is near enough then.
+const MANY: f64 = 40.0;
 
 /// A position drawn with the tent filter of radius 1 (Pharr et al. 2023, A.4.1), from −1 to 1.
 pub(crate) fn tent(u: f32) -> f32 {
@@ -64,4 +68,19 @@ pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
     // Divided first, so that large densities do not overflow.
     let ratio = b / a;
     1.0 / (1.0 + ratio * ratio)
+}
+
+/// A draw from the Poisson distribution.
+pub(crate) fn poisson(mean: f64, random: &mut Random) -> f64 {
+    if mean >= MANY {
+        return (mean + mean.sqrt() * random.normal()).round().max(0.0);
+    }
+    // Inversion: the chances of 0, 1, 2 … are gone through until the drawn number is used up.
+    let (mut left, mut chance, mut count) = (random.unit(), (-mean).exp(), 0.0);
+    while left >= chance && count < 10.0 * MANY {
+        left -= chance;
+        count += 1.0;
+        chance *= mean / count;
+    }
+    count
 }
