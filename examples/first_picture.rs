@@ -28,17 +28,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         instances: vec![standing(InstanceId(0), Class::Ground, 0), standing(CAR, Class::Car, 1)],
         others: Default::default(),
         keyframes_apart_s: [f64::INFINITY; 2],
-        light: Light {
-            environment: Environment::Sky(PhysicalSky {
-                to_sun: DVec3::new(-0.5, -0.6, 0.6).normalize(),
-                turbidity: 3.0,
-                ground_albedo: 0.2,
-                cloud_cover: 0.2,
-                cloud_seed: 7,
-            }),
-            fog: None,
-            rain: None,
-        },
+        light: Light::clear(Environment::Sky(PhysicalSky {
+            to_sun: DVec3::new(-0.5, -0.6, 0.6).normalize(),
+            turbidity: 3.0,
+            ground_albedo: 0.2,
+            cloud_cover: 0.2,
+            cloud_seed: 7,
+        })),
         provenance: Vec::new(),
     };
 

@@ -70,7 +70,7 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
         }],
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(map.clone()), fog: None, rain: None },
+        light: Light::clear(Environment::Map(map.clone())),
         provenance: Vec::new(),
     };
     let (width_px, height_px, f) = (32, 32, 800.0);

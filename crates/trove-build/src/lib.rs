@@ -58,6 +58,7 @@ mod radars;
 mod roads;
 mod scanners;
 mod site;
+mod snow;
 mod standing;
 mod surroundings;
 #[cfg(test)]

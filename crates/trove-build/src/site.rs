@@ -13,11 +13,12 @@ use crate::assembly::{Actor, Assembly, MeshesNow, Movement, Stock, Weather};
 use crate::between::Moments;
 use crate::error::BuildError;
 use crate::furniture::furniture;
-use crate::ground::{Ground, ground};
+use crate::ground::{Drape, Ground, ground};
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds, apart_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
+use crate::snow::snow;
 use crate::surroundings::Clearance;
 use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
@@ -141,7 +142,7 @@ pub fn build_at(
     let map = assumed.as_ref().or(known);
 
     // Plants are those of the season.
-    let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season);
+    let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season());
     let library = &library.in_season(conditions.season());
 
     // What lies and stands for good.
@@ -204,8 +205,14 @@ pub fn build_at(
     }
     settings.weather.treat(&mut assembly);
     let fog = settings.weather.fog_over(drive);
-    let rain = settings.weather.rain;
-    let light = Light { fog, rain, ..light(drive, bounds, &settings.light, seeds.light.child("light")) };
+    let falling = settings.weather.falling;
+    let snow = snow(settings.weather.snow, &surfaces, Drape::new(&ground).bounds());
+    let light = Light {
+        fog,
+        falling,
+        snow,
+        ..light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"))
+    };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     switch_on(&light, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());

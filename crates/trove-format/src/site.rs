@@ -182,6 +182,12 @@ pub struct Factors {
     /// Rain that falls, millimetres an hour; absent where none does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rain_mm_h: Option<f64>,
+    /// Snow that falls, millimetres of water an hour; absent where none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub snowfall_mm_h: Option<f64>,
+    /// Share of level surfaces that snow covers, 0 to 1; absent where none lies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub snow: Option<f64>,
     /// What was added to the recipe's exposure, stops.
     pub exposure_ev: f64,
     /// Height of the cameras above their recorded positions, metres.

@@ -53,6 +53,8 @@ fn site() -> SiteFile {
             wetness: 0.0,
             visibility_m: None,
             rain_mm_h: None,
+            snowfall_mm_h: None,
+            snow: None,
             exposure_ev: 0.0,
             camera_height_m: 0.0,
             camera_pitch_deg: 0.0,

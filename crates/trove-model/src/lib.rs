@@ -57,9 +57,9 @@ mod patches;
 mod plant;
 mod point_cloud;
 mod polygon;
+mod precipitation;
 mod projection;
 mod radar;
-mod rain;
 mod raster;
 mod relief;
 mod report;
@@ -70,6 +70,7 @@ mod scene;
 mod seed;
 mod sensor;
 mod shot;
+mod snow;
 mod state;
 mod street_map;
 mod surface_kind;
@@ -112,9 +113,9 @@ pub use patches::{InPatches, Patches};
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use point_cloud::{LidarPoint, PointCloud};
 pub use polygon::{Bounds, Polygon};
+pub use precipitation::{Form, Precipitation};
 pub use projection::{DatasetPlane, MapProjection};
 pub use radar::{Radar, RadarDetection, RadarDirection, RadarScan, RadarShot, RadarSurface, RadarSurfaces};
-pub use rain::Rain;
 pub use raster::Raster;
 pub use relief::Relief;
 pub use report::{Entry, Measurement, Outcome, Report};
@@ -125,6 +126,7 @@ pub use scene::{Instance, InstanceId, Origin, Placement, Provenance, Scene, Scen
 pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
 pub use shot::{CameraBeside, ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
+pub use snow::{Snow, SnowLeft};
 pub use state::State;
 pub use street_map::{
     BarrierStyle, Building, BuildingKind, CrossingMarking, Cycleway, Furniture, FurnitureDetail, FurnitureKind,

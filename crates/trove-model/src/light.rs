@@ -1,12 +1,12 @@
-//! Where the light comes from, and what the air does to it.
+//! Where the light comes from, and what comes down through the air.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::Rain;
+use crate::{Precipitation, Snow};
 
-/// Everything that is infinitely far away, and the air before it.
+/// Everything that is infinitely far away, the air before it, and what has come down through it.
 ///
 /// Radiance is in units in which a white diffuse surface under a clear midday sun leaves about 1 (so the sky is
 /// about 0.1 and a street lamp's glass a few); exposure brings it to the picture.
@@ -16,8 +16,17 @@ pub struct Light {
     pub environment: Environment,
     /// Fog; `None`: clear air.
     pub fog: Option<Fog>,
-    /// Rain that falls, from clouds that the environment has or not; `None`: none does.
-    pub rain: Option<Rain>,
+    /// Rain or snow that falls, from clouds that the environment has or not; `None`: none does.
+    pub falling: Option<Precipitation>,
+    /// Snow that lies; `None`: none does.
+    pub snow: Option<Snow>,
+}
+
+impl Light {
+    /// In clear air, over bare ground.
+    pub fn clear(environment: Environment) -> Self {
+        Self { environment, fog: None, falling: None, snow: None }
+    }
 }
 
 /// Droplets in the air, fewer the higher up.

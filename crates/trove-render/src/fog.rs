@@ -1,4 +1,4 @@
-//! Fog and rain between surfaces: droplets that scatter light mostly onwards, swallow none, and thin out with height.
+//! Fog, rain and snow between surfaces: droplets that scatter light mostly onwards, swallow none, and thin out with height.
 //!
 //! How thick it is falls exponentially upwards, so that the depth along a ray, and the place where a ray is scattered, have
 //! closed forms. Below the lowest point of the scene there is none: rays that leave the map see its ground as in clear air.
@@ -12,10 +12,10 @@ use crate::sampling::Basis;
 
 /// Mean cosine of scattering by water droplets of fog, 5 to 20 µm (Deirmendjian 1969: 0.84 to 0.87).
 const ASYMMETRY: f32 = 0.85;
-/// Height of clouds that rain falls from, metres: so far above the ground there is 1/e of what it takes from light.
-const RAIN_HEIGHT_M: f64 = 1000.0;
+/// Height of clouds that rain and snow fall from, metres: so far above the ground there is 1/e of what it takes from light.
+const CLOUDS_M: f64 = 1000.0;
 
-/// Fog and rain of a scene.
+/// Fog and what falls in a scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fog {
     extinction_per_m: f32,
@@ -31,8 +31,8 @@ impl Fog {
         let lowest_z_m = f64::from(lowest_z);
         let ground_z_m = light.fog.map_or(if lowest_z > f32::MIN { lowest_z_m } else { 0.0 }, |fog| fog.ground_z_m);
         let fog = light.fog.map(|fog| (fog.extinction_per_m(), fog.height_m));
-        let rain = light.rain.map(|rain| (rain.extinction_per_m(), RAIN_HEIGHT_M));
-        let both = || fog.into_iter().chain(rain);
+        let falling = light.falling.map(|falling| (falling.extinction_per_m(), CLOUDS_M));
+        let both = || fog.into_iter().chain(falling);
         let extinction_per_m: f64 = both().map(|(extinction, _)| extinction).sum();
         let depth: f64 = both().map(|(extinction, height_m)| extinction * height_m).sum();
         (extinction_per_m > 0.0).then(|| Self {

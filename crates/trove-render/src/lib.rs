@@ -40,7 +40,7 @@
 //!     .at_rest()],
 //!     others: Default::default(),
 //!     keyframes_apart_s: [f64::INFINITY; 2],
-//!     light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
+//!     light: Light::clear(Environment::Map(Arc::new(sky))),
 //!     provenance: Vec::new(),
 //! };
 //! let lens = Lens {

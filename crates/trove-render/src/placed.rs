@@ -8,6 +8,24 @@ use trove_model::{InstanceId, Mesh};
 use crate::motion::{MIDDLE, Motion};
 use crate::ray::Hit;
 
+/// What an instance is to rays that do not meet everything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sort {
+    /// Part of the recording vehicle, through which most cameras look.
+    Carrier,
+    /// Too loose, or too soon elsewhere, to keep off what falls: plants and people.
+    Loose,
+    /// All else.
+    Solid,
+}
+
+impl Sort {
+    /// Whether it keeps rain and snow off what is below.
+    pub(crate) fn shelters(self) -> bool {
+        self != Self::Loose
+    }
+}
+
 /// A mesh somewhere in World.
 pub(crate) struct Placed {
     /// The object that it is part of; 0 for stuff.
@@ -20,8 +38,7 @@ pub(crate) struct Placed {
     pub(crate) world_from_mesh: Motion,
     /// Whether it stands at the previous and at the next keyframe as it stands now.
     pub(crate) stays: [bool; 2],
-    /// Whether it is part of the recording vehicle, through which most cameras look.
-    pub(crate) is_carrier: bool,
+    pub(crate) sort: Sort,
     /// As `at` gives it at the moment of the labels.
     world_from_normal: Mat3A,
 }
@@ -34,7 +51,7 @@ impl Placed {
         materials: Vec<u32>,
         way: &Motion<DAffine3>,
         stays: [bool; 2],
-        is_carrier: bool,
+        sort: Sort,
     ) -> Self {
         // Here in the model's precision.
         let cofactor = way.middle.matrix3.inverse().transpose() * way.middle.matrix3.determinant().signum();
@@ -44,7 +61,7 @@ impl Placed {
             foot_z,
             materials,
             stays,
-            is_carrier,
+            sort,
             world_from_mesh: way.single(),
             world_from_normal: Mat3A::from_cols(
                 cofactor.x_axis.as_vec3a(),

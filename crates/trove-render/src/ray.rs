@@ -6,6 +6,8 @@ use trove_model::InstanceId;
 pub(crate) use trove_trace::Hit;
 
 use crate::motion::MIDDLE;
+#[cfg(doc)]
+use crate::placed::Sort;
 
 /// A keyframe beside the one that is seen; also an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,20 +25,32 @@ pub(crate) struct Ray {
     pub(crate) t_max: f32,
     /// As `ray_time` gives it.
     pub(crate) time: f32,
-    /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it and the two
+    /// The object that it passes through as if it were not there: what carries the sensor. Kernels heed it and the three
     /// below where they look for surfaces; shadows stay.
     pub(crate) past: Option<InstanceId>,
     /// The keyframe beside at which it looks: what does not stand then as it stands now is not there.
     pub(crate) beside: Option<Beside>,
     /// Whether panes of glass are not there.
     pub(crate) through_glass: bool,
+    /// Whether what keeps off neither rain nor snow is not there ([`Sort::shelters`]).
+    pub(crate) for_shelter: bool,
 }
 
 impl Ray {
     /// From a point to infinity, at the moment of the labels, through nothing.
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
         let (t_min, t_max) = (0.0, f32::INFINITY);
-        Self { origin, direction, t_min, t_max, time: MIDDLE, past: None, beside: None, through_glass: false }
+        Self {
+            origin,
+            direction,
+            t_min,
+            t_max,
+            time: MIDDLE,
+            past: None,
+            beside: None,
+            through_glass: false,
+            for_shelter: false,
+        }
     }
 
     /// Another ray of the same time, to infinity, which is stopped by everything.

@@ -174,8 +174,8 @@ impl Renderer {
                 };
                 stats.denoised = clean.is_some();
                 let mut radiance = clean.unwrap_or(buffers.radiance);
-                if let Some(rain) = scene.rain {
-                    path::rain::draw(scene, shot, rain, &labels.depth_m, &mut radiance);
+                if let Some(falling) = scene.falling {
+                    path::falling::draw(scene, shot, falling, &labels.depth_m, &mut radiance);
                 }
                 let (srgb, exposure_ev) = film::develop(&radiance, shot);
                 Some(Color { radiance, srgb, exposure_ev })

@@ -5,6 +5,22 @@ use glam::{Vec2, Vec3, Vec3A};
 use crate::placed::Placed;
 use crate::ray::{Hit, Ray};
 
+/// What comes down on a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Exposure {
+    /// Whether nothing solid is above it; not asked for walls, which the wind reaches.
+    pub(crate) is_open: bool,
+    /// Share of it that snow covers, were it level, as it fell.
+    pub(crate) snow: f32,
+    /// Share of that snow that wheels and feet have left.
+    pub(crate) left: f32,
+}
+
+impl Exposure {
+    /// In the open where no snow lies.
+    pub(crate) const BARE: Self = Self { is_open: true, snow: 0.0, left: 1.0 };
+}
+
 /// A point on a surface, in World, seen from where the ray came.
 pub(crate) struct Surface {
     pub(crate) point: Vec3,
@@ -26,6 +42,7 @@ pub(crate) struct Surface {
     pub(crate) uv_axes: Option<[Vec3; 2]>,
     /// What the material's base colour is multiplied by.
     pub(crate) tint: Vec3,
+    pub(crate) exposure: Exposure,
 }
 
 impl Surface {
@@ -87,7 +104,13 @@ impl Surface {
             uv,
             uv_axes,
             tint,
+            exposure: Exposure::BARE,
         }
+    }
+
+    /// Cosine of the outer side's slope: 1 faces up.
+    pub(crate) fn outward_z(&self) -> f32 {
+        if self.is_front { self.shading.z } else { -self.shading.z }
     }
 
     /// Where a ray in direction `wi` starts so that it does not meet its own surface again.

@@ -480,7 +480,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         instances,
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
+        light: Light::clear(Environment::Map(Arc::new(sky))),
         provenance: Vec::new(),
     }
 }

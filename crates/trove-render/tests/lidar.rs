@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use trove_model::{
-    Class, Environment, EnvironmentMap, Fog, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh,
-    Placement, Pose, Rain, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
+    Class, Environment, EnvironmentMap, Fog, Form, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh,
+    Placement, Pose, Precipitation, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -193,10 +193,10 @@ fn fog_takes_from_echoes_on_both_ways_and_sends_some_of_its_own() {
 
 #[test]
 fn rain_takes_from_echoes_on_both_ways_and_a_beam_meets_few_of_its_drops() {
-    let heavy = Rain { rate_mm_h: 100.0 };
-    let walled = |rain: Option<Rain>, ahead_m: f64| {
+    let heavy = Precipitation { form: Form::Rain, rate_mm_h: 100.0 };
+    let walled = |rain: Option<Precipitation>, ahead_m: f64| {
         let mut scene = scene(vec![wall(1, Class::Building, ahead_m, 40.0, 0)]);
-        scene.light.rain = rain;
+        scene.light.falling = rain;
         scene
     };
     let mut shot = straight_ahead();
@@ -211,7 +211,7 @@ fn rain_takes_from_echoes_on_both_ways_and_a_beam_meets_few_of_its_drops() {
         let points = sweep(&walled(rain, 40.0), &open, 2);
         points.iter().filter(|point| point.class == Class::Void).count()
     };
-    let [none, some, many] = [None, Some(Rain { rate_mm_h: 5.0 }), Some(heavy)].map(drops);
+    let [none, some, many] = [None, Some(Precipitation { form: Form::Rain, rate_mm_h: 5.0 }), Some(heavy)].map(drops);
     let beams = open.scanner.columns * open.scanner.elevations_rad.len();
     assert!(none == 0 && some > 0 && 2 * some < many && many < beams / 5, "{none} {some} {many} of {beams}");
 }
@@ -325,7 +325,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         instances,
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
+        light: Light::clear(Environment::Map(Arc::new(sky))),
         provenance: Vec::new(),
     }
 }

@@ -155,7 +155,7 @@ fn scene(world_from_mesh: DAffine3, [previous, next]: [Option<DAffine3>; 2]) -> 
         }],
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
+        light: Light::clear(Environment::Map(Arc::new(sky))),
         provenance: Vec::new(),
     }
 }

@@ -202,7 +202,7 @@ fn scene(mut instances: Vec<Instance>) -> Scene {
         instances: instances.into_iter().map(Instance::at_rest).collect(),
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(sky)), fog: None, rain: None },
+        light: Light::clear(Environment::Map(Arc::new(sky))),
         provenance: Vec::new(),
     }
 }

@@ -53,7 +53,7 @@ fn scene() -> Scene {
         instances: vec![instance],
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Sky(sky), fog: None, rain: None },
+        light: Light::clear(Environment::Sky(sky)),
         provenance: vec![],
     }
 }

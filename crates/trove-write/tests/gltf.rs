@@ -102,7 +102,7 @@ fn scene() -> Scene {
         ],
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Sky(sky), fog: None, rain: None },
+        light: Light::clear(Environment::Sky(sky)),
         provenance: vec![Provenance { source: "made up".into(), licence: "MIT".into() }],
     }
 }

@@ -42,7 +42,7 @@ pub use sensors::{SensorKind, SensorSection, SensorsSection};
 pub use standpoint::Standpoint;
 pub use time::TimeSection;
 pub use variations::{COMPUTED_SKY, Factor, Range, VariationsSection};
-pub use weather::{WeatherSection, wet_by};
+pub use weather::{WeatherSection, covered_by, rain, snowfall, wet_by};
 
 /// A recipe with its defaults filled in; its paths are as they were written (see [`Recipe::at`]).
 #[derive(Clone, Debug, Deserialize, Serialize)]

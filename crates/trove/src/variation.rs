@@ -6,11 +6,12 @@ use anyhow::Result;
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings, Weather};
 use trove_format::{Factors, LightFactor};
 use trove_model::{
-    Drive, Environment, ExposureRule, Fog, Locale, MapProjection, Provenance, Rain, Random, Report, Season, Seed,
+    Drive, Environment, ExposureRule, Fog, Form, Locale, MapProjection, Precipitation, Provenance, Random, Report,
+    Season, Seed,
 };
 use trove_read::locale;
 
-use crate::recipe::{Factor, Range, Recipe, wet_by};
+use crate::recipe::{Factor, Range, Recipe, covered_by, rain, snowfall, wet_by};
 use crate::sources::Sources;
 
 const HOUR_NS: f64 = 3.6e12;
@@ -27,7 +28,8 @@ pub(crate) struct Variation {
     season: Option<Season>,
     wetness: f64,
     fog: Option<Fog>,
-    rain: Option<Rain>,
+    falling: Option<Precipitation>,
+    snow: f64,
     traffic: Traffic,
     light: Light,
     /// Added to the recipe's exposure, stops.
@@ -47,11 +49,11 @@ enum Light {
 }
 
 impl Light {
-    /// Rain falls from an overcast sky, unless somebody says how clouded it is.
-    fn under(self, rain: Option<Rain>, recipe: &Recipe) -> Self {
+    /// Rain and snow fall from an overcast sky, unless somebody says how clouded it is.
+    fn under(self, falling: Option<Precipitation>, recipe: &Recipe) -> Self {
         let is_told = recipe.light.clouds.or(recipe.variations.light.clouds.map(|[least, _]| least)).is_some();
         match self {
-            Self::Sky(sky) if rain.is_some() && !is_told => Self::Sky(SkyChoice { clouds: Some(1.0), ..sky }),
+            Self::Sky(sky) if falling.is_some() && !is_told => Self::Sky(SkyChoice { clouds: Some(1.0), ..sky }),
             other => other,
         }
     }
@@ -91,12 +93,24 @@ impl Variation {
             let visibility_m = within(section.visibility_m().map(f64::ln), &mut random).exp();
             is_there.then(|| recipe.weather.fog(visibility_m))
         });
-        let rain = random(Factor::Rain).map(|mut random| {
-            let is_there = random.chance(section.rain_share);
-            let rate_mm_h = within(section.rain_mm_h().map(f64::ln), &mut random).exp();
-            is_there.then_some(Rain { rate_mm_h })
+        let falls = |factor: Factor, share: f64, range_mm_h: Range| {
+            random(factor).map(|mut random| {
+                let is_there = random.chance(share);
+                let rate_mm_h = within(range_mm_h.map(f64::ln), &mut random).exp();
+                is_there.then_some(rate_mm_h)
+            })
+        };
+        let rains = falls(Factor::Rain, section.rain_share, section.rain_mm_h());
+        let snows = falls(Factor::Snowfall, section.snowfall_share, section.snowfall_mm_h());
+        // Where both are drawn, it snows.
+        let drawn = rains.or(snows).map(|_| snows.flatten().map(snowfall).or(rains.flatten().map(rain)));
+        let falling = drawn.unwrap_or(weather.falling);
+        let snow = random(Factor::Snow).map(|mut random| {
+            let is_there = random.chance(section.snow_share);
+            let cover = within(section.snow(), &mut random);
+            if is_there { cover } else { 0.0 }
         });
-        let rain = rain.unwrap_or(weather.rain);
+        let snow = falling.map_or(0.0, covered_by).max(snow.unwrap_or(weather.snow));
         let traffic = random(Factor::Traffic)
             .map(|mut random| Traffic { density: within(section.traffic(), &mut random), cyclists: section.cyclists });
         let exposure_ev = random(Factor::Exposure).map(|mut random| within(section.exposure_ev(), &mut random));
@@ -123,11 +137,12 @@ impl Variation {
             locale,
             borders,
             season: season.map_or(weather.season, Into::into),
-            wetness: rain.map_or(0.0, wet_by).max(wetness.unwrap_or(weather.wetness)),
+            wetness: wet_by(falling, snow).max(wetness.unwrap_or(weather.wetness)),
             fog: fog.unwrap_or(weather.fog),
-            rain,
+            falling,
+            snow,
             traffic: traffic.unwrap_or_default(),
-            light: light(recipe, drive, place[1], random(Factor::Light))?.under(rain, recipe),
+            light: light(recipe, drive, place[1], random(Factor::Light))?.under(falling, recipe),
             exposure_ev: exposure_ev.unwrap_or(0.0),
             lift_m,
             pitch_deg,
@@ -158,7 +173,8 @@ impl Variation {
                 season: self.season,
                 wetness: self.wetness,
                 fog: self.fog,
-                rain: self.rain,
+                falling: self.falling,
+                snow: self.snow,
                 ..recipe.weather.weather()
             },
             on_disagreement: recipe.map.on_disagreement.into(),
@@ -195,12 +211,19 @@ impl Variation {
             traffic: self.traffic.density,
             wetness: self.wetness,
             visibility_m: self.fog.map(|fog| fog.visibility_m),
-            rain_mm_h: self.rain.map(|rain| rain.rate_mm_h),
+            rain_mm_h: self.falls(Form::Rain),
+            snowfall_mm_h: self.falls(Form::Snow),
+            snow: (self.snow > 0.0).then_some(self.snow),
             exposure_ev: self.exposure_ev,
             camera_height_m: self.lift_m,
             camera_pitch_deg: self.pitch_deg,
             other_vehicles: self.other_vehicles as u32,
         }
+    }
+
+    /// Millimetres an hour of what falls, where it is of a form.
+    fn falls(&self, form: Form) -> Option<f64> {
+        self.falling.filter(|falling| falling.form == form).map(|falling| falling.rate_mm_h)
     }
 
     fn light_factor(&self, recipe: &Recipe, site: &Site) -> LightFactor {

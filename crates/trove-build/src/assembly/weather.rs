@@ -1,6 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
-use trove_model::{Class, Drive, Fog, Material, Rain, Season};
+use trove_model::{Class, Drive, Fog, Material, Precipitation, Season};
 
 use crate::assembly::Assembly;
 
@@ -9,25 +9,32 @@ use crate::assembly::Assembly;
 pub struct Weather {
     /// 0 (just washed) to 1: how much of the dirt that materials carry is there.
     pub dirt: f64,
-    /// 0 (dry) to 1 (after heavy rain): ground and buildings; nothing is known of roofs over them, so all of the ground
-    /// is as wet. Plants and what people bring stay dry.
+    /// 0 (dry) to 1 (after heavy rain): ground and buildings, but for what is sheltered. Plants and what people bring stay dry.
     pub wetness: f64,
-    /// What time of the year plants show; `None`: that of the light, which is the recording's unless it was chosen.
+    /// What time of the year plants show; `None`: winter where snow lies, else that of the light, which is the recording's
+    /// unless it was chosen.
     pub season: Option<Season>,
     /// Fog above the lowest point of the driven path, whatever its own ground; `None`: clear air.
     pub fog: Option<Fog>,
-    /// Rain that falls; `None`: none does.
-    pub rain: Option<Rain>,
+    /// Rain or snow that falls; `None`: none does.
+    pub falling: Option<Precipitation>,
+    /// Share of level surfaces in the open that snow covers, 0 to 1, but for roads, where wheels have left less of it.
+    pub snow: f64,
 }
 
 impl Default for Weather {
     /// Dry, as dirty as streets are, in the season of the recording and in clear air.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, rain: None }
+        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, falling: None, snow: 0.0 }
     }
 }
 
 impl Weather {
+    /// The season that is chosen: where snow lies it is winter.
+    pub(crate) fn season(self) -> Option<Season> {
+        self.season.or((self.snow > 0.0).then_some(Season::Winter))
+    }
+
     /// Its fog over the ground of a drive.
     pub(crate) fn fog_over(self, drive: &Drive) -> Option<Fog> {
         let path_z = drive.keyframes.iter().map(|k| k.world_from_ego.translation.z);

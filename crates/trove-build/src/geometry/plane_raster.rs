@@ -36,6 +36,11 @@ impl PlaneRaster {
         }
     }
 
+    /// What is made of every value, row by row from the south-west corner, which comes first.
+    pub(crate) fn map(&self, of: impl Fn(u8) -> u8) -> (DVec2, Raster<u8>) {
+        (self.origin, self.cells.map(|cell| of(*cell)))
+    }
+
     fn change(&mut self, area: &[Polygon], change: impl Fn(&mut [u8])) {
         let cell = |p: DVec2| (p - self.origin) / self.cell_m - 0.5;
         let Some(bounds) = Bounds::around(area.iter().flat_map(Polygon::rings).flatten().map(|&p| cell(p))) else {

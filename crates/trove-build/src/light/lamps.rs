@@ -76,7 +76,7 @@ mod tests {
         let mut stock = Stock::default();
         stock.material(&Material { role: Some(Role::StreetLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
-        switch_on(&Light { environment, fog: None, rain: None }, &mut stock, std::iter::empty());
+        switch_on(&Light::clear(environment), &mut stock, std::iter::empty());
         [stock.materials[0].emission, stock.materials[1].emission]
     }
 

@@ -12,6 +12,8 @@ use solar::to_sun;
 
 /// How much light the ground reflects on average: asphalt and concrete with some green.
 const GROUND_ALBEDO: f64 = 0.2;
+/// The same under snow: roofs and lawns are white, roads are not.
+const SNOW_ALBEDO: f64 = 0.6;
 /// A drawn time of day has the sun at least this high, so that there are shadows.
 const MIN_SUN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// Nearer to the equator the air is humid all year.
@@ -74,10 +76,10 @@ impl Default for LightChoice {
     }
 }
 
-/// The light of a place.
-pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: Seed) -> Light {
+/// The light of a place of which snow covers a share.
+pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, snow: f64, seed: Seed) -> Light {
     let choice = match choice {
-        LightChoice::Map(map) => return Light { environment: Environment::Map(map.clone()), fog: None, rain: None },
+        LightChoice::Map(map) => return Light::clear(Environment::Map(map.clone())),
         LightChoice::Sky(sky) => sky,
     };
     let time_ns = drive.keyframes.first().map_or(0, |k| k.time_ns);
@@ -97,11 +99,11 @@ pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, seed: S
     let environment = Environment::Sky(PhysicalSky {
         to_sun,
         turbidity: choice.turbidity.unwrap_or(turbidity),
-        ground_albedo: choice.ground_albedo.unwrap_or(GROUND_ALBEDO),
+        ground_albedo: choice.ground_albedo.unwrap_or(GROUND_ALBEDO + (SNOW_ALBEDO - GROUND_ALBEDO) * snow),
         cloud_cover: choice.clouds.unwrap_or(cloud_cover),
         cloud_seed: random.bits(),
     });
-    Light { environment, fog: None, rain: None }
+    Light::clear(environment)
 }
 
 /// The sun at a time drawn within the 24 hours around `time_ns`; where it never rises high enough, at its highest.
@@ -123,7 +125,7 @@ mod tests {
     fn sky(choice: SkyChoice, seed: Seed) -> PhysicalSky {
         let drive = testing::drive();
         let bounds = Bounds::square(glam::DVec2::ZERO, 600.0);
-        match light(&drive, bounds, &LightChoice::Sky(choice), seed).environment {
+        match light(&drive, bounds, &LightChoice::Sky(choice), 0.0, seed).environment {
             Environment::Sky(sky) => sky,
             Environment::Map(_) => panic!("a sky was asked for"),
         }

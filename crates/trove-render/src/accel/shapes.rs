@@ -6,7 +6,7 @@ use glam::Vec3;
 use trove_model::InstanceId;
 
 use crate::material::Opacity;
-use crate::placed::Placed;
+use crate::placed::{Placed, Sort};
 use crate::ray::{Hit, Ray};
 
 /// What a kernel is built for: shapes, and what each of their materials lets pass.
@@ -21,7 +21,7 @@ pub(crate) struct Shapes {
 
 impl Shapes {
     pub(crate) fn new(placed: Vec<Placed>, opacities: Arc<[Opacity]>) -> Self {
-        let carrier = placed.iter().find(|placed| placed.is_carrier).map(|placed| placed.id);
+        let carrier = placed.iter().find(|placed| placed.sort == Sort::Carrier).map(|placed| placed.id);
         Self { placed, opacities, carrier }
     }
 
@@ -61,7 +61,9 @@ impl Shapes {
     /// Whether a ray passes through all of an instance.
     pub(super) fn is_passed(&self, ray: &Ray, instance: u32) -> bool {
         let placed = &self.placed[instance as usize];
-        ray.past == Some(placed.id) || ray.beside.is_some_and(|beside| !placed.stays[beside as usize])
+        ray.past == Some(placed.id)
+            || ray.beside.is_some_and(|beside| !placed.stays[beside as usize])
+            || ray.for_shelter && !placed.sort.shelters()
     }
 
     /// What a ray meets behind all that it passes through, given what it meets first and how to ask again.

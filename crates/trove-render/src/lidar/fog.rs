@@ -1,8 +1,8 @@
-//! What fog and rain themselves send back of a beam.
+//! What fog, rain and snow themselves send back of a beam.
 
 use std::f64::consts::PI;
 
-use trove_model::{Class, InstanceId, Rain, Random, Scanner, SensorRay};
+use trove_model::{Class, InstanceId, Precipitation, Random, Scanner, SensorRay};
 
 use super::echo::{Echo, Part};
 use crate::fog::Fog;
@@ -15,7 +15,7 @@ const LIDAR_RATIO_SR: f64 = 18.8;
 /// enough at once to be told is chance, by the squares with which their light fades.
 pub(super) fn echo(
     fog: &Fog,
-    rain: Option<Rain>,
+    falling: Option<Precipitation>,
     scanner: &Scanner,
     middle: &SensorRay,
     met: &[Part],
@@ -32,11 +32,12 @@ pub(super) fn echo(
     let thick = f64::from(fog.extinction_per_m(origin.z + direction.z * range_m as f32));
     // A white matt surface sends back 1/π a steradian.
     let power = PI * thick * scanner.pulse_m / LIDAR_RATIO_SR * clear * clear;
-    // Drops of rain are so few that a beam meets several or none.
+    // Drops and flakes are so few that a beam meets several or none.
     let power = power
-        * rain.map_or(1.0, |rain| {
-            let share = (rain.extinction_per_m() / thick).min(1.0);
-            let mean = rain.drops_per_m3(0.0) * PI * (range_m * scanner.divergence_rad / 2.0).powi(2) * scanner.pulse_m;
+        * falling.map_or(1.0, |falling| {
+            let share = (falling.extinction_per_m() / thick).min(1.0);
+            let mean =
+                falling.pieces_per_m3(0.0) * PI * (range_m * scanner.divergence_rad / 2.0).powi(2) * scanner.pulse_m;
             1.0 - share + share * poisson(mean, &mut random) / mean
         });
     Some(Echo { range_m, power: power as f32, class: Class::Void, instance: InstanceId(0) })

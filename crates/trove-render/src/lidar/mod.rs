@@ -59,7 +59,7 @@ fn points(scene: &PreparedScene, shot: &LidarShot, carrier: &Carrier, column: us
         let middle = shot.ray(column, ring);
         let seed = shot.seed.nth((column * rings + ring) as u64);
         let random = || seed.child("fog").random();
-        let of_fog = scene.fog.and_then(|fog| fog::echo(&fog, scene.rain, &shot.scanner, &middle, &parts, random()));
+        let of_fog = scene.fog.and_then(|fog| fog::echo(&fog, scene.falling, &shot.scanner, &middle, &parts, random()));
         let mut echoes = echo::echoes(parts, shot.scanner.pulse_m);
         if let Some(of_fog) = of_fog {
             echoes.push(of_fog);

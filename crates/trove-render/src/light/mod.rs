@@ -235,7 +235,7 @@ mod tests {
             instances: vec![instance],
             others: Default::default(),
             keyframes_apart_s: [0.5; 2],
-            light: Light { environment: Environment::Sky(sky), fog: None, rain: None },
+            light: Light::clear(Environment::Sky(sky)),
             provenance: Vec::new(),
         }
     }

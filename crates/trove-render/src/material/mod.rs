@@ -3,9 +3,11 @@
 mod albedo;
 mod bsdf;
 mod diffuse;
+mod field;
 pub(crate) mod ggx;
 mod opacity;
 mod sheen;
+mod snow;
 mod texturing;
 mod weather;
 
@@ -23,6 +25,7 @@ use weather::Weather;
 
 pub(crate) use bsdf::Bsdf;
 pub(crate) use opacity::Opacity;
+pub(crate) use snow::holds as holds_snow;
 
 /// Roughness α and normal reflectance of lacquer.
 const LACQUER_ALPHA: f32 = 0.003;
@@ -143,6 +146,11 @@ impl PreparedMaterial {
         self.translucency > 0.0
     }
 
+    /// Whether rain may have wetted it.
+    pub(crate) fn is_wet(&self) -> bool {
+        self.weather.wetness > 0.0
+    }
+
     /// How much of a sensor's own light goes straight back to it, 0 to 1.
     pub(crate) fn retroreflection(&self) -> f32 {
         self.retroreflection
@@ -196,6 +204,9 @@ impl PreparedMaterial {
         }
         if !self.weather.is_none() {
             normal = self.weather.wear(surface, width_m, normal, &mut p);
+        }
+        if surface.exposure.snow > 0.0 {
+            normal = snow::lie(surface, width_m, normal, &mut p);
         }
         (p, normal)
     }

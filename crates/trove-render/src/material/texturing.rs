@@ -119,6 +119,7 @@ fn bits(node: IVec3) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::Exposure;
 
     fn at(tiling: Tiling, mapping: Mapping, x: f32, y: f32, dither: f32) -> Spot {
         let surface = Surface {
@@ -132,6 +133,7 @@ mod tests {
             uv: vec2(x, y),
             uv_axes: Some([Vec3::X, Vec3::Y]),
             tint: Vec3::ONE,
+            exposure: Exposure::BARE,
         };
         Texturing { scale: Vec2::splat(0.5), mapping, tiling }.spot(&surface, 0.1, dither)
     }

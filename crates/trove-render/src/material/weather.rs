@@ -1,60 +1,21 @@
 //! What weather and use do to surfaces: streaks, stains and dust, damp and puddles. Procedural, so that it repeats
 //! nowhere.
 
-use std::sync::LazyLock;
-
 use glam::{Vec2, Vec3, vec2};
-use trove_model::Seed;
 
 use super::bsdf::{Coat, Parameters};
-use crate::light::Plane;
+use super::field::{TOO_WIDE_M, field, step};
 use crate::surface::Surface;
 
 /// Dust of roads.
 const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);
 /// Up to about this height wheels and rain throw it, metres.
 const SPLASH_M: f32 = 0.7;
-/// Samples that cover more than this see the mean of everything here, metres.
-const TOO_WIDE_M: f32 = 3.0;
 /// Normal reflectance of water.
 const WATER_F0: f32 = 0.02;
 /// GGX α of water that stands, and of a film over something rough.
 const STILL: f32 = 0.004;
 const FILM: f32 = 0.3;
-
-/// A repeating field, as evenly spread from 0 to 1 as can be: of any area the share `s` lies above 1 − s.
-static FIELD: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let plane = Plane::fractal(Seed(0x77e7), SIDE, 16, 4, 0.55);
-    let value = |i: usize| plane.at(vec2((i % SIDE) as f32, (i / SIDE) as f32) / SIDE as f32);
-    let values: Vec<f32> = (0..SIDE * SIDE).map(value).collect();
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut field = vec![0; values.len()];
-    for (rank, i) in order.into_iter().enumerate() {
-        field[i] = (rank * 256 / values.len()) as u8;
-    }
-    field
-});
-const SIDE: usize = 256;
-
-/// The field at a point; features are a sixteenth of its period 1 and finer.
-fn field(p: Vec2) -> f32 {
-    let p = p * SIDE as f32;
-    let low = p.floor();
-    let t = p - low;
-    let mask = SIDE as i32 - 1;
-    let (x, y) = (low.x as i32 & mask, low.y as i32 & mask);
-    let (x1, y1) = ((x + 1) & mask, (y + 1) & mask);
-    let at = |x: i32, y: i32| f32::from(FIELD[y as usize * SIDE + x as usize]);
-    let (top, bottom) = (at(x, y) + (at(x1, y) - at(x, y)) * t.x, at(x, y1) + (at(x1, y1) - at(x, y1)) * t.x);
-    (top + (bottom - top) * t.y) / 255.0
-}
-
-/// From 0 below `low` to 1 above `high`.
-fn step(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
 
 /// How much of it a material has.
 #[derive(Clone, Copy)]
@@ -71,7 +32,6 @@ impl Weather {
 
     /// Changes what a material is at a point; returns its normal, which water flattens.
     pub(super) fn wear(self, surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
-        let outward = if surface.is_front { surface.shading.z } else { -surface.shading.z };
         if self.dirt > 0.0 && width_m < TOO_WIDE_M {
             // Windows are washed.
             let dirt = self.dirt * step(0.01, 0.1, p.alpha);
@@ -82,7 +42,12 @@ impl Weather {
             }
             splash(surface, self.dirt, p);
         }
-        if self.wetness > 0.0 { rain(surface, self.wetness, outward, width_m, normal, p) } else { normal }
+        // What is sheltered has dried.
+        if self.wetness > 0.0 && surface.exposure.is_open {
+            rain(surface, self.wetness, surface.outward_z(), width_m, normal, p)
+        } else {
+            normal
+        }
     }
 }
 
@@ -153,6 +118,7 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::Exposure;
 
     fn asphalt() -> Parameters {
         Parameters {
@@ -182,6 +148,7 @@ mod tests {
             uv: Vec2::ZERO,
             uv_axes: None,
             tint: Vec3::ONE,
+            exposure: Exposure::BARE,
         }
     }
 
@@ -215,14 +182,5 @@ mod tests {
             p.base_color.y
         };
         assert!(dust(0.1) > 0.03 && dust(3.0) == 0.0);
-    }
-
-    #[test]
-    fn the_field_is_spread_evenly() {
-        let n = 20_000;
-        let above = |limit: f32| (0..n).filter(|&i| field(vec2(i as f32 * 0.617, i as f32 * 0.383)) > limit).count();
-        for share in [0.1, 0.5, 0.9] {
-            assert!((above(1.0 - share) as f32 / n as f32 - share).abs() < 0.05);
-        }
     }
 }

@@ -1,11 +1,12 @@
-//! Drops of rain before the camera: each draws a streak while light is gathered, as bright as what it refracts.
+//! Drops and flakes before the camera: each draws a streak while light is gathered, as bright as what it refracts or
+//! scatters.
 //!
-//! A falling drop gathers light from a wide field behind it (Garg and Nayar 2007), so all that are near each other have the
-//! brightness of paths through a few. Those too far away to be told apart are part of the air.
+//! A falling drop gathers light from a wide field behind it (Garg and Nayar 2007), and a flake from all sides, so all that are
+//! near each other have the brightness of paths through a few. Those too far away to be told apart are part of the air.
 
 use glam::{DVec2, DVec3, IVec3, Vec3};
 use rayon::prelude::*;
-use trove_model::{Rain, Raster, Seed, Shot};
+use trove_model::{Form, Precipitation, Raster, Seed, Shot};
 
 use super::integrate::{Cone, Path};
 use super::wave::Wave;
@@ -15,7 +16,7 @@ use crate::motion::MIDDLE;
 use crate::ray::Ray;
 use crate::sampling::{Basis, Sampler, disk};
 
-/// Smaller drops are too many and cover too little.
+/// Smaller ones are too many and cover too little.
 const SMALLEST_M: f64 = 0.5e-3;
 /// Farther ones are in the air, and nearer ones too blurred.
 const REACH_M: [f64; 2] = [0.3, 15.0];
@@ -25,17 +26,17 @@ const LEAST_COVER: f64 = 0.002;
 const APERTURE_M: f64 = 3e-3;
 /// What a picture that is taken in an instant takes it for.
 const EXPOSURE_S: f64 = 1.0 / 250.0;
-/// Side of the cubes in which drops are counted.
+/// Side of the cubes in which they are counted.
 const CELL_M: f64 = 1.0;
-/// Places in the picture where the brightness of drops is told, and paths at each.
+/// Places in the picture where their brightness is told, and paths at each.
 const NODES: [u32; 2] = [24, 14];
 const PATHS: u32 = 64;
-/// Distance of those drops.
+/// Distance at which it is.
 const TYPICAL_M: f32 = 3.0;
 /// Refractive index of water.
 const WATER: f32 = 1.333;
 
-/// What a drop draws.
+/// What one of them draws.
 struct Streak {
     ends_px: [DVec2; 2],
     width_px: f64,
@@ -46,16 +47,16 @@ struct Streak {
     place: Vec3,
 }
 
-/// Draws the rain that falls before a shot's camera into its picture.
+/// Draws what falls before a shot's camera into its picture.
 pub(crate) fn draw(
     scene: &PreparedScene,
     shot: &Shot,
-    rain: Rain,
+    falling: Precipitation,
     depth_m: &Raster<f32>,
     picture: &mut Raster<[f32; 3]>,
 ) {
-    let cover = cover(&in_the_open(scene, drops(shot, rain)), depth_m);
-    let light = light(scene, shot, depth_m);
+    let cover = cover(&in_the_open(scene, streaks(shot, falling)), depth_m);
+    let light = light(scene, shot, falling.form, depth_m);
     let (width, height) = (f64::from(picture.width), f64::from(picture.height));
     let pixel = |(i, rgb): (usize, &mut [f32; 3])| {
         let share = cover.data[i];
@@ -68,8 +69,8 @@ pub(crate) fn draw(
     picture.data.par_iter_mut().enumerate().for_each(pixel);
 }
 
-/// The streaks of all drops, sheltered or not.
-fn drops(shot: &Shot, rain: Rain) -> Vec<Streak> {
+/// All of them, sheltered or not.
+fn streaks(shot: &Shot, falling: Precipitation) -> Vec<Streak> {
     let eye = shot.world_from_camera.translation;
     let around = (REACH_M[1] / CELL_M).ceil() as i32;
     let middle = (eye / CELL_M).floor().as_ivec3();
@@ -87,14 +88,14 @@ fn drops(shot: &Shot, rain: Rain) -> Vec<Streak> {
             return Vec::new();
         }
         let mut random = cell.to_array().into_iter().fold(seed, |seed, part| seed.nth(part as u64)).random();
-        let mean = rain.drops_per_m3(SMALLEST_M) * CELL_M.powi(3);
+        let mean = falling.pieces_per_m3(SMALLEST_M) * CELL_M.powi(3);
         let count = (mean + random.unit()) as usize;
-        let mut drop = || {
+        let mut piece = || {
             let place = DVec3::new(random.unit(), random.unit(), random.unit());
-            let diameter_m = rain.diameter_m(SMALLEST_M, random.unit());
-            streak(shot, (cell.as_dvec3() + place) * CELL_M, diameter_m)
+            let diameter_m = falling.diameter_m(SMALLEST_M, random.unit());
+            streak(shot, (cell.as_dvec3() + place) * CELL_M, diameter_m, falling.speed_mps(diameter_m))
         };
-        (0..count).filter_map(|_| drop()).collect()
+        (0..count).filter_map(|_| piece()).collect()
     };
     cells.par_iter().flat_map_iter(in_cell).collect()
 }
@@ -138,8 +139,8 @@ fn field_rad(shot: &Shot) -> f64 {
     rim.map(angle).fold(0.0, f64::max)
 }
 
-/// What a drop draws that is at a place in World in the exposure's middle; `None` where it is hardly seen.
-fn streak(shot: &Shot, place: DVec3, diameter_m: f64) -> Option<Streak> {
+/// What is drawn by what falls through a place in World in the exposure's middle; `None` where it is hardly seen.
+fn streak(shot: &Shot, place: DVec3, diameter_m: f64, speed_mps: f64) -> Option<Streak> {
     let point = shot.world_from_camera.inverse().point(place);
     let distance_m = point.length();
     if !(REACH_M[0]..=REACH_M[1]).contains(&distance_m) {
@@ -150,7 +151,7 @@ fn streak(shot: &Shot, place: DVec3, diameter_m: f64) -> Option<Streak> {
     let area_px = std::f64::consts::FRAC_PI_4 * (diameter_m * to_px).powi(2);
     let width_px = ((diameter_m + APERTURE_M) * to_px).max(1.0);
     let exposure_s = if shot.shutter.exposure_s > 0.0 { shot.shutter.exposure_s } else { EXPOSURE_S };
-    let falls_mps = DVec3::NEG_Z * Rain::speed_mps(diameter_m);
+    let falls_mps = DVec3::NEG_Z * speed_mps;
     let middle_px = shot.lens.project(point).filter(|pixel| shot.lens.contains(*pixel))?;
     let row = middle_px.y / f64::from(shot.lens.height_px);
     let ends_px = [0.0, 1.0].map(|within| {
@@ -195,8 +196,8 @@ fn cover(streaks: &[Streak], depth_m: &Raster<f32>) -> Raster<f32> {
     cover
 }
 
-/// Radiance of drops across the picture, row by row.
-fn light(scene: &PreparedScene, shot: &Shot, depth_m: &Raster<f32>) -> Vec<Vec3> {
+/// Radiance of what falls across the picture, row by row.
+fn light(scene: &PreparedScene, shot: &Shot, form: Form, depth_m: &Raster<f32>) -> Vec<Vec3> {
     let seed = shot.seed.child("rain");
     let node = |i: u32| {
         let [x, y] = [i % NODES[0], i / NODES[0]];
@@ -210,7 +211,11 @@ fn light(scene: &PreparedScene, shot: &Shot, depth_m: &Raster<f32>) -> Vec<Vec3>
         for k in 0..PATHS {
             let mut sampler = Sampler::new(seed, [x, y], k, PATHS.ilog2());
             let (onwards, which) = (sampler.next2(), sampler.next2());
-            let ray = Ray::new(origin, through_drop(towards, onwards, which[0]));
+            let from = match form {
+                Form::Rain => through_drop(towards, onwards, which[0]),
+                Form::Snow => anywhere(onwards),
+            };
+            let ray = Ray::new(origin, from);
             wave.paths.push(Path::new(ray, Cone { width_m: 0.0, spread_rad: 0.05 }, sampler));
         }
         wave.run(scene);
@@ -235,6 +240,12 @@ fn through_drop(direction: Vec3, u: [f32; 2], which: f32) -> Vec3 {
     let outwards = Basis::about(direction).to_world(Vec3::new(x, y, 0.0) / sin.max(1e-6));
     let side = if which < reflected { outwards } else { -outwards };
     (direction * turned.cos() + side * turned.sin()).normalize()
+}
+
+/// Where a ray comes from that a flake scatters: from all sides alike.
+fn anywhere(u: [f32; 2]) -> Vec3 {
+    let (z, turn) = (1.0 - 2.0 * u[0], std::f32::consts::TAU * u[1]);
+    (Vec3::new(turn.cos(), turn.sin(), 0.0) * (1.0 - z * z).max(0.0).sqrt()).with_z(z)
 }
 
 /// The brightness at a place in the picture, 0 to 1 from its upper left corner.
@@ -273,9 +284,9 @@ mod tests {
     #[test]
     fn a_drop_draws_a_streak_as_long_as_it_falls_and_covers_as_much_as_its_disc() {
         let (shot, diameter_m, ahead_m) = (shot(), 3e-3, 1.5);
-        let streak = streak(&shot, DVec3::new(0.1, ahead_m, 2.0), diameter_m).unwrap();
+        let streak = streak(&shot, DVec3::new(0.1, ahead_m, 2.0), diameter_m, 8.0).unwrap();
         let [from, to] = streak.ends_px;
-        let length_px = Rain::speed_mps(diameter_m) * EXPOSURE_S * 320.0 / ahead_m;
+        let length_px = 8.0 * EXPOSURE_S * 320.0 / ahead_m;
         assert!((to - from - DVec2::Y * length_px).length() < 0.05, "{from} {to} {length_px}");
         let far = Raster::filled(400, 300, f32::INFINITY);
         let covered: f32 = cover(std::slice::from_ref(&streak), &far).data.iter().sum();
@@ -289,10 +300,10 @@ mod tests {
     fn drops_cover_as_much_of_the_picture_as_the_rain_has_of_them() {
         // Of drops that are seen as large as these, hardly any are left out as too small.
         let shot = Shot { shutter: trove_model::Shutter { exposure_s: 1e-4, readout_s: 0.0 }, ..shot() };
-        let rain = Rain { rate_mm_h: 20.0 };
+        let rain = Precipitation { form: Form::Rain, rate_mm_h: 20.0 };
         let far = Raster::filled(400, 300, f32::INFINITY);
         let streaks: Vec<Streak> = (0..6)
-            .flat_map(|i| drops(&Shot { time_ns: i, ..shot.clone() }, rain))
+            .flat_map(|i| streaks(&Shot { time_ns: i, ..shot.clone() }, rain))
             .filter(|streak| streak.depth_m < 4.0)
             .collect();
         let covered: f64 = cover(&streaks, &far).data.iter().map(|share| f64::from(*share)).sum::<f64>() / 6.0;

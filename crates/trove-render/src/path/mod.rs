@@ -1,8 +1,8 @@
 //! Light carried along random paths from the eye: unidirectional path tracing with light sampling.
 
 mod camera;
+pub(crate) mod falling;
 mod integrate;
-pub(crate) mod rain;
 mod rates;
 mod tile;
 mod wave;

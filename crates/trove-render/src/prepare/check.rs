@@ -108,8 +108,11 @@ fn check_light(light: &Light) -> Result<(), RenderError> {
             return refuse("fog".into(), "visibility and height of more than 0 m over a ground", format!("{fog:?}"));
         }
     }
-    if let Some(rain) = light.rain.filter(|rain| !(rain.rate_mm_h > 0.0 && rain.rate_mm_h.is_finite())) {
-        return refuse("rain".into(), "more than 0 mm an hour", format!("{rain:?}"));
+    if let Some(falling) = light.falling.filter(|falling| !(falling.rate_mm_h > 0.0 && falling.rate_mm_h.is_finite())) {
+        return refuse("precipitation".into(), "more than 0 mm an hour", format!("{falling:?}"));
+    }
+    if let Some(snow) = light.snow.as_ref().filter(|snow| !(0.0..=1.0).contains(&snow.cover)) {
+        return refuse("snow".into(), "a cover of 0 to 1", format!("{}", snow.cover));
     }
     match &light.environment {
         Environment::Sky(sky) => {

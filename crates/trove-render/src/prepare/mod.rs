@@ -2,11 +2,12 @@
 
 mod carrier;
 mod check;
+mod exposure;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec3, bvec3};
-use trove_model::{Class, Instance, Mesh, Origin, Placement, Rain, Scene, SceneObject};
+use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject, Snow};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -14,10 +15,11 @@ use crate::fog::Fog;
 use crate::light::{LastSurroundings, Lights};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
-use crate::placed::Placed;
+use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 use crate::surface::Surface;
 use crate::texture::Textures;
+use exposure::Bears;
 
 pub(crate) use carrier::Carrier;
 
@@ -27,9 +29,10 @@ pub struct PreparedScene {
     pub(crate) instances: Vec<PreparedInstance>,
     pub(crate) materials: Vec<PreparedMaterial>,
     pub(crate) lights: Lights,
-    /// And what rain takes from light.
+    /// And what falls takes from light.
     pub(crate) fog: Option<Fog>,
-    pub(crate) rain: Option<Rain>,
+    pub(crate) falling: Option<Precipitation>,
+    snow: Option<Snow>,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
@@ -46,6 +49,7 @@ struct Others {
 /// What labels tell of an instance.
 pub(crate) struct PreparedInstance {
     pub(crate) class: Class,
+    bears: Bears,
     /// In the model's precision.
     pub(crate) world_from_mesh: Motion<DAffine3>,
     /// At the moment of the labels.
@@ -87,8 +91,7 @@ impl PreparedScene {
         let foot_z = |mesh: usize| bounds[mesh].map_or(0.0, |(low, _)| low.z);
         let place = |i: &Instance, now: Placement, way: &Motion<DAffine3>, stays: [bool; 2]| {
             let materials = i.materials.iter().map(|&m| m as u32).collect();
-            let is_carrier = i.object.as_ref().is_some_and(|object| object.origin == Origin::Carrier);
-            Placed::new(i.id, scene.meshes[now.mesh].clone(), foot_z(now.mesh), materials, way, stays, is_carrier)
+            Placed::new(i.id, scene.meshes[now.mesh].clone(), foot_z(now.mesh), materials, way, stays, sort(i))
         };
         let placed = scene.instances.iter().zip(&instances).map(|(instance, prepared)| {
             let stays = prepared.then.each_ref().map(|then| matches!(then, Then::Stays));
@@ -110,8 +113,8 @@ impl PreparedScene {
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
         let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
-        let rain = scene.light.rain;
-        Ok(Self { shapes, instances, materials, lights, fog, rain, accel: accel?, others, has_beside })
+        let (falling, snow) = (scene.light.falling, scene.light.snow.clone());
+        Ok(Self { shapes, instances, materials, lights, fog, falling, snow, accel: accel?, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.
@@ -172,7 +175,20 @@ impl PreparedScene {
     /// The surface at a ray's hit, and its material.
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
         let placed = self.placed(hit.instance);
-        (Surface::new(placed, hit, ray), &self.materials[placed.material(hit)])
+        let material = &self.materials[placed.material(hit)];
+        let mut surface = Surface::new(placed, hit, ray);
+        if self.snow.is_some() || material.is_wet() {
+            surface.exposure = self.exposure(self.instances[hit.instance as usize].bears, &surface, ray);
+        }
+        (surface, material)
+    }
+}
+
+fn sort(instance: &Instance) -> Sort {
+    match (instance.class, &instance.object) {
+        (_, Some(object)) if object.origin == Origin::Carrier => Sort::Carrier,
+        (Class::Tree | Class::Bush | Class::Human | Class::CycleRider | Class::MotorcycleRider, _) => Sort::Loose,
+        _ => Sort::Solid,
     }
 }
 
@@ -204,6 +220,7 @@ impl PreparedInstance {
         let ways = neighbours.map(|placement| Some(placement?.world_from_mesh));
         Self {
             class: instance.class,
+            bears: Bears::new(instance),
             world_from_mesh: Motion::new(instance.world_from_mesh, ways, scene.keyframes_apart_s),
             mesh_from_world,
             then: neighbours.map(then),

@@ -6,12 +6,13 @@
 mod converged;
 mod plain;
 mod sets;
+mod snow;
 mod studio;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
-use trove_model::{ColorSpace, Fog, InstanceId, Material, Mesh, Rain, Scene, Shot, Texture};
+use trove_model::{ColorSpace, Fog, Form, InstanceId, Material, Mesh, Precipitation, Scene, Shot, Texture};
 use trove_render::{KernelChoice, RenderError, Renderer};
 
 use studio::*;
@@ -68,7 +69,7 @@ fn a_black_ball_in_fog_fades_by_koschmieder_s_law_into_white() {
 fn rain_in_a_white_world_is_not_seen_and_before_a_black_wall_it_is() {
     let renderer = renderer(KernelChoice::Obvhs, 2);
     let mut scene = empty(uniform(1.0));
-    scene.light.rain = Some(Rain { rate_mm_h: 60.0 });
+    scene.light.falling = Some(Precipitation { form: Form::Rain, rate_mm_h: 60.0 });
     let shot = Shot { spp: 64, ..shot(DVec3::ZERO, DVec3::Y, 0.5) };
     let black = || Material { ior: 1.0, ..Material::plain("black", Vec3::ZERO, 1.0) };
     let at = |y: f64, z: f64, size: f64| {

@@ -55,7 +55,7 @@ pub(crate) fn empty(environment: EnvironmentMap) -> Scene {
         instances: Vec::new(),
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { environment: Environment::Map(Arc::new(environment)), fog: None, rain: None },
+        light: Light::clear(Environment::Map(Arc::new(environment))),
         provenance: Vec::new(),
     }
 }

@@ -71,11 +71,7 @@ impl Studio {
             instances,
             others: Default::default(),
             keyframes_apart_s: [f64::INFINITY; 2],
-            light: Light {
-                environment: self.environment.clone().unwrap_or(Environment::Sky(afternoon())),
-                fog: None,
-                rain: None,
-            },
+            light: Light::clear(self.environment.clone().unwrap_or(Environment::Sky(afternoon()))),
             provenance: Vec::new(),
         };
         (scene, self.shot(low, high))

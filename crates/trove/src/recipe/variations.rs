@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::check::check;
 use super::light::LightSection;
 use super::season::SeasonChoice;
-use super::weather::{RAIN_MM_H, VISIBILITY_M};
+use super::weather::{RAIN_MM_H, SNOWFALL_MM_H, VISIBILITY_M};
 
 /// What may differ between variations; each has a seed of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
@@ -42,6 +42,10 @@ pub enum Factor {
     Fog,
     /// Rain that falls.
     Rain,
+    /// Snow that falls.
+    Snowfall,
+    /// Snow that lies.
+    Snow,
     /// Stops about the recipe's exposure.
     Exposure,
     /// Height and pitch of the cameras.
@@ -53,10 +57,10 @@ pub enum Factor {
 impl Factor {
     /// Every factor.
     #[rustfmt::skip]
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::Place, Self::Assets, Self::Paint, Self::People, Self::Facades, Self::Materials, Self::Furniture, Self::Vegetation,
-        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Fog, Self::Rain, Self::Exposure, Self::Camera,
-        Self::Rigs,
+        Self::Season, Self::Light, Self::Traffic, Self::Wetness, Self::Fog, Self::Rain, Self::Snowfall, Self::Snow, Self::Exposure,
+        Self::Camera, Self::Rigs,
     ];
 
     /// Its name in recipes.
@@ -76,6 +80,8 @@ impl Factor {
             Self::Wetness => "wetness",
             Self::Fog => "fog",
             Self::Rain => "rain",
+            Self::Snowfall => "snowfall",
+            Self::Snow => "snow",
             Self::Exposure => "exposure",
             Self::Camera => "camera",
             Self::Rigs => "rigs",
@@ -118,6 +124,18 @@ pub struct VariationsSection {
     /// Share of the variations in which it rains where rain is drawn.
     #[serde(skip_serializing_if = "is_one")]
     pub rain_share: f64,
+    /// As `weather.snowfall_mm_h`, drawn evenly by its logarithm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snowfall_mm_h: Option<Range>,
+    /// Share of the variations in which it snows where snowfall is drawn.
+    #[serde(skip_serializing_if = "is_one")]
+    pub snowfall_share: f64,
+    /// As `weather.snow`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snow: Option<Range>,
+    /// Share of the variations in which snow lies where it is drawn.
+    #[serde(skip_serializing_if = "is_one")]
+    pub snow_share: f64,
     /// Road users against the recorded number.
     pub traffic: Option<Range>,
     /// Cyclists among added road users, against what is usual at the place.
@@ -166,6 +184,10 @@ impl Default for VariationsSection {
             fog_share: 1.0,
             rain_mm_h: None,
             rain_share: 1.0,
+            snowfall_mm_h: None,
+            snowfall_share: 1.0,
+            snow: None,
+            snow_share: 1.0,
             traffic: None,
             cyclists: 1.0,
             exposure_ev: None,
@@ -208,6 +230,16 @@ impl VariationsSection {
         self.rain_mm_h.unwrap_or([2.0, 50.0])
     }
 
+    /// How much it may snow where it does.
+    pub fn snowfall_mm_h(&self) -> Range {
+        self.snowfall_mm_h.unwrap_or([0.3, 3.0])
+    }
+
+    /// How much of the ground snow may cover where it lies.
+    pub fn snow(&self) -> Range {
+        self.snow.unwrap_or([0.3, 1.0])
+    }
+
     /// How many road users there may be against the recorded number.
     pub fn traffic(&self) -> Range {
         self.traffic.unwrap_or([0.5, 2.0])
@@ -227,7 +259,7 @@ impl VariationsSection {
     }
 
     /// Every key with a range: its factor, its name, and whether it is given.
-    fn ranges(&self) -> [(Factor, &'static str, bool); 14] {
+    fn ranges(&self) -> [(Factor, &'static str, bool); 16] {
         let light = &self.light;
         [
             (Factor::Place, "places", self.places.is_some()),
@@ -235,6 +267,8 @@ impl VariationsSection {
             (Factor::Wetness, "wetness", self.wetness.is_some()),
             (Factor::Fog, "visibility_m", self.visibility_m.is_some()),
             (Factor::Rain, "rain_mm_h", self.rain_mm_h.is_some()),
+            (Factor::Snowfall, "snowfall_mm_h", self.snowfall_mm_h.is_some()),
+            (Factor::Snow, "snow", self.snow.is_some()),
             (Factor::Traffic, "traffic", self.traffic.is_some()),
             (Factor::Exposure, "exposure_ev", self.exposure_ev.is_some()),
             (Factor::Camera, "camera_height_m", self.camera_height_m.is_some()),
@@ -259,13 +293,21 @@ impl VariationsSection {
             )
         };
         check("variations.count", self.count, (1..=100).contains(&self.count), "1 to 100")?;
-        let shares = [("dry_share", self.dry_share), ("fog_share", self.fog_share), ("rain_share", self.rain_share)];
+        let shares = [
+            ("dry_share", self.dry_share),
+            ("fog_share", self.fog_share),
+            ("rain_share", self.rain_share),
+            ("snowfall_share", self.snowfall_share),
+            ("snow_share", self.snow_share),
+        ];
         for (key, share) in shares {
             check(&format!("variations.{key}"), share, (0.0..=1.0).contains(&share), "0 to 1")?;
         }
         within("wetness", self.wetness, [0.0, 1.0])?;
         within("visibility_m", self.visibility_m, VISIBILITY_M)?;
         within("rain_mm_h", self.rain_mm_h, RAIN_MM_H)?;
+        within("snowfall_mm_h", self.snowfall_mm_h, SNOWFALL_MM_H)?;
+        within("snow", self.snow, [0.0, 1.0])?;
         within("traffic", self.traffic, [0.0, 10.0])?;
         check("variations.cyclists", self.cyclists, (0.0..=100.0).contains(&self.cyclists), "0 to 100")?;
         within("exposure_ev", self.exposure_ev, [-8.0, 8.0])?;
@@ -349,6 +391,8 @@ impl Factor {
                 | Self::Wetness
                 | Self::Fog
                 | Self::Rain
+                | Self::Snowfall
+                | Self::Snow
                 | Self::Exposure
                 | Self::Camera
         )
@@ -400,6 +444,7 @@ mod tests {
                 "variations.visibility_m: expected two numbers from 10 to 50000, the smaller first",
             ),
             ("fog_share = 2\n", "variations.fog_share: expected 0 to 1, found 2"),
+            ("snow = [0, 2]\n", "variations.snow: expected two numbers from 0 to 1, the smaller first"),
             ("rain_mm_h = [0, 9]\n", "variations.rain_mm_h: expected two numbers from 0.1 to 200, the smaller first"),
             ("wetness = [0.5, 0.2]\n", "variations.wetness: expected two numbers from 0 to 1, the smaller first"),
             ("camera_pitch_deg = [-40, 0]\n", "variations.camera_pitch_deg: expected two numbers from -20 to 20"),

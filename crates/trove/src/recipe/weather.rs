@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::Weather;
-use trove_model::{Fog, Rain};
+use trove_model::{Fog, Form, Precipitation};
 
 use super::check::check;
 use super::season::SeasonChoice;
@@ -15,6 +15,8 @@ const FOG_HEIGHT_M: [f64; 2] = [2.0, 5000.0];
 
 /// The same of rain, millimetres an hour: a drizzle, and the heaviest cloudbursts.
 pub(super) const RAIN_MM_H: [f64; 2] = [0.1, 200.0];
+/// The same of snow that falls, millimetres of water an hour.
+pub(super) const SNOWFALL_MM_H: [f64; 2] = [0.05, 10.0];
 
 /// `[weather]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -35,13 +37,28 @@ pub struct WeatherSection {
     /// Rain that falls, millimetres of water an hour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rain_mm_h: Option<f64>,
+    /// Snow that falls, millimetres of water an hour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snowfall_mm_h: Option<f64>,
+    /// Share of level surfaces in the open that snow covers, 0 to 1.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub snow: f64,
 }
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness, season: _, fog: _, rain: _ } = Weather::default();
+        let Weather { dirt, wetness, season: _, fog: _, falling: _, snow } = Weather::default();
         let season = SeasonChoice::default();
-        Self { wetness, dirt, season, visibility_m: None, fog_height_m: None, rain_mm_h: None }
+        Self {
+            wetness,
+            dirt,
+            season,
+            visibility_m: None,
+            fog_height_m: None,
+            rain_mm_h: None,
+            snowfall_mm_h: None,
+            snow,
+        }
     }
 }
 
@@ -49,8 +66,10 @@ impl WeatherSection {
     /// What weather has done to the place, with fog of the visibility that is told.
     pub fn weather(&self) -> Weather {
         let fog = self.visibility_m.map(|visibility_m| self.fog(visibility_m));
-        let rain = self.rain_mm_h.map(|rate_mm_h| Rain { rate_mm_h });
-        Weather { dirt: self.dirt, wetness: self.wetness, season: self.season.into(), fog, rain }
+        let rain = self.rain_mm_h.map(rain);
+        let falling = self.snowfall_mm_h.map(snowfall).or(rain);
+        let (dirt, wetness, season, snow) = (self.dirt, self.wetness, self.season.into(), self.snow);
+        Weather { dirt, wetness, season, fog, falling, snow }
     }
 
     /// Fog of a visibility, over a ground at 0.
@@ -61,18 +80,24 @@ impl WeatherSection {
 
     /// `varies`: whether variations draw a visibility.
     pub(super) fn check(&self, varies: bool) -> Result<()> {
-        for (key, share) in [("weather.wetness", self.wetness), ("weather.dirt", self.dirt)] {
+        let shares = [("weather.wetness", self.wetness), ("weather.dirt", self.dirt), ("weather.snow", self.snow)];
+        for (key, share) in shares {
             check(key, share, (0.0..=1.0).contains(&share), "0 to 1")?;
         }
         let metres =
             [("visibility_m", self.visibility_m, VISIBILITY_M), ("fog_height_m", self.fog_height_m, FOG_HEIGHT_M)];
         let metres = metres.map(|(key, value, range)| (key, value, range, "metres"));
-        let rain = ("rain_mm_h", self.rain_mm_h, RAIN_MM_H, "millimetres an hour");
-        for (key, value, [least, most], unit) in metres.into_iter().chain([rain]) {
+        let falling = [("rain_mm_h", self.rain_mm_h, RAIN_MM_H), ("snowfall_mm_h", self.snowfall_mm_h, SNOWFALL_MM_H)];
+        let falling = falling.map(|(key, value, range)| (key, value, range, "millimetres an hour"));
+        for (key, value, [least, most], unit) in metres.into_iter().chain(falling) {
             let Some(value) = value else { continue };
             let expected = format!("{least} to {most} {unit}");
             check(&format!("weather.{key}"), value, (least..=most).contains(&value), &expected)?;
         }
+        ensure!(
+            self.rain_mm_h.is_none() || self.snowfall_mm_h.is_none(),
+            "weather.snowfall_mm_h: expected rain or snow, found both; remove it or weather.rain_mm_h"
+        );
         ensure!(
             self.fog_height_m.is_none() || self.visibility_m.is_some() || varies,
             "weather.fog_height_m: expected fog, found clear air; add weather.visibility_m"
@@ -81,9 +106,35 @@ impl WeatherSection {
     }
 }
 
-/// How wet rain keeps the ground: from about 1 mm an hour on there are puddles.
-pub fn wet_by(rain: Rain) -> f64 {
-    (0.5 + 0.25 * rain.rate_mm_h.log10()).clamp(0.4, 1.0)
+/// Rain of so many millimetres an hour.
+pub fn rain(rate_mm_h: f64) -> Precipitation {
+    Precipitation { form: Form::Rain, rate_mm_h }
+}
+
+/// Snow that falls, of so many millimetres of water an hour.
+pub fn snowfall(rate_mm_h: f64) -> Precipitation {
+    Precipitation { form: Form::Snow, rate_mm_h }
+}
+
+/// Share of the ground that what falls keeps covered with snow.
+pub fn covered_by(falling: Precipitation) -> f64 {
+    match falling.form {
+        Form::Rain => 0.0,
+        Form::Snow => (0.6 + 0.4 * falling.rate_mm_h.log10()).clamp(0.3, 1.0),
+    }
+}
+
+/// How wet the ground is kept by rain, of which from about 1 mm an hour on there are puddles, and by what melts of snow that
+/// covers a share of it.
+pub fn wet_by(falling: Option<Precipitation>, snow: f64) -> f64 {
+    let by_rain = falling
+        .filter(|falling| falling.form == Form::Rain)
+        .map_or(0.0, |rain| (0.5 + 0.25 * rain.rate_mm_h.log10()).clamp(0.4, 1.0));
+    by_rain.max(0.35 * snow)
+}
+
+fn is_zero(n: &f64) -> bool {
+    *n == 0.0
 }
 
 /// Fog through which about a third of the sun's light comes straight, as long as it is neither a mist on the ground nor as
@@ -115,6 +166,9 @@ mod tests {
             ("visibility_m = 5", "weather.visibility_m: expected 10 to 50000 metres, found 5"),
             ("visibility_m = 50\nfog_height_m = 0", "weather.fog_height_m: expected 2 to 5000 metres, found 0"),
             ("fog_height_m = 20", "add weather.visibility_m"),
+            ("snowfall_mm_h = 50", "weather.snowfall_mm_h: expected 0.05 to 10 millimetres an hour, found 50"),
+            ("snowfall_mm_h = 1\nrain_mm_h = 1", "expected rain or snow, found both"),
+            ("snow = 2", "weather.snow: expected 0 to 1, found 2"),
             ("rain_mm_h = 0", "weather.rain_mm_h: expected 0.1 to 200 millimetres an hour, found 0"),
         ] {
             let found = weather(text).unwrap_err().to_string();

@@ -25,7 +25,7 @@ use crate::RenderError;
 use crate::cache::Cache;
 use crate::material::Opacity;
 use crate::motion::Motion;
-use crate::placed::Placed;
+use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 use crate::texture::{MipMap, OpacityMask};
 
@@ -90,7 +90,7 @@ impl Embree {
         });
         let at = |z: f64, material: u32, stays: [bool; 2]| {
             let way = Motion { middle: DAffine3::from_translation(DVec3::Z * z), ends: None };
-            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, stays, false)
+            Placed::new(InstanceId(0), mesh.clone(), 0.0, vec![material], &way, stays, Sort::Solid)
         };
         let clear =
             Texture { name: String::new(), width: 1, height: 1, rgba: vec![[0; 4]], color_space: ColorSpace::Srgb };

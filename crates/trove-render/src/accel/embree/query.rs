@@ -10,7 +10,7 @@ use super::api::{
 };
 use super::device::BuiltScene;
 use super::{PACKET, Shapes};
-use crate::placed::Placed;
+use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 
 /// What a filter judges by.
@@ -29,15 +29,21 @@ const PREVIOUS: u32 = 2;
 const NEXT: u32 = 4;
 /// Farther left are the same bits of the recording vehicle.
 const OF_CARRIER: u32 = 3;
+/// What keeps off rain and snow now.
+const SHELTER: u32 = 1 << 6;
 
 /// The bits of an instance: it shares one with the rays of every moment at which it is there as it is now.
 pub(super) fn mask(placed: &Placed) -> u32 {
     let [before, after] = placed.stays;
     let moments = NOW | if before { PREVIOUS } else { 0 } | if after { NEXT } else { 0 };
-    if placed.is_carrier { moments << OF_CARRIER } else { moments }
+    let moments = if placed.sort == Sort::Carrier { moments << OF_CARRIER } else { moments };
+    if placed.sort.shelters() { moments | SHELTER } else { moments }
 }
 
 fn mask_of(shapes: &Shapes, ray: &Ray) -> u32 {
+    if ray.for_shelter {
+        return SHELTER;
+    }
     let moment = match ray.beside {
         None => NOW,
         Some(Beside::Previous) => PREVIOUS,

@@ -54,7 +54,7 @@ fn shapes() -> Arc<Shapes> {
         ..Mesh::default()
     };
     let way = Motion { middle: DAffine3::IDENTITY, ends: None };
-    let placed = vec![Placed::new(InstanceId(1), Arc::new(mesh), 0.0, vec![0], &way, [true; 2], false)];
+    let placed = vec![Placed::new(InstanceId(1), Arc::new(mesh), 0.0, vec![0], &way, [true; 2], Sort::Solid)];
     Arc::new(Shapes::new(placed, [Opacity::default()].into()))
 }
 

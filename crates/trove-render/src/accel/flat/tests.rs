@@ -8,7 +8,7 @@ use super::super::obvhs::Obvhs;
 use super::*;
 use crate::material::Opacity;
 use crate::motion::{MIDDLE, Motion};
-use crate::placed::Placed;
+use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit};
 use crate::texture::{MipMap, OpacityMask};
 
@@ -54,7 +54,7 @@ fn shapes() -> Arc<Shapes> {
         let materials = vec![i % 3, i % 2];
         let stays = [i % 5 != 0, i % 7 != 0];
         let mesh = meshes[i as usize % meshes.len()].clone();
-        Placed::new(InstanceId(i / 2), mesh, 0.0, materials, &Motion { middle, ends }, stays, false)
+        Placed::new(InstanceId(i / 2), mesh, 0.0, materials, &Motion { middle, ends }, stays, Sort::Solid)
     });
     Arc::new(Shapes::new(placed.collect(), opacities.into()))
 }

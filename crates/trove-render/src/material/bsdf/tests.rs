@@ -2,6 +2,7 @@ use glam::Vec2;
 use trove_model::{Random, Seed};
 
 use super::*;
+use crate::surface::Exposure;
 
 /// A surface that faces up, seen from an angle with cosine `cos`.
 fn bsdf(cos: f32, p: &Parameters) -> Bsdf {
@@ -20,6 +21,7 @@ fn seen_from(wo: Vec3, p: &Parameters) -> Bsdf {
         uv: Vec2::ZERO,
         uv_axes: None,
         tint: Vec3::ONE,
+        exposure: Exposure::BARE,
     };
     Bsdf::new(&surface, Vec3::Z, p)
 }

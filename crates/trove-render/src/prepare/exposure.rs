@@ -1,0 +1,66 @@
+//! What comes down on surfaces: who bears snow, and what shelters from it and from rain.
+
+use glam::Vec3;
+use trove_model::{Class, Instance, State};
+
+use super::PreparedScene;
+use crate::accel::Coherence;
+use crate::material::holds_snow;
+use crate::ray::Ray;
+use crate::surface::{Exposure, Surface};
+
+/// What is left of snow on vehicles that are on their way.
+const DRIVEN: f32 = 0.45;
+/// What falls slants by so much here and there, as a tangent, and the width of what has one slant, metres: where it ends is
+/// uneven.
+const SLANT: f32 = 0.08;
+const SLANT_WIDE_M: f32 = 0.15;
+/// Nothing nearer shelters: surfaces are layers of paint and patches, millimetres apart, metres.
+const LAYERS_M: f32 = 0.03;
+
+/// What snow an instance bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Bears {
+    /// Where wheels and feet are.
+    Ground,
+    /// This share of what falls.
+    Share(f32),
+}
+
+impl Bears {
+    pub(super) fn new(instance: &Instance) -> Self {
+        match (instance.class, &instance.object) {
+            (Class::Road | Class::Sidewalk | Class::Ground, None) => Self::Ground,
+            (Class::Human | Class::CycleRider | Class::MotorcycleRider, _) => Self::Share(0.0),
+            (_, Some(object)) if object.kind.is_vehicle() && !object.states.contains(&State::Parked) => {
+                Self::Share(DRIVEN)
+            }
+            _ => Self::Share(1.0),
+        }
+    }
+}
+
+impl PreparedScene {
+    /// What comes down on a point of what bears so much of it, as a ray sees it.
+    pub(super) fn exposure(&self, bears: Bears, surface: &Surface, ray: &Ray) -> Exposure {
+        let bare = Exposure::BARE;
+        if !holds_snow(surface.outward_z()) || bears == Bears::Share(0.0) {
+            return bare;
+        }
+        let at = surface.point.truncate() / SLANT_WIDE_M;
+        let slant = SLANT * Vec3::new(at.x.sin() * (1.7 * at.y).cos(), at.y.sin() * (1.3 * at.x).cos(), 0.0);
+        let up = Vec3::Z + slant;
+        let looking = Ray { t_min: LAYERS_M, for_shelter: true, ..ray.then(surface.leave(Vec3::Z), up) };
+        let mut blocked = [false];
+        self.accel.blocked(&[looking], Coherence::Incoherent, &mut blocked);
+        if blocked[0] {
+            return Exposure { is_open: false, ..bare };
+        }
+        let Some(snow) = &self.snow else { return bare };
+        let (share, left) = match bears {
+            Bears::Ground => (1.0, snow.left.as_ref().map_or(1.0, |left| left.at(surface.point.truncate()))),
+            Bears::Share(share) => (share, 1.0),
+        };
+        Exposure { is_open: true, snow: snow.cover as f32 * share, left }
+    }
+}
