@@ -214,7 +214,7 @@ pub fn build_at(
         ..light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"))
     };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
-    switch_on(&light, &mut assembly.stock, lit);
+    switch_on(&light, locale.driving_side, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {

@@ -53,13 +53,13 @@ fn left(surfaces: &RoadSurfaces, bounds: Bounds) -> SnowLeft {
 fn share(bits: u8) -> f64 {
     let is = |bit: u8| bits & bit != 0;
     match () {
-        () if is(TRACKS) && !is(BETWEEN) => 0.1,
+        () if is(TRACKS) && !is(BETWEEN) => 0.03,
         () if is(BETWEEN) => 0.55,
-        () if is(PARKING) => 0.9,
-        () if is(LANE) => 0.7,
+        () if is(PARKING) => 0.97,
+        () if is(LANE) => 0.75,
         // Where lanes cross, wheels have been everywhere.
         () if is(CARRIAGEWAY) => 0.35,
-        () if is(WALKWAY) => 0.75,
+        () if is(WALKWAY) => 0.85,
         () => 1.0,
     }
 }

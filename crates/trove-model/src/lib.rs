@@ -31,6 +31,7 @@
 //! ```
 
 mod asset;
+mod beam;
 mod capture;
 mod class;
 mod class_map;
@@ -80,6 +81,7 @@ mod variation;
 mod voxels;
 
 pub use asset::{Asset, AssetLibrary, Coarser, CoverKind, Extra, Figure, GroundCover, Posture, Slot, Surface};
+pub use beam::Beam;
 pub use capture::{
     Capture, CaptureStats, Color, ExtraLabel, ExtraLabels, GlassLabels, LabelSettings, Labels, Mask, ObjectLabel,
     Occlusion, PixelBox, SeenKeypoint,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::Role;
+use crate::{Beam, Role};
 
 /// What a texture's numbers mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +101,9 @@ pub struct Material {
     /// Radiance emitted to the side from which a triangle's corners run counter-clockwise, W·m⁻²·sr⁻¹ in the renderer's
     /// scale (a clear midday sky is about 0.1, see the light's docs).
     pub emission: Vec3,
+    /// What the emission is multiplied by into each direction; `None`: the same everywhere on that side.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub beam: Option<Arc<Beam>>,
     /// 0 to 1: what weather, feet and wheels leave: streaks on walls, stains on level ground, dust near the foot.
     pub dirt: f32,
     /// 0 to 1: rain that lies on it. Level places are filmed with water and, from about a half, hold puddles; slopes
@@ -139,6 +142,7 @@ impl Default for Material {
             translucency: 0.0,
             retroreflection: 0.0,
             emission: Vec3::ZERO,
+            beam: None,
             dirt: 0.0,
             wetness: 0.0,
             uv_scale: Vec2::ONE,
@@ -183,6 +187,7 @@ impl Material {
             translucency: _,
             retroreflection: _,
             emission: _,
+            beam: _,
             dirt: _,
             wetness: _,
             uv_scale: _,

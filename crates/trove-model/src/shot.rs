@@ -59,19 +59,22 @@ pub struct SensorModel {
     pub blur_px: f64,
     /// How much farther out red lies than green in the corners, and green than blue, pixels.
     pub chromatic_aberration_px: f64,
+    /// Share of the light that the lens scatters all over the picture, 0 to less than 1: halos around lamps.
+    pub glare: f64,
     /// Quality of the JPEG that the picture passes through on its way to a file, 1 to 100; `None` for none.
     pub jpeg_quality: Option<u8>,
 }
 
 impl SensorModel {
     /// A car's camera by day: a 1/1.8″ CMOS sensor with pixels of 4.5 µm and a fixed lens (data sheets of such sensors give
-    /// 8 to 12 thousand electrons and 5 to 25 electrons of noise).
+    /// 8 to 12 thousand electrons and 5 to 25 electrons of noise, and lenses scatter 1 to 3 %).
     pub const AUTOMOTIVE: Self = Self {
         full_well_e: 8400.0,
         read_noise_e: 12.0,
         vignetting: 0.2,
         blur_px: 0.5,
         chromatic_aberration_px: 0.4,
+        glare: 0.02,
         jpeg_quality: Some(90),
     };
 }

@@ -17,6 +17,7 @@ pub(crate) struct Slots {
     pub(crate) rim: u16,
     pub(crate) chrome: u16,
     pub(crate) lamp: u16,
+    pub(crate) tail: u16,
     pub(crate) red: u16,
     pub(crate) amber: u16,
     pub(crate) interior: u16,
@@ -133,6 +134,8 @@ impl Slots {
             dirt: 0.1,
             ..Material::plain(name, tint, 0.02)
         };
+        let lining =
+            |name: &str| Material { metalness: 0.75, coat: 1.0, ..Material::plain(name, vec3(0.75, 0.78, 0.8), 0.15) };
         let rims = [0.55, 0.5, 0.45, 0.3, 0.09, 0.03].map(Vec3::splat);
         let seats = [0.016, 0.02, 0.03, 0.05, 0.09].map(Vec3::splat);
         let seats = [&seats[..], &[vec3(0.2, 0.15, 0.1), vec3(0.12, 0.1, 0.085), vec3(0.1, 0.04, 0.02)]].concat();
@@ -171,12 +174,8 @@ impl Slots {
             disc: slot(metal("brake disc", 0.34, 0.35)),
             rubber: slot(Material { dirt: 0.25, ..Material::plain("tyre", Vec3::splat(0.018), 0.75) }),
             chrome: slot(metal("chrome", 0.7, 0.1)),
-            lamp: slot(Material {
-                metalness: 0.75,
-                coat: 1.0,
-                role: Some(Role::Headlamp),
-                ..Material::plain("lamp", vec3(0.75, 0.78, 0.8), 0.15)
-            }),
+            lamp: slot(Material { role: Some(Role::Headlamp), ..lining("lamp") }),
+            tail: slot(Material { role: Some(Role::TailLamp), ..lining("tail lamp") }),
             red: slot(Material { role: Some(Role::TailLamp), ..lens("red lens", vec3(0.26, 0.006, 0.008)) }),
             amber: slot(lens("amber lens", vec3(0.6, 0.2, 0.01))),
             interior: slot(Material::plain("interior", vec3(0.035, 0.035, 0.037), 0.8)),

@@ -48,6 +48,8 @@ pub(crate) struct Actor {
     assets: Vec<String>,
     /// Of each slot.
     pub materials: Vec<usize>,
+    /// The same while it brakes; `None` where that does not show.
+    pub braking: Option<Vec<usize>>,
     /// As in [`SceneObject::paint`].
     pub paint: Option<Vec3>,
     /// What of it moves by itself.
@@ -70,6 +72,21 @@ impl Actor {
         self.assets[pose.asset].clone()
     }
 
+    /// What its pixels are.
+    pub(crate) fn class(&self) -> Class {
+        self.class
+    }
+
+    /// Index of its mesh in the stock, as it first is; `None` for who is never there.
+    pub(crate) fn mesh(&self) -> Option<usize> {
+        self.poses.first().map(|(_, pose)| pose.posed.mesh)
+    }
+
+    /// Whether it is a vehicle that slows down at some time by so much that it has to show it.
+    pub(crate) fn brakes(&self) -> bool {
+        self.poses.iter().any(|(_, pose)| pose.posture.is_none() && pose.movement.brakes())
+    }
+
     /// Whether it is somewhere else at some time.
     pub(crate) fn moves(&self) -> bool {
         let places = || self.poses.iter().map(|(_, pose)| pose.cuboid.world_from_body.translation);
@@ -90,11 +107,12 @@ impl Actor {
             Some(Placement { mesh: meshes.bent(posed, &self.joints, &bend), world_from_mesh })
         };
         let Placement { mesh, world_from_mesh } = placement(Some(keyframe))?;
+        let brakes = self.at(keyframe).is_some_and(|pose| pose.movement.brakes());
         Some(Instance {
             id,
             class: self.class,
             mesh,
-            materials: self.materials.clone(),
+            materials: self.braking.as_ref().filter(|_| brakes).unwrap_or(&self.materials).clone(),
             world_from_mesh,
             previous: placement(previous),
             next: placement(next),
@@ -197,7 +215,7 @@ impl Assembly {
         }
         let (class, materials) = (role.asset.class, self.stock.painted(role.asset, role.seed));
         let paint = largest_painted(role.asset).map(|slot| role.asset.materials(role.seed)[slot].base_color);
-        Actor { class, assets, materials, paint, joints, poses, slides_m: slides_m.unwrap_or(0.0) }
+        Actor { class, assets, materials, braking: None, paint, joints, poses, slides_m: slides_m.unwrap_or(0.0) }
     }
 
     /// Plants the feet of someone on foot where there are moments between keyframes; returns the legs, and how far a foot that

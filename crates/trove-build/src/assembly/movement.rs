@@ -86,6 +86,12 @@ impl Movement {
         }
     }
 
+    /// Whether a vehicle that moves so slows down by so much that it has to show it.
+    pub(crate) fn brakes(&self) -> bool {
+        let moves = self.speed_mps.is_some_and(|speed_mps| speed_mps >= State::STANDS_MPS);
+        moves && self.slowing_mps2.is_some_and(|slowing_mps2| slowing_mps2 > State::BRAKES_MPS2)
+    }
+
     /// What someone of a kind does who moves so: people what their posture shows, vehicles what they do on the road.
     pub(crate) fn states(&self, kind: Kind, posture: Option<Posture>, is_parked: Option<bool>) -> Vec<State> {
         let mut states = Vec::new();
@@ -104,8 +110,7 @@ impl Movement {
                 (Some(false), _) => states.push(State::Moving),
                 (None, _) => {}
             }
-            let brakes = self.slowing_mps2.is_some_and(|slowing_mps2| slowing_mps2 > State::BRAKES_MPS2);
-            if stands == Some(false) && brakes {
+            if self.brakes() {
                 states.push(State::Braking);
             }
         }

@@ -27,12 +27,13 @@ pub(crate) struct Stock {
     legs: HashMap<usize, Option<Arc<Legs>>>,
 }
 
-/// Two materials with the same key are the same; images are told apart by where they lie.
+/// Two materials with the same key are the same; images and beams are told apart by where they lie.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct MaterialKey {
     name: String,
     numbers: Vec<u32>,
     images: [usize; 4],
+    beam: usize,
     mapping: (Mapping, Tiling),
     role: Option<Role>,
 }
@@ -121,6 +122,7 @@ fn key(material: &Material) -> MaterialKey {
         translucency,
         retroreflection,
         emission,
+        beam,
         dirt,
         wetness,
         uv_scale,
@@ -137,6 +139,7 @@ fn key(material: &Material) -> MaterialKey {
         name: name.clone(),
         numbers: numbers.map(|number| number.to_bits()).collect(),
         images: [base_color_map, orm_map, normal_map, height_map].map(image),
+        beam: beam.as_ref().map_or(0, |beam| Arc::as_ptr(beam).addr()),
         mapping: (*mapping, *tiling),
         role: *role,
     }

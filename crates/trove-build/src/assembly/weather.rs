@@ -71,6 +71,7 @@ impl Weather {
                 translucency: _,
                 retroreflection: _,
                 emission: _,
+                beam: _,
                 uv_scale: _,
                 mapping: _,
                 tiling: _,

@@ -1,7 +1,9 @@
 //! Lamps that people switch on in the dark.
 
+use std::sync::Arc;
+
 use glam::{Vec3, vec3};
-use trove_model::{Environment, Light, Material, Role};
+use trove_model::{Beam, Class, DrivingSide, Environment, Light, Material, Mesh, Role};
 
 use crate::assembly::Actor;
 use crate::assembly::Stock;
@@ -12,37 +14,120 @@ const LAMPS_ON_BELOW: f64 = 0.04;
 const DARK_IRRADIANCE: f32 = 0.5;
 /// Signals are dimmed in the dark.
 const DIMMED: f32 = 0.15;
+const LOW_BEAM: &str = include_str!("low_beam.tsv");
 
-/// Radiance of lamps, in the light's scale, where 1 is 32,000 cd/m²: a street lamp's lens of
-/// 0.1 m² that gives 10,000 lm, the walls of a room (60 cd/m²), a headlamp's beam spread over its lens, tail lamps of 5 cd.
+/// Luminance of radiance 1, candelas a square metre.
+const UNIT_CD_M2: f32 = 32_000.0;
+
+/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm, and the walls of a room (60 cd/m²).
 const STREET: [(Role, Vec3); 3] = [
     (Role::StreetLamp, vec3(1.4, 0.95, 0.5)),
     (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
     (Role::LitRoom, vec3(0.0024, 0.0018, 0.0011)),
 ];
-const VEHICLE: [(Role, Vec3); 2] = [(Role::Headlamp, vec3(0.5, 0.47, 0.4)), (Role::TailLamp, vec3(0.03, 0.001, 0.001))];
 
-/// Switches street lamps and lights in rooms on, and the lamps of the vehicles that move during the recording, if it is dark.
-pub(crate) fn switch_on<'a>(light: &Light, stock: &mut Stock, actors: impl Iterator<Item = &'a mut Actor>) {
-    if !is_dark(&light.environment) {
-        return;
+/// Colours of vehicles' lamps, of luminance 1: white, and red behind glass or lens.
+const WHITE: Vec3 = vec3(1.12, 0.98, 0.83);
+const RED: Vec3 = vec3(4.3, 0.1, 0.1);
+/// What all lamps of a sort on a vehicle give together, candelas straight ahead or back: low beams by their table, a bicycle's
+/// lamp, tail lamps (UN Regulation 148: 4 to 17 each), brake lamps (60 to 260 each).
+const LOW_BEAMS: f32 = 2.0;
+const CYCLE_CD: f32 = 60.0;
+const TAIL_CD: f32 = 12.0;
+const BRAKE_CD: f32 = 220.0;
+/// No lamp is smaller, m².
+const SMALLEST_M2: f32 = 1e-3;
+
+/// Switches street lamps and lights in rooms on, and the lamps of the vehicles that move during the recording, if it is dark;
+/// and brake lamps where vehicles brake, day and night.
+pub(crate) fn switch_on<'a>(
+    light: &Light,
+    side: DrivingSide,
+    stock: &mut Stock,
+    actors: impl Iterator<Item = &'a mut Actor>,
+) {
+    let is_dark = is_dark(&light.environment);
+    if is_dark {
+        for material in &mut stock.materials {
+            material.emission = glow(material).unwrap_or(material.emission * DIMMED);
+        }
     }
-    for material in &mut stock.materials {
-        material.emission = glow(&STREET, material).unwrap_or(material.emission * DIMMED);
-    }
-    for actor in actors.filter(|actor| actor.moves()) {
-        for index in &mut actor.materials {
-            let material = &stock.materials[*index];
-            if let Some(emission) = glow(&VEHICLE, material) {
-                let lit = Material { emission, ..material.clone() };
-                *index = stock.material(&lit);
-            }
+    let low_beam = is_dark.then(|| low_beam(side));
+    let tail = Lamp { role: Role::TailLamp, along: -1.0, candelas: TAIL_CD, color: RED, beam: None };
+    for actor in actors {
+        let Some(mesh) = actor.mesh().map(|mesh| stock.meshes[mesh].clone()) else { continue };
+        let is_bicycle = actor.class() == Class::CycleRider;
+        if let Some((beam, most_cd)) = low_beam.as_ref().filter(|_| actor.moves()) {
+            let (candelas, beam) =
+                if is_bicycle { (CYCLE_CD, None) } else { (LOW_BEAMS * most_cd, Some(beam.clone())) };
+            let head = Lamp { role: Role::Headlamp, along: 1.0, candelas, color: WHITE, beam };
+            actor.materials = tail.lit(&mesh, &head.lit(&mesh, &actor.materials, stock), stock);
+        }
+        if actor.brakes() && !is_bicycle {
+            let brake = Lamp { candelas: BRAKE_CD, ..tail.clone() };
+            actor.braking = Some(brake.lit(&mesh, &actor.materials, stock));
         }
     }
 }
 
-fn glow(lamps: &[(Role, Vec3)], material: &Material) -> Option<Vec3> {
-    lamps.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
+/// Lamps of a sort on a vehicle.
+#[derive(Clone)]
+struct Lamp {
+    role: Role,
+    /// 1: they look ahead, −1: back.
+    along: f32,
+    /// All of them together.
+    candelas: f32,
+    color: Vec3,
+    beam: Option<Arc<Beam>>,
+}
+
+impl Lamp {
+    /// Materials of a vehicle of this shape on which they are lit.
+    fn lit(&self, mesh: &Mesh, materials: &[usize], stock: &mut Stock) -> Vec<usize> {
+        let is_lamp: Vec<bool> = materials.iter().map(|&m| stock.materials[m].role == Some(self.role)).collect();
+        let area_m2 = area_m2(mesh, self.along, |slot| is_lamp[usize::from(slot)]).max(SMALLEST_M2);
+        let emission = self.color * (self.candelas / area_m2 / UNIT_CD_M2);
+        let change = |(&material, &is_lamp): (&usize, &bool)| {
+            if !is_lamp {
+                return material;
+            }
+            let lamp = Material { emission, beam: self.beam.clone(), ..stock.materials[material].clone() };
+            stock.material(&lamp)
+        };
+        materials.iter().zip(&is_lamp).map(change).collect()
+    }
+}
+
+fn glow(material: &Material) -> Option<Vec3> {
+    STREET.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
+}
+
+/// Of triangles of some slots, what faces along x, or against it where `along` is −1, as seen from there.
+fn area_m2(mesh: &Mesh, along: f32, is_meant: impl Fn(u16) -> bool) -> f32 {
+    let facing = |(_, corners): (usize, &[u32; 3])| {
+        let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
+        (0.5 * (b - a).cross(c - a).x * along).max(0.0)
+    };
+    mesh.triangles.iter().enumerate().filter(|(t, _)| is_meant(mesh.slot(*t))).map(facing).sum()
+}
+
+/// The low beam of a car that keeps to a side, and the candelas of which it tells shares.
+fn low_beam(side: DrivingSide) -> (Arc<Beam>, f32) {
+    // Its first row is headed by a word.
+    let numbers = |line: &str| -> Vec<f32> { line.split('\t').filter_map(|n| n.parse().ok()).collect() };
+    let mut rows = LOW_BEAM.lines().filter(|line| !line.starts_with('#')).map(numbers);
+    let mut azimuths_deg = rows.next().unwrap_or_default();
+    let (elevations_deg, mut candelas): (Vec<f32>, Vec<Vec<f32>>) =
+        rows.filter_map(|row| row.split_first().map(|(elevation, candelas)| (*elevation, candelas.to_vec()))).unzip();
+    if side == DrivingSide::Left {
+        azimuths_deg = azimuths_deg.into_iter().rev().map(|azimuth| -azimuth).collect();
+        candelas.iter_mut().for_each(|row| row.reverse());
+    }
+    let candelas = candelas.concat();
+    let most = candelas.iter().copied().fold(0.0, f32::max);
+    let shares = candelas.into_iter().map(|n| n / most).collect();
+    (Arc::new(Beam::new(azimuths_deg, elevations_deg, shares).expect("the built-in table is one")), most)
 }
 
 fn is_dark(environment: &Environment) -> bool {
@@ -76,8 +161,35 @@ mod tests {
         let mut stock = Stock::default();
         stock.material(&Material { role: Some(Role::StreetLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
-        switch_on(&Light::clear(environment), &mut stock, std::iter::empty());
+        switch_on(&Light::clear(environment), DrivingSide::Right, &mut stock, std::iter::empty());
         [stock.materials[0].emission, stock.materials[1].emission]
+    }
+
+    /// Candelas of the low beam, by degrees to the right and up.
+    fn candelas(side: DrivingSide, right_deg: f64, up_deg: f64) -> f32 {
+        let (beam, most) = low_beam(side);
+        let (a, e) = (-right_deg.to_radians(), up_deg.to_radians());
+        most * beam.share(DVec3::new(a.cos() * e.cos(), a.sin() * e.cos(), e.sin()).as_vec3())
+    }
+
+    #[test]
+    fn the_low_beam_is_as_the_regulation_asks() {
+        // UN Regulation 112, class B, for traffic on the right: least and most candelas at the points of its screen.
+        for (name, right_deg, up_deg, least, most) in [
+            ("B50L", -3.43, 0.57, 0.0, 350.0),
+            ("75R", 1.15, -0.57, 10_100.0, f32::MAX),
+            ("75L", -3.43, -0.57, 0.0, 10_600.0),
+            ("50L", -3.43, -0.86, 0.0, 13_200.0),
+            ("50R", 1.72, -0.86, 10_100.0, f32::MAX),
+            ("50V", 0.0, -0.86, 5_100.0, f32::MAX),
+            ("25L", -9.0, -1.72, 1_700.0, f32::MAX),
+            ("25R", 9.0, -1.72, 1_700.0, f32::MAX),
+            ("HV", 0.0, 0.0, 0.0, 625.0),
+        ] {
+            let found = candelas(DrivingSide::Right, right_deg, up_deg);
+            assert!((least..=most).contains(&found), "{name}: {found}");
+            assert!((candelas(DrivingSide::Left, -right_deg, up_deg) / found - 1.0).abs() < 1e-3, "{name}");
+        }
     }
 
     #[test]

@@ -8,8 +8,9 @@ use super::tone::{self, luminance};
 const STEPS_PER_STOP: f64 = 32.0;
 const SPAN_STOPS: f64 = 64.0;
 
-/// The most that a camera exposes by, where the midday sun asks for about 1: a night street stays darker than by day.
-const MOST_EV: f64 = 12.0;
+/// The most that a camera exposes by, where the midday sun asks for about 1: a night street stays darker than by day. At 11 a
+/// road of 1 cd/m², as lamps light it, is shown a stop and a half below a grey card.
+const MOST_EV: f64 = 11.0;
 
 /// Mean brightness of a developed picture, share of white: the means of photographs of cars' cameras are 0.43 ± 0.03
 /// (nuScenes), 0.39 ± 0.02 (KITTI) and 0.42 ± 0.08 (CamVid by day), however much sky is in them.

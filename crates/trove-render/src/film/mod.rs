@@ -29,7 +29,7 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
     let (gain, seed) = (ev.exp2() as f32, shot.seed.child("sensor"));
     let pixel = |(i, rgb): (usize, &[f32; 3])| {
         let exposed = rgb.map(|c| c * gain);
-        let counted = film.sensor.as_ref().map_or(exposed, |model| sensor::counted(exposed, model, seed, i));
+        let counted = film.sensor.as_ref().map_or(exposed, |model| sensor::counted(exposed, ev, model, seed, i));
         tone::srgb([0, 1, 2].map(|c| counted[c] * balance[c]))
     };
     let data = radiance.data.par_iter().enumerate().map(pixel).collect();

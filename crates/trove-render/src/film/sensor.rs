@@ -30,7 +30,51 @@ pub(super) fn optics(radiance: &Raster<[f32; 3]>, sensor: &SensorModel) -> Raste
     });
     let data = rows.flatten_iter().collect();
     let seen = Raster { width: radiance.width, height: radiance.height, data };
+    let seen = if sensor.glare > 0.0 { glaring(&seen, sensor.glare) } else { seen };
     if sensor.blur_px > 0.0 { blurred(&seen, sensor.blur_px) } else { seen }
+}
+
+/// Standard deviations of what the lens scatters, as shares of the picture's diagonal, with equal light in each: together it
+/// fades with the square of the distance.
+const GLARE: [f64; 4] = [0.002, 0.008, 0.03, 0.12];
+/// Reduced pictures are blurred by so many of their pixels.
+const REDUCED_PX: f64 = 2.0;
+
+/// A share of every pixel's light scattered over the picture; beyond the border it goes on as at it.
+fn glaring(picture: &Raster<[f32; 3]>, share: f64) -> Raster<[f32; 3]> {
+    let diagonal = f64::from(picture.width).hypot(f64::from(picture.height));
+    let halos = GLARE.map(|part| {
+        let sigma_px = part * diagonal;
+        let factor = (sigma_px / REDUCED_PX).floor().max(1.0) as u32;
+        (factor, blurred(&reduced(picture, factor), sigma_px / f64::from(factor)))
+    });
+    let of_each = (share / halos.len() as f64) as f32;
+    let pixel = |i: u32| {
+        let (x, y) = (f64::from(i % picture.width) + 0.5, f64::from(i / picture.width) + 0.5);
+        let channel = |c: usize| {
+            let halo = |(factor, halo): &(u32, Raster<[f32; 3]>)| {
+                between(halo, x / f64::from(*factor), y / f64::from(*factor), c)
+            };
+            picture.data[i as usize][c] * (1.0 - share as f32) + of_each * halos.iter().map(halo).sum::<f32>()
+        };
+        [0, 1, 2].map(channel)
+    };
+    let data = (0..picture.width * picture.height).into_par_iter().map(pixel).collect();
+    Raster { width: picture.width, height: picture.height, data }
+}
+
+/// The means of squares of `factor` pixels; at the border of those that are there.
+fn reduced(picture: &Raster<[f32; 3]>, factor: u32) -> Raster<[f32; 3]> {
+    Raster::from_fn(picture.width.div_ceil(factor), picture.height.div_ceil(factor), |x, y| {
+        let columns = x * factor..((x + 1) * factor).min(picture.width);
+        let rows = y * factor..((y + 1) * factor).min(picture.height);
+        let count = (columns.len() * rows.len()) as f32;
+        let mut sum = [0.0; 3];
+        for rgb in rows.flat_map(|y| columns.clone().map(move |x| picture.at(x, y))) {
+            (0..3).for_each(|c| sum[c] += rgb[c] / count);
+        }
+        sum
+    })
 }
 
 /// One channel at a position between pixel centres, linearly; beyond the border it goes on as at it.
@@ -66,14 +110,22 @@ fn blurred(picture: &Raster<[f32; 3]>, sigma_px: f64) -> Raster<[f32; 3]> {
     along(&along(picture, [1, 0]), [0, 1])
 }
 
-/// What the sensor counts of an exposed pixel, in the exposure's unit: shot and read noise, and no more than the well
-/// holds. `index` is the pixel's place in its picture.
-pub(super) fn counted(exposed: [f32; 3], sensor: &SensorModel, seed: Seed, index: usize) -> [f32; 3] {
+/// Stops by which a camera exposes longer than in the midday sun before it amplifies: a pixel of 4.5 µm behind f/1.8 is full
+/// after 1/25,000 s there, and 1/60 s is the longest that driving allows.
+const LONGER_EV: f64 = 8.5;
+
+/// What the sensor counts of a pixel exposed by so many stops, in the exposure's unit: shot and read noise, and no more than
+/// the well holds, or less where few electrons are amplified. `index` is the pixel's place in its picture.
+pub(super) fn counted(exposed: [f32; 3], ev: f64, sensor: &SensorModel, seed: Seed, index: usize) -> [f32; 3] {
     let mut random = seed.nth(index as u64).random();
-    let per_unit = sensor.full_well_e / f64::from(WHITE);
+    let gain = (ev - LONGER_EV).max(0.0).exp2();
+    let white_e = sensor.full_well_e / gain;
+    // Amplified before it is read.
+    let read_noise_e = sensor.read_noise_e / gain.sqrt();
+    let per_unit = white_e / f64::from(WHITE);
     exposed.map(|light| {
-        let counted = poisson(f64::from(light) * per_unit, &mut random).min(sensor.full_well_e);
-        ((counted + sensor.read_noise_e * random.normal()) / per_unit).max(0.0) as f32
+        let counted = poisson(f64::from(light) * per_unit, &mut random).min(white_e);
+        ((counted + read_noise_e * random.normal()) / per_unit).max(0.0) as f32
     })
 }
 
@@ -87,6 +139,7 @@ mod tests {
         vignetting: 0.0,
         blur_px: 0.0,
         chromatic_aberration_px: 0.0,
+        glare: 0.0,
         jpeg_quality: None,
     };
 
@@ -100,7 +153,7 @@ mod tests {
         ] {
             let n = 20_000;
             let draws: Vec<f64> =
-                (0..n).map(|i| f64::from(counted([light as f32; 3], &sensor, Seed(3), i)[1])).collect();
+                (0..n).map(|i| f64::from(counted([light as f32; 3], 0.0, &sensor, Seed(3), i)[1])).collect();
             let mean = draws.iter().sum::<f64>() / n as f64;
             let variance = draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n as f64;
             let per_unit = sensor.full_well_e / f64::from(WHITE);
@@ -108,8 +161,41 @@ mod tests {
             assert!((mean / light - 1.0).abs() < 0.01, "{mean} instead of {light}");
             assert!((variance / expected - 1.0).abs() < 0.04, "{variance} instead of {expected} at {light}");
         }
-        assert_eq!(counted([0.0; 3], &PLAIN, Seed(1), 0), [0.0; 3]);
-        assert!(counted([50.0; 3], &PLAIN, Seed(1), 0).iter().all(|&c| (c - WHITE).abs() < 1e-5));
+        assert_eq!(counted([0.0; 3], 0.0, &PLAIN, Seed(1), 0), [0.0; 3]);
+        assert!(counted([50.0; 3], 0.0, &PLAIN, Seed(1), 0).iter().all(|&c| (c - WHITE).abs() < 1e-5));
+    }
+
+    #[test]
+    fn what_is_amplified_by_four_stops_has_four_times_the_noise() {
+        let noise = |ev: f64| {
+            let n = 20_000;
+            let draws: Vec<f64> = (0..n).map(|i| f64::from(counted([0.3; 3], ev, &PLAIN, Seed(4), i)[1])).collect();
+            let mean = draws.iter().sum::<f64>() / n as f64;
+            (draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n as f64).sqrt()
+        };
+        assert_eq!(noise(0.0), noise(LONGER_EV));
+        assert!((noise(LONGER_EV + 4.0) / noise(0.0) - 4.0).abs() < 0.1, "{}", noise(LONGER_EV + 4.0) / noise(0.0));
+    }
+
+    #[test]
+    fn glare_takes_its_share_of_a_lamp_and_spreads_it_farther_than_any_blur() {
+        let (width, height) = (400, 300);
+        let mut dark = Raster::filled(width, height, [0.0; 3]);
+        *dark.at_mut(200, 150) = [1000.0; 3];
+        let seen = optics(&dark, &SensorModel { glare: 0.1, ..PLAIN });
+        let total: f64 = seen.data.iter().map(|rgb| f64::from(rgb[1])).sum();
+        // Some of the widest halo falls beside the picture.
+        assert!((0.97..1.005).contains(&(total / 1000.0)), "{total}");
+        let spot = f64::from(seen.at(200, 150)[1]);
+        assert!((900.0..910.0).contains(&spot), "{spot}");
+        // Light in rings that are each three times as wide is about the same.
+        let within = |low: f64, high: f64| {
+            let away = |i: usize| (f64::from(i as u32 % width) - 200.0).hypot(f64::from(i as u32 / width) - 150.0);
+            let is_in = |i: &usize| (low..high).contains(&away(*i));
+            (0..seen.data.len()).filter(is_in).map(|i| f64::from(seen.data[i][1])).sum::<f64>()
+        };
+        let rings = [within(2.0, 6.0), within(6.0, 18.0), within(18.0, 54.0)];
+        assert!(rings.iter().all(|ring| (10.0..45.0).contains(ring)), "{rings:?}");
     }
 
     #[test]

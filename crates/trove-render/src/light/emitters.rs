@@ -1,15 +1,19 @@
 //! Triangles that shine.
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3};
-use trove_model::Scene;
+use glam::{DVec3, Mat3, Vec2, Vec3};
+use trove_model::{Beam, Scene};
 
 use super::luminance::luminance;
 use super::tree::{Tree, TreeEntry};
 
 /// How far light of the outermost emitters reaches, roughly.
 const MARGIN_M: f32 = 20.0;
+
+/// What a beam is taken to give at least, where lamps are compared.
+const LEAST_SHARE: f32 = 1e-3;
 
 /// All shining triangles of a scene, drawn by what they give to the place that asks.
 ///
@@ -27,6 +31,8 @@ struct Emitter {
     /// Twice the area, along the normal.
     cross: Vec3,
     radiance: Vec3,
+    /// By which the radiance differs between directions, and the way to them from World's.
+    beam: Option<(Arc<Beam>, Mat3)>,
 }
 
 /// A point on a shining triangle.
@@ -47,6 +53,7 @@ impl Emitters {
                 continue;
             }
             let mesh = &scene.meshes[instance.mesh];
+            let mesh_from_world = instance.world_from_mesh.matrix3.inverse().as_mat3();
             // A mirrored instance turns its triangles inside out.
             let side = instance.world_from_mesh.matrix3.determinant().signum() as f32;
             for (t, corners) in mesh.triangles.iter().enumerate() {
@@ -60,7 +67,9 @@ impl Emitters {
                 if cross.length() > 0.0 {
                     let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
                     let key = (i as u32, t as u32);
-                    triangles.push(Emitter { key, corner: a.as_vec3(), edges, cross, radiance: material.emission });
+                    let radiance = material.emission;
+                    let beam = material.beam.clone().map(|beam| (beam, mesh_from_world));
+                    triangles.push(Emitter { key, corner: a.as_vec3(), edges, cross, radiance, beam });
                 }
             }
         }
@@ -86,7 +95,8 @@ impl Emitters {
         let root = u[1].sqrt();
         let (b, c) = (root * (1.0 - u[2]), root * u[2]);
         let point = emitter.corner + emitter.edges[0] * b + emitter.edges[1] * c;
-        Some(EmitterPoint { point, radiance: emitter.radiance, pdf: probability * emitter.density(from, point) })
+        let radiance = emitter.radiance * emitter.share(from - point);
+        Some(EmitterPoint { point, radiance, pdf: probability * emitter.density(from, point) })
     }
 
     /// Density over solid angle, seen from `from`, with which that point of a triangle is drawn; 0 where it never is.
@@ -103,9 +113,15 @@ impl Emitter {
         self.corner + (self.edges[0] + self.edges[1]) / 3.0
     }
 
-    /// Area times brightness.
+    /// Share of the radiance that leaves into a direction, World.
+    fn share(&self, direction: Vec3) -> f32 {
+        self.beam.as_ref().map_or(1.0, |(beam, mesh_from_world)| beam.share(*mesh_from_world * direction))
+    }
+
+    /// Area times brightness, in all directions together.
     fn power(&self) -> f32 {
-        0.5 * self.cross.length() * luminance(self.radiance)
+        let share = self.beam.as_ref().map_or(1.0, |(beam, _)| beam.flux_share());
+        0.5 * self.cross.length() * luminance(self.radiance) * share
     }
 
     fn entry(&self) -> TreeEntry {
@@ -124,7 +140,9 @@ impl Emitter {
         let to_place = from - self.centre();
         // Near a triangle its own size counts, not the distance to its middle.
         let square = to_place.length_squared().max(0.25 * self.cross.length());
-        luminance(self.radiance) * self.cross.dot(to_place).max(0.0) / (square * square.sqrt())
+        // Never nothing: another point of it may shine there.
+        let share = self.share(to_place).max(LEAST_SHARE);
+        luminance(self.radiance) * share * self.cross.dot(to_place).max(0.0) / (square * square.sqrt())
     }
 
     /// Density over solid angle of a point that is drawn evenly from the triangle.
@@ -155,7 +173,8 @@ mod tests {
                     let edges = if half == 0 { [a * 0.3, b * 0.3] } else { [-a * 0.3, -b * 0.3] };
                     let corner = at + axis * 0.15 - (a + b) * if half == 0 { 0.15 } else { -0.15 };
                     let cross = edges[0].cross(edges[1]);
-                    triangles.push(Emitter { key: (i, 2 * t as u32 + half), corner, edges, cross, radiance });
+                    let key = (i, 2 * t as u32 + half);
+                    triangles.push(Emitter { key, corner, edges, cross, radiance, beam: None });
                 }
             }
         }

@@ -14,7 +14,7 @@ mod weather;
 use std::sync::Arc;
 
 use glam::Vec3;
-use trove_model::Material;
+use trove_model::{Beam, Material};
 
 use crate::surface::Surface;
 use crate::texture::{MipMap, Textures};
@@ -63,7 +63,8 @@ pub(crate) struct PreparedMaterial {
     transmission: f32,
     translucency: f32,
     retroreflection: f32,
-    pub(crate) emission: Vec3,
+    emission: Vec3,
+    beam: Option<Arc<Beam>>,
     texturing: Texturing,
     weather: Weather,
 }
@@ -94,6 +95,7 @@ impl PreparedMaterial {
             translucency,
             retroreflection,
             emission,
+            beam,
             dirt,
             wetness,
             uv_scale,
@@ -124,6 +126,7 @@ impl PreparedMaterial {
             translucency: share(translucency),
             retroreflection: share(retroreflection),
             emission: emission.max(Vec3::ZERO),
+            beam: beam.clone(),
             texturing: Texturing { scale: *uv_scale, mapping: *mapping, tiling: *tiling },
             weather: Weather { dirt: share(dirt), wetness: share(wetness) },
         };
@@ -144,6 +147,14 @@ impl PreparedMaterial {
     /// Whether light that comes from behind is scattered to the front.
     pub(crate) fn is_translucent(&self) -> bool {
         self.translucency > 0.0
+    }
+
+    /// Radiance that it emits from its front into a direction of the mesh.
+    pub(crate) fn emitted(&self, direction_mesh: impl FnOnce() -> Vec3) -> Vec3 {
+        match &self.beam {
+            Some(beam) if self.emission != Vec3::ZERO => self.emission * beam.share(direction_mesh()),
+            _ => self.emission,
+        }
     }
 
     /// Whether rain may have wetted it.

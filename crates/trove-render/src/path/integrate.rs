@@ -175,12 +175,13 @@ impl Vertex<'_> {
         let (surface, material) = self.scene.surface(&hit, &path.ray);
         path.cone.width_m += path.cone.spread_rad * hit.t;
 
-        if material.emission != Vec3::ZERO && surface.is_front {
+        let emitted = if surface.is_front { self.scene.emitted(&hit, &surface, material) } else { Vec3::ZERO };
+        if emitted != Vec3::ZERO {
             let weight = path.scattered.as_ref().map_or(1.0, |s| {
                 let other = lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
                 power_heuristic(s.pdf, other)
             });
-            path.gather(path.throughput * material.emission * weight, path.bounce, lights.scale());
+            path.gather(path.throughput * emitted * weight, path.bounce, lights.scale());
         }
 
         let [u_light, dither] = path.sampler.next2();

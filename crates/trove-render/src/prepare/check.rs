@@ -89,6 +89,8 @@ fn is_finite(material: &Material) -> bool {
         translucency,
         retroreflection,
         emission,
+        // Checked as it was made.
+        beam: _,
         dirt,
         wetness,
         uv_scale,

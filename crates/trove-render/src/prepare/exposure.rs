@@ -1,10 +1,9 @@
 //! What comes down on surfaces: who bears snow, and what shelters from it and from rain.
 
 use glam::Vec3;
-use trove_model::{Class, Instance, State};
+use trove_model::{Class, Instance, Snow, State};
 
-use super::PreparedScene;
-use crate::accel::Coherence;
+use crate::accel::{Accel, Coherence};
 use crate::material::holds_snow;
 use crate::ray::Ray;
 use crate::surface::{Exposure, Surface};
@@ -40,27 +39,25 @@ impl Bears {
     }
 }
 
-impl PreparedScene {
-    /// What comes down on a point of what bears so much of it, as a ray sees it.
-    pub(super) fn exposure(&self, bears: Bears, surface: &Surface, ray: &Ray) -> Exposure {
-        let bare = Exposure::BARE;
-        if !holds_snow(surface.outward_z()) || bears == Bears::Share(0.0) {
-            return bare;
-        }
-        let at = surface.point.truncate() / SLANT_WIDE_M;
-        let slant = SLANT * Vec3::new(at.x.sin() * (1.7 * at.y).cos(), at.y.sin() * (1.3 * at.x).cos(), 0.0);
-        let up = Vec3::Z + slant;
-        let looking = Ray { t_min: LAYERS_M, for_shelter: true, ..ray.then(surface.leave(Vec3::Z), up) };
-        let mut blocked = [false];
-        self.accel.blocked(&[looking], Coherence::Incoherent, &mut blocked);
-        if blocked[0] {
-            return Exposure { is_open: false, ..bare };
-        }
-        let Some(snow) = &self.snow else { return bare };
-        let (share, left) = match bears {
-            Bears::Ground => (1.0, snow.left.as_ref().map_or(1.0, |left| left.at(surface.point.truncate()))),
-            Bears::Share(share) => (share, 1.0),
-        };
-        Exposure { is_open: true, snow: snow.cover as f32 * share, left }
+/// What comes down on a point of what bears so much of it, as a ray sees it.
+pub(super) fn exposure(accel: &dyn Accel, snow: Option<&Snow>, bears: Bears, surface: &Surface, ray: &Ray) -> Exposure {
+    let bare = Exposure::BARE;
+    if !holds_snow(surface.outward_z()) || bears == Bears::Share(0.0) {
+        return bare;
     }
+    let at = surface.point.truncate() / SLANT_WIDE_M;
+    let slant = SLANT * Vec3::new(at.x.sin() * (1.7 * at.y).cos(), at.y.sin() * (1.3 * at.x).cos(), 0.0);
+    let up = Vec3::Z + slant;
+    let looking = Ray { t_min: LAYERS_M, for_shelter: true, ..ray.then(surface.leave(Vec3::Z), up) };
+    let mut blocked = [false];
+    accel.blocked(&[looking], Coherence::Incoherent, &mut blocked);
+    if blocked[0] {
+        return Exposure { is_open: false, ..bare };
+    }
+    let Some(snow) = snow else { return bare };
+    let (share, left) = match bears {
+        Bears::Ground => (1.0, snow.left.as_ref().map_or(1.0, |left| left.at(surface.point.truncate()))),
+        Bears::Share(share) => (share, 1.0),
+    };
+    Exposure { is_open: true, snow: snow.cover as f32 * share, left }
 }

@@ -19,7 +19,7 @@ use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 use crate::surface::Surface;
 use crate::texture::Textures;
-use exposure::Bears;
+use exposure::{Bears, exposure};
 
 pub(crate) use carrier::Carrier;
 
@@ -172,13 +172,20 @@ impl PreparedScene {
         &self.shapes.opacities[self.placed(hit.instance).material(hit)]
     }
 
+    /// Radiance that a surface's material emits to where it is seen from, at the moment of the labels.
+    pub(crate) fn emitted(&self, hit: &Hit, surface: &Surface, material: &PreparedMaterial) -> Vec3 {
+        let mesh_from_world = || self.instances[hit.instance as usize].mesh_from_world;
+        material.emitted(|| mesh_from_world().transform_vector3(surface.wo.as_dvec3()).as_vec3())
+    }
+
     /// The surface at a ray's hit, and its material.
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
         let placed = self.placed(hit.instance);
         let material = &self.materials[placed.material(hit)];
         let mut surface = Surface::new(placed, hit, ray);
         if self.snow.is_some() || material.is_wet() {
-            surface.exposure = self.exposure(self.instances[hit.instance as usize].bears, &surface, ray);
+            let bears = self.instances[hit.instance as usize].bears;
+            surface.exposure = exposure(&*self.accel, self.snow.as_ref(), bears, &surface, ray);
         }
         (surface, material)
     }

@@ -12,7 +12,7 @@ mod studio;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
-use trove_model::{ColorSpace, Fog, Form, InstanceId, Material, Mesh, Precipitation, Scene, Shot, Texture};
+use trove_model::{Beam, ColorSpace, Fog, Form, InstanceId, Material, Mesh, Precipitation, Scene, Shot, Texture};
 use trove_render::{KernelChoice, RenderError, Renderer};
 
 use studio::*;
@@ -231,4 +231,44 @@ fn crowd() -> Scene {
         scene.instances.push(another);
     }
     scene
+}
+
+#[test]
+fn a_beam_lights_a_wall_as_its_table_says() {
+    let beam =
+        Beam::new(vec![-20.0, 0.0, 20.0], vec![-5.0, 0.0, 10.0], vec![0.1, 0.8, 0.3, 0.2, 1.0, 0.6, 0.0, 0.05, 0.0]);
+    let beam = beam.unwrap();
+    // 10 cm wide, its front along the mesh's x, which looks north.
+    let front = Mesh {
+        positions: vec![vec3(0.0, -0.05, -0.05), vec3(0.0, 0.05, -0.05), vec3(0.0, 0.05, 0.05), vec3(0.0, -0.05, 0.05)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    };
+    let lamp = Material {
+        emission: Vec3::splat(50.0),
+        beam: Some(Arc::new(beam.clone())),
+        ..Material::plain("lamp", Vec3::ZERO, 1.0)
+    };
+    let mut scene = empty(uniform(0.0));
+    put(&mut scene, front, lamp, DAffine3::from_rotation_z(std::f64::consts::FRAC_PI_2));
+    let white = Material { ior: 1.0, ..Material::plain("white", Vec3::splat(0.5), 0.0) };
+    let far = DAffine3::from_scale_rotation_translation(DVec3::splat(8.0), DQuat::IDENTITY, DVec3::Y * 10.0);
+    put(&mut scene, wall(), white, far);
+    for kernel in kernels() {
+        let renderer = renderer(kernel, 2);
+        for (left_deg, up_deg) in [(0.0f64, 0.0f64), (10.0, 0.0), (-10.0, 0.0), (0.0, 5.0), (5.0, -2.5), (-15.0, -5.0)]
+        {
+            let [left, up] = [left_deg, up_deg].map(|a| a.to_radians());
+            let toward = DVec3::new(-left.sin() * up.cos(), left.cos() * up.cos(), up.sin());
+            let point = toward * (10.0 / toward.y);
+            let view = Shot { spp: 256, ..shot(DVec3::new(2.0, 4.0, 3.0), point, 0.02) };
+            let found = mean(&take(&renderer, &scene, &view));
+            let share =
+                beam.share(Vec3::new((left.cos() * up.cos()) as f32, (left.sin() * up.cos()) as f32, up.sin() as f32));
+            // Both face along y.
+            let expected = 0.5 / std::f64::consts::PI * 50.0 * 0.01 * toward.y.powi(2) / point.length_squared();
+            let expected = expected as f32 * share;
+            assert!((found / expected - 1.0).abs() < 0.02, "{kernel:?} {left_deg}° {up_deg}°: {found} {expected}");
+        }
+    }
 }

@@ -66,6 +66,8 @@ impl Materials {
             // No glTF viewer knows it.
             retroreflection: _,
             emission,
+            // Nor beams.
+            beam: _,
             dirt,
             wetness,
             uv_scale,

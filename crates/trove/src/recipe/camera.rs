@@ -85,6 +85,8 @@ pub struct SensorSection {
     pub blur_px: f64,
     /// Between neighbouring colours in the corners, pixels.
     pub chromatic_aberration_px: f64,
+    /// Share of the light that the lens scatters.
+    pub glare: f64,
     /// 1 to 100; 0 is none.
     pub jpeg_quality: u8,
 }
@@ -112,6 +114,7 @@ impl Default for SensorSection {
             vignetting: model.vignetting,
             blur_px: model.blur_px,
             chromatic_aberration_px: model.chromatic_aberration_px,
+            glare: model.glare,
             jpeg_quality: model.jpeg_quality.unwrap_or(0),
         }
     }
@@ -140,6 +143,7 @@ impl CameraSection {
             within("vignetting", sensor.vignetting, 0.99)?;
             within("blur_px", sensor.blur_px, 20.0)?;
             within("chromatic_aberration_px", sensor.chromatic_aberration_px, 20.0)?;
+            within("glare", sensor.glare, 0.5)?;
             within("jpeg_quality", sensor.jpeg_quality.into(), 100.0)?;
         }
         self.lenses().map(drop)
@@ -191,6 +195,7 @@ impl From<SensorSection> for SensorModel {
             vignetting: section.vignetting,
             blur_px: section.blur_px,
             chromatic_aberration_px: section.chromatic_aberration_px,
+            glare: section.glare,
             jpeg_quality: (section.jpeg_quality > 0).then_some(section.jpeg_quality),
         }
     }

@@ -108,7 +108,7 @@ impl End<'_> {
         let tail = p.tail_m;
         let outline = soft(&self.outline(&back.lamp, tail), 0.015);
         let (cover, rest) = skin.split(&self.behind(&outline));
-        let mut lining = cover.clone().slot(slots.lamp).moved(vec3(0.035, -0.008, 0.0));
+        let mut lining = cover.clone().slot(slots.tail).moved(vec3(0.035, -0.008, 0.0));
         for (part, slot) in [(&back.strip, slots.bright), (&back.white, slots.strip)] {
             if part.len() > 2 {
                 lining = lining.mark(&self.behind(&self.outline(part, tail)), slot);
