@@ -151,7 +151,8 @@ def detections(dataset):
         for token in sample["anns"]:
             annotation = dataset.get("sample_annotation", token)
             name = category_to_detection_name(annotation["category_name"])
-            if name is None or annotation["num_lidar_pts"] == 0:
+            # The devkit judges what LiDAR or radar has met.
+            if name is None or annotation["num_lidar_pts"] + annotation["num_radar_pts"] == 0:
                 continue
             velocity = dataset.box_velocity(token)[:2]
             attributes = [dataset.get("attribute", token)["name"] for token in annotation["attribute_tokens"]]

@@ -36,7 +36,7 @@ impl Beam {
         let cell_sr = step_deg.to_radians().powi(2);
         let row = |e: f32| -> f32 {
             let cos = e.to_radians().cos();
-            (0..720).map(|i| across(i)).map(|a| beam.at(a, e) * a.to_radians().cos()).sum::<f32>() * cos * cos * cell_sr
+            (0..720).map(across).map(|a| beam.at(a, e) * a.to_radians().cos()).sum::<f32>() * cos * cos * cell_sr
         };
         beam.flux_share = (0..720).map(|i| row(across(i))).sum::<f32>() / std::f32::consts::PI;
         Some(beam)

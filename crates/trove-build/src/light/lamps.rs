@@ -152,9 +152,11 @@ mod tests {
     use std::sync::Arc;
 
     use glam::DVec3;
-    use trove_model::{EnvironmentMap, PhysicalSky};
+    use trove_model::{EnvironmentMap, Kind, PhysicalSky, Report, Seed, State};
 
     use super::*;
+    use crate::testing;
+    use crate::{BuildSettings, LightChoice, OnDisagreement, Weather, build};
 
     /// Emission of a street lamp and of a signal under a sky.
     fn shining(environment: Environment) -> [Vec3; 2] {
@@ -209,5 +211,45 @@ mod tests {
         for bright in [sky(0.5), map(0.6)] {
             assert_eq!(shining(bright), [Vec3::ZERO, Vec3::X]);
         }
+    }
+
+    #[test]
+    fn brake_lamps_are_lit_where_a_vehicle_brakes_and_nowhere_else() {
+        let mut drive = testing::drive();
+        // The car ahead comes to a stand with 3 m/s² from the fifth keyframe on.
+        let way_m = |k: usize| {
+            let braking_s = (0.5 * (k as f64 - 4.0)).clamp(0.0, 10.0 / 3.0);
+            5.0 * k.min(4) as f64 + 10.0 * braking_s - 1.5 * braking_s * braking_s
+        };
+        for (k, cuboid) in &mut drive.tracks[1].boxes {
+            cuboid.world_from_body.translation.x = 15.0 + way_m(*k);
+            let annotated = drive.keyframes[*k].boxes.iter_mut().find(|b| b.track == 1).unwrap();
+            annotated.cuboid = *cuboid;
+        }
+        let mut library = testing::library();
+        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
+        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::TailLamp));
+        let settings = BuildSettings {
+            seeds: Seed(1).into(),
+            top_k: 1,
+            traffic: crate::Traffic::default(),
+            light: LightChoice::default(),
+            weather: Weather::default(),
+            on_disagreement: OnDisagreement::default(),
+            locale: testing::locale("SG"),
+            borders: None,
+        };
+        let site = build(&drive, None, &library, &settings, &Report::default()).unwrap();
+        let mut braking = Vec::new();
+        for k in 0..drive.keyframes.len() {
+            let scene = site.scene(&drive, k);
+            for car in scene.instances.iter().filter(|i| i.class == Class::Car) {
+                let brakes = car.object.as_ref().is_some_and(|object| object.states.contains(&State::Braking));
+                let is_lit = car.materials.iter().any(|&m| scene.materials[m].is_emitter());
+                assert_eq!(is_lit, brakes, "{:?} at {k}", car.id);
+                braking.extend(brakes.then_some(k));
+            }
+        }
+        assert!((2..7).contains(&braking.len()) && braking.iter().all(|k| (3..10).contains(k)), "{braking:?}");
     }
 }
