@@ -7,7 +7,7 @@ use trove_model::{Bounds, Polygon, Snow, SnowLeft};
 
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
-use crate::roads::{LaneUse, RoadSurfaces};
+use crate::roads::{Lane, LaneUse, RoadSurfaces};
 
 /// Tracks of wheels are so wide; a large place has larger cells, metres.
 const CELL_M: f64 = 0.2;
@@ -33,7 +33,7 @@ fn left(surfaces: &RoadSurfaces, bounds: Bounds) -> SnowLeft {
     let mut places = PlaneRaster::new(bounds, cell_m);
     places.mark(&surfaces.carriageway, CARRIAGEWAY);
     places.mark(&surfaces.plan.walkways, WALKWAY);
-    let of_lane = |lane: &crate::roads::Lane| -> Vec<(Vec<Polygon>, u8)> {
+    let of_lane = |lane: &Lane| -> Vec<(Vec<Polygon>, u8)> {
         let whole = |bit| (strip(&lane.line, lane.width_m / 2.0), bit);
         let [outer, inner] = TRACKS_M.map(|off_m| strip(&lane.line, off_m));
         match lane.usage {
@@ -42,7 +42,6 @@ fn left(surfaces: &RoadSurfaces, bounds: Bounds) -> SnowLeft {
             LaneUse::Parking(_) => vec![whole(PARKING)],
         }
     };
-    // One after the other each part may cover another's, in any order: bits are added.
     let areas: Vec<(Vec<Polygon>, u8)> = surfaces.lanes.par_iter().flat_map_iter(of_lane).collect();
     areas.iter().for_each(|(area, bit)| places.mark(area, *bit));
     let (origin, shares) = places.map(|bits| (share(bits) * 255.0).round() as u8);

@@ -17,7 +17,6 @@ pub(crate) struct Slots {
     pub(crate) rim: u16,
     pub(crate) chrome: u16,
     pub(crate) lamp: u16,
-    pub(crate) tail: u16,
     pub(crate) red: u16,
     pub(crate) amber: u16,
     pub(crate) interior: u16,
@@ -72,6 +71,7 @@ pub(crate) struct Slots {
     pub(crate) slats: u16,
     /// Gravel, sand; uvs in metres.
     pub(crate) gravel: u16,
+    pub(crate) tail: u16,
 }
 
 /// What one draws the colours of a vehicle from, linear RGB, a colour as often as it is common: `[paint.NAME]`.
@@ -175,7 +175,6 @@ impl Slots {
             rubber: slot(Material { dirt: 0.25, ..Material::plain("tyre", Vec3::splat(0.018), 0.75) }),
             chrome: slot(metal("chrome", 0.7, 0.1)),
             lamp: slot(Material { role: Some(Role::Headlamp), ..lining("lamp") }),
-            tail: slot(Material { role: Some(Role::TailLamp), ..lining("tail lamp") }),
             red: slot(Material { role: Some(Role::TailLamp), ..lens("red lens", vec3(0.26, 0.006, 0.008)) }),
             amber: slot(lens("amber lens", vec3(0.6, 0.2, 0.01))),
             interior: slot(Material::plain("interior", vec3(0.035, 0.035, 0.037), 0.8)),
@@ -198,6 +197,7 @@ impl Slots {
             boards: model.slot(Material { dirt: 0.6, ..BOARDS.clone() }, &[]),
             slats: model.slot(Material { metalness: 1.0, dirt: 0.6, ..SLATS.clone() }, &[]),
             gravel: model.slot(GRAVEL.clone(), &HEAPS),
+            tail: model.slot(Material { role: Some(Role::TailLamp), ..lining("tail lamp") }, &[]),
         }
     }
 }
