@@ -46,6 +46,24 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
+    /// A point of something in the open that stands in its own coordinates, seen along its normal.
+    #[cfg(test)]
+    pub(crate) fn plain(point: Vec3, normal: Vec3) -> Self {
+        Self {
+            point,
+            point_mesh: point,
+            above_foot_m: point.z,
+            wo: normal,
+            geometric: normal,
+            shading: normal,
+            is_front: true,
+            uv: Vec2::ZERO,
+            uv_axes: None,
+            tint: Vec3::ONE,
+            exposure: Exposure::BARE,
+        }
+    }
+
     /// Where a ray hits what is placed.
     pub(crate) fn new(placed: &Placed, hit: &Hit, ray: &Ray) -> Self {
         let mesh = &*placed.mesh;

@@ -108,19 +108,7 @@ mod tests {
         let n = 4000;
         let place = |i: usize| {
             let point = Vec3::new(i as f32 * 1.37, i as f32 * 0.61, 0.0);
-            let surface = Surface {
-                point,
-                point_mesh: point,
-                above_foot_m: 0.0,
-                wo: normal,
-                geometric: normal,
-                shading: normal,
-                is_front: true,
-                uv: Vec2::ZERO,
-                uv_axes: None,
-                tint: Vec3::ONE,
-                exposure,
-            };
+            let surface = Surface { exposure, ..Surface::plain(point, normal) };
             let mut p = asphalt();
             let shading = lie(&surface, 0.01, normal, &mut p);
             assert!(shading.is_normalized() && shading.dot(normal) > 0.5);

@@ -118,7 +118,6 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::Exposure;
 
     fn asphalt() -> Parameters {
         Parameters {
@@ -136,22 +135,6 @@ mod tests {
         }
     }
 
-    fn surface(at: Vec3, normal: Vec3) -> Surface {
-        Surface {
-            point: at,
-            point_mesh: at,
-            above_foot_m: at.z,
-            wo: normal,
-            geometric: normal,
-            shading: normal,
-            is_front: true,
-            uv: Vec2::ZERO,
-            uv_axes: None,
-            tint: Vec3::ONE,
-            exposure: Exposure::BARE,
-        }
-    }
-
     #[test]
     fn the_more_it_rains_the_darker_and_smoother_is_the_road() {
         let mut last = (1.0, 1.0);
@@ -160,7 +143,7 @@ mod tests {
             for i in 0..400 {
                 let mut p = asphalt();
                 let at = Vec3::new(i as f32 * 1.7, i as f32 * 0.9, 0.0);
-                Weather { dirt: 0.0, wetness }.wear(&surface(at, Vec3::Z), 0.01, Vec3::Z, &mut p);
+                Weather { dirt: 0.0, wetness }.wear(&Surface::plain(at, Vec3::Z), 0.01, Vec3::Z, &mut p);
                 reflectance += p.base_color.x / 400.0;
                 alpha += (p.alpha + (p.coat.alpha - p.alpha) * p.coat.share) / 400.0;
             }
@@ -174,11 +157,16 @@ mod tests {
     fn a_wall_has_no_puddles_and_is_dustier_at_its_foot() {
         let mut low = asphalt();
         let weather = Weather { dirt: 1.0, wetness: 1.0 };
-        weather.wear(&surface(Vec3::new(3.0, 0.0, 0.1), Vec3::Y), 0.01, Vec3::Y, &mut low);
+        weather.wear(&Surface::plain(Vec3::new(3.0, 0.0, 0.1), Vec3::Y), 0.01, Vec3::Y, &mut low);
         assert_eq!(low.coat.share, 0.0);
         let dust = |z: f32| {
             let mut p = Parameters { base_color: Vec3::X, ..asphalt() };
-            Weather { dirt: 1.0, wetness: 0.0 }.wear(&surface(Vec3::new(3.0, 0.0, z), Vec3::Y), 0.01, Vec3::Y, &mut p);
+            Weather { dirt: 1.0, wetness: 0.0 }.wear(
+                &Surface::plain(Vec3::new(3.0, 0.0, z), Vec3::Y),
+                0.01,
+                Vec3::Y,
+                &mut p,
+            );
             p.base_color.y
         };
         assert!(dust(0.1) > 0.03 && dust(3.0) == 0.0);
