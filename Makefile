@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
+.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -96,6 +96,10 @@ docs/view.jpg: chromium demo-out/manifest.json
 
 docs/clip.webp: $(VENV)/.test-installed demo-out/manifest.json docs/clip.py
 	$(BIN)/python docs/clip.py demo-out $@
+
+# The street of docs/weather; DATA is a folder with osm/neukolln.osm in it.
+docs/weather/%.jpg: docs/weather/%.toml docs/weather/picture.py docs/weather/camera.toml $(VENV)/.test-installed
+	$(BIN)/python docs/weather/picture.py $< $(DATA) $@
 
 demo-out/manifest.json: | install
 	$(BIN)/trove demo --out demo-out
@@ -212,6 +216,10 @@ bench-verify: $(VENV)/.test-installed
 # How many samples a clean picture needs, and how long they take.
 bench-clean: $(VENV)/.test-installed
 	$(BIN)/python benches/cycles/clean.py --trove $(BIN)/trove $(CLEAN)
+
+# What fog, rain, snow and night cost beside a clear day, at equal error.
+bench-weather: $(VENV)/.test-installed
+	$(BIN)/python benches/cycles/weather.py --trove $(BIN)/trove $(WEATHER)
 
 # The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/experiment.md.
 DATA ?= data

@@ -35,11 +35,11 @@ def data():
 
 
 class Scene:
-    """One keyframe, one camera, at `scale` times 1600×900."""
+    """One keyframe, one camera, at `scale` times 1600×900, in the weather that `tables` add to its recipe."""
 
-    def __init__(self, name, scale, args):
-        self.name, self.scale, self.args = name, scale, args
-        self.folder = (args.cache / f"{name}-{scale:g}").resolve()
+    def __init__(self, name, scale, args, weather="", tables=""):
+        self.name, self.scale, self.args, self.tables = name, scale, args, tables
+        self.folder = (args.cache / f"{name}{weather}-{scale:g}").resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def recipe(self, spp, denoise):
@@ -48,15 +48,16 @@ class Scene:
             f'seed = 7\n[drive]\ndataset = "nuscenes"\nroot = "{data() / "nuscenes"}"\nscenes = ["{self.name}"]\n'
             f'keyframes = [{KEYFRAME}]\n[map]\nosm = "{data() / "osm" / PLACES[self.name]}.osm"\n'
             f'[views]\nrig = "{VIEW.removeprefix("ego.")}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
-            f"denoise = {str(denoise).lower()}\nradiance = true\nthreads = {self.args.threads}\n"
+            f"denoise = {str(denoise).lower()}\nradiance = true\nthreads = {self.args.threads}\n{self.tables}"
         )
         return path
 
     def build(self):
         """The scene as files for others."""
         self.glb, self.sky = self.folder / "scene.glb", self.folder / "sky.exr"
-        trove(self.args, "build", self.recipe(1, False), "--out", self.glb, "--environment", self.sky)
-        self.digest = digest([self.glb, self.sky])
+        recipe = self.recipe(1, False)
+        trove(self.args, "build", recipe, "--out", self.glb, "--environment", self.sky)
+        self.digest = digest([recipe, self.glb, self.sky])
 
     def ours(self, spp, denoise):
         """Radiance, seconds of rendering with all labels, seconds of preparing."""

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::PreparedScene;
-use crate::fog;
+use crate::fog::Scattering;
 use crate::light::LightSample;
 use crate::material::Bsdf;
 use crate::ray::{Hit, Ray};
@@ -99,6 +99,16 @@ impl Path {
         }
     }
 
+    /// How the air scatters what comes along its ray, and at the droplet that it meets there.
+    fn scattering(&self) -> Scattering {
+        Scattering::after(self.bounce + self.droplets)
+    }
+
+    /// Likewise along rays from where its ray has arrived.
+    fn scattering_on(&self) -> Scattering {
+        Scattering::after(self.bounce + self.droplets + 1)
+    }
+
     /// Lets it end by chance, the likelier the less it carries; false where it has.
     fn survives(&mut self, u: f32) -> bool {
         let survival = (self.throughput.max_element() * ROULETTE).min(0.95);
@@ -154,6 +164,7 @@ impl Vertex<'_> {
         let lights = &self.scene.lights;
         if let Some(fog) = &self.scene.fog {
             let [u, _] = path.sampler.next2();
+            let fog = fog.scattering(path.scattering());
             let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
             if let Some(t) = fog.met(path.ray.origin, path.ray.direction, t_max, u) {
                 return self.scatter(path, t, hit);
@@ -243,8 +254,9 @@ impl Vertex<'_> {
         let [u0, u1] = path.sampler.next2();
         let sun = lights.sample_sun(on_sun);
         let rest = lights.sample_rest(point, Vec3::ZERO, [u_light, u0, u1]);
+        let scattering = path.scattering();
         let mut ask = |light: LightSample| {
-            let phase = fog::phase(direction.dot(light.wi));
+            let phase = scattering.phase(direction.dot(light.wi));
             self.shadow(path, point, Vec3::splat(phase), phase, &light)
         };
         let [sun, rest] = [sun.map(&mut ask), rest.map(&mut ask)];
@@ -255,8 +267,8 @@ impl Vertex<'_> {
         if path.droplets > MAX_DROPLETS || !path.survives(u_roulette) {
             return false;
         }
-        let on = fog::scatter(direction, path.sampler.next2());
-        path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf: fog::phase(direction.dot(on)) });
+        let on = scattering.turn(direction, path.sampler.next2());
+        path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf: scattering.phase(direction.dot(on)) });
         path.ray = path.ray.then(point, on);
         true
     }
@@ -278,7 +290,8 @@ impl Vertex<'_> {
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
         let ray = Ray { t_max, ..path.ray.then(origin, light.wi) };
-        let clear = self.scene.clear(origin, light.wi, t_max);
+        let fog = self.scene.fog.map(|fog| fog.scattering(path.scattering_on()));
+        let clear = fog.map_or(1.0, |fog| fog.transmittance(origin, light.wi, t_max));
         let weight = power_heuristic(light.pdf, pdf) / light.pdf * clear;
         let light = path.throughput * f * light.radiance * weight;
         Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }
