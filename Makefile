@@ -98,7 +98,7 @@ docs/clip.webp: $(VENV)/.test-installed demo-out/manifest.json docs/clip.py
 	$(BIN)/python docs/clip.py demo-out $@
 
 # The street of docs/weather; DATA is a folder with osm/neukolln.osm in it.
-docs/weather/%.jpg: docs/weather/%.toml docs/weather/picture.py docs/weather/camera.toml $(VENV)/.test-installed
+docs/weather/%.jpg: docs/weather/%.toml docs/weather/picture.py docs/weather/camera.toml docs/weather/view.json $(VENV)/.test-installed
 	$(BIN)/python docs/weather/picture.py $< $(DATA) $@
 
 demo-out/manifest.json: | install
