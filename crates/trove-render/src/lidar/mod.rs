@@ -14,6 +14,7 @@ use trove_model::{LidarPoint, LidarShot, PointCloud, SensorRay};
 
 use crate::PreparedScene;
 use crate::accel::Coherence;
+use crate::fog::Scattering;
 use crate::prepare::Carrier;
 use crate::ray::Ray;
 use crate::sight::{self, Seen};
@@ -143,7 +144,8 @@ fn backscattered(scene: &PreparedScene, shot: &LidarShot, seen: &Seen, looks: &m
 
 fn part(scene: &PreparedScene, way: &Way, seen: &Seen, share: f32) -> Part {
     let class = scene.instances[seen.hit.instance as usize].class;
-    let left = way.left * scene.clear(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32);
+    let left = way.left
+        * scene.clear(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32, Scattering::after(0));
     Part {
         range_m: seen.range_m,
         // There and back through the same panes and the same air.

@@ -275,7 +275,7 @@ impl Vertex<'_> {
 
     /// What guides the denoiser at a surface: fog before it is white and faces nowhere.
     fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
-        let clear = self.scene.clear(path.ray.origin, path.ray.direction, t);
+        let clear = self.scene.clear(path.ray.origin, path.ray.direction, t, Scattering::after(0));
         (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
     }
 
@@ -290,8 +290,7 @@ impl Vertex<'_> {
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
         let ray = Ray { t_max, ..path.ray.then(origin, light.wi) };
-        let fog = self.scene.fog.map(|fog| fog.scattering(path.scattering_on()));
-        let clear = fog.map_or(1.0, |fog| fog.transmittance(origin, light.wi, t_max));
+        let clear = self.scene.clear(origin, light.wi, t_max, path.scattering_on());
         let weight = power_heuristic(light.pdf, pdf) / light.pdf * clear;
         let light = path.throughput * f * light.radiance * weight;
         Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }

@@ -11,7 +11,7 @@ use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
-use crate::fog::Fog;
+use crate::fog::{Fog, Scattering};
 use crate::light::{LastSurroundings, Lights};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
@@ -157,9 +157,9 @@ impl PreparedScene {
         hits.iter().map(Option::is_some).collect()
     }
 
-    /// Share of light that the air lets pass along a unit direction for `t` metres.
-    pub(crate) fn clear(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
-        self.fog.map_or(1.0, |fog| fog.transmittance(origin, direction, t))
+    /// Share of light, scattered so, that the air lets pass along a unit direction for `t` metres.
+    pub(crate) fn clear(&self, origin: Vec3, direction: Vec3, t: f32, scattering: Scattering) -> f32 {
+        self.fog.map_or(1.0, |fog| fog.scattering(scattering).transmittance(origin, direction, t))
     }
 
     /// The kernel, to be measured.
