@@ -8,8 +8,10 @@ pub enum Role {
     StreetLamp,
     /// A lamp on a wall: it shines in the dark.
     WallLamp,
-    /// The walls of a room where people are in: they are lit in the dark.
-    LitRoom,
+    /// The shade of a lamp in a room where people are in: it shines in the dark.
+    RoomLamp,
+    /// A bright panel below a ceiling, in an office or a shop: it shines in the dark.
+    LightPanel,
     /// A headlamp of a vehicle: it shines in the dark while the vehicle is driven.
     Headlamp,
     /// A tail lamp of a vehicle, likewise.
@@ -24,10 +26,11 @@ pub enum Role {
 
 impl Role {
     /// Every role with its name in files.
-    pub const ALL: [(Self, &str); 8] = [
+    pub const ALL: [(Self, &str); 9] = [
         (Self::StreetLamp, "street_lamp"),
         (Self::WallLamp, "wall_lamp"),
-        (Self::LitRoom, "lit_room"),
+        (Self::RoomLamp, "room_lamp"),
+        (Self::LightPanel, "light_panel"),
         (Self::Headlamp, "headlamp"),
         (Self::TailLamp, "tail_lamp"),
         (Self::Insulator, "insulator"),

@@ -169,7 +169,8 @@ fn fittings(
         plain("room warm", warm, 0.9),
         plain("room floor", floor, 0.5),
         back,
-        Material { role: Some(Role::LitRoom), ..plain("lit room", vec3(0.6, 0.55, 0.46), 0.9) },
+        Material { role: Some(Role::RoomLamp), ..plain("lampshade", vec3(0.6, 0.57, 0.5), 0.9) },
+        Material { role: Some(Role::LightPanel), ..plain("light panel", Vec3::splat(0.7), 0.5) },
         Material { role: Some(Role::WallLamp), ..plain("wall lamp", Vec3::splat(0.6), 0.3) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
@@ -309,7 +310,7 @@ mod tests {
         assert_eq!(dress.materials.len(), Slot::Plank as usize + 1);
         assert_eq!(dress.materials[Slot::Glass as usize].name, "window glass");
         assert_eq!(dress.materials[Slot::Lamp as usize].name, "wall lamp");
-        assert_eq!(dress.materials[Slot::LitRoom as usize].name, "lit room");
+        assert_eq!(dress.materials[Slot::LightPanel as usize].name, "light panel");
     }
 
     #[test]

@@ -201,8 +201,8 @@ mod tests {
         assert!(rooms > 40, "{rooms} triangles of rooms' floors");
         // Frames, panes and what hangs in the windows are bodies of their own.
         let closed = |&slot: &u16| {
-            use Slot::{Dark, GroundWall, LitRoom, RoomBack, RoomFloor, RoomPale, RoomWarm, Slab, Wall};
-            let walls = [Wall, GroundWall, Slab, RoomPale, RoomWarm, RoomFloor, RoomBack, LitRoom, Dark];
+            use Slot::{Dark, GroundWall, RoomBack, RoomFloor, RoomPale, RoomWarm, Slab, Wall};
+            let walls = [Wall, GroundWall, Slab, RoomPale, RoomWarm, RoomFloor, RoomBack, Dark];
             slot <= Slot::Glazing as u16 || walls.iter().any(|&w| w as u16 == slot)
         };
         let mut shell = mesh.clone();

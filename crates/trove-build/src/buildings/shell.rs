@@ -53,9 +53,10 @@ pub(super) enum Slot {
     RoomWarm,
     RoomFloor,
     RoomBack,
-    /// Rooms whose light is on in the dark.
-    LitRoom,
-    /// Lamps' lenses.
+    /// Lamps in rooms, whose light is on in the dark.
+    Lampshade,
+    LightPanel,
+    /// Lenses of lamps on walls.
     Lamp,
     /// Awnings, and every second stripe of theirs.
     Cloth,

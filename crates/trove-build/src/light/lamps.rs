@@ -19,11 +19,13 @@ const LOW_BEAM: &str = include_str!("low_beam.tsv");
 /// Luminance of radiance 1, candelas a square metre.
 const UNIT_CD_M2: f32 = 32_000.0;
 
-/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm, and the walls of a room (60 cd/m²).
-const STREET: [(Role, Vec3); 3] = [
+/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm; a lampshade of 0.6 m² that gives
+/// 1,500 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K.
+const PLACES: [(Role, Vec3); 4] = [
     (Role::StreetLamp, vec3(1.4, 0.95, 0.5)),
     (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
-    (Role::LitRoom, vec3(0.0024, 0.0018, 0.0011)),
+    (Role::RoomLamp, vec3(0.042, 0.022, 0.007)),
+    (Role::LightPanel, vec3(0.122, 0.096, 0.067)),
 ];
 
 /// Colours of vehicles' lamps, of luminance 1: white, and red behind glass or lens.
@@ -100,7 +102,7 @@ impl Lamp {
 }
 
 fn glow(material: &Material) -> Option<Vec3> {
-    STREET.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
+    PLACES.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
 }
 
 /// Of triangles of some slots, what faces along x, or against it where `along` is −1, as seen from there.

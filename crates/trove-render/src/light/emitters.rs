@@ -3,17 +3,25 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec3, Mat3, Vec2, Vec3};
-use trove_model::{Beam, Scene};
+use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
+use trove_model::Scene;
 
 use super::luminance::luminance;
-use super::tree::{Tree, TreeEntry};
+use super::tree::{Aim, Cut, Tree, TreeEntry};
+use crate::ray::Ray;
+use crate::sampling::{Basis, cosine_hemisphere};
+
+/// Which rays that start on an instance do not end on it.
+pub(crate) type GetsAway<'a> = dyn Fn(u32, &[Ray; PROBES]) -> [bool; PROBES] + Sync + 'a;
+
+/// Rays by which a triangle's share of light that gets away is measured, a square number.
+pub(crate) const PROBES: usize = 16;
+/// They start this far above it, metres.
+const PROBE_FROM_M: f32 = 1e-3;
 
 /// How far light of the outermost emitters reaches, roughly.
 const MARGIN_M: f32 = 20.0;
-
-/// What a beam is taken to give at least, where lamps are compared.
-const LEAST_SHARE: f32 = 1e-3;
 
 /// All shining triangles of a scene, drawn by what they give to the place that asks.
 ///
@@ -31,8 +39,10 @@ struct Emitter {
     /// Twice the area, along the normal.
     cross: Vec3,
     radiance: Vec3,
-    /// By which the radiance differs between directions, and the way to them from World's.
-    beam: Option<(Arc<Beam>, Mat3)>,
+    /// Share of its light that gets away from what it is part of: little of a room's does, through the windows.
+    away: f32,
+    /// Index of the beam by which the radiance differs between directions.
+    aim: Option<u32>,
 }
 
 /// A point on a shining triangle.
@@ -45,10 +55,11 @@ pub(super) struct EmitterPoint {
 
 impl Emitters {
     /// `None` where nothing shines. Cut-out materials are left out: rays that meet them by chance still count them.
-    pub(super) fn new(scene: &Scene) -> Option<Self> {
-        let mut triangles = Vec::new();
+    pub(super) fn new(scene: &Scene, gets_away: &GetsAway<'_>) -> Option<Self> {
+        let (mut triangles, mut aims) = (Vec::new(), Vec::new());
         for (i, instance) in scene.instances.iter().enumerate() {
             let material = |slot: u16| &scene.materials[instance.materials[usize::from(slot)]];
+            let first_aim = aims.len();
             if !instance.materials.iter().any(|&m| scene.materials[m].is_emitter()) {
                 continue;
             }
@@ -68,35 +79,38 @@ impl Emitters {
                     let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
                     let key = (i as u32, t as u32);
                     let radiance = material.emission;
-                    let beam = material.beam.clone().map(|beam| (beam, mesh_from_world));
-                    triangles.push(Emitter { key, corner: a.as_vec3(), edges, cross, radiance, beam });
+                    let aim = material.beam.as_ref().map(|beam| {
+                        let known = aims[first_aim..].iter().position(|aim: &Aim| Arc::ptr_eq(&aim.beam, beam));
+                        let index = first_aim + known.unwrap_or(aims.len() - first_aim);
+                        if index == aims.len() {
+                            aims.push(Aim { beam: beam.clone(), mesh_from_world });
+                        }
+                        index as u32
+                    });
+                    triangles.push(Emitter { key, corner: a.as_vec3(), edges, cross, radiance, away: 1.0, aim });
                 }
             }
         }
+        triangles.par_iter_mut().for_each(|emitter| emitter.away = emitter.measured(gets_away));
         let entries: Vec<TreeEntry> = triangles.iter().map(Emitter::entry).collect();
-        (!triangles.is_empty()).then(|| Self { triangles, tree: Tree::new(&entries) })
+        (!triangles.is_empty()).then(|| Self { triangles, tree: Tree::new(&entries, aims) })
     }
 
     /// Irradiance of a surface among the emitters: all their light, spread over the ground that they stand on.
     pub(super) fn typical_irradiance(&self) -> f32 {
-        let flux: f32 = self.triangles.iter().map(|e| PI * e.power()).sum();
+        let flux: f32 = self
+            .triangles
+            .iter()
+            .map(|e| PI * e.power() / e.away * e.aim.map_or(1.0, |aim| self.tree.aim(aim).beam.flux_share()))
+            .sum();
         let corners = || self.triangles.iter().map(|e| e.corner.truncate());
         let (low, high) = (corners().fold(Vec2::INFINITY, Vec2::min), corners().fold(-Vec2::INFINITY, Vec2::max));
         flux / (high - low + MARGIN_M).element_product()
     }
 
-    /// A point on some triangle, for a surface at `from` that is lit from the side of `normal` (both if it is 0); `None`
-    /// where no triangle shines on that.
-    pub(super) fn draw(&self, from: Vec3, normal: Vec3, u: [f32; 3]) -> Option<EmitterPoint> {
-        let weight = |index: u32| self.triangles[index as usize].weight(from);
-        let (index, probability) = self.tree.draw(from, normal, u[0], weight)?;
-        let emitter = &self.triangles[index as usize];
-        // Even over the triangle's area.
-        let root = u[1].sqrt();
-        let (b, c) = (root * (1.0 - u[2]), root * u[2]);
-        let point = emitter.corner + emitter.edges[0] * b + emitter.edges[1] * c;
-        let radiance = emitter.radiance * emitter.share(from - point);
-        Some(EmitterPoint { point, radiance, pdf: probability * emitter.density(from, point) })
+    /// All triangles, to draw from for a surface at `from` that is lit from the side of `normal` (both if it is 0).
+    pub(super) fn near(&self, from: Vec3, normal: Vec3) -> Near<'_> {
+        Near { emitters: self, from, normal, cut: self.tree.cut(from, normal) }
     }
 
     /// Density over solid angle, seen from `from`, with which that point of a triangle is drawn; 0 where it never is.
@@ -108,20 +122,63 @@ impl Emitters {
     }
 }
 
+/// The triangles as they shine on a surface.
+pub(super) struct Near<'a> {
+    emitters: &'a Emitters,
+    from: Vec3,
+    normal: Vec3,
+    cut: Cut,
+}
+
+impl Near<'_> {
+    /// A point on some triangle; `None` where no triangle shines on the surface.
+    pub(super) fn draw(&self, u: [f32; 3]) -> Option<EmitterPoint> {
+        let Emitters { triangles, tree } = self.emitters;
+        let weight = |index: u32| triangles[index as usize].weight(self.from);
+        let (index, probability) = tree.draw(&self.cut, self.from, self.normal, u[0], weight)?;
+        let emitter = &triangles[index as usize];
+        // Even over the triangle's area.
+        let root = u[1].sqrt();
+        let point = emitter.at([root * (1.0 - u[2]), root * u[2]]);
+        let share = emitter.aim.map_or(1.0, |aim| tree.aim(aim).share(self.from - point));
+        Some(EmitterPoint {
+            point,
+            radiance: emitter.radiance * share,
+            pdf: probability * emitter.density(self.from, point),
+        })
+    }
+}
+
 impl Emitter {
     fn centre(&self) -> Vec3 {
         self.corner + (self.edges[0] + self.edges[1]) / 3.0
     }
 
-    /// Share of the radiance that leaves into a direction, World.
-    fn share(&self, direction: Vec3) -> f32 {
-        self.beam.as_ref().map_or(1.0, |(beam, mesh_from_world)| beam.share(*mesh_from_world * direction))
+    /// Area times brightness, in the brightest direction of its beam, of what gets away.
+    fn power(&self) -> f32 {
+        0.5 * self.cross.length() * luminance(self.radiance) * self.away
     }
 
-    /// Area times brightness, in all directions together.
-    fn power(&self) -> f32 {
-        let share = self.beam.as_ref().map_or(1.0, |(beam, _)| beam.flux_share());
-        0.5 * self.cross.length() * luminance(self.radiance) * share
+    /// By rays of a fixed pattern. Never nothing: more rays might find a way.
+    fn measured(&self, gets_away: &GetsAway<'_>) -> f32 {
+        let normal = self.cross.normalize();
+        let basis = Basis::about(normal);
+        let side = PROBES.isqrt();
+        let rays = std::array::from_fn(|i| {
+            let [column, row] = [i % side, i / side].map(|k| (k as f32 + 0.5) / side as f32);
+            // Directions and places in another order, so that no direction always starts at the same edge.
+            let (root, along) = (row.sqrt(), (column + 0.5 * row).fract());
+            let point = self.at([root * (1.0 - along), root * along]);
+            let direction = basis.to_world(cosine_hemisphere([column, (row + column * 0.5).fract()]));
+            Ray { through_glass: true, ..Ray::new(point + normal * PROBE_FROM_M, direction) }
+        });
+        let away = gets_away(self.key.0, &rays).iter().filter(|away| **away).count();
+        (away as f32 + 0.25) / (PROBES as f32 + 0.25)
+    }
+
+    /// A point by its shares of the edges.
+    fn at(&self, [b, c]: [f32; 2]) -> Vec3 {
+        self.corner + self.edges[0] * b + self.edges[1] * c
     }
 
     fn entry(&self) -> TreeEntry {
@@ -132,17 +189,16 @@ impl Emitter {
             centre: self.centre(),
             axis: self.cross.normalize(),
             power: self.power(),
+            aim: self.aim,
         }
     }
 
-    /// What it gives to a place, roughly; 0 exactly where that is behind it.
+    /// What it gives to a place beside others with its beam, roughly; 0 exactly where that is behind it.
     fn weight(&self, from: Vec3) -> f32 {
         let to_place = from - self.centre();
         // Near a triangle its own size counts, not the distance to its middle.
         let square = to_place.length_squared().max(0.25 * self.cross.length());
-        // Never nothing: another point of it may shine there.
-        let share = self.share(to_place).max(LEAST_SHARE);
-        luminance(self.radiance) * share * self.cross.dot(to_place).max(0.0) / (square * square.sqrt())
+        luminance(self.radiance) * self.away * self.cross.dot(to_place).max(0.0) / (square * square.sqrt())
     }
 
     /// Density over solid angle of a point that is drawn evenly from the triangle.
@@ -155,31 +211,61 @@ impl Emitter {
 
 #[cfg(test)]
 mod tests {
-    use trove_model::Seed;
+    use glam::Mat3;
+    use trove_model::{Beam, Seed};
 
     use super::*;
     use crate::light::cdf::Cdf;
 
-    /// Lamps along a street, 300 of them on both sides: boxes that shine on all sides, some a hundred times as bright.
-    fn street() -> Emitters {
-        let mut triangles = Vec::new();
-        for i in 0..300u32 {
-            let at = Vec3::new((i / 2) as f32 * 6.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 5.0 + (i % 3) as f32);
-            let radiance = Vec3::splat(if i % 7 == 0 { 100.0 } else { 1.0 + (i % 5) as f32 });
-            for (t, axis) in [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].into_iter().enumerate() {
-                let (a, b) = axis.any_orthonormal_pair();
-                let (a, b) = if a.cross(b).dot(axis) > 0.0 { (a, b) } else { (b, a) };
-                for half in 0..2 {
-                    let edges = if half == 0 { [a * 0.3, b * 0.3] } else { [-a * 0.3, -b * 0.3] };
-                    let corner = at + axis * 0.15 - (a + b) * if half == 0 { 0.15 } else { -0.15 };
-                    let cross = edges[0].cross(edges[1]);
-                    let key = (i, 2 * t as u32 + half);
-                    triangles.push(Emitter { key, corner, edges, cross, radiance, beam: None });
-                }
-            }
-        }
+    /// A box at a place that shines on all sides.
+    fn lamp(number: u32, at: Vec3, radiance: f32, aim: Option<u32>) -> impl Iterator<Item = Emitter> {
+        let sides = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].into_iter().enumerate();
+        sides.flat_map(move |(side, axis)| {
+            let (a, b) = axis.any_orthonormal_pair();
+            let (a, b) = if a.cross(b).dot(axis) > 0.0 { (a, b) } else { (b, a) };
+            [1.0, -1.0].into_iter().enumerate().map(move |(half, sign)| {
+                let edges = [a * 0.3 * sign, b * 0.3 * sign];
+                let key = (number, 2 * side as u32 + half as u32);
+                let (corner, cross) = (at + axis * 0.15 - (a + b) * 0.15 * sign, edges[0].cross(edges[1]));
+                Emitter { key, corner, edges, cross, radiance: Vec3::splat(radiance), away: 1.0, aim }
+            })
+        })
+    }
+
+    fn emitters(triangles: Vec<Emitter>, aims: Vec<Aim>) -> Emitters {
         let entries: Vec<TreeEntry> = triangles.iter().map(Emitter::entry).collect();
-        Emitters { triangles, tree: Tree::new(&entries) }
+        Emitters { triangles, tree: Tree::new(&entries, aims) }
+    }
+
+    /// Lamps along a street, 300 of them on both sides, some a hundred times as bright.
+    fn street() -> Emitters {
+        let lamps = (0..300).flat_map(|i| {
+            let at = Vec3::new((i / 2) as f32 * 6.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 5.0 + (i % 3) as f32);
+            lamp(i, at, if i % 7 == 0 { 100.0 } else { 1.0 + (i % 5) as f32 }, None)
+        });
+        emitters(lamps.collect(), Vec::new())
+    }
+
+    /// Far fewer lamps, and cars between them whose beams are a thousand times as bright ahead and on the road as elsewhere.
+    fn street_with_cars() -> Emitters {
+        let beam = Beam::new(vec![-12.0, -10.0, 10.0, 12.0], vec![-9.0, -7.0, -0.5, 0.0], {
+            let row = |level: f32| [0.001, level, level, 0.001];
+            [row(0.001), row(1.0), row(1.0), row(0.001)].concat()
+        });
+        let beam = Arc::new(beam.unwrap());
+        let (ahead, towards) = (Mat3::IDENTITY, Mat3::from_rotation_z(PI));
+        let aims =
+            (0..40).map(|i| Aim { beam: beam.clone(), mesh_from_world: if i % 2 == 0 { ahead } else { towards } });
+        let lamps = (0..30).flat_map(|i| {
+            let at = Vec3::new((i / 2) as f32 * 60.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 7.0);
+            lamp(i, at, 20.0, None)
+        });
+        let cars = (0..40).flat_map(|i| {
+            let at = Vec3::new((i / 2) as f32 * 45.0, if i % 2 == 0 { -1.6 } else { 1.6 }, 0.65);
+            [-0.6, 0.6].map(|y| (at + Vec3::Y * y, i)).into_iter()
+        });
+        let beams = cars.enumerate().flat_map(|(k, (at, car))| lamp(30 + k as u32, at, 900.0, Some(car)));
+        emitters(lamps.chain(beams).collect(), aims.collect())
     }
 
     /// Places on the road and on a wall beside it.
@@ -194,65 +280,92 @@ mod tests {
         f64::from(drawn.radiance.x * cos / drawn.pdf)
     }
 
-    #[test]
-    fn many_lamps_are_sampled_with_far_less_noise_than_by_power_and_without_bias() {
-        let street = street();
+    /// The noise of one sample relative to the light at each place, and of one that is drawn by power alone; fails where the
+    /// mean is not the light.
+    fn noise(street: &Emitters) -> Vec<[f64; 2]> {
         let powers: Vec<f64> = street.triangles.iter().map(|e| f64::from(e.power())).collect();
         let by_power = Cdf::new(&powers);
         let mut random = Seed(5).random();
         let mut unit = || random.unit() as f32;
-        let (mut noise, mut noise_by_power) = (0.0, 0.0);
-        for place in places() {
+        let on = |e: &Emitter, place: Vec3, u: [f32; 2], probability: f32| {
+            let root = u[0].sqrt();
+            let point = e.at([root * (1.0 - u[1]), root * u[1]]);
+            let share = e.aim.map_or(1.0, |aim| street.tree.aim(aim).share(place - point));
+            let is_lit = e.cross.dot(place - point) > 0.0;
+            let pdf = probability * e.density(place, point);
+            is_lit.then_some(EmitterPoint { point, radiance: e.radiance * share, pdf })
+        };
+        let measured = places().into_iter().map(|place| {
             // All lamps, finely: those in view, from the side that faces the place.
             let mut truth = 0.0;
             for e in &street.triangles {
                 let n = 8;
                 for k in 0..n * n {
-                    let (s, t) = (((k / n) as f32 + 0.5) / n as f32, ((k % n) as f32 + 0.5) / n as f32);
-                    let root = s.sqrt();
-                    let point = e.corner + e.edges[0] * root * (1.0 - t) + e.edges[1] * root * t;
-                    if e.cross.dot(place.0 - point) > 0.0 {
-                        let pdf = e.density(place.0, point);
-                        let drawn = EmitterPoint { point, radiance: e.radiance, pdf };
-                        truth += brought(&drawn, place) / f64::from(n * n);
-                    }
+                    let u = [k / n, k % n].map(|i| (i as f32 + 0.5) / n as f32);
+                    truth += on(e, place.0, u, 1.0).map_or(0.0, |drawn| brought(&drawn, place)) / f64::from(n * n);
                 }
             }
             let draws = 4000;
             let (mut sum, mut squares, mut squares_by_power) = (0.0, 0.0, 0.0);
+            let near = street.near(place.0, place.1);
             for _ in 0..draws {
                 let u = [unit(), unit(), unit()];
-                let part = street.draw(place.0, place.1, u).map_or(0.0, |drawn| brought(&drawn, place));
+                let part = near.draw(u).map_or(0.0, |drawn| brought(&drawn, place));
                 sum += part;
                 squares += part * part;
                 let (index, _) = by_power.draw(u[0]);
-                let e = &street.triangles[index];
-                let root = u[1].sqrt();
-                let point = e.corner + e.edges[0] * root * (1.0 - u[2]) + e.edges[1] * root * u[2];
-                let pdf = by_power.probability(index) * e.density(place.0, point);
-                let drawn = EmitterPoint { point, radiance: e.radiance, pdf };
-                let is_lit = e.cross.dot(place.0 - point) > 0.0;
-                squares_by_power += if is_lit { brought(&drawn, place).powi(2) } else { 0.0 };
+                let drawn = on(&street.triangles[index], place.0, [u[1], u[2]], by_power.probability(index));
+                squares_by_power += drawn.map_or(0.0, |drawn| brought(&drawn, place).powi(2));
             }
             let n = f64::from(draws);
             let (mean, variance) = (sum / n, squares / n - (sum / n).powi(2));
             assert!((mean - truth).abs() < 4.5 * (variance / n).sqrt(), "{place:?}: {mean} instead of {truth}");
-            noise += variance.max(0.0) / (truth * truth);
-            noise_by_power += (squares_by_power / n - truth * truth) / (truth * truth);
+            [variance, squares_by_power / n - truth * truth].map(|variance| variance.max(0.0) / (truth * truth))
+        });
+        measured.collect()
+    }
+
+    #[test]
+    fn many_lamps_are_sampled_with_far_less_noise_than_by_power_and_without_bias() {
+        for street in [street(), street_with_cars()] {
+            let noise = noise(&street);
+            let by_power = noise.iter().map(|[_, by_power]| by_power).sum::<f64>() / noise.len() as f64;
+            let worst = noise.iter().map(|[ours, _]| *ours).fold(0.0, f64::max);
+            assert!(worst < 1.0 && by_power > 100.0, "{noise:?}");
         }
-        assert!(noise * 20.0 < noise_by_power, "{noise} {noise_by_power}");
+    }
+
+    #[test]
+    fn what_gets_away_of_a_lamp_is_what_its_surroundings_let_through() {
+        // Where nothing is, behind a plane below which all is closed, and behind a hole of a quarter of the hemisphere.
+        let lamp = emitters(lamp(3, Vec3::ZERO, 1.0, None).collect(), Vec::new());
+        for e in &lamp.triangles {
+            let normal = e.cross.normalize();
+            let share = |away: &(dyn Fn(&Ray) -> bool + Sync)| e.measured(&|_, rays| rays.each_ref().map(away));
+            assert_eq!(share(&|ray| ray.through_glass && ray.direction.dot(normal) > 0.0), 1.0);
+            assert!((0.001..0.05).contains(&share(&|_| false)));
+            // Cosine-weighted, half of all light is within 45° of the normal.
+            let within = share(&|ray| ray.direction.dot(normal) > 0.5_f32.sqrt());
+            assert!((within - 0.5).abs() < 0.13, "{within}");
+            let aside = share(&|ray| ray.direction.cross(normal).dot(e.edges[0]) > 0.0);
+            assert!((aside - 0.5).abs() < 0.13, "{aside}");
+        }
     }
 
     #[test]
     fn triangles_are_drawn_with_the_probability_that_is_claimed() {
-        let street = street();
+        claimed_probabilities_hold(&street());
+        claimed_probabilities_hold(&street_with_cars());
+    }
+
+    fn claimed_probabilities_hold(street: &Emitters) {
         let mut random = Seed(6).random();
         let place = places()[3];
         let draws = 100_000;
-        let mut drawn = vec![0.0; 300];
+        let mut drawn = vec![0.0; street.triangles.last().map_or(0, |e| e.key.0 as usize + 1)];
         for _ in 0..draws {
             let u = [random.unit() as f32, random.unit() as f32, random.unit() as f32];
-            let Some(point) = street.draw(place.0, place.1, u) else { continue };
+            let Some(point) = street.near(place.0, place.1).draw(u) else { continue };
             let near = |e: &&Emitter| {
                 let above = e.cross.normalize().dot(point.point - e.corner).abs();
                 above < 1e-4 && (point.point - e.centre()).length() < 0.3
@@ -266,7 +379,7 @@ mod tests {
             drawn[e.key.0 as usize] += 1.0;
         }
         let weight = |e: &Emitter| street.pdf(e.key, place.0, place.1, e.centre()) / e.density(place.0, e.centre());
-        let mut expected = vec![0.0; 300];
+        let mut expected = vec![0.0; street.triangles.last().map_or(0, |e| e.key.0 as usize + 1)];
         for e in &street.triangles {
             expected[e.key.0 as usize] += f64::from(weight(e)) * f64::from(draws);
         }

@@ -16,6 +16,7 @@ mod sun;
 mod sun_in_map;
 mod tree;
 
+use std::cell::OnceCell;
 use std::f32::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -25,7 +26,8 @@ use trove_model::{Environment, Scene};
 pub(crate) use noise::Plane;
 
 use dome::Dome;
-use emitters::Emitters;
+use emitters::{EmitterPoint, Emitters, Near};
+pub(crate) use emitters::{GetsAway, PROBES};
 use luminance::luminance;
 pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
@@ -35,6 +37,9 @@ use sun_in_map::take_sun;
 /// Cells on a side of a hemisphere's square: fine enough for clouds, and for the windows and lamps of a photograph.
 const SKY_CELLS: usize = 64;
 const MAP_CELLS: usize = 256;
+
+/// Samples that are compared where lamps give most of the light: most of them fall on what gives little there.
+const CANDIDATES: u32 = 4;
 
 /// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
 const SHARE_BELOW: f64 = 0.05;
@@ -52,7 +57,7 @@ pub(crate) struct LightSample {
 }
 
 /// Everything infinitely far away.
-struct Surroundings {
+pub(crate) struct Surroundings {
     dome: Dome,
     sun: Option<Sun>,
 }
@@ -81,7 +86,7 @@ pub(crate) struct LastSurroundings {
 }
 
 impl LastSurroundings {
-    fn get(&self, environment: &Environment) -> Arc<Surroundings> {
+    pub(crate) fn get(&self, environment: &Environment) -> Arc<Surroundings> {
         let lock = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, made)) = lock().as_ref().filter(|(of, _)| is_same(of, environment)) {
             return made.clone();
@@ -111,9 +116,8 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    pub(crate) fn new(scene: &Scene, last: &LastSurroundings) -> Self {
-        let around = last.get(&scene.light.environment);
-        let emitters = Emitters::new(scene);
+    pub(crate) fn new(scene: &Scene, around: Arc<Surroundings>, gets_away: &GetsAway<'_>) -> Self {
+        let emitters = Emitters::new(scene, gets_away);
         let from_sky = luminance(around.dome.irradiance());
         let from_sun = around.sun.as_ref().map_or(0.0, |sun| luminance(sun.level_irradiance()));
         let from_emitters = emitters.as_ref().map_or(0.0, Emitters::typical_irradiance);
@@ -147,37 +151,23 @@ impl Lights {
         self.around.sun.as_ref().map_or(Vec3::ZERO, |sun| sun.radiance(direction))
     }
 
-    /// Draws the sky or an emitter (first number) and a direction to it (the other two), for a surface at `point` that is
-    /// lit from the side of `normal`; from both sides if it is 0.
-    pub(crate) fn sample_rest(&self, point: Vec3, normal: Vec3, u: [f32; 3]) -> Option<LightSample> {
-        if let Some(emitters) = self.emitters.as_ref().filter(|_| u[0] < self.emitter_share) {
-            return self.sample_emitter(emitters, point, normal, [u[0] / self.emitter_share, u[1], u[2]]);
-        }
-        let (wi, radiance, pdf) = self.around.dome.draw(normal, [u[1], u[2]])?;
-        let pdf = pdf * (1.0 - self.emitter_share);
-        (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance, pdf })
+    /// The sky and the emitters, to draw from for a surface at `point` that is lit from the side of `normal`; from both
+    /// sides if it is 0.
+    pub(crate) fn rest(&self, point: Vec3, normal: Vec3) -> Rest<'_> {
+        Rest { lights: self, point, normal, near: OnceCell::new() }
     }
 
-    fn sample_emitter(&self, emitters: &Emitters, point: Vec3, normal: Vec3, u: [f32; 3]) -> Option<LightSample> {
-        let drawn = emitters.draw(point, normal, u)?;
-        let to_light = drawn.point - point;
-        let distance = to_light.length();
-        let pdf = self.emitter_share * drawn.pdf;
-        // Seen edge-on, or from the point itself, it gives nothing.
-        (distance > 0.0 && pdf.is_finite() && pdf > 0.0).then(|| LightSample {
-            wi: to_light / distance,
-            distance,
-            radiance: drawn.radiance,
-            pdf,
-        })
+    /// How many samples of the rest are compared before one of them is asked for: one by day, since the sky is drawn well.
+    pub(crate) fn candidates(&self) -> u32 {
+        if self.emitter_share > 0.5 { CANDIDATES } else { 1 }
     }
 
-    /// Density over solid angle with which [`Self::sample_rest`], given that normal, draws a direction of the sky.
+    /// Density over solid angle with which [`Rest::draw`], given that normal, draws a direction of the sky.
     pub(crate) fn pdf_rest(&self, normal: Vec3, direction: Vec3) -> f32 {
         (1.0 - self.emitter_share) * self.around.dome.pdf(normal, direction)
     }
 
-    /// Density over solid angle with which [`Self::sample_rest`], given that point and normal, draws the point `on_light`
+    /// Density over solid angle with which [`Rest::draw`], given that point and normal, draws the point `on_light`
     /// of an emitting triangle; 0 where the triangle is never drawn.
     pub(crate) fn pdf_rest_emitter(
         &self,
@@ -194,6 +184,41 @@ impl Lights {
     /// Radiance of the sky without the sun's disk, for a ray that stands for a cone of `spread_rad`.
     pub(crate) fn sky_radiance(&self, direction: Vec3, spread_rad: f32) -> Vec3 {
         self.around.dome.radiance(direction, spread_rad)
+    }
+}
+
+/// The sky and the emitters, as they shine on a surface.
+pub(crate) struct Rest<'a> {
+    lights: &'a Lights,
+    point: Vec3,
+    normal: Vec3,
+    near: OnceCell<Near<'a>>,
+}
+
+impl Rest<'_> {
+    /// Draws the sky or an emitter (first number) and a direction to it (the other two).
+    pub(crate) fn draw(&self, u: [f32; 3]) -> Option<LightSample> {
+        let share = self.lights.emitter_share;
+        if let Some(emitters) = self.lights.emitters.as_ref().filter(|_| u[0] < share) {
+            let near = self.near.get_or_init(|| emitters.near(self.point, self.normal));
+            return self.toward(near.draw([u[0] / share, u[1], u[2]])?);
+        }
+        let (wi, radiance, pdf) = self.lights.around.dome.draw(self.normal, [u[1], u[2]])?;
+        let pdf = pdf * (1.0 - share);
+        (pdf > 0.0).then_some(LightSample { wi, distance: f32::INFINITY, radiance, pdf })
+    }
+
+    fn toward(&self, drawn: EmitterPoint) -> Option<LightSample> {
+        let to_light = drawn.point - self.point;
+        let distance = to_light.length();
+        let pdf = self.lights.emitter_share * drawn.pdf;
+        // Seen edge-on, or from the point itself, it gives nothing.
+        (distance > 0.0 && pdf.is_finite() && pdf > 0.0).then(|| LightSample {
+            wi: to_light / distance,
+            distance,
+            radiance: drawn.radiance,
+            pdf,
+        })
     }
 }
 
@@ -243,12 +268,13 @@ mod tests {
     #[test]
     fn light_samples_add_up_to_the_light_and_say_their_own_density() {
         let scene = scene();
-        let lights = Lights::new(&scene, &LastSurroundings::default());
+        let around = LastSurroundings::default().get(&scene.light.environment);
+        let lights = Lights::new(&scene, around, &|_, _| [true; PROBES]);
         let mut random = Seed(9).random();
         let mut unit = || random.unit() as f32;
         let (draws, mut from_far, mut from_lamp) = (60_000, 0.0, 0.0);
         for _ in 0..draws {
-            let rest = lights.sample_rest(Vec3::ZERO, Vec3::Z, [unit(), unit(), unit()]);
+            let rest = lights.rest(Vec3::ZERO, Vec3::Z).draw([unit(), unit(), unit()]);
             let sun = lights.sample_sun([unit(), unit()]);
             if let Some(sun) = &sun {
                 assert!((lights.sun_pdf(sun.wi) / sun.pdf - 1.0).abs() < 1e-6);
@@ -291,11 +317,11 @@ mod tests {
     fn a_scene_with_the_same_sky_does_not_bake_it_again() {
         let last = LastSurroundings::default();
         let mut scene = scene();
-        let first = Lights::new(&scene, &last).around;
-        assert!(Arc::ptr_eq(&first, &Lights::new(&scene, &last).around));
+        let first = last.get(&scene.light.environment);
+        assert!(Arc::ptr_eq(&first, &last.get(&scene.light.environment)));
         if let Environment::Sky(sky) = &mut scene.light.environment {
             sky.cloud_seed += 1;
         }
-        assert!(!Arc::ptr_eq(&first, &Lights::new(&scene, &last).around));
+        assert!(!Arc::ptr_eq(&first, &last.get(&scene.light.environment)));
     }
 }

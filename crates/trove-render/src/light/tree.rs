@@ -2,11 +2,24 @@
 //! Lights with Adaptive Tree Splitting", 2018).
 
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
+use trove_model::Beam;
 
 /// Lights that are compared one by one.
 const LEAF: usize = 8;
+
+/// Groups that are compared one by one at most.
+const CUT: usize = 96;
+/// How many of its radii away a group is compared as it is: one that shines evenly, and one with a beam.
+const APART: f32 = 2.0;
+const APART_IN_BEAM: f32 = 12.0;
+/// Beams that at best give this share of all before them are not told apart.
+const FAINT: f32 = 0.02;
+
+/// What a beam is taken to give at least: another part of the lamp may shine there.
+const LEAST_SHARE: f32 = 1e-3;
 
 /// Places at which a node may be cut, along each axis.
 const BINS: usize = 12;
@@ -19,12 +32,29 @@ pub(super) struct TreeEntry {
     pub(super) centre: Vec3,
     /// Unit normal of the shining side.
     pub(super) axis: Vec3,
+    /// In the brightest direction of its beam, if it has one.
     pub(super) power: f32,
+    /// Index of its beam.
+    pub(super) aim: Option<u32>,
+}
+
+/// A beam, turned.
+pub(super) struct Aim {
+    pub(super) beam: Arc<Beam>,
+    pub(super) mesh_from_world: Mat3,
+}
+
+impl Aim {
+    /// Share of the radiance that leaves into a direction, World.
+    pub(super) fn share(&self, direction: Vec3) -> f32 {
+        self.beam.share(self.mesh_from_world * direction)
+    }
 }
 
 /// Lights sorted into nested groups, each with its power, its place and the directions into which it shines.
 pub(super) struct Tree {
     nodes: Vec<Node>,
+    aims: Vec<Aim>,
     /// Lights in the order of the leaves.
     order: Vec<u32>,
     /// The leaf of each light.
@@ -37,8 +67,21 @@ struct Node {
     axis: Vec3,
     cos_cone: f32,
     power: f32,
+    aim: Shared,
     parent: u32,
+    /// The first node behind it and all below it.
+    end: u32,
     kind: NodeKind,
+}
+
+/// The beam of a group's lights.
+#[derive(Clone, Copy, PartialEq)]
+enum Shared {
+    /// They have none.
+    None,
+    /// All have this one.
+    One(u32),
+    Several,
 }
 
 #[derive(Clone, Copy)]
@@ -50,10 +93,10 @@ enum NodeKind {
 }
 
 impl Tree {
-    /// From at least one light.
-    pub(super) fn new(entries: &[TreeEntry]) -> Self {
+    /// From at least one light, and the beams that they have.
+    pub(super) fn new(entries: &[TreeEntry], aims: Vec<Aim>) -> Self {
         let order = (0..entries.len() as u32).collect();
-        let mut tree = Self { nodes: Vec::new(), order, leaf_of: vec![0; entries.len()] };
+        let mut tree = Self { nodes: Vec::new(), aims, order, leaf_of: vec![0; entries.len()] };
         tree.grow(entries, 0, entries.len(), 0);
         tree
     }
@@ -62,23 +105,34 @@ impl Tree {
         let here = self.nodes.len() as u32;
         let lights = &mut self.order[start..end];
         let group = lights.iter().map(|&i| Group::of(&entries[i as usize])).reduce(Group::with).expect("not empty");
-        let middle = start + if lights.len() > LEAF { split(entries, lights) } else { 0 };
+        let is_leaf = lights.len() <= LEAF && group.aim != Shared::Several;
+        let middle = start + if is_leaf { 0 } else { split(entries, lights) };
         self.nodes.push(group.node(parent, NodeKind::Leaf(start as u32, end as u32)));
         if middle == start {
             for &light in &self.order[start..end] {
                 self.leaf_of[light as usize] = here;
             }
+            self.nodes[here as usize].end = here + 1;
             return;
         }
         self.grow(entries, start, middle, here);
         self.nodes[here as usize].kind = NodeKind::Inner(self.nodes.len() as u32);
         self.grow(entries, middle, end, here);
+        self.nodes[here as usize].end = self.nodes.len() as u32;
     }
 
     /// A light and the probability with which it is drawn for a surface at `from` that is lit from the side of `normal`
-    /// (both if it is 0); `weight` says what single lights give there. `None` where none gives anything.
-    pub(super) fn draw(&self, from: Vec3, normal: Vec3, u: f32, weight: impl Fn(u32) -> f32) -> Option<(u32, f32)> {
-        let (mut u, mut probability, mut here) = (u, 1.0, 0);
+    /// (both if it is 0), given its cut; `weight` says what single lights give there. `None` where none gives anything.
+    pub(super) fn draw(
+        &self,
+        cut: &Cut,
+        from: Vec3,
+        normal: Vec3,
+        u: f32,
+        weight: impl Fn(u32) -> f32,
+    ) -> Option<(u32, f32)> {
+        let (here, share, mut u) = pick(cut.groups().map(|&(node, importance)| (node, importance)), cut.total, u)?;
+        let (mut here, mut probability) = (here as usize, share);
         loop {
             match self.nodes[here].kind {
                 NodeKind::Inner(second) => {
@@ -93,24 +147,10 @@ impl Tree {
                 NodeKind::Leaf(start, end) => {
                     let lights = &self.order[start as usize..end as usize];
                     let mut weights = [0.0; LEAF];
-                    let mut total = 0.0;
-                    for (w, &light) in weights.iter_mut().zip(lights) {
-                        *w = weight(light);
-                        total += *w;
-                    }
-                    if total <= 0.0 {
-                        return None;
-                    }
-                    let mut left = u * total;
-                    let mut found = None;
-                    for (&w, &light) in weights.iter().zip(lights).filter(|(w, _)| **w > 0.0) {
-                        found = Some((light, probability * (w / total)));
-                        if left < w {
-                            break;
-                        }
-                        left -= w;
-                    }
-                    return found;
+                    weights.iter_mut().zip(lights).for_each(|(w, &light)| *w = weight(light));
+                    let total = weights.iter().sum();
+                    let (light, share, _) = pick(lights.iter().copied().zip(weights), total, u)?;
+                    return Some((light, probability * share));
                 }
             }
         }
@@ -122,11 +162,15 @@ impl Tree {
         if own <= 0.0 {
             return 0.0;
         }
-        let mut here = self.leaf_of[light as usize] as usize;
-        let NodeKind::Leaf(start, end) = self.nodes[here].kind else { return 0.0 };
+        let leaf = self.leaf_of[light as usize];
+        let NodeKind::Leaf(start, end) = self.nodes[leaf as usize].kind else { return 0.0 };
         let total: f32 = self.order[start as usize..end as usize].iter().map(|&light| weight(light)).sum();
-        let mut probability = own / total;
-        while here != 0 {
+        let cut = self.cut(from, normal);
+        let holds = |&&(node, _): &&(u32, f32)| node <= leaf && leaf < self.nodes[node as usize].end;
+        let Some(&(top, importance)) = cut.groups().find(holds) else { return 0.0 };
+        let mut probability = own / total * (importance / cut.total);
+        let mut here = leaf as usize;
+        while here != top as usize {
             let parent = self.nodes[here].parent as usize;
             let NodeKind::Inner(second) = self.nodes[parent].kind else { return 0.0 };
             let Some(first) = self.first_share(parent, second, from, normal) else { return 0.0 };
@@ -136,17 +180,101 @@ impl Tree {
         probability
     }
 
+    /// The beam of this index.
+    pub(super) fn aim(&self, index: u32) -> &Aim {
+        &self.aims[index as usize]
+    }
+
+    /// Groups that together hold all lights that give something to a surface, each so small for its distance that its
+    /// bound tells what it gives.
+    pub(super) fn cut(&self, from: Vec3, normal: Vec3) -> Cut {
+        let mut cut = Cut { groups: [(0, 0.0); CUT], count: 0, total: 0.0 };
+        let mut waiting = [0u32; CUT];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let here = waiting[count];
+            let node = &self.nodes[here as usize];
+            let has_room = cut.count + count + 2 <= CUT;
+            if let NodeKind::Inner(second) = node.kind
+                && has_room
+                && !node.is_apart(from)
+                && (node.aim != Shared::Several || node.bound(from, normal) > FAINT * cut.total)
+            {
+                (waiting[count], waiting[count + 1]) = (second, here + 1);
+                count += 2;
+                continue;
+            }
+            let importance = self.importance(here, from, normal);
+            if importance > 0.0 {
+                cut.groups[cut.count] = (here, importance);
+                cut.count += 1;
+                cut.total += importance;
+            }
+        }
+        cut
+    }
+
+    /// What a node's lights give to a surface, roughly and but for occlusion; 0 only where they give nothing.
+    fn importance(&self, node: u32, from: Vec3, normal: Vec3) -> f32 {
+        let node = &self.nodes[node as usize];
+        let bound = node.bound(from, normal);
+        match node.aim {
+            Shared::One(aim) if bound > 0.0 => bound * self.aim(aim).share(from - node.centre).max(LEAST_SHARE),
+            _ => bound,
+        }
+    }
+
     /// Probability of a node's first child; `None` where neither gives anything.
     fn first_share(&self, here: usize, second: u32, from: Vec3, normal: Vec3) -> Option<f32> {
-        let a = self.nodes[here + 1].importance(from, normal);
-        let b = self.nodes[second as usize].importance(from, normal);
+        let a = self.importance(here as u32 + 1, from, normal);
+        let b = self.importance(second, from, normal);
         (a + b > 0.0).then(|| a / (a + b))
     }
 }
 
+/// Groups that are compared one by one.
+pub(super) struct Cut {
+    /// Indices of nodes, and bounds on what they give.
+    groups: [(u32, f32); CUT],
+    count: usize,
+    total: f32,
+}
+
+impl Cut {
+    fn groups(&self) -> std::slice::Iter<'_, (u32, f32)> {
+        self.groups[..self.count].iter()
+    }
+}
+
+/// What a number in [0, 1) falls on among weights with this sum, its share of them, and where in it the number lies, again
+/// in [0, 1); `None` where none weighs anything.
+fn pick(weights: impl Iterator<Item = (u32, f32)>, total: f32, u: f32) -> Option<(u32, f32, f32)> {
+    let mut left = u * total;
+    let mut found = None;
+    for (i, weight) in weights.filter(|(_, weight)| *weight > 0.0) {
+        found = Some((i, weight / total, (left / weight).clamp(0.0, 1.0 - f32::EPSILON)));
+        if left < weight {
+            break;
+        }
+        left -= weight;
+    }
+    found
+}
+
 impl Node {
+    /// Whether its bound is near what it gives, seen from there.
+    fn is_apart(&self, from: Vec3) -> bool {
+        let apart = match self.aim {
+            Shared::None => APART,
+            Shared::One(_) => APART_IN_BEAM,
+            Shared::Several => return false,
+        };
+        (self.centre - from).length_squared() > (apart * self.radius).powi(2)
+    }
+
     /// Bound on what the group gives to a surface, but for occlusion; 0 only where it gives nothing.
-    fn importance(&self, from: Vec3, normal: Vec3) -> f32 {
+    fn bound(&self, from: Vec3, normal: Vec3) -> f32 {
         let to_group = self.centre - from;
         let distance_squared = to_group.length_squared();
         let radius_squared = self.radius * self.radius;
@@ -164,7 +292,9 @@ impl Node {
         if cos_light <= 0.0 || cos_surface <= 0.0 {
             return 0.0;
         }
-        self.power * cos_light * cos_surface / distance_squared
+        // Lights that face apart never all face a place: half of a hemisphere's shine there, a quarter of a sphere's.
+        let mean = 0.5 + self.cos_cone * (0.375 + 0.125 * self.cos_cone);
+        self.power * mean * cos_light * cos_surface / distance_squared
     }
 }
 
@@ -186,12 +316,13 @@ struct Group {
     /// Half the opening of the cone of all normals.
     cone_rad: f32,
     power: f32,
+    aim: Shared,
 }
 
 impl Group {
     fn of(entry: &TreeEntry) -> Self {
-        let TreeEntry { low, high, axis, power, .. } = *entry;
-        Self { low, high, axis, cone_rad: 0.0, power }
+        let TreeEntry { low, high, axis, power, aim, .. } = *entry;
+        Self { low, high, axis, cone_rad: 0.0, power, aim: aim.map_or(Shared::None, Shared::One) }
     }
 
     fn with(self, other: Self) -> Self {
@@ -202,6 +333,7 @@ impl Group {
             axis,
             cone_rad,
             power: self.power + other.power,
+            aim: if self.aim == other.aim { self.aim } else { Shared::Several },
         }
     }
 
@@ -224,7 +356,9 @@ impl Group {
             axis: self.axis,
             cos_cone,
             power: self.power,
+            aim: self.aim,
             parent,
+            end: 0,
             kind,
         }
     }
@@ -249,6 +383,13 @@ fn cone_around(a: &Group, b: &Group) -> (Vec3, f32) {
 
 /// Sorts lights into two parts at the cheapest of the places tried; returns where the second starts.
 fn split(entries: &[TreeEntry], lights: &mut [u32]) -> usize {
+    // Beams are compared last: most are faint beside what shines evenly.
+    let has_beam = |i: u32| entries[i as usize].aim.is_some();
+    lights.sort_by_key(|&i| has_beam(i));
+    let even = lights.partition_point(|&i| !has_beam(i));
+    if even > 0 && even < lights.len() {
+        return even;
+    }
     let centre = |i: u32| entries[i as usize].centre;
     let low = lights.iter().map(|&i| centre(i)).fold(Vec3::INFINITY, Vec3::min);
     let high = lights.iter().map(|&i| centre(i)).fold(-Vec3::INFINITY, Vec3::max);

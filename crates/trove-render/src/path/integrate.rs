@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::PreparedScene;
 use crate::fog::Scattering;
-use crate::light::LightSample;
+use crate::light::{LightSample, Rest};
 use crate::material::Bsdf;
 use crate::ray::{Hit, Ray};
 use crate::sampling::{Sampler, power_heuristic};
@@ -126,7 +126,7 @@ impl Path {
 /// The last vertex at which a path scattered.
 struct Scattered {
     point: Vec3,
-    /// The side that light was asked for, as for `Lights::sample_rest`.
+    /// The side that light was asked for, as for `Lights::rest`.
     lit_side: Vec3,
     /// Density of the direction that it took.
     pdf: f32,
@@ -206,9 +206,8 @@ impl Vertex<'_> {
         let on_sun = path.sampler.next2();
         let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
         self.shadows.to_sun.extend(shadow);
-        let [u0, u1] = path.sampler.next2();
-        let light = lights.sample_rest(surface.point, lit_side, [u_light, u0, u1]);
-        let shadow = self.ask(path, &surface, &bsdf, light);
+        let rest = lights.rest(surface.point, lit_side);
+        let shadow = self.ask_rest(path, &rest, u_light, |path, light| self.ask(path, &surface, &bsdf, Some(light)));
         self.shadows.to_rest.extend(shadow);
 
         let [u_lobe, u_roulette] = path.sampler.next2();
@@ -251,15 +250,13 @@ impl Vertex<'_> {
         path.cone.width_m += path.cone.spread_rad * t;
         let on_sun = path.sampler.next2();
         let [u_light, u_roulette] = path.sampler.next2();
-        let [u0, u1] = path.sampler.next2();
-        let sun = lights.sample_sun(on_sun);
-        let rest = lights.sample_rest(point, Vec3::ZERO, [u_light, u0, u1]);
         let scattering = path.scattering();
-        let mut ask = |light: LightSample| {
+        let ask = |path: &Path, light: LightSample| {
             let phase = scattering.phase(direction.dot(light.wi));
-            self.shadow(path, point, Vec3::splat(phase), phase, &light)
+            Some(self.shadow(path, point, Vec3::splat(phase), phase, &light))
         };
-        let [sun, rest] = [sun.map(&mut ask), rest.map(&mut ask)];
+        let sun = lights.sample_sun(on_sun).and_then(|light| ask(path, light));
+        let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, ask);
         self.shadows.to_sun.extend(sun);
         self.shadows.to_rest.extend(rest);
 
@@ -277,6 +274,38 @@ impl Vertex<'_> {
     fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
         let clear = self.scene.clear(path.ray.origin, path.ray.direction, t, Scattering::after(0));
         (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
+    }
+
+    /// The ray that asks for light of the sky or of a lamp: of several samples (the first number draws among lights) one, by
+    /// what it would bring if nothing were in the way, and for all of them (Talbot, Cline, Egbert, "Importance Resampling
+    /// for Global Illumination", 2005).
+    fn ask_rest(
+        &self,
+        path: &mut Path,
+        rest: &Rest<'_>,
+        u: f32,
+        ask: impl Fn(&Path, LightSample) -> Option<Shadow>,
+    ) -> Option<Shadow> {
+        let count = self.scene.lights.candidates();
+        let mut u_choice = if count > 1 { path.sampler.next2()[0] } else { 0.0 };
+        let (mut chosen, mut total) = (None, 0.0);
+        for i in 0..count {
+            let [u0, u1] = path.sampler.next2();
+            let light = rest.draw([(i as f32 + u) / count as f32, u0, u1]);
+            let Some(shadow) = light.and_then(|light| ask(path, light)) else { continue };
+            let brings = shadow.light.element_sum();
+            if brings > 0.0 {
+                total += brings;
+                let share = brings / total;
+                if u_choice < share {
+                    (u_choice, chosen) = (u_choice / share, Some((shadow, brings)));
+                } else {
+                    u_choice = (u_choice - share) / (1.0 - share);
+                }
+            }
+        }
+        let (shadow, brings) = chosen?;
+        Some(Shadow { light: shadow.light * (total / (brings * count as f32)), ..shadow })
     }
 
     /// The ray that asks for light which a surface sends on straight from where a light sample lies.

@@ -12,7 +12,7 @@ use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
 use crate::fog::{Fog, Scattering};
-use crate::light::{LastSurroundings, Lights};
+use crate::light::{LastSurroundings, Lights, PROBES};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
 use crate::placed::{Placed, Sort};
@@ -98,7 +98,13 @@ impl PreparedScene {
             place(instance, instance.now(), &prepared.world_from_mesh, stays)
         });
         let shapes = Arc::new(Shapes::new(placed.collect(), opacities.clone()));
-        let (accel, lights) = rayon::join(|| kernel.build(&shapes), || Lights::new(scene, last));
+        let (accel, around) = rayon::join(|| kernel.build(&shapes), || last.get(&scene.light.environment));
+        let accel = accel?;
+        let lights = Lights::new(scene, around, &|instance, rays| {
+            let mut hits = [None; PROBES];
+            accel.closest(rays, Coherence::Incoherent, &mut hits);
+            hits.map(|hit| hit.is_none_or(|hit: Hit| hit.instance != instance))
+        });
         let others = |beside: Beside| -> Result<Others, RenderError> {
             let moved = scene.instances.iter().filter_map(|i| {
                 let then = [i.previous, i.next][beside as usize]?;
@@ -114,7 +120,7 @@ impl PreparedScene {
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
         let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
         let (falling, snow) = (scene.light.falling, scene.light.snow.clone());
-        Ok(Self { shapes, instances, materials, lights, fog, falling, snow, accel: accel?, others, has_beside })
+        Ok(Self { shapes, instances, materials, lights, fog, falling, snow, accel, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.

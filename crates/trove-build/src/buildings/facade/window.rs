@@ -19,6 +19,12 @@ const ASKEW_RAD: f64 = 0.005;
 const SKIRT_M: f64 = 0.002;
 /// Shares of rooms with a light on.
 const LIT_SHARE: f64 = 0.3;
+/// Lampshades, how far they hang below the ceiling, and how far they are apart; panels likewise, right below it.
+const SHADE_M: DVec3 = DVec3::new(0.4, 0.25, 0.4);
+const SHADE_BELOW_M: f64 = 0.25;
+const SHADES_APART_M: f64 = 4.0;
+const PANEL_M: DVec3 = DVec3::new(0.6, 0.0, 0.6);
+const PANELS_APART_M: f64 = 2.4;
 /// Rooms' pictures across and up in their texture, and its size in metres.
 const BACKS: [usize; 2] = [4, 3];
 const BACK_M: DVec2 = DVec2::new(3.2, 2.6);
@@ -126,8 +132,7 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
         interior => interior,
     };
     let lit = interior != Interior::Bare && random.chance(LIT_SHARE);
-    let wall = if lit { Slot::LitRoom } else { *random.pick(&[Slot::RoomPale, Slot::RoomWarm]).unwrap_or(&Slot::Dark) };
-    let ceiling = if lit { Slot::LitRoom } else { Slot::RoomPale };
+    let wall = *random.pick(&[Slot::RoomPale, Slot::RoomWarm]).unwrap_or(&Slot::Dark);
     let cell = |i: usize| {
         let left = if i == 0 { room.low.x + SKIRT_M } else { (holes[i - 1].high.x + holes[i].low.x) / 2.0 };
         let next = holes.get(i + 1).map(|next| (holes[i].high.x + next.low.x) / 2.0);
@@ -140,7 +145,7 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
     let [left, right] = room.back_x;
     let back = [DVec2::new(left, room.low.y), DVec2::new(right, room.high.y)];
     let rings = [(front, front_z), (back, back_z)].map(|([low, high], z)| ring(low, high).map(|p| p.extend(z)));
-    for (k, slot) in [Slot::RoomFloor, wall, ceiling, wall].into_iter().enumerate() {
+    for (k, slot) in [Slot::RoomFloor, wall, Slot::RoomPale, wall].into_iter().enumerate() {
         let next = (k + 1) % 4;
         ink.face(slot, &[rings[0][k], rings[0][next], rings[1][next], rings[1][k]]);
     }
@@ -152,7 +157,7 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
     };
     let cells: Vec<Cell> = (0..pictures as usize).map(cell).collect();
     let row = Row { y: [room.low.y + SKIRT_M, room.high.y - SKIRT_M], cells };
-    let bare = interior == Interior::Bare || (lit && interior == Interior::Home);
+    let bare = interior == Interior::Bare;
     let kind = match interior {
         Interior::Office => 1.0,
         Interior::Shop => 2.0,
@@ -168,10 +173,39 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
     };
     let slot = if bare { wall } else { Slot::RoomBack };
     plane(ink, back, row, back_z, true, slot, uv);
+    if lit {
+        lamps(ink, room, interior, [back_z, front_z]);
+    }
     for hole in holes {
         hangings(ink, hole, room, interior, front_z - 0.05, random);
         if hole.opening.is_shop(design.interior) {
             display(ink, hole, room, front_z, random);
+        }
+    }
+}
+
+/// A lampshade here and there in a home, panels below other ceilings; `z` are the room's back and front.
+fn lamps(ink: &mut Ink<'_>, room: Room, interior: Interior, z: [f64; 2]) {
+    let is_home = interior == Interior::Home;
+    let size = if is_home { SHADE_M } else { PANEL_M };
+    let pitch_m = if is_home { SHADES_APART_M } else { PANELS_APART_M };
+    // Where the sides run towards each other they leave this in the middle of the room.
+    let ends = [0, 1].map(|i| (room.back_x[i] + [room.low, room.high][i].x) / 2.0);
+    let wide_m = ends[1] - ends[0];
+    let drop_m = if is_home { SHADE_BELOW_M } else { 0.0 };
+    let low = DVec3::new(-size.x / 2.0, room.high.y - 0.02 - drop_m - size.y, z[0].midpoint(z[1]) - size.z / 2.0);
+    if wide_m < size.x + 0.2 || room.depth_m < size.z + 0.2 || low.y < room.low.y {
+        return;
+    }
+    let count = (wide_m / pitch_m).round().max(1.0);
+    for i in 0..count as usize {
+        let low = low + DVec3::X * (ends[0] + wide_m * (i as f64 + 0.5) / count);
+        if is_home {
+            ink.solid(Slot::Lampshade, low, low + size);
+        } else {
+            let [near, far] = [low.z + size.z, low.z];
+            let at = |x: f64, z: f64| DVec3::new(low.x + x, low.y, z);
+            ink.face(Slot::LightPanel, &[at(size.x, near), at(0.0, near), at(0.0, far), at(size.x, far)]);
         }
     }
 }
