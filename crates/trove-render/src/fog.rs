@@ -3,9 +3,10 @@
 //! How thick it is falls exponentially upwards, so that the depth along a ray, and the place where a ray is scattered, have
 //! closed forms. Below the lowest point of the scene there is none: rays that leave the map see its ground as in clear air.
 //!
-//! The more often light has been scattered, the fewer and wider turns it takes, which come to the same (delta-Eddington similarity:
-//! Joseph, Wiscombe and Weinman, "The Delta-Eddington Approximation for Radiative Flux Transfer", 1976): most droplets send it
-//! on so nearly straight that soon nobody could tell which it has met.
+//! The more often light has been scattered, the fewer and wider turns it takes, which come to the same (after Joseph, Wiscombe
+//! and Weinman, "The Delta-Eddington Approximation for Radiative Flux Transfer", 1976): most droplets send it on so nearly
+//! straight that soon nobody could tell which it has met. What they do to the sun's light is drawn at its end, as one turn
+//! for all of them.
 
 use std::f32::consts::PI;
 
@@ -19,30 +20,36 @@ const ASYMMETRY: f32 = 0.85;
 /// Height of clouds that rain and snow fall from, metres: so far above the ground there is 1/e of what it takes from light.
 const CLOUDS_M: f64 = 1000.0;
 
+/// Mean cosine of what those droplets scatter that are taken together, seen where light arrives.
+const TOGETHER_ASYMMETRY: f32 = 0.9;
+
 /// Scattering events after which light takes the fewest turns; up to [`EXACT_EVENTS`] it meets every droplet.
 const MIXED_EVENTS: u32 = 5;
 const EXACT_EVENTS: u32 = 1;
+/// What a matt surface counts for, which does not tell ways apart that differ by the turns of single droplets.
+pub(crate) const MATT_EVENTS: u32 = 3;
 
 /// How light is scattered.
 #[derive(Clone, Copy)]
 pub(crate) struct Scattering {
-    /// Share of the droplets that scatter it; the others count as if they sent it straight on.
+    /// Share of the droplets that scatter it one by one; the others are taken together.
     share: f32,
     /// Mean cosine.
     asymmetry: f32,
 }
 
 impl Scattering {
-    /// Of light that so many scattering events part from the eye. With all of `ASYMMETRY`² taken as straight, the first two
-    /// moments of the phase function are kept; with less of it, the first.
+    /// Of light that so many scattering events part from the eye. With `ASYMMETRY`² of the droplets taken together, the first
+    /// two moments of the phase function are kept; with fewer of them, the first.
     pub(crate) fn after(events: u32) -> Self {
         let mixed = events.clamp(EXACT_EVENTS, MIXED_EVENTS) - EXACT_EVENTS;
-        let straight = ASYMMETRY * ASYMMETRY * mixed as f32 / (MIXED_EVENTS - EXACT_EVENTS) as f32;
-        Self { share: 1.0 - straight, asymmetry: (ASYMMETRY - straight) / (1.0 - straight) }
+        let together = ASYMMETRY * ASYMMETRY * mixed as f32 / (MIXED_EVENTS - EXACT_EVENTS) as f32;
+        let share = 1.0 - together;
+        Self { share, asymmetry: (ASYMMETRY - together) / share }
     }
 
-    /// Share of light from a direction that is scattered into another, a steradian, by the cosine between the ways (Henyey,
-    /// Greenstein 1941); also the density of [`Self::turn`].
+    /// Share of light from a direction that is scattered into another, a steradian, by the cosine between the ways; also the
+    /// density of [`Self::turn`].
     pub(crate) fn phase(self, cos: f32) -> f32 {
         let g = self.asymmetry;
         let square = 1.0 + g * g - 2.0 * g * cos;
@@ -51,12 +58,35 @@ impl Scattering {
 
     /// A way on from a unit direction.
     pub(crate) fn turn(self, direction: Vec3, u: [f32; 2]) -> Vec3 {
-        let g = self.asymmetry;
-        let inner = (1.0 - g * g) / (1.0 - g + 2.0 * g * u[0]);
-        let cos = ((1.0 + g * g - inner * inner) / (2.0 * g)).clamp(-1.0, 1.0);
-        let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.0 * PI * u[1]);
-        Basis::about(direction).to_world(Vec3::new(sin * turn.cos(), sin * turn.sin(), cos)).normalize()
+        turned(direction, self.asymmetry, u)
     }
+
+    /// A way on after all droplets on a way that are taken together, which has so much depth of all droplets: one turn, since
+    /// turns by Henyey and Greenstein's function, one after another, are one with the product of their mean cosines.
+    pub(crate) fn turn_together(self, direction: Vec3, depth: f32, u: [f32; 3]) -> Vec3 {
+        let met = poisson((1.0 - self.share) * depth, u[0]);
+        if met == 0 { direction } else { turned(direction, TOGETHER_ASYMMETRY.powi(met), [u[1], u[2]]) }
+    }
+}
+
+/// A unit direction turned by Henyey and Greenstein's phase function (1941) of a mean cosine.
+fn turned(direction: Vec3, g: f32, u: [f32; 2]) -> Vec3 {
+    let inner = (1.0 - g * g) / (1.0 - g + 2.0 * g * u[0]);
+    let cos = ((1.0 + g * g - inner * inner) / (2.0 * g)).clamp(-1.0, 1.0);
+    let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.0 * PI * u[1]);
+    Basis::about(direction).to_world(Vec3::new(sin * turn.cos(), sin * turn.sin(), cos)).normalize()
+}
+
+/// How many come where so many are expected; no more than are of any use.
+fn poisson(mean: f32, mut u: f32) -> i32 {
+    let mut chance = (-mean).exp();
+    let mut count = 0;
+    while u >= chance && count < 30 {
+        u -= chance;
+        count += 1;
+        chance *= mean / count as f32;
+    }
+    count
 }
 
 /// Fog and what falls in a scene.
@@ -99,21 +129,25 @@ impl Fog {
 
     /// Share of light that passes along a unit direction for `t` metres.
     pub(crate) fn transmittance(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
+        (-self.depth(origin, direction, t)).exp()
+    }
+
+    /// Optical depth along a unit direction for `t` metres; it may be infinite.
+    pub(crate) fn depth(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
         let (thick, up) = (self.extinction_per_m(origin.z), direction.z / self.height_m);
         if thick <= 0.0 {
-            return 1.0;
+            return 0.0;
         }
         let t = t.min(self.way_down(origin, direction));
         let x = up * t;
-        let depth = if t.is_infinite() && up <= 0.0 {
+        if t.is_infinite() && up <= 0.0 {
             f32::INFINITY
         } else if x.abs() < 1e-4 {
             // Hardly any slope: (1 − e^(−x)) / x is 1 − x / 2.
             thick * t * (1.0 - 0.5 * x)
         } else {
             thick * -(-x).exp_m1() / up
-        };
-        (-depth).exp()
+        }
     }
 
     /// How far light goes before it meets a droplet, metres, less than `t_max`; drawn with the density of that.
@@ -215,23 +249,26 @@ mod tests {
     }
 
     /// Shares of light from straight above that leave a layer of a depth: upwards, downwards, and downwards within cones of
-    /// 11° and 26°, of so many draws. `every` droplet is met, or as many as there are for light scattered so often.
-    fn through(depth: f32, every: bool, draws: u32) -> [f64; 4] {
+    /// 11° and 26°, of so many draws. It meets every droplet, or as many as there are after so many events.
+    fn through(depth: f32, first: Option<u32>, draws: u32) -> [f64; 4] {
         let mut random = Seed(6).random();
         let mut unit = move || random.unit() as f32;
         let mut left = [0u32; 4];
         for _ in 0..draws {
-            let (mut z, mut way, mut events) = (0.0f32, Vec3::Z, 0);
+            let (mut z, mut way, mut met) = (0.0f32, Vec3::Z, 0);
             loop {
-                let scattering = Scattering::after(if every { 0 } else { events });
+                let scattering = Scattering::after(first.map_or(0, |first| first + met));
                 z += -(-unit()).ln_1p() / scattering.share * way.z;
                 if z < 0.0 || z > depth {
+                    if met == 0 {
+                        way = scattering.turn_together(way, depth, [unit(), unit(), unit()]);
+                    }
                     let ways = [z < 0.0, z > depth, z > depth && way.z > 0.98, z > depth && way.z > 0.9];
                     left.iter_mut().zip(ways).for_each(|(left, way)| *left += u32::from(way));
                     break;
                 }
                 way = scattering.turn(way, [unit(), unit()]);
-                events += 1;
+                met += 1;
             }
         }
         left.map(|left| f64::from(left) / f64::from(draws))
@@ -239,12 +276,16 @@ mod tests {
 
     #[test]
     fn light_scattered_often_passes_a_layer_as_if_it_met_every_droplet() {
+        let draws = 400_000;
         for depth in [1.0, 4.0, 12.0] {
-            let draws = 400_000;
-            for (every, fewer) in through(depth, true, draws).into_iter().zip(through(depth, false, draws)) {
-                // Half a hundredth of the light, and four standard deviations of both.
-                let slack = 0.005 + 4.0 * (2.0 * every * (1.0 - every) / f64::from(draws)).sqrt();
-                assert!((every - fewer).abs() < slack, "{depth}: {every} {fewer}");
+            let exact = through(depth, None, draws);
+            // Of paths that start at droplets, and of those that start at matt surfaces: what gets through, and its cones.
+            for (first, most) in [(0, [0.005, 0.005]), (MATT_EVENTS, [0.01, 0.025])] {
+                for (i, (exact, found)) in exact.into_iter().zip(through(depth, Some(first), draws)).enumerate() {
+                    // So much of the light, and four standard deviations of both.
+                    let slack = most[i / 2] + 4.0 * (2.0 * exact * (1.0 - exact) / f64::from(draws)).sqrt();
+                    assert!((exact - found).abs() < slack, "{depth}, {first}: {found} instead of {exact}");
+                }
             }
         }
     }

@@ -208,7 +208,7 @@ mod tests {
             Environment::Map(Arc::new(EnvironmentMap { name: String::new(), width: 8, height: 4, rgb }))
         };
         for dark in [sky(-0.2), sky(0.0), map(0.1)] {
-            assert_eq!(shining(dark), [STREET[0].1, Vec3::X * DIMMED]);
+            assert_eq!(shining(dark), [PLACES[0].1, Vec3::X * DIMMED]);
         }
         for bright in [sky(0.5), map(0.6)] {
             assert_eq!(shining(bright), [Vec3::ZERO, Vec3::X]);

@@ -196,6 +196,11 @@ pub(crate) struct Rest<'a> {
 }
 
 impl Rest<'_> {
+    /// Where they are drawn for.
+    pub(crate) fn point(&self) -> Vec3 {
+        self.point
+    }
+
     /// Draws the sky or an emitter (first number) and a direction to it (the other two).
     pub(crate) fn draw(&self, u: [f32; 3]) -> Option<LightSample> {
         let share = self.lights.emitter_share;

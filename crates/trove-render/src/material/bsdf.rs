@@ -14,6 +14,9 @@ use super::{albedo, ggx, sheen};
 use crate::sampling::{Basis, cosine_hemisphere, cosine_pdf};
 use crate::surface::Surface;
 
+/// Facets from this GGX α on are matt.
+const MATT_ALPHA: f32 = 0.3;
+
 /// A smooth layer on top of everything.
 #[derive(Clone, Copy)]
 pub(crate) struct Coat {
@@ -71,6 +74,8 @@ pub(crate) struct Bsdf {
     pub(crate) albedo: Vec3,
     /// Whether what is seen in it, rather than itself, is what the eye sees.
     pub(crate) is_mirror: bool,
+    /// Whether directions that lie [`MATT_ALPHA`] apart are much the same to it.
+    pub(crate) is_matt: bool,
 }
 
 /// A direction drawn.
@@ -157,6 +162,7 @@ impl Bsdf {
             through,
             chances: [weights[0] / sum, weights[1] / sum, weights[2] / sum],
             albedo: Vec3::splat(coated) + fuzzed + facets * left + diffuse,
+            is_matt: coated == 0.0 && weights[3] == 0.0 && *alpha >= MATT_ALPHA,
             is_mirror: weights[3] > 0.5 * sum || (*alpha < 0.02 && weights[1] > 0.7 * sum),
         }
     }

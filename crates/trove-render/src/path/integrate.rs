@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::PreparedScene;
-use crate::fog::Scattering;
+use crate::fog::{MATT_EVENTS, Scattering};
 use crate::light::{LightSample, Rest};
 use crate::material::Bsdf;
 use crate::ray::{Hit, Ray};
@@ -25,6 +25,9 @@ const MOST_DIRECT: f32 = 64.0;
 const MOST_INDIRECT: f32 = 6.0;
 /// Textures are looked up at this share of the pixel's width: the samples in the pixel do the rest.
 const SHARPNESS: f32 = 0.5;
+
+/// Most that the sun's light seen around its disk is brighter by for coming in at a slant.
+const MOST_ASLANT: f32 = 3.0;
 
 /// What a ray stands for: a cone that grows along it.
 #[derive(Clone, Copy)]
@@ -64,6 +67,8 @@ pub(crate) struct Path {
     pub(crate) bounce: u32,
     passages: u32,
     droplets: u32,
+    /// Scattering events that part it from the eye, as `Scattering::after` counts them.
+    events: u32,
     /// Where it last scattered; `None` before.
     scattered: Option<Scattered>,
     radiance: Vec3,
@@ -82,6 +87,7 @@ impl Path {
             bounce: 0,
             passages: 0,
             droplets: 0,
+            events: 0,
             scattered: None,
             radiance: Vec3::ZERO,
             guide: None,
@@ -101,12 +107,7 @@ impl Path {
 
     /// How the air scatters what comes along its ray, and at the droplet that it meets there.
     fn scattering(&self) -> Scattering {
-        Scattering::after(self.bounce + self.droplets)
-    }
-
-    /// Likewise along rays from where its ray has arrived.
-    fn scattering_on(&self) -> Scattering {
-        Scattering::after(self.bounce + self.droplets + 1)
+        Scattering::after(self.events)
     }
 
     /// Lets it end by chance, the likelier the less it carries; false where it has.
@@ -203,11 +204,13 @@ impl Vertex<'_> {
         }
 
         let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
-        let on_sun = path.sampler.next2();
-        let shadow = self.ask(path, &surface, &bsdf, lights.sample_sun(on_sun));
+        let events = if bsdf.is_matt { MATT_EVENTS } else { 1 };
+        let air = Scattering::after(path.events + events);
+        let sun = self.sun(path, surface.point, air);
+        let shadow = sun.and_then(|sun| self.ask(path, &surface, &bsdf, sun));
         self.shadows.to_sun.extend(shadow);
         let rest = lights.rest(surface.point, lit_side);
-        let shadow = self.ask_rest(path, &rest, u_light, |path, light| self.ask(path, &surface, &bsdf, Some(light)));
+        let shadow = self.ask_rest(path, &rest, u_light, air, |path, light| self.ask(path, &surface, &bsdf, light));
         self.shadows.to_rest.extend(shadow);
 
         let [u_lobe, u_roulette] = path.sampler.next2();
@@ -225,6 +228,7 @@ impl Vertex<'_> {
         };
 
         path.bounce += 1;
+        path.events += events;
         path.throughput *= next.weight;
         if !path.survives(u_roulette) {
             return false;
@@ -248,19 +252,21 @@ impl Vertex<'_> {
         }
         let point = path.ray.origin + direction * t;
         path.cone.width_m += path.cone.spread_rad * t;
+        let (scattering, air) = (path.scattering(), Scattering::after(path.events + 1));
         let on_sun = path.sampler.next2();
+        let sun = lights.sample_sun(on_sun).map(|sun| self.dimmed(sun, point, air));
         let [u_light, u_roulette] = path.sampler.next2();
-        let scattering = path.scattering();
         let ask = |path: &Path, light: LightSample| {
             let phase = scattering.phase(direction.dot(light.wi));
             Some(self.shadow(path, point, Vec3::splat(phase), phase, &light))
         };
-        let sun = lights.sample_sun(on_sun).and_then(|light| ask(path, light));
-        let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, ask);
+        let sun = sun.and_then(|sun| ask(path, sun));
+        let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
         self.shadows.to_sun.extend(sun);
         self.shadows.to_rest.extend(rest);
 
         path.droplets += 1;
+        path.events += 1;
         if path.droplets > MAX_DROPLETS || !path.survives(u_roulette) {
             return false;
         }
@@ -284,6 +290,7 @@ impl Vertex<'_> {
         path: &mut Path,
         rest: &Rest<'_>,
         u: f32,
+        air: Scattering,
         ask: impl Fn(&Path, LightSample) -> Option<Shadow>,
     ) -> Option<Shadow> {
         let count = self.scene.lights.candidates();
@@ -292,7 +299,8 @@ impl Vertex<'_> {
         for i in 0..count {
             let [u0, u1] = path.sampler.next2();
             let light = rest.draw([(i as f32 + u) / count as f32, u0, u1]);
-            let Some(shadow) = light.and_then(|light| ask(path, light)) else { continue };
+            let shadow = light.and_then(|light| ask(path, self.dimmed(light, rest.point(), air)));
+            let Some(shadow) = shadow else { continue };
             let brings = shadow.light.element_sum();
             if brings > 0.0 {
                 total += brings;
@@ -308,9 +316,26 @@ impl Vertex<'_> {
         Some(Shadow { light: shadow.light * (total / (brings * count as f32)), ..shadow })
     }
 
+    /// The sun as it shines through the air on a surface, some of it from around its disk.
+    fn sun(&self, path: &mut Path, point: Vec3, air: Scattering) -> Option<LightSample> {
+        let u = path.sampler.next2();
+        let sun = self.dimmed(self.scene.lights.sample_sun(u)?, point, air);
+        let Some(fog) = &self.scene.fog else { return Some(sun) };
+        let ([u0, u1], [u2, _]) = (path.sampler.next2(), path.sampler.next2());
+        let wi = air.turn_together(sun.wi, fog.depth(point, sun.wi, f32::INFINITY), [u0, u1, u2]);
+        // Turned or not, as much comes down on the level.
+        let aslant = if wi == sun.wi { 1.0 } else { (sun.wi.z / wi.z.max(0.0)).clamp(0.0, MOST_ASLANT) };
+        (wi.z > 0.0).then(|| LightSample { wi, radiance: sun.radiance * aslant, ..sun })
+    }
+
+    /// What the air leaves of light on its way to a point.
+    fn dimmed(&self, light: LightSample, point: Vec3, air: Scattering) -> LightSample {
+        let clear = self.scene.clear(point, light.wi, light.distance, air);
+        LightSample { radiance: light.radiance * clear, ..light }
+    }
+
     /// The ray that asks for light which a surface sends on straight from where a light sample lies.
-    fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: Option<LightSample>) -> Option<Shadow> {
-        let light = light?;
+    fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, light: LightSample) -> Option<Shadow> {
         let (f, pdf_bsdf) = bsdf.eval(light.wi);
         (f != Vec3::ZERO).then(|| self.shadow(path, surface.leave(light.wi), f, pdf_bsdf, &light))
     }
@@ -319,8 +344,7 @@ impl Vertex<'_> {
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
         let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
         let ray = Ray { t_max, ..path.ray.then(origin, light.wi) };
-        let clear = self.scene.clear(origin, light.wi, t_max, path.scattering_on());
-        let weight = power_heuristic(light.pdf, pdf) / light.pdf * clear;
+        let weight = power_heuristic(light.pdf, pdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
         Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }
     }

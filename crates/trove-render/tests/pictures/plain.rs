@@ -195,6 +195,33 @@ fn yard() -> (Scene, Shot) {
     (scene, large(shot(DVec3::new(-1.5, -5.0, 2.5), DVec3::new(0.2, 0.6, 0.6), 1.8)))
 }
 
+/// How often light from a sun of that height (sine) strikes the ground below a layer of fog, each photon in the mean: it
+/// meets every droplet, and what the ground reflects comes down again.
+pub(crate) fn hits_below_fog(depth: f64, g: f64, height: f64, albedo: f64, photons: u32) -> f64 {
+    let mut random = Seed(8).random();
+    let mut hits = 0u32;
+    for _ in 0..photons {
+        // Depth below the top, and the cosine downwards.
+        let (mut at, mut down) = (0.0, height);
+        while at >= 0.0 {
+            at -= (1.0 - random.unit()).ln() * down;
+            if at > depth {
+                hits += 1;
+                if random.unit() >= albedo {
+                    break;
+                }
+                (at, down) = (depth, -random.unit().sqrt());
+            } else if at >= 0.0 {
+                let inner = (1.0 - g * g) / (1.0 - g + 2.0 * g * random.unit());
+                let (cos, turn) = ((1.0 + g * g - inner * inner) / (2.0 * g), std::f64::consts::TAU * random.unit());
+                down = (down * cos + ((1.0 - down * down) * (1.0 - cos * cos)).max(0.0).sqrt() * turn.cos())
+                    .clamp(-1.0, 1.0);
+            }
+        }
+    }
+    f64::from(hits) / f64::from(photons)
+}
+
 /// The same yard in fog that hides its wall.
 fn foggy_yard() -> (Scene, Shot) {
     let (mut scene, shot) = yard();
