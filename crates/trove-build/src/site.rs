@@ -16,7 +16,7 @@ use crate::furniture::furniture;
 use crate::ground::{Drape, Ground, ground};
 use crate::light::{LightChoice, light, switch_on};
 use crate::pieces::Scenery;
-use crate::place::{Conditions, Place, Seeds, apart_s, next, previous};
+use crate::place::{Conditions, Place, Seeds, apart_s, moment_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::snow::snow;
 use crate::surroundings::Clearance;
@@ -203,7 +203,8 @@ pub fn build_at(
         added.push(Added { id: InstanceId(next_id), kind: user.track.kind, speed_mps: user.speed_mps, actor });
         next_id += 1;
     }
-    settings.weather.treat(&mut assembly);
+    let all = actors.iter().flatten().chain(added.iter().map(|a| &a.actor));
+    settings.weather.treat(&mut assembly, all);
     let fog = settings.weather.fog_over(drive);
     let falling = settings.weather.falling;
     let snow = snow(settings.weather.snow, &surfaces, Drape::new(&ground).bounds());
@@ -320,7 +321,7 @@ impl Site {
             instances,
             others,
             keyframes_apart_s: neighbours.map(|other| apart_s(drive, keyframe, other)),
-            light: self.light.clone(),
+            light: Light { moment_s: moment_s(drive, keyframe), ..self.light.clone() },
             provenance: self.provenance.clone(),
         }
     }

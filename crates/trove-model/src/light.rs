@@ -20,12 +20,14 @@ pub struct Light {
     pub falling: Option<Precipitation>,
     /// Snow that lies; `None`: none does.
     pub snow: Option<Snow>,
+    /// Seconds since the first keyframe, by which rings spread in puddles.
+    pub moment_s: f64,
 }
 
 impl Light {
     /// In clear air, over bare ground.
     pub fn clear(environment: Environment) -> Self {
-        Self { environment, fog: None, falling: None, snow: None }
+        Self { environment, fog: None, falling: None, snow: None, moment_s: 0.0 }
     }
 }
 

@@ -2,14 +2,14 @@
 
 use trove_model::{Class, Drive, Fog, Material, Precipitation, Season};
 
-use crate::assembly::Assembly;
+use crate::assembly::{Actor, Assembly};
 
 /// How weather has treated a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weather {
     /// 0 (just washed) to 1: how much of the dirt that materials carry is there.
     pub dirt: f64,
-    /// 0 (dry) to 1 (after heavy rain): ground and buildings, but for what is sheltered. Plants and what people bring stay dry.
+    /// 0 (dry) to 1 (after heavy rain), but for what is sheltered.
     pub wetness: f64,
     /// What time of the year plants show; `None`: winter where snow lies, else that of the light, which is the recording's
     /// unless it was chosen.
@@ -42,8 +42,8 @@ impl Weather {
         self.fog.map(|fog| Fog { ground_z_m, ..fog })
     }
 
-    /// Treats the materials of a place that has been put together.
-    pub(crate) fn treat(self, assembly: &mut Assembly) {
+    /// Treats the materials of a place that has been put together, and of its road users.
+    pub(crate) fn treat<'a>(self, assembly: &mut Assembly, actors: impl Iterator<Item = &'a Actor>) {
         let materials = &mut assembly.stock.materials;
         for material in materials.iter_mut() {
             // Taken apart whole, so that a new layer does not compile before somebody has said what weather does to it.
@@ -79,14 +79,14 @@ impl Weather {
             } = material;
             *dirt *= self.dirt as f32;
         }
-        for instance in &assembly.fixed {
-            let share = match instance.class {
-                Class::Road | Class::Sidewalk | Class::Building => 1.0,
-                // Grass and soil swallow much of it.
-                Class::Ground => 0.5,
-                _ => continue,
+        let fixed = assembly.fixed.iter().map(|instance| (instance.class, &instance.materials));
+        for (class, used) in fixed.chain(actors.map(|actor| (actor.class(), &actor.materials))) {
+            let share = match class {
+                // Grass and soil swallow much of it, leaves let it drip, and people have umbrellas and hoods.
+                Class::Ground | Class::Tree | Class::Bush | Class::Human => 0.5,
+                _ => 1.0,
             };
-            for &index in &instance.materials {
+            for &index in used {
                 materials[index].wetness = (share * self.wetness) as f32;
             }
         }
@@ -125,7 +125,7 @@ mod tests {
         };
         let wet = Weather { wetness: 0.7, ..Weather::default() };
         assert!(wetness(Class::Road, wet).iter().all(|&w| w == 0.7) && !wetness(Class::Road, wet).is_empty());
-        assert!(wetness(Class::Car, wet).iter().all(|&w| w == 0.0) && !wetness(Class::Car, wet).is_empty());
+        assert!(wetness(Class::Car, wet).iter().all(|&w| w == 0.7) && !wetness(Class::Car, wet).is_empty());
         assert!(wetness(Class::Road, Weather::default()).iter().all(|&w| w == 0.0));
     }
 }

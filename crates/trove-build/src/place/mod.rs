@@ -9,7 +9,7 @@ use trove_model::{AssetLibrary, Bounds, Drive, HeightField, Locale, Report, Stre
 
 pub(crate) use conditions::Conditions;
 pub use made_up::{PlacePlan, place_drive};
-pub(crate) use moments::{apart_s, next, previous};
+pub(crate) use moments::{apart_s, moment_s, next, previous};
 pub use seeds::Seeds;
 
 /// What a place is built from, and what its builders draw from and report to.

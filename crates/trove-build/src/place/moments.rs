@@ -14,6 +14,12 @@ pub(crate) fn next(drive: &Drive, keyframe: usize) -> Option<usize> {
     neighbour(drive, keyframe, keyframe + 1)
 }
 
+/// When a keyframe is, seconds after the first.
+pub(crate) fn moment_s(drive: &Drive, keyframe: usize) -> f64 {
+    let time_ns = |k: usize| drive.keyframes.get(k).map_or(0, |k| k.time_ns);
+    (time_ns(keyframe) - time_ns(0)) as f64 * 1e-9
+}
+
 /// Seconds between a keyframe and its neighbour; infinite without one, or with one at the same time.
 pub(crate) fn apart_s(drive: &Drive, keyframe: usize, neighbour: Option<usize>) -> f64 {
     let time_ns = |k: usize| Some(drive.keyframes.get(k)?.time_ns);

@@ -9,6 +9,7 @@ mod opacity;
 mod sheen;
 mod snow;
 mod texturing;
+mod water;
 mod weather;
 
 use std::sync::Arc;

@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn as_much_of_the_ground_is_white_as_snow_covers_and_none_of_a_wall() {
-        let open = |snow: f32, left: f32| Exposure { is_open: true, snow, left };
+        let open = |snow: f32, left: f32| Exposure { snow, left, ..Exposure::BARE };
         let is = |found: f32, expected: f32| (found - expected).abs() < 1e-3;
         assert!(is(reflectance(Vec3::Z, open(0.0, 1.0)), 0.1));
         assert!(is(reflectance(Vec3::Z, open(1.0, 1.0)), FRESH.y));

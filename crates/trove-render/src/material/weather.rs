@@ -5,6 +5,7 @@ use glam::{Vec2, Vec3, vec2};
 
 use super::bsdf::{Coat, Parameters};
 use super::field::{TOO_WIDE_M, field, step};
+use super::water;
 use crate::surface::Surface;
 
 /// Dust of roads.
@@ -13,9 +14,10 @@ const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);
 const SPLASH_M: f32 = 0.7;
 /// Normal reflectance of water.
 const WATER_F0: f32 = 0.02;
-/// GGX α of water that stands, and of a film over something rough.
+/// GGX α of water that stands, and of a film over something rough: of what rain has just begun to wet, and of what it runs
+/// over.
 const STILL: f32 = 0.004;
-const FILM: f32 = 0.3;
+const FILM: [f32; 2] = [0.35, 0.12];
 
 /// How much of it a material has.
 #[derive(Clone, Copy)]
@@ -105,11 +107,22 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
     p.base_color *= Vec3::ONE.lerp(0.45 + 0.35 * p.base_color, soaked * porosity);
     p.alpha *= 1.0 - 0.5 * soaked;
     p.diffuse_roughness *= 1.0 - soaked;
-    let film = wetness * level * 0.6;
+    let film = wetness * level * 0.8;
     let water = film.max(puddle);
-    if water > 0.0 && p.coat.share <= 0.0 {
-        let normal = normal.lerp(surface.shading, 0.6 + 0.4 * puddle).normalize_or(normal);
-        let alpha = FILM + (STILL - FILM) * puddle;
+    if p.coat.share > 0.0 || p.transmission > 0.0 {
+        // Off lacquer and glass it beads.
+        let tilt = water::bead(surface, 0.4 * damp);
+        p.coat.normal = (p.coat.normal + tilt).normalize_or(p.coat.normal);
+        return if p.transmission > 0.0 { (normal + tilt).normalize_or(normal) } else { normal };
+    }
+    // Cloth soaks it up.
+    if water > 0.0 && p.sheen == Vec3::ZERO {
+        let mut normal = normal.lerp(surface.shading, (0.4 + 0.4 * wetness).max(puddle)).normalize_or(normal);
+        if puddle > 0.0 {
+            normal = (normal + water::rings(surface) * puddle).normalize_or(normal);
+        }
+        let film = FILM[0] + (FILM[1] - FILM[0]) * wetness;
+        let alpha = film + (STILL - film) * puddle;
         p.coat = Coat { normal, share: water, alpha, f0: WATER_F0 };
     }
     normal.lerp(surface.shading, puddle).normalize_or(normal)

@@ -293,7 +293,7 @@ impl Vertex<'_> {
         air: Scattering,
         ask: impl Fn(&Path, LightSample) -> Option<Shadow>,
     ) -> Option<Shadow> {
-        let count = self.scene.lights.candidates();
+        let count = if path.bounce == 0 { self.scene.lights.candidates() } else { 1 };
         let mut u_choice = if count > 1 { path.sampler.next2()[0] } else { 0.0 };
         let (mut chosen, mut total) = (None, 0.0);
         for i in 0..count {

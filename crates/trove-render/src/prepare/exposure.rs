@@ -1,7 +1,7 @@
 //! What comes down on surfaces: who bears snow, and what shelters from it and from rain.
 
 use glam::Vec3;
-use trove_model::{Class, Instance, Snow, State};
+use trove_model::{Class, Form, Instance, Light, Snow, State};
 
 use crate::accel::{Accel, Coherence};
 use crate::material::holds_snow;
@@ -39,8 +39,23 @@ impl Bears {
     }
 }
 
-/// What comes down on a point of what bears so much of it, as a ray sees it.
-pub(super) fn exposure(accel: &dyn Accel, snow: Option<&Snow>, bears: Bears, surface: &Surface, ray: &Ray) -> Exposure {
+/// What comes down in the open.
+pub(super) struct ComesDown {
+    pub(super) snow: Option<Snow>,
+    rain_mm_h: f32,
+    moment_s: f32,
+}
+
+impl ComesDown {
+    pub(super) fn new(light: &Light) -> Self {
+        let rain = light.falling.filter(|falling| falling.form == Form::Rain);
+        let rain_mm_h = rain.map_or(0.0, |rain| rain.rate_mm_h as f32);
+        Self { snow: light.snow.clone(), rain_mm_h, moment_s: light.moment_s as f32 }
+    }
+}
+
+/// What comes down on a point of what bears so much snow, as a ray sees it.
+pub(super) fn exposure(accel: &dyn Accel, what: &ComesDown, bears: Bears, surface: &Surface, ray: &Ray) -> Exposure {
     let bare = Exposure::BARE;
     if !holds_snow(surface.outward_z()) || bears == Bears::Share(0.0) {
         return bare;
@@ -54,10 +69,11 @@ pub(super) fn exposure(accel: &dyn Accel, snow: Option<&Snow>, bears: Bears, sur
     if blocked[0] {
         return Exposure { is_open: false, ..bare };
     }
-    let Some(snow) = snow else { return bare };
+    let bare = Exposure { rain_mm_h: what.rain_mm_h, moment_s: what.moment_s, ..bare };
+    let Some(snow) = &what.snow else { return bare };
     let (share, left) = match bears {
         Bears::Ground => (1.0, snow.left.as_ref().map_or(1.0, |left| left.at(surface.point.truncate()))),
         Bears::Share(share) => (share, 1.0),
     };
-    Exposure { is_open: true, snow: snow.cover as f32 * share, left }
+    Exposure { snow: snow.cover as f32 * share, left, ..bare }
 }

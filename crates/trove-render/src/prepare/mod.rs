@@ -7,7 +7,7 @@ mod exposure;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec3, bvec3};
-use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject, Snow};
+use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -19,7 +19,7 @@ use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 use crate::surface::Surface;
 use crate::texture::Textures;
-use exposure::{Bears, exposure};
+use exposure::{Bears, ComesDown, exposure};
 
 pub(crate) use carrier::Carrier;
 
@@ -32,7 +32,7 @@ pub struct PreparedScene {
     /// And what falls takes from light.
     pub(crate) fog: Option<Fog>,
     pub(crate) falling: Option<Precipitation>,
-    snow: Option<Snow>,
+    comes_down: ComesDown,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
@@ -119,8 +119,8 @@ impl PreparedScene {
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
         let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
-        let (falling, snow) = (scene.light.falling, scene.light.snow.clone());
-        Ok(Self { shapes, instances, materials, lights, fog, falling, snow, accel, others, has_beside })
+        let (falling, comes_down) = (scene.light.falling, ComesDown::new(&scene.light));
+        Ok(Self { shapes, instances, materials, lights, fog, falling, comes_down, accel, others, has_beside })
     }
 
     /// What stands where, now or at a keyframe beside.
@@ -189,9 +189,9 @@ impl PreparedScene {
         let placed = self.placed(hit.instance);
         let material = &self.materials[placed.material(hit)];
         let mut surface = Surface::new(placed, hit, ray);
-        if self.snow.is_some() || material.is_wet() {
+        if self.comes_down.snow.is_some() || material.is_wet() {
             let bears = self.instances[hit.instance as usize].bears;
-            surface.exposure = exposure(&*self.accel, self.snow.as_ref(), bears, &surface, ray);
+            surface.exposure = exposure(&*self.accel, &self.comes_down, bears, &surface, ray);
         }
         (surface, material)
     }
