@@ -132,7 +132,8 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
         interior => interior,
     };
     let lit = interior != Interior::Bare && random.chance(LIT_SHARE);
-    let wall = *random.pick(&[Slot::RoomPale, Slot::RoomWarm]).unwrap_or(&Slot::Dark);
+    let wall =
+        if lit { Slot::RoomPale } else { *random.pick(&[Slot::RoomPale, Slot::RoomWarm]).unwrap_or(&Slot::Dark) };
     let cell = |i: usize| {
         let left = if i == 0 { room.low.x + SKIRT_M } else { (holes[i - 1].high.x + holes[i].low.x) / 2.0 };
         let next = holes.get(i + 1).map(|next| (holes[i].high.x + next.low.x) / 2.0);
