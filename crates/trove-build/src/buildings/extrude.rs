@@ -199,6 +199,18 @@ mod tests {
         assert_eq!(mesh.defect(), None);
         let rooms = mesh.slots.iter().filter(|&&s| s == Slot::RoomFloor as u16).count();
         assert!(rooms > 40, "{rooms} triangles of rooms' floors");
+        // Some of them have lamps, which shine down and to the sides.
+        let of_lamps = mesh
+            .triangles
+            .iter()
+            .zip(&mesh.slots)
+            .filter(|(_, slot)| [Slot::Lampshade, Slot::LightPanel].iter().any(|&lamp| lamp as u16 == **slot));
+        let facing = of_lamps.map(|(&corners, _)| {
+            let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
+            (b - a).cross(c - a).normalize().z
+        });
+        let (down, all) = facing.fold((0, 0), |(down, all), z| (down + i32::from(z < -0.99), all + 1));
+        assert!(down >= 8 && (down == all || down * 6 == all), "{down} of {all}");
         // Frames, panes and what hangs in the windows are bodies of their own.
         let closed = |&slot: &u16| {
             use Slot::{Dark, GroundWall, RoomBack, RoomFloor, RoomPale, RoomWarm, Slab, Wall};

@@ -19,8 +19,8 @@ const LOW_BEAM: &str = include_str!("low_beam.tsv");
 /// Luminance of radiance 1, candelas a square metre.
 const UNIT_CD_M2: f32 = 32_000.0;
 
-/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm; a lampshade of 0.6 m² that gives
-/// 1,500 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K.
+/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm; a lampshade of 0.7 m² that gives
+/// 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K.
 const PLACES: [(Role, Vec3); 4] = [
     (Role::StreetLamp, vec3(1.4, 0.95, 0.5)),
     (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
