@@ -101,7 +101,7 @@ impl Emitters {
         let flux: f32 = self
             .triangles
             .iter()
-            .map(|e| PI * e.power() / e.away * e.aim.map_or(1.0, |aim| self.tree.aim(aim).beam.flux_share()))
+            .map(|e| PI * e.brightness() * e.aim.map_or(1.0, |aim| self.tree.aim(aim).beam.flux_share()))
             .sum();
         let corners = || self.triangles.iter().map(|e| e.corner.truncate());
         let (low, high) = (corners().fold(Vec2::INFINITY, Vec2::min), corners().fold(-Vec2::INFINITY, Vec2::max));
@@ -137,9 +137,7 @@ impl Near<'_> {
         let weight = |index: u32| triangles[index as usize].weight(self.from);
         let (index, probability) = tree.draw(&self.cut, self.from, self.normal, u[0], weight)?;
         let emitter = &triangles[index as usize];
-        // Even over the triangle's area.
-        let root = u[1].sqrt();
-        let point = emitter.at([root * (1.0 - u[2]), root * u[2]]);
+        let point = emitter.point([u[1], u[2]]);
         let share = emitter.aim.map_or(1.0, |aim| tree.aim(aim).share(self.from - point));
         Some(EmitterPoint {
             point,
@@ -154,9 +152,14 @@ impl Emitter {
         self.corner + (self.edges[0] + self.edges[1]) / 3.0
     }
 
-    /// Area times brightness, in the brightest direction of its beam, of what gets away.
+    /// Area times luminance, in the brightest direction of its beam.
+    fn brightness(&self) -> f32 {
+        0.5 * self.cross.length() * luminance(self.radiance)
+    }
+
+    /// The same of what gets away.
     fn power(&self) -> f32 {
-        0.5 * self.cross.length() * luminance(self.radiance) * self.away
+        self.brightness() * self.away
     }
 
     /// By rays of a fixed pattern. Never nothing: more rays might find a way.
@@ -167,8 +170,7 @@ impl Emitter {
         let rays = std::array::from_fn(|i| {
             let [column, row] = [i % side, i / side].map(|k| (k as f32 + 0.5) / side as f32);
             // Directions and places in another order, so that no direction always starts at the same edge.
-            let (root, along) = (row.sqrt(), (column + 0.5 * row).fract());
-            let point = self.at([root * (1.0 - along), root * along]);
+            let point = self.point([row, (column + 0.5 * row).fract()]);
             let direction = basis.to_world(cosine_hemisphere([column, (row + column * 0.5).fract()]));
             Ray { through_glass: true, ..Ray::new(point + normal * PROBE_FROM_M, direction) }
         });
@@ -176,9 +178,10 @@ impl Emitter {
         (away as f32 + 0.25) / (PROBES as f32 + 0.25)
     }
 
-    /// A point by its shares of the edges.
-    fn at(&self, [b, c]: [f32; 2]) -> Vec3 {
-        self.corner + self.edges[0] * b + self.edges[1] * c
+    /// A point for two numbers in [0, 1), even over the area.
+    fn point(&self, u: [f32; 2]) -> Vec3 {
+        let root = u[0].sqrt();
+        self.corner + self.edges[0] * (root * (1.0 - u[1])) + self.edges[1] * (root * u[1])
     }
 
     fn entry(&self) -> TreeEntry {
@@ -288,8 +291,7 @@ mod tests {
         let mut random = Seed(5).random();
         let mut unit = || random.unit() as f32;
         let on = |e: &Emitter, place: Vec3, u: [f32; 2], probability: f32| {
-            let root = u[0].sqrt();
-            let point = e.at([root * (1.0 - u[1]), root * u[1]]);
+            let point = e.point(u);
             let share = e.aim.map_or(1.0, |aim| street.tree.aim(aim).share(place - point));
             let is_lit = e.cross.dot(place - point) > 0.0;
             let pdf = probability * e.density(place, point);
@@ -337,7 +339,7 @@ mod tests {
 
     #[test]
     fn what_gets_away_of_a_lamp_is_what_its_surroundings_let_through() {
-        // Where nothing is, behind a plane below which all is closed, and behind a hole of a quarter of the hemisphere.
+        // With nothing around it, closed in, and with half of all ways closed.
         let lamp = emitters(lamp(3, Vec3::ZERO, 1.0, None).collect(), Vec::new());
         for e in &lamp.triangles {
             let normal = e.cross.normalize();
