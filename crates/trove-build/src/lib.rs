@@ -59,6 +59,7 @@ mod roads;
 mod scanners;
 mod site;
 mod snow;
+mod spray;
 mod standing;
 mod surroundings;
 #[cfg(test)]

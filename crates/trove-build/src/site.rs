@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 use trove_model::{
     AssetLibrary, Bounds, Cuboid, Drive, DriveOrigin, HeightField, Instance, InstanceId, Kind, Light, Locale, Origin,
-    Outcome, Polygon, Provenance, Report, RoadPlan, Scene, SceneObject, Season, StreetMap,
+    Outcome, Polygon, Provenance, Puff, Report, RoadPlan, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed, assumed};
@@ -19,6 +19,7 @@ use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds, apart_s, moment_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
 use crate::snow::snow;
+use crate::spray::{film_m, has_tyres, spray};
 use crate::surroundings::Clearance;
 use crate::surroundings::Kerbs;
 use crate::surroundings::Surroundings;
@@ -74,6 +75,8 @@ pub struct Site {
     footprints: Vec<Polygon>,
     roads: RoadPlan,
     light: Light,
+    /// Water on its roads.
+    film_m: f64,
     season: Season,
     provenance: Vec<Provenance>,
     fits: Vec<ObjectFit>,
@@ -206,11 +209,12 @@ pub fn build_at(
     let all = actors.iter().flatten().chain(added.iter().map(|a| &a.actor));
     settings.weather.treat(&mut assembly, all);
     let fog = settings.weather.fog_over(drive);
-    let falling = settings.weather.falling;
+    let Weather { falling, wind_mps, .. } = settings.weather;
     let snow = snow(settings.weather.snow, &surfaces, Drape::new(&ground).bounds());
     let light = Light {
         fog,
         falling,
+        wind_mps,
         snow,
         ..light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"))
     };
@@ -220,6 +224,7 @@ pub fn build_at(
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {
         light,
+        film_m: film_m(settings.weather.wetness),
         season: conditions.season(),
         provenance: sources,
         ground,
@@ -321,9 +326,21 @@ impl Site {
             instances,
             others,
             keyframes_apart_s: neighbours.map(|other| apart_s(drive, keyframe, other)),
-            light: Light { moment_s: moment_s(drive, keyframe), ..self.light.clone() },
+            light: Light { moment_s: moment_s(drive, keyframe), spray: self.spray(keyframe), ..self.light.clone() },
             provenance: self.provenance.clone(),
         }
+    }
+
+    /// What vehicles throw up at a keyframe.
+    fn spray(&self, keyframe: usize) -> Vec<Vec<Puff>> {
+        let known = self.actors.iter().enumerate().filter_map(|(i, actor)| Some((track_id(i), actor.as_ref()?, None)));
+        let added = self.added.iter().map(|added| (added.id, &added.actor, Some(added.speed_mps)));
+        let on_wheels = known.chain(added).filter(|(_, actor, _)| has_tyres(actor.class()));
+        let behind = on_wheels.filter_map(|(id, actor, speed_mps)| {
+            let pose = actor.at(keyframe)?;
+            Some(spray(self.film_m, self.light.wind_mps, id, &pose.cuboid, pose.movement.speed_mps.or(speed_mps)?))
+        });
+        behind.filter(|puffs| !puffs.is_empty()).collect()
     }
 
     /// Who is there at a keyframe beside and not at this one.

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use crate::{Precipitation, Snow};
+use crate::{Precipitation, Puff, Snow};
 
 /// Everything that is infinitely far away, the air before it, and what has come down through it.
 ///
@@ -18,8 +18,12 @@ pub struct Light {
     pub fog: Option<Fog>,
     /// Rain or snow that falls, from clouds that the environment has or not; `None`: none does.
     pub falling: Option<Precipitation>,
+    /// Where the wind carries it, World, metres a second.
+    pub wind_mps: DVec2,
     /// Snow that lies; `None`: none does.
     pub snow: Option<Snow>,
+    /// Spray: what the wheels of each vehicle have thrown up, one behind the other.
+    pub spray: Vec<Vec<Puff>>,
     /// Seconds since the first keyframe, by which rings spread in puddles.
     pub moment_s: f64,
 }
@@ -27,7 +31,8 @@ pub struct Light {
 impl Light {
     /// In clear air, over bare ground.
     pub fn clear(environment: Environment) -> Self {
-        Self { environment, fog: None, falling: None, snow: None, moment_s: 0.0 }
+        let wind_mps = DVec2::ZERO;
+        Self { environment, fog: None, falling: None, wind_mps, snow: None, spray: Vec::new(), moment_s: 0.0 }
     }
 }
 

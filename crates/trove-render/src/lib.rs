@@ -90,6 +90,7 @@ mod sampling;
 mod scan;
 mod shared_library;
 mod sight;
+mod spray;
 mod surface;
 mod texture;
 mod voxels;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use trove_model::{
     Class, Environment, EnvironmentMap, Fog, Form, Instance, InstanceId, LidarPoint, LidarShot, Light, Material, Mesh,
-    Placement, Pose, Precipitation, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
+    Placement, Pose, Precipitation, Puff, Scanner, Scene, Seed, SensorFrame, SweepPhase, ToldReturns, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -214,6 +214,25 @@ fn rain_takes_from_echoes_on_both_ways_and_a_beam_meets_few_of_its_drops() {
     let [none, some, many] = [None, Some(Precipitation { form: Form::Rain, rate_mm_h: 5.0 }), Some(heavy)].map(drops);
     let beams = open.scanner.columns * open.scanner.elevations_rad.len();
     assert!(none == 0 && some > 0 && 2 * some < many && many < beams / 5, "{none} {some} {many} of {beams}");
+}
+
+#[test]
+fn spray_takes_from_echoes_on_both_ways_and_sends_some_of_its_own_from_where_it_is() {
+    let puff = Puff { centre: PLACE + DVec3::X * 8.0, radius_m: [1.5, 1.0], extinction_per_m: 0.5 };
+    let depth = puff.optical_depth(PLACE, DVec3::X, 30.0);
+    let mut scene = scene(vec![wall(1, Class::Building, 20.0, 40.0, 0)]);
+    let mut shot = straight_ahead();
+    (shot.scanner.nearest_m, shot.scanner.reach_m) = (19.0, 1000.0);
+    let clear = f64::from(sweep(&scene, &shot, 1)[0].intensity);
+    scene.light.spray = vec![vec![puff]];
+    let dim = f64::from(sweep(&scene, &shot, 1)[0].intensity);
+    assert!((dim - clear * (-2.0 * depth).exp()).abs() < 1.0, "{clear} {dim} {depth}");
+
+    let mut all = self::shot(still(), 0.05);
+    (all.scanner.reach_m, all.scanner.columns) = (100.0, 2000);
+    let of_spray: Vec<_> = sweep(&scene, &all, 2).into_iter().filter(|point| point.class == Class::Void).collect();
+    let off_m = |point: &LidarPoint| (point.position_m - DVec3::X * 8.0).length();
+    assert!(of_spray.len() > 20 && of_spray.iter().all(|point| off_m(point) < 1.5), "{}", of_spray.len());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What weather and use leave on the surfaces of a place.
 
+use glam::DVec2;
 use trove_model::{Class, Drive, Fog, Material, Precipitation, Season};
 
 use crate::assembly::{Actor, Assembly};
@@ -18,6 +19,8 @@ pub struct Weather {
     pub fog: Option<Fog>,
     /// Rain or snow that falls; `None`: none does.
     pub falling: Option<Precipitation>,
+    /// Where the wind blows to, World, metres a second.
+    pub wind_mps: DVec2,
     /// Share of level surfaces in the open that snow covers, 0 to 1, but for roads, where wheels have left less of it.
     pub snow: f64,
 }
@@ -25,7 +28,7 @@ pub struct Weather {
 impl Default for Weather {
     /// Dry, as dirty as streets are, in the season of the recording and in clear air.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, falling: None, snow: 0.0 }
+        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, falling: None, wind_mps: DVec2::ZERO, snow: 0.0 }
     }
 }
 
@@ -117,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn rain_wets_the_road_and_leaves_road_users_dry() {
+    fn rain_wets_the_road_and_its_users() {
         let wetness = |class: Class, weather: Weather| -> Vec<f32> {
             let scene = scene(weather);
             let of_class = scene.instances.iter().filter(|i| i.class == class);

@@ -3,9 +3,9 @@
 //! A beam is seven rays of equal power, its middle and a ring about it. What they meet at one range is one echo; leaves and
 //! edges leave several, and so does glass, which is met and passed. Fog takes of the light on both ways and sends some back.
 
+mod air;
 mod detector;
 mod echo;
-mod fog;
 mod reflectance;
 
 use glam::DVec3;
@@ -14,7 +14,6 @@ use trove_model::{LidarPoint, LidarShot, PointCloud, SensorRay};
 
 use crate::PreparedScene;
 use crate::accel::Coherence;
-use crate::fog::Scattering;
 use crate::prepare::Carrier;
 use crate::ray::Ray;
 use crate::sight::{self, Seen};
@@ -59,13 +58,11 @@ fn points(scene: &PreparedScene, shot: &LidarShot, carrier: &Carrier, column: us
     for (ring, parts) in met.into_iter().enumerate() {
         let middle = shot.ray(column, ring);
         let seed = shot.seed.nth((column * rings + ring) as u64);
-        let random = || seed.child("fog").random();
-        let of_fog = scene.fog.and_then(|fog| fog::echo(&fog, scene.falling, &shot.scanner, &middle, &parts, random()));
+        let of_fog = air::of_fog(scene, &shot.scanner, &middle, &parts, seed.child("fog").random());
+        let of_spray = air::of_spray(scene, &shot.scanner, &middle, &parts, seed.child("spray").random());
         let mut echoes = echo::echoes(parts, shot.scanner.pulse_m);
-        if let Some(of_fog) = of_fog {
-            echoes.push(of_fog);
-            echoes.sort_by(|a, b| a.range_m.total_cmp(&b.range_m));
-        }
+        echoes.extend(of_fog.into_iter().chain(of_spray));
+        echoes.sort_by(|a, b| a.range_m.total_cmp(&b.range_m));
         let told = detector::told(&shot.scanner, echoes, seed.random());
         points.extend((0..).zip(told).map(|(number, told)| LidarPoint {
             position_m: lidar_from_world.point(middle.origin + middle.direction * told.range_m),
@@ -144,8 +141,7 @@ fn backscattered(scene: &PreparedScene, shot: &LidarShot, seen: &Seen, looks: &m
 
 fn part(scene: &PreparedScene, way: &Way, seen: &Seen, share: f32) -> Part {
     let class = scene.instances[seen.hit.instance as usize].class;
-    let left = way.left
-        * scene.clear(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32, Scattering::after(0));
+    let left = way.left * scene.seen(way.exact.origin.as_vec3(), way.ray.direction, seen.range_m as f32);
     Part {
         range_m: seen.range_m,
         // There and back through the same panes and the same air.

@@ -9,6 +9,8 @@ use rayon::prelude::*;
 use trove_model::{Form, Precipitation, Raster, Seed, Shot};
 
 use super::integrate::{Cone, Path};
+use super::splash;
+use super::streak::{REACH_M, Streak, cover};
 use super::wave::Wave;
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
@@ -18,14 +20,6 @@ use crate::sampling::{Basis, Sampler, disk};
 
 /// Smaller ones are too many and cover too little.
 const SMALLEST_M: f64 = 0.5e-3;
-/// Farther ones are in the air, and nearer ones too blurred.
-const REACH_M: [f64; 2] = [0.3, 15.0];
-/// Streaks that cover less of their pixels are not seen.
-const LEAST_COVER: f64 = 0.002;
-/// Opening of a car's camera, whose focus is far away.
-const APERTURE_M: f64 = 3e-3;
-/// What a picture that is taken in an instant takes it for.
-const EXPOSURE_S: f64 = 1.0 / 250.0;
 /// Side of the cubes in which they are counted.
 const CELL_M: f64 = 1.0;
 /// Places in the picture where their brightness is told, and paths at each.
@@ -36,17 +30,6 @@ const TYPICAL_M: f32 = 3.0;
 /// Refractive index of water.
 const WATER: f32 = 1.333;
 
-/// What one of them draws.
-struct Streak {
-    ends_px: [DVec2; 2],
-    width_px: f64,
-    /// Pixels that it would cover if it stood.
-    area_px: f64,
-    /// Depth along the camera's axis; less than 0 behind a fisheye.
-    depth_m: f32,
-    place: Vec3,
-}
-
 /// Draws what falls before a shot's camera into its picture.
 pub(crate) fn draw(
     scene: &PreparedScene,
@@ -55,7 +38,11 @@ pub(crate) fn draw(
     depth_m: &Raster<f32>,
     picture: &mut Raster<[f32; 3]>,
 ) {
-    let cover = cover(&in_the_open(scene, streaks(shot, falling)), depth_m);
+    let mut streaks = in_the_open(scene, streaks(shot, scene.wind_mps, falling));
+    if falling.form == Form::Rain {
+        streaks.extend(splash::streaks(scene, shot, falling));
+    }
+    let cover = cover(&streaks, depth_m);
     let light = light(scene, shot, falling.form, depth_m);
     let (width, height) = (f64::from(picture.width), f64::from(picture.height));
     let pixel = |(i, rgb): (usize, &mut [f32; 3])| {
@@ -70,7 +57,7 @@ pub(crate) fn draw(
 }
 
 /// All of them, sheltered or not.
-fn streaks(shot: &Shot, falling: Precipitation) -> Vec<Streak> {
+fn streaks(shot: &Shot, wind_mps: DVec2, falling: Precipitation) -> Vec<Streak> {
     let eye = shot.world_from_camera.translation;
     let around = (REACH_M[1] / CELL_M).ceil() as i32;
     let middle = (eye / CELL_M).floor().as_ivec3();
@@ -93,7 +80,8 @@ fn streaks(shot: &Shot, falling: Precipitation) -> Vec<Streak> {
         let mut piece = || {
             let place = DVec3::new(random.unit(), random.unit(), random.unit());
             let diameter_m = falling.diameter_m(SMALLEST_M, random.unit());
-            streak(shot, (cell.as_dvec3() + place) * CELL_M, diameter_m, falling.speed_mps(diameter_m))
+            let falls_mps = wind_mps.extend(-falling.speed_mps(diameter_m));
+            Streak::new(shot, (cell.as_dvec3() + place) * CELL_M, diameter_m, falls_mps)
         };
         (0..count).filter_map(|_| piece()).collect()
     };
@@ -137,63 +125,6 @@ fn field_rad(shot: &Shot) -> f64 {
         shot.lens.unproject(pixel).map_or(std::f64::consts::PI, |direction| direction.z.clamp(-1.0, 1.0).acos())
     };
     rim.map(angle).fold(0.0, f64::max)
-}
-
-/// What is drawn by what falls through a place in World in the exposure's middle; `None` where it is hardly seen.
-fn streak(shot: &Shot, place: DVec3, diameter_m: f64, speed_mps: f64) -> Option<Streak> {
-    let point = shot.world_from_camera.inverse().point(place);
-    let distance_m = point.length();
-    if !(REACH_M[0]..=REACH_M[1]).contains(&distance_m) {
-        return None;
-    }
-    let pixel_rad = shot.lens.pixel_rad(point / distance_m);
-    let to_px = 1.0 / (distance_m * pixel_rad);
-    let area_px = std::f64::consts::FRAC_PI_4 * (diameter_m * to_px).powi(2);
-    let width_px = ((diameter_m + APERTURE_M) * to_px).max(1.0);
-    let exposure_s = if shot.shutter.exposure_s > 0.0 { shot.shutter.exposure_s } else { EXPOSURE_S };
-    let falls_mps = DVec3::NEG_Z * speed_mps;
-    let middle_px = shot.lens.project(point).filter(|pixel| shot.lens.contains(*pixel))?;
-    let row = middle_px.y / f64::from(shot.lens.height_px);
-    let ends_px = [0.0, 1.0].map(|within| {
-        let after_s = shot.shutter.time_s(row, 0.5) + (within - 0.5) * exposure_s;
-        shot.lens.project(shot.world_from_camera_at(after_s).inverse().point(place + falls_mps * after_s))
-    });
-    let [Some(from), Some(to)] = ends_px else { return None };
-    let cover = area_px / (width_px * (width_px + from.distance(to)));
-    (cover > LEAST_COVER).then(|| Streak {
-        ends_px: [from, to],
-        width_px,
-        area_px,
-        depth_m: point.z as f32,
-        place: place.as_vec3(),
-    })
-}
-
-/// Share of each pixel's light that streaks before what it shows take the place of.
-fn cover(streaks: &[Streak], depth_m: &Raster<f32>) -> Raster<f32> {
-    let mut cover = depth_m.map(|_| 0.0f32);
-    for Streak { ends_px: [from, to], width_px, area_px, depth_m: own_m, .. } in streaks {
-        let steps = (2.0 * from.distance(*to) / width_px).ceil().max(1.0);
-        let radius = width_px / 2.0 + 0.5;
-        // A soft disc of this radius has so many pixels.
-        let whole = std::f64::consts::PI * (radius * radius - radius + 1.0 / 3.0);
-        let share = (area_px / steps / whole) as f32;
-        for step in 0..steps as u32 {
-            let middle = from.lerp(*to, (f64::from(step) + 0.5) / steps);
-            let [low, high] = [middle - radius, middle + radius].map(|p| p.floor().as_ivec2());
-            for y in low.y.max(0)..=high.y.min(cover.height as i32 - 1) {
-                for x in low.x.max(0)..=high.x.min(cover.width as i32 - 1) {
-                    let away = middle.distance(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
-                    let (x, y) = (x as u32, y as u32);
-                    if away < radius && depth_m.at(x, y).abs() > own_m.abs() {
-                        let pixel = cover.at_mut(x, y);
-                        *pixel += (1.0 - *pixel) * share * (radius - away).min(1.0) as f32;
-                    }
-                }
-            }
-        }
-    }
-    cover
 }
 
 /// Radiance of what falls across the picture, row by row.
@@ -262,48 +193,17 @@ fn between(light: &[Vec3], at: DVec2) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use trove_model::{Distortion, Lens, Pose};
-
     use super::*;
-
-    /// A camera that looks along y.
-    fn shot() -> Shot {
-        let lens = Lens {
-            width_px: 400,
-            height_px: 300,
-            fx_px: 320.0,
-            fy_px: 320.0,
-            cx_px: 200.0,
-            cy_px: 150.0,
-            distortion: Distortion::None,
-        };
-        let north = glam::DQuat::from_mat3(&glam::DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
-        Shot::new("test", lens, Pose::new(north, DVec3::Z * 2.0))
-    }
-
-    #[test]
-    fn a_drop_draws_a_streak_as_long_as_it_falls_and_covers_as_much_as_its_disc() {
-        let (shot, diameter_m, ahead_m) = (shot(), 3e-3, 1.5);
-        let streak = streak(&shot, DVec3::new(0.1, ahead_m, 2.0), diameter_m, 8.0).unwrap();
-        let [from, to] = streak.ends_px;
-        let length_px = 8.0 * EXPOSURE_S * 320.0 / ahead_m;
-        assert!((to - from - DVec2::Y * length_px).length() < 0.05, "{from} {to} {length_px}");
-        let far = Raster::filled(400, 300, f32::INFINITY);
-        let covered: f32 = cover(std::slice::from_ref(&streak), &far).data.iter().sum();
-        let disc_px = std::f64::consts::FRAC_PI_4 * (diameter_m * 320.0 / ahead_m).powi(2);
-        assert!((f64::from(covered) / disc_px - 1.0).abs() < 0.05, "{covered} {disc_px}");
-        let near = Raster::filled(400, 300, 1.0);
-        assert!(cover(&[streak], &near).data.iter().all(|share| *share == 0.0));
-    }
+    use crate::path::streak::looks_along_y;
 
     #[test]
     fn drops_cover_as_much_of_the_picture_as_the_rain_has_of_them() {
         // Of drops that are seen as large as these, hardly any are left out as too small.
-        let shot = Shot { shutter: trove_model::Shutter { exposure_s: 1e-4, readout_s: 0.0 }, ..shot() };
+        let shot = Shot { shutter: trove_model::Shutter { exposure_s: 1e-4, readout_s: 0.0 }, ..looks_along_y() };
         let rain = Precipitation { form: Form::Rain, rate_mm_h: 20.0 };
         let far = Raster::filled(400, 300, f32::INFINITY);
         let streaks: Vec<Streak> = (0..6)
-            .flat_map(|i| streaks(&Shot { time_ns: i, ..shot.clone() }, rain))
+            .flat_map(|i| streaks(&Shot { time_ns: i, ..shot.clone() }, DVec2::ZERO, rain))
             .filter(|streak| streak.depth_m < 4.0)
             .collect();
         let covered: f64 = cover(&streaks, &far).data.iter().map(|share| f64::from(*share)).sum::<f64>() / 6.0;

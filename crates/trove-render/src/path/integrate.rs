@@ -163,13 +163,8 @@ impl Vertex<'_> {
     /// Gathers light, asks for more behind shadow rays, and sends the path on; false when it has ended.
     pub(crate) fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
         let lights = &self.scene.lights;
-        if let Some(fog) = &self.scene.fog {
-            let [u, _] = path.sampler.next2();
-            let fog = fog.scattering(path.scattering());
-            let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
-            if let Some(t) = fog.met(path.ray.origin, path.ray.direction, t_max, u) {
-                return self.scatter(path, t, hit);
-            }
+        if let Some(t) = self.droplet(path, hit) {
+            return self.scatter(path, t, hit);
         }
         let Some(hit) = hit else {
             let direction = path.ray.direction;
@@ -239,6 +234,19 @@ impl Vertex<'_> {
         path.bounce <= MAX_BOUNCES
     }
 
+    /// Where its ray meets a droplet of the air before a surface; of spray only what is seen straight.
+    fn droplet(&self, path: &mut Path, hit: Option<Hit>) -> Option<f32> {
+        let (origin, direction) = (path.ray.origin, path.ray.direction);
+        let free = hit.map_or(f32::INFINITY, |hit| hit.t);
+        let spray = Some(&self.scene.spray).filter(|spray| !spray.is_none() && path.scattered.is_none());
+        let in_spray = spray.and_then(|spray| spray.met(origin, direction, free, path.sampler.next2()[0]));
+        let in_fog = self.scene.fog.and_then(|fog| {
+            let fog = fog.scattering(path.scattering());
+            fog.met(origin, direction, in_spray.unwrap_or(free), path.sampler.next2()[0])
+        });
+        in_fog.or(in_spray)
+    }
+
     /// Sends the path on from a droplet `t` metres along it; what lies behind guides the denoiser all the same.
     fn scatter(&mut self, path: &mut Path, t: f32, hit: Option<Hit>) -> bool {
         let (lights, direction) = (&self.scene.lights, path.ray.direction);
@@ -276,9 +284,9 @@ impl Vertex<'_> {
         true
     }
 
-    /// What guides the denoiser at a surface: fog before it is white and faces nowhere.
+    /// What guides the denoiser at a surface: droplets before it are white and face nowhere.
     fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
-        let clear = self.scene.clear(path.ray.origin, path.ray.direction, t, Scattering::after(0));
+        let clear = self.scene.seen(path.ray.origin, path.ray.direction, t);
         (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
     }
 

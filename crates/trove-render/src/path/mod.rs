@@ -4,6 +4,8 @@ mod camera;
 pub(crate) mod falling;
 mod integrate;
 mod rates;
+mod splash;
+mod streak;
 mod tile;
 mod wave;
 

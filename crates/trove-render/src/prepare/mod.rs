@@ -6,7 +6,7 @@ mod exposure;
 
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec3, bvec3};
+use glam::{DAffine3, DVec2, Vec3, bvec3};
 use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject};
 
 use crate::RenderError;
@@ -17,6 +17,7 @@ use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
 use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
+use crate::spray::Spray;
 use crate::surface::Surface;
 use crate::texture::Textures;
 use exposure::{Bears, ComesDown, exposure};
@@ -32,6 +33,8 @@ pub struct PreparedScene {
     /// And what falls takes from light.
     pub(crate) fog: Option<Fog>,
     pub(crate) falling: Option<Precipitation>,
+    pub(crate) wind_mps: DVec2,
+    pub(crate) spray: Spray,
     comes_down: ComesDown,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
@@ -120,7 +123,21 @@ impl PreparedScene {
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
         let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
         let (falling, comes_down) = (scene.light.falling, ComesDown::new(&scene.light));
-        Ok(Self { shapes, instances, materials, lights, fog, falling, comes_down, accel, others, has_beside })
+        let (wind_mps, spray) = (scene.light.wind_mps, Spray::new(&scene.light.spray));
+        Ok(Self {
+            shapes,
+            instances,
+            materials,
+            lights,
+            fog,
+            falling,
+            wind_mps,
+            spray,
+            comes_down,
+            accel,
+            others,
+            has_beside,
+        })
     }
 
     /// What stands where, now or at a keyframe beside.
@@ -166,6 +183,11 @@ impl PreparedScene {
     /// Share of light, scattered so, that the air lets pass along a unit direction for `t` metres.
     pub(crate) fn clear(&self, origin: Vec3, direction: Vec3, t: f32, scattering: Scattering) -> f32 {
         self.fog.map_or(1.0, |fog| fog.scattering(scattering).transmittance(origin, direction, t))
+    }
+
+    /// Share of a thing's light that fog and spray let pass straight to an eye.
+    pub(crate) fn seen(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
+        self.clear(origin, direction, t, Scattering::after(0)) * self.spray.transmittance(origin, direction, t)
     }
 
     /// The kernel, to be measured.

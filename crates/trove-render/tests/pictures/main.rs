@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
 use trove_model::{
-    Beam, ColorSpace, EnvironmentMap, Fog, Form, InstanceId, Material, Mesh, Precipitation, Scene, Shot, Texture,
+    Beam, ColorSpace, EnvironmentMap, Fog, Form, InstanceId, Material, Mesh, Precipitation, Puff, Scene, Shot, Texture,
 };
 use trove_render::{KernelChoice, RenderError, Renderer};
 
@@ -65,6 +65,24 @@ fn a_black_ball_in_fog_fades_by_koschmieder_s_law_into_white() {
         assert!((on_it / expected - 1.0).abs() < 0.01, "{away_m} m: {on_it} instead of {expected}");
         assert!((beside - 1.0).abs() < 0.01, "{away_m} m: {beside} beside it");
     }
+}
+
+#[test]
+fn spray_takes_the_place_of_what_is_behind_it_as_its_thickness_says_and_is_white_in_a_white_world() {
+    let puff = |y: f64| Puff { centre: DVec3::new(0.0, y, 0.2), radius_m: [1.0, 0.8], extinction_per_m: 0.6 };
+    let puffs = vec![puff(6.0), puff(7.1)];
+    let depth: f64 = puffs.iter().map(|puff| puff.optical_depth(DVec3::ZERO, DVec3::Y, 20.0)).sum();
+    let mut scene = empty(uniform(1.0));
+    let away = DAffine3::from_scale_rotation_translation(DVec3::splat(0.001), DQuat::IDENTITY, DVec3::Y * 20.0);
+    put(&mut scene, ball(), Material { ior: 1.0, ..Material::plain("black", Vec3::ZERO, 1.0) }, away);
+    scene.light.spray = vec![puffs];
+    let toward = |z: f64| {
+        let shot = shot(DVec3::ZERO, DVec3::new(0.0, 20.0, z), 0.0006);
+        mean(&take(&renderer(KernelChoice::Obvhs, 2), &scene, &Shot { spp: 1024, ..shot }))
+    };
+    let (on_it, beside, expected) = (toward(0.0), toward(0.3), 1.0 - (-depth).exp() as f32);
+    assert!((0.4..0.8).contains(&expected) && (on_it / expected - 1.0).abs() < 0.02, "{on_it} instead of {expected}");
+    assert!((beside - 1.0).abs() < 1e-3, "{beside}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `[weather]`: what rain, use and the season have left, and the air.
 
 use anyhow::{Result, ensure};
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use trove_build::Weather;
 use trove_model::{Fog, Form, Precipitation};
@@ -17,6 +18,9 @@ const FOG_HEIGHT_M: [f64; 2] = [2.0, 5000.0];
 pub(super) const RAIN_MM_H: [f64; 2] = [0.1, 200.0];
 /// The same of snow that falls, millimetres of water an hour.
 pub(super) const SNOWFALL_MM_H: [f64; 2] = [0.05, 10.0];
+
+/// What wind comes from where nobody says so.
+const WEST_DEG: f64 = 270.0;
 
 /// `[weather]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -40,6 +44,12 @@ pub struct WeatherSection {
     /// Snow that falls, millimetres of water an hour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snowfall_mm_h: Option<f64>,
+    /// How fast the wind blows that carries rain, snow and spray, metres a second.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub wind_mps: f64,
+    /// Where it comes from, degrees from north through east; without it from the west.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind_from_deg: Option<f64>,
     /// Share of level surfaces in the open that snow covers, 0 to 1.
     #[serde(skip_serializing_if = "is_zero")]
     pub snow: f64,
@@ -47,7 +57,7 @@ pub struct WeatherSection {
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness, season: _, fog: _, falling: _, snow } = Weather::default();
+        let Weather { dirt, wetness, season: _, fog: _, falling: _, wind_mps, snow } = Weather::default();
         let season = SeasonChoice::default();
         Self {
             wetness,
@@ -57,6 +67,8 @@ impl Default for WeatherSection {
             fog_height_m: None,
             rain_mm_h: None,
             snowfall_mm_h: None,
+            wind_mps: wind_mps.length(),
+            wind_from_deg: None,
             snow,
         }
     }
@@ -69,7 +81,10 @@ impl WeatherSection {
         let rain = self.rain_mm_h.map(rain);
         let falling = self.snowfall_mm_h.map(snowfall).or(rain);
         let (dirt, wetness, season, snow) = (self.dirt, self.wetness, self.season.into(), self.snow);
-        Weather { dirt, wetness, season, fog, falling, snow }
+        // From the north it blows to the south.
+        let from = (90.0 - self.wind_from_deg.unwrap_or(WEST_DEG)).to_radians();
+        let wind_mps = -DVec2::from_angle(from) * self.wind_mps;
+        Weather { dirt, wetness, season, fog, falling, wind_mps, snow }
     }
 
     /// Fog of a visibility, over a ground at 0.
@@ -89,7 +104,11 @@ impl WeatherSection {
         let metres = metres.map(|(key, value, range)| (key, value, range, "metres"));
         let falling = [("rain_mm_h", self.rain_mm_h, RAIN_MM_H), ("snowfall_mm_h", self.snowfall_mm_h, SNOWFALL_MM_H)];
         let falling = falling.map(|(key, value, range)| (key, value, range, "millimetres an hour"));
-        for (key, value, [least, most], unit) in metres.into_iter().chain(falling) {
+        let wind = [
+            ("wind_mps", Some(self.wind_mps), [0.0, 40.0], "metres a second"),
+            ("wind_from_deg", self.wind_from_deg, [0.0, 360.0], "degrees"),
+        ];
+        for (key, value, [least, most], unit) in metres.into_iter().chain(falling).chain(wind) {
             let Some(value) = value else { continue };
             let expected = format!("{least} to {most} {unit}");
             check(&format!("weather.{key}"), value, (least..=most).contains(&value), &expected)?;
@@ -154,6 +173,16 @@ mod tests {
     }
 
     #[test]
+    fn wind_blows_from_where_it_is_said_to_come() {
+        for (text, expected) in
+            [("", [0.0; 2]), ("wind_mps = 6", [6.0, 0.0]), ("wind_mps = 6\nwind_from_deg = 0", [0.0, -6.0])]
+        {
+            let found = weather(text).unwrap().weather().wind_mps;
+            assert!((found - DVec2::from(expected)).length() < 1e-9, "{text}: {found}");
+        }
+    }
+
+    #[test]
     fn fog_is_there_where_a_visibility_is_and_nowhere_else() {
         assert_eq!(weather("wetness = 0.5").unwrap().weather().fog, None);
         let fog = |text| weather(text).unwrap().weather().fog.unwrap();
@@ -168,6 +197,7 @@ mod tests {
             ("fog_height_m = 20", "add weather.visibility_m"),
             ("snowfall_mm_h = 50", "weather.snowfall_mm_h: expected 0.05 to 10 millimetres an hour, found 50"),
             ("snowfall_mm_h = 1\nrain_mm_h = 1", "expected rain or snow, found both"),
+            ("wind_mps = 50", "weather.wind_mps: expected 0 to 40 metres a second, found 50"),
             ("snow = 2", "weather.snow: expected 0 to 1, found 2"),
             ("rain_mm_h = 0", "weather.rain_mm_h: expected 0.1 to 200 millimetres an hour, found 0"),
         ] {
