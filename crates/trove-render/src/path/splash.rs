@@ -15,6 +15,9 @@ use crate::ray::Ray;
 
 /// Smaller drops hardly splash.
 const SMALLEST_M: f64 = 1.5e-3;
+/// For so long a crown of water stands where one struck, seconds; a ball of so many of the drop's diameters covers as much.
+const CROWN_S: f64 = 0.025;
+const CROWN: f64 = 1.6;
 /// Droplets of a splash, of so much of the drop's diameter.
 const DROPLETS: u32 = 7;
 const DROPLET: f64 = 0.3;
@@ -31,7 +34,7 @@ const SQUARE_M: f64 = 1.0;
 const ABOVE_M: f64 = 300.0;
 const FACES_UP: f32 = 0.5;
 
-/// A droplet under way.
+/// A droplet under way, or a crown.
 struct Droplet {
     /// From where the drop struck.
     from_it: DVec3,
@@ -86,7 +89,7 @@ fn ground(scene: &PreparedScene, from_z: f64, drops: &[DVec2]) -> [Option<DVec3>
     })
 }
 
-/// Droplets that are still in the air some time after a drop has struck.
+/// What is still in the air some time after a drop has struck.
 fn splash(diameter_m: f64, speed_mps: f64, age_s: f64, mut unit: impl FnMut() -> f64) -> Vec<Droplet> {
     let mut droplet = |_| {
         let within = |[low, high]: [f64; 2], u: f64| low + (high - low) * u;
@@ -101,7 +104,10 @@ fn splash(diameter_m: f64, speed_mps: f64, age_s: f64, mut unit: impl FnMut() ->
             diameter_m: diameter_m * DROPLET * (0.6 + 0.8 * unit()),
         }
     };
-    (0..DROPLETS).map(&mut droplet).filter(|droplet| droplet.from_it.z >= 0.0).collect()
+    let crown_m = CROWN * diameter_m;
+    let crown = Droplet { from_it: DVec3::Z * crown_m / 2.0, velocity_mps: DVec3::ZERO, diameter_m: crown_m };
+    let droplets = (0..DROPLETS).map(&mut droplet).filter(|droplet| droplet.from_it.z >= 0.0);
+    (age_s < CROWN_S).then_some(crown).into_iter().chain(droplets).collect()
 }
 
 #[cfg(test)]
@@ -109,17 +115,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn droplets_fly_up_fall_back_and_are_gone_after_their_flight() {
+    fn a_crown_rises_and_droplets_fly_up_fall_back_and_are_gone() {
         let mut random = Seed(3).random();
         let mut at = |age_s: f64| splash(3e-3, 8.0, age_s, || random.unit());
         let [fresh, flying, late] = [1e-4, 0.04, FLIGHT_S].map(&mut at);
-        assert!(
-            fresh.len() == DROPLETS as usize
-                && fresh.iter().all(|d| d.velocity_mps.z > 0.0 && d.from_it.length() < 1e-3)
-        );
-        assert!(!flying.is_empty() && flying.iter().all(|d| (0.0..0.2).contains(&d.from_it.z)));
+        let (crown, droplets) = fresh.split_first().unwrap();
+        assert!(crown.velocity_mps == DVec3::ZERO && droplets.len() == DROPLETS as usize);
+        assert!(droplets.iter().all(|d| d.velocity_mps.z > 0.0 && d.from_it.length() < 1e-3));
+        assert!(!flying.is_empty() && flying.iter().all(|d| d.velocity_mps != DVec3::ZERO && d.from_it.z < 0.2));
         assert!(late.is_empty());
         let volume = |d: &Droplet| d.diameter_m.powi(3);
-        assert!(fresh.iter().map(volume).sum::<f64>() < 3e-3f64.powi(3), "more water than came down");
+        assert!(droplets.iter().map(volume).sum::<f64>() < 3e-3f64.powi(3), "more water than came down");
     }
 }

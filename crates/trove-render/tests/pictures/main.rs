@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
 use trove_model::{
-    Beam, ColorSpace, EnvironmentMap, Fog, Form, InstanceId, Material, Mesh, Precipitation, Puff, Scene, Shot, Texture,
+    Beam, Class, ColorSpace, EnvironmentMap, Fog, Form, InstanceId, Lens, Material, Mesh, Precipitation, Puff, Scene,
+    Shot, Texture,
 };
 use trove_render::{KernelChoice, RenderError, Renderer};
 
@@ -131,6 +132,26 @@ fn rain_in_a_white_world_is_not_seen_and_before_a_black_wall_it_is() {
     values.sort_by(f32::total_cmp);
     let [middle, bright] = [0.5, 0.99].map(|share| values[(values.len() as f64 * share) as usize]);
     assert!(middle < 0.2 && bright > middle + 0.02, "{middle} {bright}");
+}
+
+#[test]
+fn rain_splashes_on_a_road_and_not_on_leaves() {
+    let seen = |class: Class| {
+        let mut scene = empty(uniform(1.0));
+        let wide = DAffine3::from_scale(DVec3::splat(30.0)) * DAffine3::from_translation(DVec3::NEG_Z);
+        put(&mut scene, cube(), Material { ior: 1.0, ..Material::plain("black", Vec3::ZERO, 1.0) }, wide);
+        scene.instances[0].class = class;
+        scene.light.falling = Some(Precipitation { form: Form::Rain, rate_mm_h: 100.0 });
+        let shot = shot(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.0, 1.0, 0.0), 0.15);
+        let (fx_px, fy_px) = (8.0 * shot.lens.fx_px, 8.0 * shot.lens.fy_px);
+        let lens = Lens { width_px: 128, height_px: 128, fx_px, fy_px, cx_px: 64.0, cy_px: 64.0, ..shot.lens };
+        take(&renderer(KernelChoice::Obvhs, 2), &scene, &Shot { lens, spp: 4, ..shot })
+    };
+    let [road, leaves] = [Class::Road, Class::Tree].map(seen);
+    let brighter = |(a, b): (&[f32; 3], &[f32; 3])| a[1] - b[1];
+    let by_splashes: Vec<f32> = road.data.iter().zip(&leaves.data).map(brighter).collect();
+    let share = by_splashes.iter().filter(|b| **b > 1e-3).count() as f32 / by_splashes.len() as f32;
+    assert!((0.05..0.95).contains(&share), "{share}");
 }
 
 #[test]
