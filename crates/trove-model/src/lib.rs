@@ -103,7 +103,7 @@ pub use kind::Kind;
 pub use lane_map::{Lane, LaneMap, LaneMark, MarkPattern};
 pub use lens::{Distortion, Lens};
 pub use lettering::Lettering;
-pub use light::{Environment, EnvironmentMap, Fog, Light, PhysicalSky};
+pub use light::{Environment, EnvironmentMap, Fog, Light, Moon, PhysicalSky};
 pub use locale::{
     BuildingCustoms, CentreLine, Covering, CrossingStyle, Dash, DrivingSide, FacadeRule, FacadeUse, GiveWayLine,
     KerbCustoms, KerbLines, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale, MarkingCustoms, MinorRoad,

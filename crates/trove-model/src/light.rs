@@ -69,6 +69,8 @@ pub enum Environment {
 pub struct PhysicalSky {
     /// Unit vector to the sun, World; below the horizon it is night.
     pub to_sun: DVec3,
+    /// The moon, where it is night and it is up.
+    pub moon: Option<Moon>,
     /// Linke turbidity, 1.7 (crystal clear) to 10 (hazy).
     pub turbidity: f64,
     /// Mean reflectance of the ground, 0 to 1.
@@ -77,6 +79,15 @@ pub struct PhysicalSky {
     pub cloud_cover: f64,
     /// Which clouds.
     pub cloud_seed: u64,
+}
+
+/// The moon, of which its whole disk is taken to be lit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moon {
+    /// Unit vector to it, World.
+    pub to_moon: DVec3,
+    /// Its light above the air as a share of the sun's: 2.5e-6 when it is full.
+    pub share_of_sun: f64,
 }
 
 /// A latitude-longitude image of radiance, linear Rec. 709.

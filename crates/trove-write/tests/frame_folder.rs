@@ -46,7 +46,14 @@ fn scene() -> Scene {
         next: None,
         object: Some(Arc::new(object)),
     };
-    let sky = PhysicalSky { to_sun: DVec3::Z, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.0, cloud_seed: 0 };
+    let sky = PhysicalSky {
+        to_sun: DVec3::Z,
+        moon: None,
+        turbidity: 3.0,
+        ground_albedo: 0.2,
+        cloud_cover: 0.0,
+        cloud_seed: 0,
+    };
     Scene {
         meshes: vec![Arc::new(Mesh::default())],
         materials: vec![],

@@ -89,7 +89,14 @@ fn scene() -> Scene {
             DVec3::new(x, 5.0, 1.0),
         )
     };
-    let sky = PhysicalSky { to_sun: DVec3::Z, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.0, cloud_seed: 0 };
+    let sky = PhysicalSky {
+        to_sun: DVec3::Z,
+        moon: None,
+        turbidity: 3.0,
+        ground_albedo: 0.2,
+        cloud_cover: 0.0,
+        cloud_seed: 0,
+    };
     Scene {
         meshes: vec![Arc::new(square()), Arc::new(square()), Arc::new(Mesh::default())],
         materials: vec![asphalt, leaves, lamp],

@@ -201,7 +201,7 @@ mod tests {
         let sky = |z: f64| {
             let to_sun = DVec3::new(1.0, 0.0, z).normalize();
             let [turbidity, ground_albedo, cloud_cover] = [3.0, 0.2, 0.3];
-            Environment::Sky(PhysicalSky { to_sun, turbidity, ground_albedo, cloud_cover, cloud_seed: 1 })
+            Environment::Sky(PhysicalSky { to_sun, moon: None, turbidity, ground_albedo, cloud_cover, cloud_seed: 1 })
         };
         let map = |radiance: f32| {
             let rgb = vec![[radiance; 3]; 32];

@@ -1,6 +1,7 @@
 //! Sun and sky of the recording's place and time.
 
 mod lamps;
+mod lunar;
 mod solar;
 
 use std::sync::Arc;
@@ -8,6 +9,7 @@ use std::sync::Arc;
 use trove_model::{Bounds, Drive, Environment, EnvironmentMap, Light, PhysicalSky, Random, Seed};
 
 pub(crate) use lamps::switch_on;
+use lunar::moon;
 use solar::to_sun;
 
 /// How much light the ground reflects on average: asphalt and concrete with some green.
@@ -91,13 +93,15 @@ pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, snow: f
         Moment::Drawn => (random.range(2.0, hazy), [0.0, 1.0]),
     };
     let cloud_cover = random.range(fewest, most);
-    let to_sun = match choice.moment {
-        Moment::Capture => to_sun(time_ns, lat_deg, lon_deg),
-        Moment::At(time_ns) => to_sun(time_ns, lat_deg, lon_deg),
-        Moment::Drawn => daytime_sun(time_ns, lat_deg, lon_deg, &mut random),
+    let (to_sun, moon) = match choice.moment {
+        Moment::Capture => (to_sun(time_ns, lat_deg, lon_deg), moon(time_ns, lat_deg, lon_deg)),
+        Moment::At(time_ns) => (to_sun(time_ns, lat_deg, lon_deg), moon(time_ns, lat_deg, lon_deg)),
+        Moment::Drawn => (daytime_sun(time_ns, lat_deg, lon_deg, &mut random), None),
     };
     let environment = Environment::Sky(PhysicalSky {
         to_sun,
+        // By day nobody sees by it.
+        moon: moon.filter(|_| to_sun.z < 0.0),
         turbidity: choice.turbidity.unwrap_or(turbidity),
         ground_albedo: choice.ground_albedo.unwrap_or(GROUND_ALBEDO + (SNOW_ALBEDO - GROUND_ALBEDO) * snow),
         cloud_cover: choice.clouds.unwrap_or(cloud_cover),

@@ -15,9 +15,44 @@ const TT_FROM_UTC_S: f64 = 69.0;
 /// Unit vector to the sun as it is seen (with refraction), World (x east, y north, z up), from a place on earth at
 /// nanoseconds since 1970 UTC.
 pub(super) fn to_sun(time_ns: i64, lat_deg: f64, lon_deg: f64) -> DVec3 {
-    let days_utc = time_ns as f64 / 86_400e9;
-    let (right_ascension, declination) = equatorial(days_utc + TT_FROM_UTC_S / 86_400.0);
+    let seen = seen_from(equatorial(centuries(time_ns)), time_ns, lat_deg, lon_deg);
+    let height = seen.z.clamp(-1.0, 1.0).asin();
+    let lifted = height + refraction_rad(height);
+    (seen.truncate().normalize_or_zero() * lifted.cos()).extend(lifted.sin())
+}
 
+/// A place among the stars, radians.
+#[derive(Clone, Copy)]
+pub(super) struct Equatorial {
+    pub(super) right_ascension: f64,
+    pub(super) declination: f64,
+}
+
+impl Equatorial {
+    /// From ecliptic longitude and latitude, radians.
+    pub(super) fn from_ecliptic(longitude: f64, latitude: f64, obliquity: f64) -> Self {
+        let (sin, cos) = obliquity.sin_cos();
+        let right_ascension =
+            (longitude.sin() * latitude.cos() * cos - latitude.sin() * sin).atan2(longitude.cos() * latitude.cos());
+        let declination = (latitude.sin() * cos + latitude.cos() * sin * longitude.sin()).asin();
+        Self { right_ascension, declination }
+    }
+}
+
+/// Julian centuries of terrestrial time since the epoch at nanoseconds since 1970 UTC.
+pub(super) fn centuries(time_ns: i64) -> f64 {
+    let days_tt = time_ns as f64 / 86_400e9 + TT_FROM_UTC_S / 86_400.0;
+    (days_tt + JD_UNIX - JD_J2000) / 36_525.0
+}
+
+/// Unit vector to a place among the stars, World, without refraction.
+pub(super) fn seen_from(
+    Equatorial { right_ascension, declination }: Equatorial,
+    time_ns: i64,
+    lat_deg: f64,
+    lon_deg: f64,
+) -> DVec3 {
+    let days_utc = time_ns as f64 / 86_400e9;
     // Sidereal time at Greenwich (12.4) turns right ascension into the hour angle here.
     let d = days_utc + JD_UNIX - JD_J2000;
     let sidereal_deg = 280.460_618_37 + 360.985_647_366_29 * d;
@@ -27,25 +62,27 @@ pub(super) fn to_sun(time_ns: i64, lat_deg: f64, lon_deg: f64) -> DVec3 {
     let east = -declination.cos() * hour_angle.sin();
     let north = declination.sin() * lat.cos() - declination.cos() * hour_angle.cos() * lat.sin();
     let up = declination.sin() * lat.sin() + declination.cos() * hour_angle.cos() * lat.cos();
-    let height = up.clamp(-1.0, 1.0).asin();
-    let seen = height + refraction_rad(height);
-    let azimuth = east.atan2(north);
-    DVec3::new(azimuth.sin() * seen.cos(), azimuth.cos() * seen.cos(), seen.sin())
+    DVec3::new(east, north, up)
 }
 
-/// Apparent right ascension and declination, radians, at days since 1970 of terrestrial time.
-fn equatorial(days_tt: f64) -> (f64, f64) {
-    let t = (days_tt + JD_UNIX - JD_J2000) / 36_525.0;
+/// The ecliptic's slant, radians.
+pub(super) fn obliquity_rad(t: f64) -> f64 {
+    (23.439_291_1 - 0.013_004_2 * t + 0.002_56 * node_rad(t).cos()).to_radians()
+}
+
+fn node_rad(t: f64) -> f64 {
+    (125.04 - 1_934.136 * t).to_radians()
+}
+
+/// The sun's apparent place.
+fn equatorial(t: f64) -> Equatorial {
     let mean_longitude_deg = 280.466_46 + 36_000.769_83 * t + 0.000_303_2 * t * t;
     let anomaly = (357.529_11 + 35_999.050_29 * t - 0.000_153_7 * t * t).to_radians();
     let centre_deg = (1.914_602 - 0.004_817 * t) * anomaly.sin()
         + (0.019_993 - 0.000_101 * t) * (2.0 * anomaly).sin()
         + 0.000_289 * (3.0 * anomaly).sin();
-    let node = (125.04 - 1_934.136 * t).to_radians();
-    let longitude = (mean_longitude_deg + centre_deg - 0.005_69 - 0.004_78 * node.sin()).to_radians();
-    let obliquity = (23.439_291_1 - 0.013_004_2 * t + 0.002_56 * node.cos()).to_radians();
-    let right_ascension = (obliquity.cos() * longitude.sin()).atan2(longitude.cos());
-    (right_ascension, (obliquity.sin() * longitude.sin()).asin())
+    let longitude = (mean_longitude_deg + centre_deg - 0.005_69 - 0.004_78 * node_rad(t).sin()).to_radians();
+    Equatorial::from_ecliptic(longitude, 0.0, obliquity_rad(t))
 }
 
 /// By how much air lifts a body at a true height, radians; nothing below −1°.
@@ -80,7 +117,8 @@ mod tests {
     #[test]
     fn its_place_among_the_stars_is_meeus_own() {
         // Example 25.a: 1992-10-13 0h TD, apparent right ascension 198.38083°, declination −7.78507°.
-        let (ra, dec) = equatorial(8_321.0);
+        let Equatorial { right_ascension: ra, declination: dec } =
+            equatorial((8_321.0 + JD_UNIX - JD_J2000) / 36_525.0);
         assert!((ra.to_degrees().rem_euclid(360.0) - 198.380_83).abs() < 1e-3);
         assert!((dec.to_degrees() + 7.785_07).abs() < 1e-3);
     }

@@ -238,6 +238,7 @@ mod tests {
     fn scene() -> Scene {
         let sky = PhysicalSky {
             to_sun: DVec3::new(0.3, -0.4, 0.8),
+            moon: None,
             turbidity: 3.0,
             ground_albedo: 0.2,
             cloud_cover: 0.0,

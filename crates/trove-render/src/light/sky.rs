@@ -25,6 +25,9 @@ const SUN_OUTSIDE: f32 = 3.85;
 /// light, as it does on a clear day.
 const SKY_SCALE: f32 = 0.0206;
 
+/// Angle over which the moon's rim goes over into the sky: a texel.
+const RIM_RAD: f32 = std::f32::consts::TAU / WIDTH as f32;
+
 /// From the height of clouds the horizon is lower by this.
 const CLOUD_DIP_RAD: f64 = 1.2 * std::f64::consts::PI / 180.0;
 
@@ -48,15 +51,22 @@ pub struct BakedSky {
 /// Computes the picture of a sky.
 pub fn bake_sky(sky: &PhysicalSky) -> BakedSky {
     let air = Air::new(sky);
+    let moonlit =
+        sky.moon.map(|moon| (Air::new(&PhysicalSky { to_sun: moon.to_moon, ..*sky }), moon.share_of_sun as f32));
+    let without_disks = |direction: Vec3| {
+        let by_moon = moonlit.as_ref().map_or(Vec3::ZERO, |(air, share)| air.radiance(direction) * *share);
+        air.radiance(direction) + by_moon + NIGHT
+    };
     let (width, height) = (WIDTH, WIDTH / 2);
     // The clear sky, coarsely, lights the clouds and the ground below them.
-    let coarse = upper_half(COARSE_WIDTH, |direction| air.radiance(direction));
+    let coarse = upper_half(COARSE_WIDTH, without_disks);
     let from_clear_sky = irradiance_from_above(&coarse, COARSE_WIDTH);
     let clouds = Clouds::new(sky, air.sun_aloft, from_clear_sky / PI, air.ground(air.sun_irradiance, from_clear_sky));
     let sun_irradiance = air.sun_irradiance * clouds.as_ref().map_or(1.0, Clouds::sun_share);
 
     let mut rgb = upper_half(width, |direction| {
-        let clear = air.radiance(direction);
+        let moon = moonlit.as_ref().map_or(Vec3::ZERO, |(air, share)| air.disk(direction) * *share);
+        let clear = without_disks(direction) + moon;
         clouds.as_ref().map_or(clear, |clouds| clouds.before(clear, direction))
     });
     let ground = air.ground(sun_irradiance, irradiance_from_above(&rgb, width));
@@ -145,7 +155,14 @@ impl Air {
         let toward_sun = 0.5 + 0.5 * direction.dot(self.to_sun);
         let tint = ZENITH_TINT.lerp(GLOW_TINT, low * (0.25 + 0.75 * toward_sun * toward_sun));
         let tinted = day * tint * (luminance(day) / luminance(day * tint).max(f32::MIN_POSITIVE));
-        day.lerp(tinted, self.dusk) * SKY_SCALE * self.twilight + NIGHT
+        day.lerp(tinted, self.dusk) * SKY_SCALE * self.twilight
+    }
+
+    /// Radiance of a disk as large as the sun's that gives its light, without an edge that texels would miss.
+    fn disk(&self, direction: Vec3) -> Vec3 {
+        let from_middle = direction.angle_between(self.to_sun);
+        let share = ((sun::RADIUS_RAD - from_middle) / RIM_RAD + 0.5).clamp(0.0, 1.0);
+        self.sun_irradiance * share / (PI * sun::RADIUS_RAD * sun::RADIUS_RAD)
     }
 
     /// Radiance of the ground far away, from the irradiance facing the sun and that from the sky.
@@ -156,12 +173,15 @@ impl Air {
 
 #[cfg(test)]
 mod tests {
+    use trove_model::Moon;
+
     use super::*;
 
     fn clear(elevation_deg: f64) -> PhysicalSky {
         let (sin, cos) = elevation_deg.to_radians().sin_cos();
         PhysicalSky {
             to_sun: glam::DVec3::new(0.0, -cos, sin),
+            moon: None,
             turbidity: 3.0,
             ground_albedo: 0.2,
             cloud_cover: 0.0,
@@ -180,6 +200,23 @@ mod tests {
         let (sun, sky) = light(&bake_sky(&clear(60.0)));
         assert!(((sun + sky) / std::f32::consts::PI - 1.0).abs() < 0.05, "sun {sun}, sky {sky}");
         assert!((sky / (sun + sky) - 0.17).abs() < 0.02, "sun {sun}, sky {sky}");
+    }
+
+    #[test]
+    fn a_full_moon_gives_a_quarter_of_a_lux_and_hides_behind_clouds() {
+        let to_moon = glam::DVec3::new(0.4, -0.5, 0.8).normalize();
+        let night = PhysicalSky { moon: Some(Moon { to_moon, share_of_sun: 2.5e-6 }), ..clear(-30.0) };
+        let level_lx = |sky: &PhysicalSky| light(&bake_sky(sky)).1 * KLX * 1e3;
+        let moonless = level_lx(&PhysicalSky { moon: None, ..night });
+        let by_moon = level_lx(&night) - moonless;
+        // Of a full moon 52° up: 0.318 lx above the air, 0.8 of it left, a cosine, and what the sky adds.
+        assert!((0.17..0.3).contains(&by_moon), "{by_moon} lx");
+        let disk = |sky: &PhysicalSky| {
+            let map = bake_sky(sky).map;
+            map.rgb.iter().map(|rgb| luminance(Vec3::from(*rgb))).fold(0.0, f32::max)
+        };
+        let overcast = PhysicalSky { cloud_cover: 1.0, ..night };
+        assert!(disk(&night) > 0.05 && disk(&overcast) < 0.01 * disk(&night), "{} {}", disk(&night), disk(&overcast));
     }
 
     /// Kilolux in a unit of irradiance: 127.5 klx arrive above the atmosphere.

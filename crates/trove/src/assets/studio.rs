@@ -112,7 +112,7 @@ impl Studio {
 fn afternoon() -> PhysicalSky {
     let (elevation, azimuth) = (0.75f64, 1.25f64);
     let to_sun = DVec3::new(elevation.cos() * azimuth.cos(), elevation.cos() * azimuth.sin(), elevation.sin());
-    PhysicalSky { to_sun, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.25, cloud_seed: 3 }
+    PhysicalSky { to_sun, moon: None, turbidity: 3.0, ground_albedo: 0.2, cloud_cover: 0.25, cloud_seed: 3 }
 }
 
 fn instance(id: u32, class: Class, mesh: usize, materials: Vec<usize>) -> Instance {
