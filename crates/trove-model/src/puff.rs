@@ -27,12 +27,12 @@ impl Puff {
 
     /// What a metre takes at a place in World.
     pub fn extinction_at(&self, place: DVec3) -> f64 {
-        self.extinction_per_m * (1.0 - ((place - self.centre) * self.to_unit()).length_squared()).max(0.0).powi(2)
+        self.extinction_per_m * (1.0 - ((place - self.centre) * self.per_radius()).length_squared()).max(0.0).powi(2)
     }
 
     /// What it takes of light on the first `t_m` metres along a unit direction, as the exponent of the loss.
     pub fn optical_depth(&self, origin: DVec3, direction: DVec3, t_m: f64) -> f64 {
-        let (from, way) = ((origin - self.centre) * self.to_unit(), direction * self.to_unit());
+        let (from, way) = ((origin - self.centre) * self.per_radius(), direction * self.per_radius());
         let per_m = way.length();
         let nearest_m = -from.dot(way) / (per_m * per_m);
         let inside_squared = 1.0 - (from + way * nearest_m).length_squared();
@@ -47,7 +47,7 @@ impl Puff {
     }
 
     /// What makes it a ball of radius 1.
-    fn to_unit(&self) -> DVec3 {
+    fn per_radius(&self) -> DVec3 {
         let [across_m, up_m] = self.radius_m;
         DVec3::new(across_m, across_m, up_m).recip()
     }
