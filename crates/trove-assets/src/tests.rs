@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use glam::Vec2;
-use trove_model::{Asset, Class, KEYPOINTS, Kind};
+use trove_model::{Asset, Class, KEYPOINTS, Kind, Outdoors};
 
 use crate::{Ingredients, assets};
 
@@ -52,6 +52,31 @@ fn everyone_on_foot_and_on_wheels_has_points_in_their_body() {
         }
     }
     assert!(people > 20, "{people}");
+}
+
+#[test]
+fn for_every_weather_there_is_somebody_dressed_of_every_kind() {
+    let people = [
+        Kind::Adult,
+        Kind::Child,
+        Kind::ConstructionWorker,
+        Kind::PoliceOfficer,
+        Kind::PersonalMobility,
+        Kind::Stroller,
+        Kind::Wheelchair,
+        Kind::BicycleWithRider,
+        Kind::MotorcycleWithRider,
+    ];
+    for outdoors in Outdoors::ALL {
+        for kind in people {
+            let of_kind = || ASSETS.iter().filter(|a| a.kind == kind);
+            let (dressed, warm) = [outdoors, Outdoors::Warm].map(|o| of_kind().filter(|a| a.suits(o)).count()).into();
+            assert!(dressed > 0 && dressed == warm, "{kind:?}, {outdoors:?}: {dressed} of {warm}");
+        }
+    }
+    let light = |id: &str| ASSETS.iter().find(|a| a.id == id).unwrap().worn_in.clone();
+    assert_eq!(light("bicycle/racing-rider"), [Outdoors::Warm]);
+    assert_eq!(light("person/man-shorts"), [Outdoors::Warm]);
 }
 
 /// The middle of what touches the ground; a trunk leans, and touches it all around only a little higher.

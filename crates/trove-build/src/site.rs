@@ -144,9 +144,10 @@ pub fn build_at(
     let known = map.as_ref();
     let map = assumed.as_ref().or(known);
 
-    // Plants are those of the season.
+    // Plants are those of the season, and people wear what is worn in it.
     let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season());
-    let library = &library.in_season(conditions.season());
+    let outdoors = conditions.outdoors(settings.weather.falling, settings.weather.snow);
+    let library = &library.in_season(conditions.season()).dressed_for(outdoors);
 
     // What lies and stands for good.
     let Ground { heights: ground, spans, land } = ground(drive, map, relief, locale.kerb.height_m, bounds, report);
@@ -159,7 +160,7 @@ pub fn build_at(
     // The recorded objects come before all that is made up around them.
     let stand = Stand { ground: &ground, surfaces: &surfaces };
     let absent = traffic::absent(drive, settings.traffic.density, seeds.traffic.child("absent"), report);
-    let casting = Casting { drive, moments, library, stand, top_k: settings.top_k, seeds: &seeds, report };
+    let casting = Casting { drive, moments, library, outdoors, stand, top_k: settings.top_k, seeds: &seeds, report };
     let Cast { roles, fits } = casting.recorded(&absent);
 
     // What is made up keeps clear of everything recorded; poles come before plants.
@@ -455,7 +456,7 @@ pub(crate) fn track_id(track: usize) -> InstanceId {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::Seed;
+    use trove_model::{Asset, Form, Outdoors, Precipitation, Seed};
 
     use crate::testing;
     use crate::views::{PictureSize, ViewPlan, ViewSettings};
@@ -555,6 +556,40 @@ mod tests {
         assert_eq!(changed(|seeds, seed| seeds.people = seed), [3], "one person walks there");
         let lit = changed(|seeds, seed| seeds.light = seed);
         assert!(lit.is_empty(), "{lit:?}");
+    }
+
+    #[test]
+    fn people_wear_what_is_worn_in_the_weather_and_whoever_is_there_where_nothing_is() {
+        let drive = testing::drive();
+        let person = |id: &str, worn_in: &[Outdoors]| Asset {
+            worn_in: worn_in.to_vec(),
+            ..testing::asset(id, Kind::Adult, [0.5, 0.6, 1.75])
+        };
+        let (coat, tee) = (person("person/coat", &[Outdoors::Cold]), person("person/tee", &[Outdoors::Warm]));
+        let walks = |people: &[&Asset], weather: Weather| {
+            let mut library = testing::library();
+            library.assets.retain(|asset| asset.kind != Kind::Adult);
+            library.assets.extend(people.iter().copied().cloned());
+            let report = Report::default();
+            let drawn: BTreeSet<String> = (0..8)
+                .map(|seed| {
+                    let settings = BuildSettings { weather, ..settings(seed) };
+                    let scene = build(&drive, None, &library, &settings, &report).unwrap().scene(&drive, 0);
+                    scene.instances.iter().filter_map(|i| i.object.clone()).find(|o| o.kind == Kind::Adult)
+                })
+                .map(|object| object.unwrap().asset.clone().unwrap())
+                .collect();
+            let is_told = report.entries().iter().any(|e| e.what.contains("adult in clothes for other weather"));
+            (drawn.into_iter().collect::<Vec<_>>(), is_told)
+        };
+        let flakes = Precipitation { form: Form::Snow, rate_mm_h: 1.0 };
+        let snows = Weather { falling: Some(flakes), ..Weather::default() };
+        let snowed = Weather { snow: 0.5, ..Weather::default() };
+        let named = |id: &str| vec![id.to_owned()];
+        assert_eq!(walks(&[&coat, &tee], Weather::default()), (named("person/tee"), false));
+        assert_eq!(walks(&[&coat, &tee], snows), (named("person/coat"), false));
+        assert_eq!(walks(&[&coat, &tee], snowed), (named("person/coat"), false));
+        assert_eq!(walks(&[&tee], snowed), (named("person/tee"), true));
     }
 
     #[test]

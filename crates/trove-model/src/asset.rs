@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::{Class, FacadeDesign, Keypoints, Kind, Material, Mesh, Plant, SurfaceKind, Tags, Texture};
+use crate::{Class, FacadeDesign, Keypoints, Kind, Material, Mesh, Outdoors, Plant, SurfaceKind, Tags, Texture};
 
 /// A model.
 ///
@@ -34,6 +34,8 @@ pub struct Asset {
     pub coarser: Vec<Coarser>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: f32,
+    /// When what it wears is worn; empty: always, as for all that wears nothing.
+    pub worn_in: Vec<Outdoors>,
     /// Who it shows and how; `None` for all but people on foot.
     pub figure: Option<Figure>,
     /// Where the points of the person are whom it shows, in the mesh's metres; `None` for what shows nobody, and where they
@@ -60,6 +62,7 @@ impl Asset {
             extras: Vec::new(),
             coarser: Vec::new(),
             commonness: 1.0,
+            worn_in: Vec::new(),
             figure: None,
             keypoints: None,
             plant: None,

@@ -54,6 +54,7 @@ mod light;
 mod locale;
 mod material;
 mod mesh;
+mod outdoors;
 mod patches;
 mod plant;
 mod point_cloud;
@@ -112,6 +113,7 @@ pub use locale::{
 };
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
+pub use outdoors::Outdoors;
 pub use patches::{InPatches, Patches};
 pub use plant::{Climate, Foliage, LeafType, Plant, PlantForm, Season};
 pub use point_cloud::{LidarPoint, PointCloud};

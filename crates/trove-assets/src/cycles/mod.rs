@@ -53,18 +53,24 @@ pub(crate) fn assets() -> Vec<Asset> {
     for (name, plan, body, outfit, helmet, bag) in BICYCLES {
         let build = |parts: &Parts| plan.build(parts);
         let rider = Rider { body, pose: plan.pose(body.height_m), outfit, helmet, bag };
+        let ridden = |id: &str, outfit: &Outfit| {
+            cycle(id, Kind::BicycleWithRider, build, Some(Rider { outfit: *outfit, ..rider }))
+        };
         if !bag {
             all.push(cycle(&format!("bicycle/{name}"), Kind::Bicycle, build, None));
         }
-        all.push(cycle(&format!("bicycle/{name}-rider"), Kind::BicycleWithRider, build, Some(rider)));
+        all.extend(outfit.in_all_weathers(&format!("bicycle/{name}-rider"), ridden));
     }
     for (name, build, delivers, body, outfit) in MOTORCYCLES {
         let plan = Motorcycle { build, delivers };
         let shape = |parts: &Parts| plan.shape(parts);
         let helmet = if matches!(build, Build::Scooter | Build::Underbone) { Helmet::Jet } else { Helmet::Full };
         let rider = Rider { body, pose: plan.pose(body.height_m), outfit, helmet, bag: false };
+        let ridden = |id: &str, outfit: &Outfit| {
+            cycle(id, Kind::MotorcycleWithRider, shape, Some(Rider { outfit: *outfit, ..rider }))
+        };
         all.push(cycle(&format!("motorcycle/{name}"), Kind::Motorcycle, shape, None));
-        all.push(cycle(&format!("motorcycle/{name}-rider"), Kind::MotorcycleWithRider, shape, Some(rider)));
+        all.extend(outfit.in_all_weathers(&format!("motorcycle/{name}-rider"), ridden));
     }
     all
 }

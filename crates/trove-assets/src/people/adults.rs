@@ -23,7 +23,7 @@ pub(crate) fn assets() -> Vec<Asset> {
     let coat = Outfit { hair: Hair::Tail, hem: 0.1, ..jacket };
     let adult = |id, body, pose, outfit, extra| person(id, Kind::Adult, body, pose, outfit, extra);
     let young = |id, body, pose, outfit| person(id, Kind::Child, body, pose, outfit, Extra::None);
-    vec![
+    [
         adult("person/man-standing", man, Pose::standing(&man), casual, Extra::None),
         adult("person/man-walking", man, Pose::walking(&man, 0.4, true), casual, Extra::None),
         adult("person/man-walking-backpack", tall, Pose::walking(&tall, 0.36, false), jacket, Extra::Backpack),
@@ -71,6 +71,7 @@ pub(crate) fn assets() -> Vec<Asset> {
             Extra::Police,
         ),
     ]
+    .concat()
 }
 
 /// What someone has besides clothes.
@@ -87,7 +88,12 @@ enum Extra {
 
 const NAVY: Vec3 = vec3(0.012, 0.018, 0.045);
 
-fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extra: Extra) -> Asset {
+/// Someone in an outfit, and in a warmer one where it is light.
+fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extra: Extra) -> Vec<Asset> {
+    outfit.in_all_weathers(id, |id, outfit| figure(id, kind, body, pose, outfit, extra))
+}
+
+fn figure(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: &Outfit, extra: Extra) -> Asset {
     let figure = Figure::new(body, pose);
     let mut model = Model::default();
     let (tops, bottoms): (&[Vec3], &[Vec3]) = match extra {
@@ -96,7 +102,7 @@ fn person(id: &str, kind: Kind, body: Physique, pose: Pose, outfit: Outfit, extr
         _ => (&[], &[]),
     };
     let slots = Wardrobe::new(&mut model, tops, bottoms);
-    model.add_marked(figure.dressed(&outfit, &slots));
+    model.add_marked(figure.dressed(outfit, &slots));
     model.shows(figure.keypoints());
     let h = body.height_m;
     match extra {

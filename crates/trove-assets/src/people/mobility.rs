@@ -10,7 +10,11 @@ use crate::shape::{Blend, Limb, Model, Shape};
 
 /// Everyone with wheels.
 pub(crate) fn assets() -> Vec<Asset> {
-    vec![kick_scooter(), skateboard(), stroller(), wheelchair()]
+    let [scooters, boards] = [
+        Outfit::CASUAL.in_all_weathers("person/kick-scooter", kick_scooter),
+        Outfit::CASUAL.in_all_weathers("person/skateboard", skateboard),
+    ];
+    [scooters, boards, vec![stroller(), wheelchair()]].concat()
 }
 
 struct Metal {
@@ -46,7 +50,7 @@ fn roller(radius_m: f32, width_m: f32) -> Shape {
     Shape::cylinder(radius_m, width_m, 20).upright().moved(Vec3::Y * -width_m / 2.0)
 }
 
-fn kick_scooter() -> Asset {
+fn kick_scooter(id: &str, outfit: &Outfit) -> Asset {
     let body = Physique::MAN;
     let deck = 0.16;
     let h = body.height_m;
@@ -58,7 +62,7 @@ fn kick_scooter() -> Asset {
         toes_rad: [0.0; 2],
         wrists: [vec3(0.44, 0.24, 1.12), vec3(0.44, -0.24, 1.12)],
     };
-    let (mut model, metal, _) = start(body, pose, &Outfit::CASUAL);
+    let (mut model, metal, _) = start(body, pose, outfit);
     model.add(metal.black, Shape::rounded_block(vec3(0.72, 0.17, 0.06), 0.025).moved(vec3(0.05, 0.0, deck - 0.03)));
     let stem = [vec3(0.62, 0.0, 0.12), vec3(0.52, 0.0, 1.14)];
     model.add(metal.steel, Shape::tube(&stem, 0.024, 10));
@@ -70,10 +74,10 @@ fn kick_scooter() -> Asset {
     for x in [-0.42, 0.64] {
         model.add(metal.black, ring(0.11, 0.028).and(roller(0.07, 0.04)).moved(vec3(x, 0.0, 0.11)));
     }
-    model.asset("person/kick-scooter", Kind::PersonalMobility, Kind::PersonalMobility.class())
+    model.asset(id, Kind::PersonalMobility, Kind::PersonalMobility.class())
 }
 
-fn skateboard() -> Asset {
+fn skateboard(id: &str, outfit: &Outfit) -> Asset {
     let body = Physique { height_m: 1.72, ..Physique::MAN };
     let (deck, h) = (0.12, body.height_m);
     let pose = Pose {
@@ -83,8 +87,7 @@ fn skateboard() -> Asset {
         toes_rad: [0.0; 2],
         wrists: [vec3(0.3, 0.42, 1.05), vec3(-0.22, -0.44, 1.0)],
     };
-    let outfit = Outfit { hair: Hair::Short, ..Outfit::CASUAL };
-    let (mut model, metal, _) = start(body, pose, &outfit);
+    let (mut model, metal, _) = start(body, pose, outfit);
     model.add(metal.cloth, Shape::rounded_block(vec3(0.6, 0.2, 0.02), 0.009).moved(vec3(0.0, 0.0, deck - 0.01)));
     for side in [1.0, -1.0] {
         let kick = Shape::rounded_block(vec3(0.16, 0.19, 0.02), 0.009).turned(Quat::from_rotation_y(-0.4 * side));
@@ -94,7 +97,7 @@ fn skateboard() -> Asset {
             model.add(metal.black, roller(0.03, 0.035).moved(vec3(0.2 * side, y, 0.03)));
         }
     }
-    model.asset("person/skateboard", Kind::PersonalMobility, Kind::PersonalMobility.class())
+    model.asset(id, Kind::PersonalMobility, Kind::PersonalMobility.class())
 }
 
 fn stroller() -> Asset {

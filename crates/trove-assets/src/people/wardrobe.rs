@@ -1,7 +1,7 @@
 //! What people wear, and the colours that it comes in.
 
 use glam::{Vec3, vec3};
-use trove_model::Material;
+use trove_model::{Asset, Material, Outdoors};
 
 use crate::shape::Model;
 
@@ -45,6 +45,18 @@ impl Outfit {
         Self { sleeve: Sleeve::Short, leg: Leg::Trousers, hair: Hair::Short, loose_m: 0.006, hem: 0.02 };
     /// A jacket.
     pub(crate) const JACKET: Self = Self { sleeve: Sleeve::Long, loose_m: 0.016, hem: 0.04, ..Self::CASUAL };
+
+    /// Someone in these clothes, built under an id; where they leave arms or legs bare, for warm days alone, and once more in a
+    /// jacket and long trousers for all others.
+    pub(crate) fn in_all_weathers(self, id: &str, build: impl Fn(&str, &Self) -> Asset) -> Vec<Asset> {
+        if self.sleeve == Sleeve::Long && self.leg == Leg::Trousers {
+            return vec![build(id, &self)];
+        }
+        let jacket = Self { hair: self.hair, ..Self::JACKET };
+        let light = Asset { worn_in: vec![Outdoors::Warm], ..build(id, &self) };
+        let others = vec![Outdoors::Mild, Outdoors::Wet, Outdoors::Cold];
+        vec![light, Asset { worn_in: others, ..build(&format!("{id}-jacket"), &jacket) }]
+    }
 }
 
 /// The slots of a person.

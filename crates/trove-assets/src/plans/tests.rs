@@ -179,6 +179,8 @@ fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
         (format!("{BED}commonness = 0\n"), &["bed \"tulips\": commonness", "above 0"]),
         (format!("{PERSON}hat = \"cap\"\n"), &["person \"nurse\": hat", "did you mean"]),
         (format!("{PERSON}bag = \"bagpack\"\n"), &["person \"nurse\": bag", "did you mean `backpack`?"]),
+        (format!("{PERSON}worn_in = [\"frost\"]\n"), &["person \"nurse\": worn_in", "one of warm, mild, wet, cold"]),
+        (format!("{PERSON}worn_in = [\"wet\", \"wet\"]\n"), &["person \"nurse\": worn_in", "each weather once"]),
         (format!("{PERSON}acts = [\"walk\"]\n"), &["acts", "one of easy, leaning"]),
         (format!("{PERSON}acts = [\"easy\", \"easy\"]\n"), &["acts", "none of them twice"]),
         (format!("{PERSON}top = [\"te\"]\n"), &["person \"nurse\": top", "did you mean `tee`?"]),

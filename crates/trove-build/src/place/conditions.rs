@@ -1,6 +1,7 @@
-//! What a place's climate and season make of its ground: how green lawns are, how many leaves lie about.
+//! What a place's climate and season make of its ground and its people: how green lawns are, how many leaves lie about, what
+//! is worn.
 
-use trove_model::{Climate, Drive, Season};
+use trove_model::{Climate, Drive, Form, Outdoors, Precipitation, Season};
 
 /// What plants grow under.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,20 @@ impl Conditions {
     /// The season.
     pub(crate) fn season(self) -> Season {
         self.season
+    }
+
+    /// What people dress for, where something falls or a share of the ground lies under snow. In the tropics rain is warm,
+    /// and only snow, which a recipe may ask for anywhere, is not.
+    pub(crate) fn outdoors(self, falling: Option<Precipitation>, snow: f64) -> Outdoors {
+        let falls = falling.map(|f| f.form);
+        match (self.climate, self.season) {
+            _ if snow > 0.0 || falls == Some(Form::Snow) => Outdoors::Cold,
+            (Climate::Tropical, _) => Outdoors::Warm,
+            (Climate::Temperate | Climate::Cold, Season::Winter) => Outdoors::Cold,
+            _ if falls == Some(Form::Rain) => Outdoors::Wet,
+            (_, Season::Summer) => Outdoors::Warm,
+            _ => Outdoors::Mild,
+        }
     }
 
     /// How dry lawns are: 0 lush, 1 straw. Where it freezes grass pales in winter.
@@ -82,6 +97,28 @@ mod tests {
         assert!(of(Season::Autumn).litter()[0] > 3.0 * of(Season::Summer).litter()[0]);
         assert!(of(Season::Winter).dryness() > of(Season::Summer).dryness() + 0.2);
         assert_eq!(of(Season::Winter).bloom(), 0.0);
+    }
+
+    #[test]
+    fn people_dress_for_season_climate_rain_and_snow() {
+        let falls = |form: Form| Some(Precipitation { form, rate_mm_h: 1.0 });
+        let (rain, flakes) = (falls(Form::Rain), falls(Form::Snow));
+        for (climate, season, falling, snow, expected) in [
+            (Climate::Temperate, Season::Summer, None, 0.0, Outdoors::Warm),
+            (Climate::Temperate, Season::Autumn, None, 0.0, Outdoors::Mild),
+            (Climate::Temperate, Season::Summer, rain, 0.0, Outdoors::Wet),
+            (Climate::Temperate, Season::Winter, None, 0.0, Outdoors::Cold),
+            (Climate::Cold, Season::Winter, rain, 0.0, Outdoors::Cold),
+            (Climate::Mediterranean, Season::Winter, None, 0.0, Outdoors::Mild),
+            (Climate::Arid, Season::Summer, None, 0.0, Outdoors::Warm),
+            (Climate::Tropical, Season::Summer, rain, 0.0, Outdoors::Warm),
+            (Climate::Tropical, Season::Winter, None, 0.0, Outdoors::Warm),
+            (Climate::Tropical, Season::Summer, None, 0.3, Outdoors::Cold),
+            (Climate::Temperate, Season::Summer, flakes, 0.0, Outdoors::Cold),
+        ] {
+            let conditions = Conditions { climate, season };
+            assert_eq!(conditions.outdoors(falling, snow), expected, "{climate:?} {season:?} {falling:?} {snow}");
+        }
     }
 
     #[test]

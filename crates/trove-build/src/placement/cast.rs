@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use glam::{DAffine3, DVec3};
-use trove_model::{Asset, AssetLibrary, Class, Cuboid, Drive, Keyframe, Kind, Outcome, Pose, Report, Seed, Track};
+use trove_model::{
+    Asset, AssetLibrary, Class, Cuboid, Drive, Keyframe, Kind, Outcome, Outdoors, Pose, Report, Seed, Track,
+};
 
 use super::choice::{self, Candidate, ObjectFit, draw, measure, object_fit, ranked};
 use super::fit::Fit;
@@ -57,8 +59,10 @@ pub(crate) struct Casting<'a, 'b> {
     pub drive: &'b Drive,
     /// When they are seen.
     pub moments: Moments<'b>,
-    /// Who there is.
+    /// Who there is, as far as they are dressed for what it is like outdoors or nobody of their kind is.
     pub library: &'a AssetLibrary,
+    /// What it is like outdoors.
+    pub outdoors: Outdoors,
     /// The ground.
     pub stand: Stand<'b>,
     /// An asset is drawn among the best so many.
@@ -143,7 +147,7 @@ impl<'a> Casting<'a, '_> {
         size_m: DVec3,
         part: &Part,
     ) -> Option<(Role<'a>, ObjectFit)> {
-        let Self { drive, moments, library, stand, top_k, seeds, report } = *self;
+        let Self { drive, moments, library, outdoors, stand, top_k, seeds, report } = *self;
         let (first, row_size_m) = part.row;
         let seed = individual_seed(track.kind, seeds).child(&track.token);
         let row_seed = choice_seed(track.kind, seeds).child(first);
@@ -161,6 +165,10 @@ impl<'a> Casting<'a, '_> {
             );
             return None;
         };
+        if !asset.suits(outdoors) {
+            let what = format!("{} in clothes for other weather, since the library has no others", track.kind.name());
+            report.note(Outcome::Substituted, &what, &track.token);
+        }
         let fit = Fit::new(asset.size_m, size_m, track.kind);
         let stays_up = stays_up(track, boxes, &stand, report);
         let place = |(k, cuboid): &(usize, Cuboid)| {
@@ -277,7 +285,10 @@ mod tests {
     ) -> Vec<Option<Role<'a>>> {
         let seeds = seed.into();
         let moments = Moments::of_keyframes(drive);
-        Casting { drive, moments, library, stand, top_k, seeds: &seeds, report }.recorded(&BTreeSet::new()).roles
+        let outdoors = Outdoors::Cold;
+        Casting { drive, moments, library, outdoors, stand, top_k, seeds: &seeds, report }
+            .recorded(&BTreeSet::new())
+            .roles
     }
 
     fn roles<'a>(library: &'a AssetLibrary, top_k: usize, seed: Seed, report: &Report) -> Vec<Option<Role<'a>>> {

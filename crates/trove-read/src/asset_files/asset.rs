@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::guess::scale;
 use super::library_file::AssetEntry;
 use super::model::Model;
-use super::names::{class_named, kind_named, role_named};
+use super::names::{class_named, kind_named, outdoors_named, role_named};
 use super::repair::thinned;
 
 /// Turns, scales and places a model by a completed entry; `None` for one that is not to be placed.
@@ -39,6 +39,7 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     let mut asset = Asset::new(id, kind, class, mesh, slots, &licence(entry));
     asset = asset.tagged(entry.tags.iter().flatten());
     asset.commonness = entry.commonness.filter(|c| c.is_finite() && *c >= 0.0).unwrap_or(1.0);
+    asset.worn_in = entry.worn_in.iter().map(|name| outdoors_named(name, &place)).collect::<Result<_, _>>()?;
     asset.figure = posture(entry).map(|posture| Figure { person: id.into(), posture });
     asset.coarser = coarser(&asset);
     Ok(Some(asset))

@@ -79,6 +79,8 @@ pub struct AssetEntry {
     pub roles: BTreeMap<String, String>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: Option<f32>,
+    /// Names of what its clothes are worn in ([`Outdoors`](trove_model::Outdoors)); without any: always.
+    pub worn_in: Vec<String>,
     /// As the library's.
     pub licence: Option<String>,
     /// As the library's.

@@ -1,6 +1,6 @@
 //! Kinds and classes as `library.toml` writes them.
 
-use trove_model::{Class, Kind, Role, SurfaceKind};
+use trove_model::{Class, Kind, Outdoors, Role, SurfaceKind};
 
 use super::fault::Fault;
 
@@ -39,6 +39,14 @@ pub(super) fn role_named(name: &str, place: &str) -> Result<Role, Fault> {
         let known: Vec<&str> = Role::ALL.iter().map(|(_, name)| *name).collect();
         let expected = format!("roles out of {}", known.join(", "));
         Fault::new(format!("{place}: roles"), &expected, format!("{name:?}"), "correct it")
+    })
+}
+
+/// What clothes of this name are worn in.
+pub(super) fn outdoors_named(name: &str, place: &str) -> Result<Outdoors, Fault> {
+    Outdoors::from_name(name).ok_or_else(|| {
+        let expected = format!("some of {}", Outdoors::ALL.map(Outdoors::name).join(", "));
+        Fault::new(format!("{place}: worn_in"), &expected, format!("{name:?}"), "correct it")
     })
 }
 

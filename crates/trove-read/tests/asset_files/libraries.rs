@@ -1,7 +1,7 @@
 //! `library.toml` written, completed, read and checked.
 
 use serde_json::json;
-use trove_model::{Kind, Report, Role, SurfaceKind};
+use trove_model::{Kind, Outdoors, Report, Role, SurfaceKind};
 use trove_read::asset_files;
 
 use crate::files::{Folder, Glb, png};
@@ -150,4 +150,22 @@ fn materials_have_the_roles_that_the_file_gives_them() {
         let (_, report) = folder.read();
         assert!(report.contains(part), "{report}");
     }
+}
+
+#[test]
+fn clothes_are_worn_in_the_weather_that_the_file_says() {
+    let folder = Folder::new(&[("man.glb", &Glb::cuboid([0.4, 1.8, 0.4]).bytes())]);
+    folder.read();
+    let toml = folder.toml();
+    let with = |words: &str| toml.replace("file = \"man.glb\"", &format!("file = \"man.glb\"\nworn_in = {words}"));
+    let worn_in = |words: &str| {
+        folder.write("library.toml", with(words).as_bytes());
+        let (library, report) = folder.read();
+        library.expect(&report).assets[0].worn_in.clone()
+    };
+    assert_eq!(worn_in("[\"wet\", \"cold\"]"), [Outdoors::Wet, Outdoors::Cold]);
+    assert_eq!(worn_in("[]"), []);
+    folder.write("library.toml", with("[\"frost\"]").as_bytes());
+    let (_, report) = folder.read();
+    assert!(report.contains("worn_in") && report.contains("warm, mild, wet, cold"), "{report}");
 }

@@ -41,6 +41,7 @@ fn asset(a: &Asset) -> Value {
         "materials": a.slots.iter().map(|slot| &slot.material.name).collect::<Vec<_>>(),
         "extras": a.extras.iter().map(|extra| &extra.group).collect::<Vec<_>>(),
         "commonness": a.commonness,
+        "worn_in": a.worn_in.iter().map(|outdoors| outdoors.name()).collect::<Vec<_>>(),
         "licence": a.licence,
     })
 }

@@ -118,6 +118,22 @@ impl Wearer<'_> {
         self.on_head(crown.and(visor), vec3(0.058, 0.0, 0.768), 0.1, slot)
     }
 
+    /// A knitted hat over the ears' tips, with its brim turned up.
+    pub(super) fn beanie(&self, slot: u16) -> Piece {
+        let turned = [
+            vec2(0.107, -0.014),
+            vec2(0.115, -0.008),
+            vec2(0.116, 0.02),
+            vec2(0.109, 0.026),
+            vec2(0.103, 0.052),
+            vec2(0.082, 0.082),
+            vec2(0.046, 0.102),
+            vec2(0.0, 0.108),
+        ];
+        let hat = Shape::lathe(&turned, 20).scaled(vec3(1.12, 0.93, 1.0));
+        self.on_head(hat, vec3(0.056, 0.0, 0.765), -0.12, slot)
+    }
+
     pub(super) fn police_cap(&self, slot: u16, badge: u16) -> Vec<Piece> {
         let band = [
             vec2(0.104, 0.0),

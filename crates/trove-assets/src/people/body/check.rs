@@ -14,6 +14,9 @@ impl PersonPlan {
         if !(self.commonness.is_finite() && self.commonness > 0.0) {
             return wrong("commonness", "a number above 0", &self.commonness);
         }
+        if self.worn_in.iter().enumerate().any(|(i, worn_in)| self.worn_in[..i].contains(worn_in)) {
+            return wrong("worn_in", "each weather once", &self.worn_in);
+        }
         self.check_build()?;
         self.check_clothes()?;
         self.check_colors()?;
@@ -110,5 +113,43 @@ impl Layer {
             return wrong("top.wide", "a number from 0 to 1.5", &self.wide);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plan::{PersonKind, WornIn};
+    use super::super::posture::Act;
+    use super::*;
+    use crate::Plans;
+
+    fn dressed_for(worn_in: WornIn) -> impl Iterator<Item = &'static PersonPlan> {
+        let suits = move |p: &&PersonPlan| p.worn_in.is_empty() || p.worn_in.contains(&worn_in);
+        Plans::built_in().persons.iter().filter(suits)
+    }
+
+    #[test]
+    fn there_are_people_of_every_kind_for_every_weather_and_an_adult_who_sits() {
+        for worn_in in [WornIn::Warm, WornIn::Mild, WornIn::Wet, WornIn::Cold] {
+            let count = |kind: PersonKind| dressed_for(worn_in).filter(|p| p.kind == kind).count();
+            let counts =
+                [PersonKind::Adult, PersonKind::Child, PersonKind::ConstructionWorker, PersonKind::PoliceOfficer]
+                    .map(count);
+            assert!(counts.iter().zip([8, 2, 2, 2]).all(|(count, least)| *count >= least), "{worn_in:?}: {counts:?}");
+            let sits = |p: &PersonPlan| p.kind == PersonKind::Adult && p.acts.contains(&Act::Sitting);
+            assert!(dressed_for(worn_in).any(sits), "{worn_in:?}");
+        }
+    }
+
+    #[test]
+    fn nobody_has_bare_arms_or_legs_in_rain_or_frost() {
+        for person in dressed_for(WornIn::Wet).chain(dressed_for(WornIn::Cold)) {
+            assert!(person.top.last().unwrap().sleeve > 1.9, "{}", person.id);
+            let is_long = match person.bottom.cut {
+                Bottom::Trousers { to, .. } => to > 1.8,
+                Bottom::Skirt { hem_m } => hem_m < -0.6,
+            };
+            assert!(is_long, "{}", person.id);
+        }
     }
 }

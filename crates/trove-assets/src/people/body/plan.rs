@@ -1,7 +1,7 @@
 //! What stands in the plan of a person on foot: body, face, hair, clothes, and what they do.
 
 use serde::Deserialize;
-use trove_model::Kind;
+use trove_model::{Kind, Outdoors};
 
 use super::build::Build;
 use super::head::HairCut;
@@ -24,6 +24,9 @@ pub(crate) struct PersonPlan {
     /// How often they are drawn; 1 is ordinary.
     #[serde(default = "ordinary")]
     pub(super) commonness: f32,
+    /// When their clothes are worn; empty: always.
+    #[serde(default)]
+    pub(super) worn_in: Vec<WornIn>,
     pub(super) build: Build,
     pub(super) skin: Dye,
     pub(super) hair: Dye,
@@ -67,6 +70,27 @@ impl From<PersonKind> for Kind {
             PersonKind::Child => Self::Child,
             PersonKind::ConstructionWorker => Self::ConstructionWorker,
             PersonKind::PoliceOfficer => Self::PoliceOfficer,
+        }
+    }
+}
+
+/// What clothes are worn in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum WornIn {
+    Warm,
+    Mild,
+    Wet,
+    Cold,
+}
+
+impl From<WornIn> for Outdoors {
+    fn from(worn_in: WornIn) -> Self {
+        match worn_in {
+            WornIn::Warm => Self::Warm,
+            WornIn::Mild => Self::Mild,
+            WornIn::Wet => Self::Wet,
+            WornIn::Cold => Self::Cold,
         }
     }
 }
@@ -146,6 +170,7 @@ pub(super) enum Headgear {
     PoliceCap,
     Scarf,
     Hood,
+    Beanie,
 }
 
 impl Headgear {

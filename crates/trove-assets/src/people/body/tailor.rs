@@ -40,6 +40,7 @@ pub(super) fn assets(stock: &Stock<'_>, person: &PersonPlan) -> Vec<Asset> {
         let kind: Kind = person.kind.into();
         let asset = Asset {
             commonness: person.commonness,
+            worn_in: person.worn_in.iter().copied().map(Into::into).collect(),
             figure: Some(Figure { person: person.id.clone(), posture }),
             keypoints: Some(keypoints),
             ..Asset::new(&format!("{}-{}", person.id, act.name()), kind, kind.class(), mesh, slots, &licence)
@@ -164,6 +165,10 @@ impl<'a> Dressed<'a> {
                 let pattern = stock.tights.cut(body, |p| cutter.under_top(&cape, p));
                 pieces.push(wearer.cloth(&pattern, &cut, scarf));
             }
+            Headgear::Beanie => {
+                let beanie = slot(cloth(&stock.fabrics, Fabric::Knit), &BEANIES);
+                pieces.push(wearer.beanie(beanie));
+            }
             Headgear::Hood => pieces.push(wearer.headscarf(&stock.skin, 0.034, outermost)),
         }
         let bag_colours = [
@@ -263,6 +268,13 @@ fn stand(mesh: &mut Mesh, is_going: bool) -> Vec3 {
 }
 
 const NAVY: Vec3 = vec3(0.015, 0.02, 0.06);
+const BEANIES: [Vec3; 5] = [
+    vec3(0.03, 0.03, 0.034),
+    vec3(0.02, 0.035, 0.09),
+    vec3(0.3, 0.03, 0.035),
+    vec3(0.45, 0.42, 0.37),
+    vec3(0.16, 0.16, 0.165),
+];
 const SCARVES: [Vec3; 4] =
     [vec3(0.025, 0.025, 0.03), vec3(0.5, 0.42, 0.36), vec3(0.2, 0.1, 0.13), vec3(0.1, 0.17, 0.22)];
 
