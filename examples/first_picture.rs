@@ -30,6 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         keyframes_apart_s: [f64::INFINITY; 2],
         light: Light::clear(Environment::Sky(PhysicalSky {
             to_sun: DVec3::new(-0.5, -0.6, 0.6).normalize(),
+            moon: None,
             turbidity: 3.0,
             ground_albedo: 0.2,
             cloud_cover: 0.2,

@@ -142,6 +142,7 @@ pub const TARGETS: &[Target] = &[
         prepare: |_| (),
         feed: texts::feed_cached_library,
     },
+    Target { name: "ies", seeds: texts::ies_seeds, prepare: |_| (), feed: texts::feed_ies },
     Target { name: "scanner", seeds: texts::scanner_seeds, prepare: |_| (), feed: texts::feed_scanner },
     Target { name: "class_map", seeds: texts::class_map_seeds, prepare: |_| (), feed: texts::feed_class_map },
     Target { name: "frame_table", seeds: frames::table_seeds, prepare: frames::prepare, feed: frames::feed_table },

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use trove::recipe::Recipe;
 use trove_format::{Curated, FrameLine, Manifest, RunIdentity, SiteFile};
-use trove_model::Report;
+use trove_model::{Luminaire, Report};
 use trove_read::asset_files;
 use trove_read::locale::Locales;
 use trove_read::scanner::{self, ScannerChoice};
@@ -33,7 +33,8 @@ pub(crate) fn feed_library(folder: &Path, data: &[u8]) {
 
 pub(crate) fn library_seeds() -> Vec<Vec<u8>> {
     let text = "licence = \"CC0-1.0\"\nauthor = \"me\"\n[[asset]]\nfile = \"a.glb\"\nkind = \"car\"\ntags = [\"red\"]\nup = \"+y\"\n\
-        front = \"-z\"\nlength_m = 4.5\nroles = { Paint = \"paint\" }\n[[surface]]\nname = \"a\"\nkind = \"facade\"\ncolor = \"in.png\"\n\
+        front = \"-z\"\nlength_m = 4.5\nroles = { Paint = \"paint\" }\n\
+        light = { table = \"in.ies\", lumens = 5000, kelvin = 3000 }\n[[surface]]\nname = \"a\"\nkind = \"facade\"\ncolor = \"in.png\"\n\
         normal = \"in.png\"\nnormal_style = \"dx\"\nsize_m = [2.0, 3.0]\ncells = [2, 3]\nheight_m = 0.02\n\
         [[environment]]\nfile = \"in.png\"\n";
     vec![text.into()]
@@ -58,6 +59,16 @@ pub(crate) fn feed_locales(folder: &Path, data: &[u8]) {
 
 pub(crate) fn locales_seeds() -> Vec<Vec<u8>> {
     vec![include_bytes!("../../crates/trove-read/src/locale/locales.toml")[..].into()]
+}
+
+pub(crate) fn feed_ies(_: &Path, data: &[u8]) {
+    let _ = Luminaire::from_ies(&String::from_utf8_lossy(data));
+}
+
+pub(crate) fn ies_seeds() -> Vec<Vec<u8>> {
+    let tilted = "IESNA91\n[TEST] 1\nTILT=INCLUDE\n1\n2\n0 90\n1 0.9\n1 1000 1.0 3 2 1 1 0 0 0\n1.0 0.9 50\n0 45 90\n0 90\n\
+        100 200 10\n100,400,20\n";
+    vec![include_bytes!("../../crates/trove-assets/plans/luminaires/road.ies")[..].into(), tilted.into()]
 }
 
 pub(crate) fn feed_scanner(folder: &Path, data: &[u8]) {

@@ -14,7 +14,7 @@ use crate::between::Moments;
 use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::ground::{Drape, Ground, ground};
-use crate::light::{LightChoice, light, switch_on};
+use crate::light::{LightChoice, is_dark, light, switch_on};
 use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds, apart_s, moment_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
@@ -172,7 +172,9 @@ pub fn build_at(
     let mut plants = vegetation(&around, &mut clearance, seed.child("vegetation"));
 
     // Numbers: tracks from 1, the recording vehicle, then what stands still.
+    let sky = light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"));
     let mut assembly = Assembly::default();
+    assembly.stock.is_dark = is_dark(&sky.environment);
     let mut actors: Vec<Option<Actor>> =
         roles.iter().map(|role| Some(assembly.actor(role.as_ref()?, moments))).collect();
     for (track, actor) in drive.tracks.iter().zip(&actors) {
@@ -212,15 +214,9 @@ pub fn build_at(
     let fog = settings.weather.fog_over(drive);
     let Weather { falling, wind_mps, .. } = settings.weather;
     let snow = snow(settings.weather.snow, &surfaces, Drape::new(&ground).bounds());
-    let light = Light {
-        fog,
-        falling,
-        wind_mps,
-        snow,
-        ..light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"))
-    };
+    let light = Light { fog, falling, wind_mps, snow, ..sky };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
-    switch_on(&light, locale.driving_side, &mut assembly.stock, lit);
+    switch_on(locale.driving_side, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {

@@ -44,6 +44,7 @@ mod flat;
 mod frames;
 mod height_field;
 mod human_body;
+mod ies;
 mod in_season;
 mod keypoints;
 mod kind;
@@ -52,6 +53,7 @@ mod lens;
 mod lettering;
 mod light;
 mod locale;
+mod luminaire;
 mod material;
 mod mesh;
 mod outdoors;
@@ -99,6 +101,7 @@ pub use facade::{Course, FacadeDesign, Filling, Fixtures, Interior, Opening};
 pub use frames::{Body, Camera, Ego, Frame, Pose, SensorFrame, World};
 pub use height_field::HeightField;
 pub use human_body::{BodyJoint, HumanBody};
+pub use ies::IesFault;
 pub use keypoints::{KEYPOINTS, Keypoints};
 pub use kind::Kind;
 pub use lane_map::{Lane, LaneMap, LaneMark, MarkPattern};
@@ -111,6 +114,7 @@ pub use locale::{
     ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms, SignalSide, SpeedUnit,
     StreetCustoms, TrafficMix, WarrantedSign,
 };
+pub use luminaire::Luminaire;
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;
 pub use outdoors::Outdoors;

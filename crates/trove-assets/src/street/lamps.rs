@@ -1,19 +1,37 @@
 //! Street lamps and utility poles; a lamp's arm reaches along x.
 
+use std::sync::Arc;
+
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Material, Role};
+use trove_model::{Asset, Class, Kind, Luminaire, Material, Role};
 
 use super::finish::{
     bar, board, concrete, foot_plate, galvanised, glass, grey_timber, mast_of, painted, post, rubber, rust_at_foot,
 };
 use crate::shape::{Model, Shape};
 
+const LUMINAIRES: &str = include_str!("../../plans/luminaires/luminaires.tsv");
+const TABLES: [(&str, &str); 2] = [
+    ("road", include_str!("../../plans/luminaires/road.ies")),
+    ("lantern", include_str!("../../plans/luminaires/lantern.ies")),
+];
+
 pub(super) fn assets() -> Vec<Asset> {
     vec![curved(), straight(), cobra(), mast(), post_top(), historic(), wooden_pole(), concrete_pole()]
 }
 
 fn lamp(model: Model, name: &str) -> Asset {
-    model.asset(&format!("lamp/{name}"), Kind::StreetLamp, Class::TrafficSign).tagged([name])
+    let asset = model.asset(&format!("lamp/{name}"), Kind::StreetLamp, Class::TrafficSign).tagged([name]);
+    Asset { luminaire: luminaire(name).map(Arc::new), ..asset }
+}
+
+/// How a lamp of this name shines.
+fn luminaire(name: &str) -> Option<Luminaire> {
+    let mut cells = LUMINAIRES.lines().map(|line| line.split('\t')).find(|cells| cells.clone().next() == Some(name))?;
+    let table = cells.nth(1)?;
+    let (_, ies) = TABLES.into_iter().find(|(known, _)| *known == table)?;
+    let mut number = || cells.next()?.parse().ok();
+    Some(Luminaire { lumens: number()?, kelvin: number()?, ..Luminaire::from_ies(ies).ok()? })
 }
 
 fn lens() -> Material {
@@ -221,4 +239,68 @@ fn concrete_pole() -> Asset {
     model.add(steel, bar(vec3(0.24, 0.0, 2.2), vec3(0.2, 0.34, 0.5)));
     model.add(steel, Shape::tube(&[vec3(0.2, 0.0, 2.4), vec3(0.14, 0.0, 8.3)], 0.02, 6));
     pole(model, "concrete")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Into an angle from the kerb line towards the road and one from the nadir.
+    fn toward(street_deg: f32, gamma_deg: f32) -> Vec3 {
+        let (s, g) = (street_deg.to_radians(), gamma_deg.to_radians());
+        vec3(s.sin() * g.sin(), s.cos() * g.sin(), -g.cos())
+    }
+
+    /// Whatever the table, per 1000 lm, it is what its file says that it is computed by.
+    fn is_as_computed(name: &str, computed: impl Fn(f32, f32) -> f32) {
+        let Luminaire { intensity, .. } = luminaire(name).unwrap();
+        assert!((intensity.flux() / 1000.0 - 1.0).abs() < 0.01, "{name}: {} lm", intensity.flux());
+        let unit = intensity.share(Vec3::NEG_Z) / computed(0.0, 0.0);
+        for street_deg in (-90..=90).step_by(15).map(|s| s as f32) {
+            for gamma_deg in (5..180).step_by(5).map(|g| g as f32) {
+                let expected = unit * computed(street_deg, gamma_deg);
+                for side in [Vec3::ONE, vec3(1.0, -1.0, 1.0)] {
+                    let found = intensity.share(toward(street_deg, gamma_deg) * side);
+                    assert!((found - expected).abs() < 0.3, "{name}, {street_deg}°, {gamma_deg}°: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_built_in_tables_are_what_they_say() {
+        let cut = |gamma_deg: f32, from_deg: f32, to_deg: f32| {
+            let way = ((gamma_deg - from_deg) / (to_deg - from_deg)).clamp(0.0, 1.0);
+            (way * std::f32::consts::FRAC_PI_2).cos().powi(2)
+        };
+        is_as_computed("straight", |street_deg, gamma_deg| {
+            let behind = street_deg.min(0.0).to_radians().sin().powi(2);
+            let most = (1.0 - 0.7 * behind) * (1.0 + 2.5 * (-((street_deg - 15.0) / 30.0).powi(2)).exp());
+            let lobe = (-((gamma_deg - 66.0) / 22.0).powi(2)).exp();
+            (1.0 + (most - 1.0) * lobe) * cut(gamma_deg, 72.0, 88.0)
+        });
+        is_as_computed("historic", |_, gamma_deg| {
+            (0.4 + 0.6 * gamma_deg.to_radians().sin().powi(2)) * cut(gamma_deg, 80.0, 150.0)
+        });
+    }
+
+    #[test]
+    fn road_lamps_throw_their_light_along_the_road_and_none_above_the_horizon() {
+        for name in ["cobra", "curved", "straight", "mast"] {
+            let Luminaire { intensity, lumens, .. } = luminaire(name).unwrap();
+            let at = |street_deg: f32, gamma_deg: f32| intensity.share(toward(street_deg, gamma_deg));
+            let brightest = (0..90).max_by(|&a, &b| at(15.0, a as f32).total_cmp(&at(15.0, b as f32))).unwrap();
+            assert!((60..=72).contains(&brightest), "{name}: {brightest}°");
+            assert!(at(15.0, 66.0) > 2.0 * at(90.0, 66.0) && at(90.0, 66.0) > 2.0 * at(-90.0, 66.0), "{name}");
+            assert_eq!((at(15.0, 90.0), at(15.0, 120.0)), (0.0, 0.0), "{name}");
+            assert!((5000.0..20_000.0).contains(&lumens), "{name}: {lumens}");
+        }
+    }
+
+    #[test]
+    fn every_built_in_lamp_has_its_luminaire() {
+        for asset in assets() {
+            assert_eq!(asset.luminaire.is_some(), asset.kind == Kind::StreetLamp, "{}", asset.id);
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 mod feet;
 mod legs;
+mod lens;
 mod movement;
 mod pedals;
 mod pose;
@@ -26,6 +27,7 @@ use crate::placement::{Role, Shown};
 
 use feet::plant;
 use legs::{Legs, bones};
+pub(crate) use lens::UNIT_CD_M2;
 pub(crate) use movement::Movement;
 use movement::movements;
 use pedals::GEAR;

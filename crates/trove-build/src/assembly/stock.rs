@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use trove_model::{Asset, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
+use glam::Vec3;
+use trove_model::{Asset, Beam, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
 use super::legs::Legs;
+use super::lens;
 use super::pedals::Pedals;
 use super::postures::Joints;
 use super::wheels::{parts, wheels};
@@ -17,6 +19,8 @@ pub(crate) struct Stock {
     pub meshes: Vec<Arc<Mesh>>,
     /// Materials.
     pub materials: Vec<Material>,
+    /// Whether street lamps are on.
+    pub is_dark: bool,
     // Only ever looked up, so the order inside does not reach the scene.
     mesh_index: HashMap<usize, usize>,
     material_index: HashMap<MaterialKey, usize>,
@@ -25,6 +29,8 @@ pub(crate) struct Stock {
     // By the asset's mesh.
     vehicles: HashMap<usize, Joints>,
     legs: HashMap<usize, Option<Arc<Legs>>>,
+    // By the asset's mesh: emission and beam of its lenses.
+    lenses: HashMap<usize, Option<(Vec3, Arc<Beam>)>>,
 }
 
 /// Two materials with the same key are the same; images and beams are told apart by where they lie.
@@ -94,9 +100,18 @@ impl Stock {
         })
     }
 
-    /// The indices of the materials of an asset's individual.
+    /// The indices of the materials of an asset's individual; in the dark the lenses of street lamps are lit.
     pub(crate) fn painted(&mut self, asset: &Asset, seed: Seed) -> Vec<usize> {
-        asset.materials(seed).iter().map(|material| self.material(material)).collect()
+        let mut materials = asset.materials(seed);
+        let mut lenses = materials.iter_mut().filter(|material| material.role == Some(Role::StreetLamp)).peekable();
+        if self.is_dark && lenses.peek().is_some() {
+            let lit = self.lenses.entry(Arc::as_ptr(&asset.mesh).addr());
+            let lit = lit.or_insert_with(|| lens::lit(asset).map(|(emission, beam)| (emission, Arc::new(beam))));
+            if let Some((emission, beam)) = lit {
+                lenses.for_each(|lens| (lens.emission, lens.beam) = (*emission, Some(beam.clone())));
+            }
+        }
+        materials.iter().map(|material| self.material(material)).collect()
     }
 }
 

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use glam::{Vec3, vec3};
-use trove_model::{Beam, Class, DrivingSide, Environment, Light, Material, Mesh, Role};
+use trove_model::{Beam, Class, DrivingSide, Environment, Material, Mesh, Role};
 
-use crate::assembly::Actor;
-use crate::assembly::Stock;
+use crate::assembly::{Actor, Stock, UNIT_CD_M2};
 
 /// Lamps go on when the sun is this high, sine: street lamps do a quarter of an hour before sunset.
 const LAMPS_ON_BELOW: f64 = 0.04;
@@ -16,13 +15,9 @@ const DARK_IRRADIANCE: f32 = 0.5;
 const DIMMED: f32 = 0.15;
 const LOW_BEAM: &str = include_str!("low_beam.tsv");
 
-/// Luminance of radiance 1, candelas a square metre.
-const UNIT_CD_M2: f32 = 32_000.0;
-
-/// Radiance of lamps of places: a street lamp's lens of 0.1 m² that gives 10,000 lm; a lampshade of 0.7 m² that gives
-/// 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K.
-const PLACES: [(Role, Vec3); 4] = [
-    (Role::StreetLamp, vec3(1.4, 0.95, 0.5)),
+/// Radiance of lamps of houses: a lampshade of 0.7 m² that gives 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that
+/// gives 3,600 lm and looks like 4,000 K.
+const HOUSES: [(Role, Vec3); 3] = [
     (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
     (Role::RoomLamp, vec3(0.042, 0.022, 0.007)),
     (Role::LightPanel, vec3(0.122, 0.096, 0.067)),
@@ -40,21 +35,16 @@ const BRAKE_CD: f32 = 220.0;
 /// No lamp is smaller, m².
 const SMALLEST_M2: f32 = 1e-3;
 
-/// Switches street lamps and lights in rooms on, and the lamps of the vehicles that move during the recording, if it is dark;
-/// and brake lamps where vehicles brake, day and night.
-pub(crate) fn switch_on<'a>(
-    light: &Light,
-    side: DrivingSide,
-    stock: &mut Stock,
-    actors: impl Iterator<Item = &'a mut Actor>,
-) {
-    let is_dark = is_dark(&light.environment);
-    if is_dark {
-        for material in &mut stock.materials {
+/// Switches lights on walls and in rooms on where street lamps are, and the lamps of the vehicles that move during the recording; and
+/// brake lamps where vehicles brake, day and night.
+pub(crate) fn switch_on<'a>(side: DrivingSide, stock: &mut Stock, actors: impl Iterator<Item = &'a mut Actor>) {
+    if stock.is_dark {
+        // Street lamps are lit already.
+        for material in stock.materials.iter_mut().filter(|material| material.role != Some(Role::StreetLamp)) {
             material.emission = glow(material).unwrap_or(material.emission * DIMMED);
         }
     }
-    let low_beam = is_dark.then(|| low_beam(side));
+    let low_beam = stock.is_dark.then(|| low_beam(side));
     let tail = Lamp { role: Role::TailLamp, along: -1.0, candelas: TAIL_CD, color: RED, beam: None };
     for actor in actors {
         let Some(mesh) = actor.mesh().map(|mesh| stock.meshes[mesh].clone()) else { continue };
@@ -102,7 +92,7 @@ impl Lamp {
 }
 
 fn glow(material: &Material) -> Option<Vec3> {
-    PLACES.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
+    HOUSES.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
 }
 
 /// Of triangles of some slots, what faces along x, or against it where `along` is −1, as seen from there.
@@ -132,7 +122,8 @@ fn low_beam(side: DrivingSide) -> (Arc<Beam>, f32) {
     (Arc::new(Beam::new(azimuths_deg, elevations_deg, shares).expect("the built-in table is one")), most)
 }
 
-fn is_dark(environment: &Environment) -> bool {
+/// Whether lamps are on under a sky.
+pub(crate) fn is_dark(environment: &Environment) -> bool {
     match environment {
         Environment::Sky(sky) => sky.to_sun.z < LAMPS_ON_BELOW,
         Environment::Map(map) => {
@@ -160,13 +151,17 @@ mod tests {
     use crate::testing;
     use crate::{BuildSettings, LightChoice, OnDisagreement, Weather, build};
 
-    /// Emission of a street lamp and of a signal under a sky.
-    fn shining(environment: Environment) -> [Vec3; 2] {
+    /// Emission of a street lamp, of a lampshade and of a signal under a sky.
+    fn shining(environment: Environment) -> [Vec3; 3] {
         let mut stock = Stock::default();
-        stock.material(&Material { role: Some(Role::StreetLamp), ..Material::default() });
+        stock.is_dark = is_dark(&environment);
+        let mut lamp = testing::asset("lamp/a", Kind::StreetLamp, [2.0, 0.3, 8.0]);
+        lamp.slots[0].material.role = Some(Role::StreetLamp);
+        stock.painted(&lamp, Seed(1));
+        stock.material(&Material { role: Some(Role::RoomLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
-        switch_on(&Light::clear(environment), DrivingSide::Right, &mut stock, std::iter::empty());
-        [stock.materials[0].emission, stock.materials[1].emission]
+        switch_on(DrivingSide::Right, &mut stock, std::iter::empty());
+        [0, 1, 2].map(|i| stock.materials[i].emission)
     }
 
     /// Candelas of the low beam, by degrees to the right and up.
@@ -208,10 +203,12 @@ mod tests {
             Environment::Map(Arc::new(EnvironmentMap { name: String::new(), width: 8, height: 4, rgb }))
         };
         for dark in [sky(-0.2), sky(0.0), map(0.1)] {
-            assert_eq!(shining(dark), [PLACES[0].1, Vec3::X * DIMMED]);
+            let [street, room, signal] = shining(dark);
+            assert_eq!([room, signal], [HOUSES[1].1, Vec3::X * DIMMED]);
+            assert!(street.min_element() > 0.0, "{street}");
         }
         for bright in [sky(0.5), map(0.6)] {
-            assert_eq!(shining(bright), [Vec3::ZERO, Vec3::X]);
+            assert_eq!(shining(bright), [Vec3::ZERO, Vec3::ZERO, Vec3::X]);
         }
     }
 

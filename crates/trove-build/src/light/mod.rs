@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use trove_model::{Bounds, Drive, Environment, EnvironmentMap, Light, PhysicalSky, Random, Seed};
 
-pub(crate) use lamps::switch_on;
+pub(crate) use lamps::{is_dark, switch_on};
 use lunar::moon;
 use solar::to_sun;
 

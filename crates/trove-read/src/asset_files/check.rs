@@ -14,7 +14,7 @@ use super::names::kind_named;
 use super::picture::{Pictures, decode};
 use super::repair::{self, BUDGET};
 use super::subjects::{self, Expected};
-use super::{GLANCE_LIMIT, guess, tags};
+use super::{GLANCE_LIMIT, guess, lamp, tags};
 
 /// Something that is wrong, or may be.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -113,6 +113,9 @@ fn of_asset(folder: &Path, file: &LibraryFile, entry: &AssetEntry, pictures: &Pi
     } else if edges.flipped_share() > 0.05 {
         let what = format!("{:.0} % of its edges join surfaces that face opposite ways", 100.0 * edges.flipped_share());
         say(false, what, "make its normals consistent in a 3D program");
+    }
+    if let Some(Err(e)) = entry.light.as_ref().map(|light| lamp::luminaire(folder, light, pictures)) {
+        say(true, e.to_string(), "correct the table, or `light` in library.toml");
     }
     let mut entry = entry.clone();
     if let Err(e) = guess::complete(&mut entry, &model, None) {

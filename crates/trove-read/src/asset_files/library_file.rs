@@ -1,6 +1,7 @@
 //! `library.toml`: what a folder of models, textures and skies holds, and how to take it.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use glam::DVec3;
@@ -77,6 +78,8 @@ pub struct AssetEntry {
     pub posture: Option<String>,
     /// What its materials do in a scene: names of [`Role`](trove_model::Role)s by the materials' names.
     pub roles: BTreeMap<String, String>,
+    /// How its `street_lamp`s shine.
+    pub light: Option<LightEntry>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: Option<f32>,
     /// Names of what its clothes are worn in ([`Outdoors`](trove_model::Outdoors)); without any: always.
@@ -93,6 +96,18 @@ pub struct AssetEntry {
     /// Length, width and height that it has by the above, metres; `None` until [`super::import`] has measured it.
     #[serde(skip)]
     pub size_m: Option<DVec3>,
+}
+
+/// How a street lamp shines.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightEntry {
+    /// Path of an IES file from the library's folder; without, it is matt and shines down.
+    pub table: Option<String>,
+    /// All that it gives; those of its table without.
+    pub lumens: Option<f32>,
+    /// Colour temperature.
+    pub kelvin: Option<f32>,
 }
 
 /// A texture set.
@@ -190,6 +205,10 @@ impl LibraryFile {
             kind_named(entry.kind.as_deref(), &place)?;
             class_named(entry.class.as_deref(), &place)?;
             entry.roles.values().try_for_each(|role| role_named(role, &place).map(drop))?;
+            if let Some(LightEntry { lumens, kelvin, .. }) = &entry.light {
+                in_range(&place, "light.lumens", lumens.as_slice(), 1.0..=1e6)?;
+                in_range(&place, "light.kelvin", kelvin.as_slice(), 1667.0..=25_000.0)?;
+            }
             let sizes = [entry.unit_m, entry.height_m, entry.length_m];
             if sizes.iter().flatten().count() > 1 {
                 let expected = "one of unit_m, height_m and length_m";
@@ -216,14 +235,15 @@ impl LibraryFile {
 }
 
 fn numbers_make_sense(entry: &SurfaceEntry, place: &str) -> Result<(), Fault> {
-    let check = |key: &str, numbers: &[f32], range: std::ops::RangeInclusive<f32>| {
-        let Some(wrong) = numbers.iter().find(|number| !range.contains(number)) else { return Ok(()) };
-        let expected = format!("{} to {}", range.start(), range.end());
-        Err(Fault::new(format!("{place}: {key}"), expected, wrong.to_string(), "correct it"))
-    };
-    check("size_m", entry.size_m.as_ref().map_or(&[], |size| size), 0.001..=1000.0)?;
-    check("height_m", entry.height_m.as_slice(), 0.0..=10.0)?;
-    check("cells", &entry.cells.unwrap_or([1; 2]).map(|n| n as f32), 1.0..=1000.0)
+    in_range(place, "size_m", entry.size_m.as_ref().map_or(&[], |size| size), 0.001..=1000.0)?;
+    in_range(place, "height_m", entry.height_m.as_slice(), 0.0..=10.0)?;
+    in_range(place, "cells", &entry.cells.unwrap_or([1; 2]).map(|n| n as f32), 1.0..=1000.0)
+}
+
+fn in_range(place: &str, key: &str, numbers: &[f32], range: RangeInclusive<f32>) -> Result<(), Fault> {
+    let Some(wrong) = numbers.iter().find(|number| !range.contains(number)) else { return Ok(()) };
+    let expected = format!("{} to {}", range.start(), range.end());
+    Err(Fault::new(format!("{place}: {key}"), expected, wrong.to_string(), "correct it"))
 }
 
 /// A tag with a space or a capital in it would never be found.

@@ -15,6 +15,7 @@ mod fbx;
 mod front;
 mod gltf;
 mod guess;
+mod lamp;
 mod library_file;
 mod library_text;
 mod licence;
@@ -38,6 +39,7 @@ mod words;
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use trove_files::{Folder, LARGEST_TEXT, read_text};
@@ -46,7 +48,7 @@ use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 pub use self::axes::Axis;
 pub use self::check::{Finding, check};
 pub use self::gltf::{FileCamera, FileNode, FileScene, read_scene};
-pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, SurfaceEntry};
+pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, LightEntry, SurfaceEntry};
 
 use self::load::{guarded, load};
 use self::picture::Pictures;
@@ -182,7 +184,9 @@ fn read_asset(
             format!("{id}: {} = {}", guess.key, guess.value),
         );
     }
-    asset::asset(id, &entry, model).map_err(at)
+    let light = entry.light.as_ref().map(|light| lamp::luminaire(folder, light, pictures)).transpose()?;
+    let asset = asset::asset(id, &entry, model).map_err(at)?;
+    Ok(asset.map(|asset| Asset { luminaire: light.map(Arc::new), ..asset }))
 }
 
 /// The name of a folder's library, which its ids begin with: the last one of its path.

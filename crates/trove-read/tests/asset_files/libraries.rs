@@ -169,3 +169,35 @@ fn clothes_are_worn_in_the_weather_that_the_file_says() {
     let (_, report) = folder.read();
     assert!(report.contains("worn_in") && report.contains("warm, mild, wet, cold"), "{report}");
 }
+
+#[test]
+fn lamps_shine_by_the_table_lumens_and_colour_that_the_file_gives_them() {
+    // 100 candelas into all directions below.
+    let table = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 50\n0 90\n0\n100 100\n";
+    let damaged = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 2 2 0 0 0\n1 1 50\n0 90\n0\n100 100\n";
+    let lamp = Glb::cuboid([0.4, 4.0, 0.4]).bytes();
+    let folder = Folder::new(&[("lantern.glb", &lamp), ("mine.ies", table), ("damaged.ies", damaged)]);
+    folder.read();
+    let toml = folder.toml();
+    let shining = |light: &str| {
+        let with = format!("file = \"lantern.glb\"\nlight = {light}");
+        folder.write("library.toml", toml.replace("file = \"lantern.glb\"", &with).as_bytes());
+        let (library, report) = folder.read();
+        library.map(|library| library.assets[0].luminaire.clone().unwrap()).ok_or(report)
+    };
+    let by_table = shining("{ table = \"mine.ies\" }").unwrap();
+    assert!((by_table.lumens / (200.0 * std::f32::consts::PI) - 1.0).abs() < 0.01, "{}", by_table.lumens);
+    assert_eq!(by_table.intensity.share(glam::Vec3::new(0.6, 0.0, -0.8)), 100.0);
+    let given = shining("{ table = \"mine.ies\", lumens = 4000, kelvin = 2200 }").unwrap();
+    assert_eq!((given.lumens, given.kelvin), (4000.0, 2200.0));
+    assert_eq!(shining("{ kelvin = 4000 }").unwrap().intensity, trove_model::Luminaire::default().intensity);
+    for (light, parts) in [
+        ("{ table = \"damaged.ies\" }", ["damaged.ies", "photometric type C"]),
+        ("{ table = \"none.ies\" }", ["none.ies", "read"]),
+        ("{ kelvin = 200 }", ["light.kelvin", "1667"]),
+        ("{ lumen = 200 }", ["library.toml", "lumens"]),
+    ] {
+        let error = shining(light).expect_err(light);
+        assert!(parts.iter().all(|part| error.contains(part)), "{light}: {error}");
+    }
+}

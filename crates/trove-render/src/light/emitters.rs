@@ -101,7 +101,7 @@ impl Emitters {
         let flux: f32 = self
             .triangles
             .iter()
-            .map(|e| PI * e.brightness() * e.aim.map_or(1.0, |aim| self.tree.aim(aim).beam.flux_share()))
+            .map(|e| PI * e.brightness() * e.aim.map_or(1.0, |aim| self.tree.aim(aim).flux_share(e.cross)))
             .sum();
         let corners = || self.triangles.iter().map(|e| e.corner.truncate());
         let (low, high) = (corners().fold(Vec2::INFINITY, Vec2::min), corners().fold(-Vec2::INFINITY, Vec2::max));
@@ -271,6 +271,25 @@ mod tests {
         emitters(lamps.chain(beams).collect(), aims.collect())
     }
 
+    /// As many lamps as along a street, each with its own aim, whose beams look down and along the road.
+    fn street_with_tables() -> Emitters {
+        let steps = |count: i32, least: f32| -> Vec<f32> { (0..=count).map(|i| least + 5.0 * i as f32).collect() };
+        let beam = Beam::of(&steps(72, -180.0), &steps(36, -90.0), |toward| {
+            let gamma_deg = (-toward.z).acos().to_degrees();
+            let lobe = (-((gamma_deg - 66.0) / 22.0).powi(2)).exp();
+            if gamma_deg > 88.0 { 0.0 } else { 0.2 + 0.8 * lobe * toward.y.powi(2) }
+        });
+        let beam = Arc::new(beam.unwrap());
+        let turns = [PI / 2.0, -PI / 2.0];
+        let aims = (0..200)
+            .map(|i| Aim { beam: beam.clone(), mesh_from_world: Mat3::from_rotation_z(-turns[i as usize % 2]) });
+        let lamps = (0..200).flat_map(|i| {
+            let at = Vec3::new((i / 2) as f32 * 30.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 8.0);
+            lamp(i, at, 20.0, Some(i))
+        });
+        emitters(lamps.collect(), aims.collect())
+    }
+
     /// Places on the road and on a wall beside it.
     fn places() -> Vec<(Vec3, Vec3)> {
         let x = |i: usize| 3.0 + 90.0 * i as f32;
@@ -329,11 +348,42 @@ mod tests {
 
     #[test]
     fn many_lamps_are_sampled_with_far_less_noise_than_by_power_and_without_bias() {
-        for street in [street(), street_with_cars()] {
+        for street in [street(), street_with_cars(), street_with_tables()] {
             let noise = noise(&street);
             let by_power = noise.iter().map(|[_, by_power]| by_power).sum::<f64>() / noise.len() as f64;
             let worst = noise.iter().map(|[ours, _]| *ours).fold(0.0, f64::max);
             assert!(worst < 1.0 && by_power > 100.0, "{noise:?}");
+        }
+    }
+
+    #[test]
+    fn below_a_lamp_with_a_table_the_road_is_as_bright_as_its_candelas_say() {
+        // A lens of 0.04 m² at 8 m that looks down, with 5 cd at its nadir and most at 60° along the road.
+        let candelas = |toward: Vec3| {
+            let gamma = (-toward.z).clamp(0.0, 1.0).acos();
+            5.0 + 20.0 * (gamma.sin() / 60.0f32.to_radians().sin()).powi(4) * toward.x.powi(2)
+        };
+        let steps = |count: i32, least: f32| -> Vec<f32> { (0..=count).map(|i| least + 2.0 * i as f32).collect() };
+        let beam = Beam::of(&steps(180, -180.0), &steps(42, -90.0), |toward| candelas(toward) / (0.04 * -toward.z));
+        let aim = Aim { beam: Arc::new(beam.unwrap()), mesh_from_world: Mat3::IDENTITY };
+        let at = Vec3::new(0.0, 0.0, 8.0);
+        let half = |number: u32, sign: f32| {
+            let edges = [Vec3::Y * 0.2 * sign, Vec3::X * 0.2 * sign];
+            let corner = at - (Vec3::X + Vec3::Y) * 0.1 * sign;
+            let cross = edges[0].cross(edges[1]);
+            Emitter { key: (0, number), corner, edges, cross, radiance: Vec3::ONE, away: 1.0, aim: Some(0) }
+        };
+        let lamp = emitters(vec![half(0, 1.0), half(1, -1.0)], vec![aim]);
+        let mut random = Seed(8).random();
+        for gamma_deg in [0.0f32, 30.0, 50.0, 60.0, 70.0] {
+            let place = (Vec3::new(8.0 * gamma_deg.to_radians().tan(), 0.0, 0.0), Vec3::Z);
+            let near = lamp.near(place.0, place.1);
+            let draws = 2000;
+            let mut unit = || random.unit() as f32;
+            let sum: f64 = (0..draws).map(|_| brought(&near.draw([unit(), unit(), unit()]).unwrap(), place)).sum();
+            let (found, cos) = (sum / f64::from(draws), f64::from(gamma_deg).to_radians().cos());
+            let expected = f64::from(candelas((place.0 - at).normalize())) * cos.powi(3) / 64.0;
+            assert!((found / expected - 1.0).abs() < 0.01, "{gamma_deg}°: {found} instead of {expected}");
         }
     }
 
@@ -358,6 +408,7 @@ mod tests {
     fn triangles_are_drawn_with_the_probability_that_is_claimed() {
         claimed_probabilities_hold(&street());
         claimed_probabilities_hold(&street_with_cars());
+        claimed_probabilities_hold(&street_with_tables());
     }
 
     fn claimed_probabilities_hold(street: &Emitters) {

@@ -49,6 +49,11 @@ impl Aim {
     pub(super) fn share(&self, direction: Vec3) -> f32 {
         self.beam.share(self.mesh_from_world * direction)
     }
+
+    /// What it leaves of the flux of a matt surface with a normal, World, of any length but 0.
+    pub(super) fn flux_share(&self, normal: Vec3) -> f32 {
+        self.beam.flux_share((self.mesh_from_world * normal).normalize_or_zero())
+    }
 }
 
 /// Lights sorted into nested groups, each with its power, its place and the directions into which it shines.

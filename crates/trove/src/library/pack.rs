@@ -11,7 +11,7 @@ use trove_model::{AssetLibrary, ColorSpace, Mesh, Texture};
 /// Noise, of which textures are full, gains little by a higher one.
 const LEVEL: i32 = 1;
 /// Changes with the layout of the file.
-const MAGIC: &[u8; 8] = b"TROVELB5";
+const MAGIC: &[u8; 8] = b"TROVELB6";
 
 /// What stands before the blocks.
 #[derive(Serialize, Deserialize)]
