@@ -95,7 +95,7 @@ class MaskTable(TypedDict):
 
 
 class FrameTable(TypedDict):
-    """`frame.json`."""
+    """`frame.json`; `drops` is present only if there are drops on the glass before the lens."""
 
     scene: str
     dataset: str

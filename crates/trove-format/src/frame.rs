@@ -65,6 +65,9 @@ pub struct FrameTable {
     /// Time from the exposure of the first row to that of the last, seconds; 0 is a global shutter.
     #[serde(default)]
     pub readout_s: f64,
+    /// Share of the glass before the lens that drops cover; left out where it is dry.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub drops: f64,
     /// From Camera to World, at the middle of the exposure, to which all labels belong.
     pub world_from_camera: Matrix4,
     /// The rotation of `world_from_camera` as a unit quaternion, w first.
@@ -97,6 +100,10 @@ pub struct FrameTable {
     pub seed: u64,
     /// Every object that would cover a pixel if nothing else were there, ordered by id.
     pub objects: Vec<ObjectRow>,
+}
+
+fn is_zero(n: &f64) -> bool {
+    *n == 0.0
 }
 
 /// What labels tell of panes of glass.

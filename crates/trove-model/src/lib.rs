@@ -135,7 +135,7 @@ pub use scanner::{LidarShot, RigLidar, Scanner, SweepPhase, ToldReturns};
 pub use scene::{Instance, InstanceId, Origin, Placement, Provenance, Scene, SceneObject};
 pub use seed::{Random, Seed, weighted_at};
 pub use sensor::{Points, Return, Scan, Sensor, SensorRay};
-pub use shot::{CameraBeside, ExposureRule, Film, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
+pub use shot::{CameraBeside, ExposureRule, Film, LensDrops, SensorModel, Shot, Shutter, Viewpoint, WhiteBalance};
 pub use snow::{Snow, SnowLeft};
 pub use state::State;
 pub use street_map::{

@@ -79,6 +79,20 @@ impl SensorModel {
     };
 }
 
+/// Drops of water on the glass before a lens; labels know nothing of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensDrops {
+    /// Share of the glass that they cover, more than 0 and at most [`LensDrops::MOST`].
+    pub share: f64,
+    /// Where they are: pictures with the same seed see the same ones.
+    pub seed: Seed,
+}
+
+impl LensDrops {
+    /// More do not find room beside each other.
+    pub const MOST: f64 = 0.5;
+}
+
 /// When the sensor's rows see light. Of exposure and readout together things move for the middle 0.1 s and stand before
 /// and after it; the camera moves all the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,6 +175,8 @@ pub struct Shot {
     /// Mean error, as a share of brightness, at which a few neighbouring pixels have had enough samples; 0: all get
     /// `spp`.
     pub noise: f32,
+    /// Drops on the glass before the lens; `None` where it is dry.
+    pub drops: Option<LensDrops>,
     /// From light to picture.
     pub film: Film,
     /// Source of all randomness in the picture.
@@ -188,6 +204,7 @@ impl Shot {
             shutter: Shutter::INSTANT,
             spp: 1,
             noise: 0.0,
+            drops: None,
             film: Film::default(),
             seed: Seed(0),
             carrier: None,

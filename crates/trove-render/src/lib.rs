@@ -72,6 +72,7 @@ mod accel;
 mod cache;
 mod card;
 mod denoise;
+mod drops;
 mod error;
 mod film;
 mod fog;

@@ -13,7 +13,7 @@ use crate::card::{self, Card, CardRate};
 use crate::denoise::{Denoiser, Denoising};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
-use crate::{PreparedScene, RayTimes, RenderError, film, labels, lidar, path, radar, scan, voxels};
+use crate::{PreparedScene, RayTimes, RenderError, drops, film, labels, lidar, path, radar, scan, voxels};
 
 /// How to set a renderer up.
 #[derive(Clone, Debug, Default)]
@@ -165,17 +165,16 @@ impl Renderer {
             let labels = labels::render(scene, shot, &|| stop(0.0))?;
             let mut stats = CaptureStats::default();
             let color = if light {
-                let buffers = path::trace(scene, shot, &stop)?;
-                stats.rays = buffers.rays;
-                stats.spp = buffers.spp;
-                let clean = match &self.denoiser {
-                    Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal, buffers.spp),
-                    Err(_) => None,
-                };
-                stats.denoised = clean.is_some();
-                let mut radiance = clean.unwrap_or(buffers.radiance);
+                let mut radiance = self.radiance(scene, shot, &mut stats, &stop)?;
                 if let Some(falling) = scene.falling {
                     path::falling::draw(scene, shot, falling, &labels.depth_m, &mut radiance);
+                }
+                if let Some(drops) = shot.drops {
+                    let mut wide = CaptureStats::default();
+                    // Its share of the work is not told: the picture's has been.
+                    let around = self.radiance(scene, &drops::wide(shot), &mut wide, &|_| stop(1.0))?;
+                    stats.rays += wide.rays;
+                    drops::draw(shot, drops, &around, &mut radiance);
                 }
                 let (srgb, exposure_ev) = film::develop(&radiance, shot);
                 Some(Color { radiance, srgb, exposure_ev })
@@ -184,6 +183,25 @@ impl Renderer {
             };
             Some(Capture { color, labels, change: None, stats })
         })
+    }
+
+    /// What comes to a shot's lens, denoised where there is a denoiser.
+    fn radiance(
+        &self,
+        scene: &PreparedScene,
+        shot: &Shot,
+        stats: &mut CaptureStats,
+        stop: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Option<Raster<[f32; 3]>> {
+        let buffers = path::trace(scene, shot, stop)?;
+        stats.rays = buffers.rays;
+        stats.spp = buffers.spp;
+        let clean = match &self.denoiser {
+            Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal, buffers.spp),
+            Err(_) => None,
+        };
+        stats.denoised = clean.is_some();
+        Some(clean.unwrap_or(buffers.radiance))
     }
 }
 

@@ -69,6 +69,7 @@ pub(crate) fn frame_table(
         distortion: lens.distortion.coefficients(),
         exposure_s: shot.shutter.exposure_s,
         readout_s: shot.shutter.readout_s,
+        drops: shot.drops.map_or(0.0, |drops| drops.share),
         world_from_camera: matrix(pose.affine()),
         world_from_camera_rotation_wxyz: [pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z],
         world_from_camera_translation_m: pose.translation.to_array(),

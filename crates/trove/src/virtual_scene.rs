@@ -126,6 +126,7 @@ fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         lenses: recipe.camera.lenses()?,
         exposure_s: recipe.camera.exposure_s,
         readout_s: recipe.camera.readout_s,
+        drops: recipe.camera.drops,
         film: recipe.camera.film(),
         labels: recipe.label_settings(),
     })

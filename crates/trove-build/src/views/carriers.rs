@@ -188,6 +188,7 @@ impl Stay {
                     shutter: views.shutter(),
                     spp: views.spp,
                     noise: views.noise,
+                    drops: views.drops(seeds, &view),
                     film: views.film,
                     labels: views.labels.clone(),
                     seed: shot_seed(seeds, keyframe, &view),

@@ -81,6 +81,7 @@ fn recorded(
             shutter: views.shutter(),
             spp: views.spp,
             noise: views.noise,
+            drops: views.drops(seeds, &view),
             film: views.film,
             labels: views.labels.clone(),
             seed: shot_seed(seeds, keyframe, &view),
@@ -95,12 +96,12 @@ fn recorded(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
+    use std::collections::{BTreeMap, BTreeSet};
 
     use crate::testing;
     use crate::{BuildSettings, LightChoice, OnDisagreement, build};
     use glam::DVec3;
-    use trove_model::{Pose, Seed, Trajectory};
+    use trove_model::{LensDrops, Pose, Seed, Trajectory};
 
     fn site() -> Site {
         build_site(&testing::drive())
@@ -138,6 +139,24 @@ mod tests {
         assert_eq!(front.world_from_camera_next, Some(drive.keyframes[1].exposures[1].world_from_camera()));
         assert_eq!((front.lens.width_px, front.lens.fx_px), (80, 63.0));
         assert_eq!(front.carrier, Some(trove_model::InstanceId(5)));
+    }
+
+    #[test]
+    fn drops_stay_on_a_camera_s_glass_and_every_camera_has_its_own() {
+        let (drive, site, report) = (testing::drive(), site(), Report::default());
+        let drops = |share: f64, keyframe: usize, seed: u64| -> BTreeMap<String, Option<LensDrops>> {
+            let views = ViewSettings { drops: share, spp: 1, ..ViewSettings::default() };
+            let shots = ViewPlan::new(&drive, &site, views, Seed(seed).into(), &report);
+            shots.shots(&drive, &site, keyframe, &report).into_iter().map(|s| (s.view, s.drops)).collect()
+        };
+        let first = drops(0.2, 0, 1);
+        let seeds: BTreeSet<u64> = first.values().map(|drops| drops.unwrap().seed.0).collect();
+        assert!(first.len() > 1 && seeds.len() == first.len(), "{first:?}");
+        for (view, drops) in drops(0.2, 1, 1) {
+            assert!(first.get(&view).is_none_or(|before| *before == drops), "{view}");
+        }
+        assert_ne!(first, drops(0.2, 0, 2));
+        assert!(drops(0.0, 0, 1).values().all(Option::is_none));
     }
 
     #[test]

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
-use trove_model::{Camera, Distortion, Ego, Exposure, Film, LabelSettings, Lens, Pose, Seed, Shutter, World};
+use trove_model::{
+    Camera, Distortion, Ego, Exposure, Film, LabelSettings, Lens, LensDrops, Pose, Seed, Shutter, World,
+};
 
 use crate::place::Seeds;
 
@@ -30,6 +32,8 @@ pub struct ViewSettings {
     pub exposure_s: f64,
     /// From the first row's exposure to the last one's, seconds.
     pub readout_s: f64,
+    /// Share of the glass before every lens that drops cover; 0 is dry.
+    pub drops: f64,
     /// From light to picture.
     pub film: Film,
     /// Which labels pictures get.
@@ -94,6 +98,12 @@ impl ViewSettings {
 
     pub(super) fn shutter(&self) -> Shutter {
         Shutter { exposure_s: self.exposure_s, readout_s: self.readout_s }
+    }
+
+    /// A view's drops stay where they are from keyframe to keyframe.
+    pub(super) fn drops(&self, seeds: &Seeds, view: &str) -> Option<LensDrops> {
+        let seed = seeds.noise.child("views").child("drops").child(view);
+        (self.drops > 0.0).then_some(LensDrops { share: self.drops, seed })
     }
 }
 

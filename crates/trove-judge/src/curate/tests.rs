@@ -56,6 +56,7 @@ fn frame(i: u32) -> FrameTable {
         distortion: vec![],
         exposure_s: 0.0,
         readout_s: 0.0,
+        drops: 0.0,
         world_from_camera: [[0.0; 4]; 4],
         world_from_camera_rotation_wxyz: [1.0, 0.0, 0.0, 0.0],
         world_from_camera_translation_m: [60.0 * f64::from(i), 0.0, 1.5],

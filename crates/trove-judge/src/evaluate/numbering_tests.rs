@@ -81,6 +81,7 @@ fn frame(folder: &Path, ids: &[u8], instances: &[u16], kinds: &[Kind]) {
         distortion: Vec::new(),
         exposure_s: 0.0,
         readout_s: 0.0,
+        drops: 0.0,
         world_from_camera: [[0.0; 4]; 4],
         world_from_camera_rotation_wxyz: [1.0, 0.0, 0.0, 0.0],
         world_from_camera_translation_m: [0.0; 3],

@@ -28,7 +28,7 @@ const PATHS: u32 = 64;
 /// Distance at which it is.
 const TYPICAL_M: f32 = 3.0;
 /// Refractive index of water.
-const WATER: f32 = 1.333;
+pub(crate) const WATER: f32 = 1.333;
 
 /// Draws what falls before a shot's camera into its picture.
 pub(crate) fn draw(
@@ -118,7 +118,7 @@ fn may_be_seen(shot: &Shot, field_rad: f64, middle: DVec3) -> bool {
 }
 
 /// The widest angle to its axis at which a camera sees, by its picture's corners and the middles of its sides.
-fn field_rad(shot: &Shot) -> f64 {
+pub(crate) fn field_rad(shot: &Shot) -> f64 {
     let (width, height) = (f64::from(shot.lens.width_px), f64::from(shot.lens.height_px));
     let rim = (0..9).map(|i| DVec2::new(width * f64::from(i % 3) / 2.0, height * f64::from(i / 3) / 2.0));
     let angle = |pixel| {
@@ -160,17 +160,24 @@ fn through_drop(direction: Vec3, u: [f32; 2], which: f32) -> Vec3 {
     let [x, y] = disk(u);
     let sin = (x * x + y * y).sqrt().min(0.9999);
     let (into, inside) = (sin.asin(), (sin / WATER).asin());
-    let (s, p) = (into - inside, into + inside);
-    let reflected = if sin < 1e-3 {
-        ((WATER - 1.0) / (WATER + 1.0)).powi(2)
-    } else {
-        0.5 * ((s.sin() / p.sin()).powi(2) + (s.tan() / p.tan()).powi(2))
-    };
+    let reflected = reflectance(sin);
     let turned = if which < reflected { std::f32::consts::PI - 2.0 * into } else { 2.0 * (into - inside) };
     // Reflected away from the drop's middle, refracted towards it.
     let outwards = Basis::about(direction).to_world(Vec3::new(x, y, 0.0) / sin.max(1e-6));
     let side = if which < reflected { outwards } else { -outwards };
     (direction * turned.cos() + side * turned.sin()).normalize()
+}
+
+/// What the surface between air and water reflects of light whose way makes an angle with its normal in air, given the sine
+/// (Fresnel, unpolarised).
+pub(crate) fn reflectance(sin: f32) -> f32 {
+    let (into, inside) = (sin.asin(), (sin / WATER).asin());
+    let (s, p) = (into - inside, into + inside);
+    if sin < 1e-3 {
+        ((WATER - 1.0) / (WATER + 1.0)).powi(2)
+    } else {
+        0.5 * ((s.sin() / p.sin()).powi(2) + (s.tan() / p.tan()).powi(2))
+    }
 }
 
 /// Where a ray comes from that a flake scatters: from all sides alike.

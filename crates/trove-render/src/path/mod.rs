@@ -5,7 +5,7 @@ pub(crate) mod falling;
 mod integrate;
 mod rates;
 mod splash;
-mod streak;
+pub(crate) mod streak;
 mod tile;
 mod wave;
 

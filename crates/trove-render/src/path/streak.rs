@@ -8,7 +8,7 @@ pub(super) const REACH_M: [f64; 2] = [0.3, 15.0];
 /// Streaks that cover less of their pixels are not seen.
 const LEAST_COVER: f64 = 0.002;
 /// Opening of a car's camera, whose focus is far away.
-const APERTURE_M: f64 = 3e-3;
+pub(crate) const APERTURE_M: f64 = 3e-3;
 /// What a picture that is taken in an instant takes it for.
 const EXPOSURE_S: f64 = 1.0 / 250.0;
 

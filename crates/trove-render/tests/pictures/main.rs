@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)] // its functions are tests too
 
 mod converged;
+mod drops;
 mod plain;
 mod sets;
 mod snow;

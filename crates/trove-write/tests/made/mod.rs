@@ -118,6 +118,7 @@ fn table(made: &Made, bounds: [u32; 4]) -> FrameTable {
         distortion: vec![],
         exposure_s: 0.0,
         readout_s: 0.0,
+        drops: 0.0,
         world_from_camera: world_from_camera(),
         world_from_camera_rotation_wxyz: [0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0, 0.0],
         world_from_camera_translation_m: [0.0, 0.0, EYE_M],

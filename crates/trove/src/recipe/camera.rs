@@ -6,9 +6,9 @@ use anyhow::{Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use trove_build::LensChange;
 use trove_format::LensModel;
-use trove_model::{ExposureRule, Film, SensorModel, WhiteBalance};
+use trove_model::{ExposureRule, Film, LensDrops, SensorModel, WhiteBalance};
 
-use super::check::check;
+use super::check::{check, is_zero};
 
 /// `[camera]`
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -24,6 +24,9 @@ pub struct CameraSection {
     pub exposure_s: f64,
     /// From the first row's exposure to the last one's; 0 is a global shutter.
     pub readout_s: f64,
+    /// Share of the glass before the lens that drops of water cover.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub drops: f64,
     /// Lenses in place of the recorded ones, by the camera's name or `all`.
     pub lens: BTreeMap<String, LensSection>,
     /// Faults of a real camera; without it there are none.
@@ -99,6 +102,7 @@ impl Default for CameraSection {
             white_balance: Balance::Auto,
             exposure_s: 0.0,
             readout_s: 0.0,
+            drops: 0.0,
             lens: BTreeMap::new(),
             sensor: None,
         }
@@ -133,6 +137,8 @@ impl CameraSection {
         // As long as the renderer knows how things move.
         let open_s = self.exposure_s + self.readout_s;
         check("camera.exposure_s + camera.readout_s", open_s, open_s <= 0.1, "at most 0.1")?;
+        let most = LensDrops::MOST;
+        check("camera.drops", self.drops, (0.0..=most).contains(&self.drops), &format!("0 to {most}"))?;
         if let Some(sensor) = &self.sensor {
             let within = |key: &str, value: f64, most: f64| {
                 check(&format!("camera.sensor.{key}"), value, (0.0..=most).contains(&value), &format!("0 to {most}"))
@@ -244,6 +250,7 @@ mod tests {
         for (text, expect) in [
             ("[camera]\nexposure_s = 2\n", "camera.exposure_s: expected 0 to 0.1"),
             ("[camera]\nexposure_s = 0.06\nreadout_s = 0.06\n", "expected at most 0.1"),
+            ("[camera]\ndrops = 0.6\n", "camera.drops: expected 0 to 0.5"),
             ("[camera.sensor]\nvignetting = 1.0\n", "camera.sensor.vignetting"),
             (
                 "[camera.lens.all]\nmodel = \"pinhole\"\ndistortion = [0.1]\n",

@@ -9,6 +9,11 @@ pub(super) fn check(key: &str, value: impl Display, holds: bool, expected: &str)
     Ok(())
 }
 
+/// Whether a value is left out of what a recipe is written as.
+pub(super) fn is_zero(n: &f64) -> bool {
+    *n == 0.0
+}
+
 /// The known name that is nearest to an unknown one, as the end of a message.
 pub(crate) fn nearest(unknown: &str, known: &[&str]) -> String {
     let nearest = known.iter().min_by_key(|name| strsim::damerau_levenshtein(unknown, name));

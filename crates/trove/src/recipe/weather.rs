@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use trove_build::Weather;
 use trove_model::{Fog, Form, Precipitation};
 
-use super::check::check;
+use super::check::{check, is_zero};
 use super::season::SeasonChoice;
 
 /// Least and most of visibilities, metres: the densest fogs, and haze.
@@ -150,10 +150,6 @@ pub fn wet_by(falling: Option<Precipitation>, snow: f64) -> f64 {
         .filter(|falling| falling.form == Form::Rain)
         .map_or(0.0, |rain| (0.5 + 0.25 * rain.rate_mm_h.log10()).clamp(0.4, 1.0));
     by_rain.max(0.35 * snow)
-}
-
-fn is_zero(n: &f64) -> bool {
-    *n == 0.0
 }
 
 /// Fog through which about a third of the sun's light comes straight, as long as it is neither a mist on the ground nor as
