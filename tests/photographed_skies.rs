@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3, vec3};
 use trove_model::{
-    Class, Distortion, Environment, EnvironmentMap, Film, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
-    Scene, Seed, Shot, Shutter, Viewpoint,
+    Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose, Scene,
+    Seed, Shot,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -74,24 +74,9 @@ fn radiance(renderer: &Renderer, map: &Arc<EnvironmentMap>, normal: DVec3) -> Ve
         provenance: Vec::new(),
     };
     let (width_px, height_px, f) = (32, 32, 800.0);
-    let shot = Shot {
-        view: "test".into(),
-        viewpoint: Viewpoint::Free,
-        lens: Lens { width_px, height_px, fx_px: f, fy_px: f, cx_px: 16.0, cy_px: 16.0, distortion: Distortion::None },
-        world_from_camera: Pose::new(DQuat::from_mat3(&DMat3::from_cols(across, -up, -normal)), normal * 2.0),
-        world_from_ego: None,
-        world_from_camera_previous: None,
-        world_from_camera_next: None,
-        beside: [None; 2],
-        time_ns: 0,
-        shutter: Shutter::INSTANT,
-        spp: 64,
-        noise: 0.0,
-        film: Film::default(),
-        seed: Seed(1),
-        carrier: None,
-        labels: trove_model::LabelSettings::default(),
-    };
+    let lens = Lens { width_px, height_px, fx_px: f, fy_px: f, cx_px: 16.0, cy_px: 16.0, distortion: Distortion::None };
+    let facing = DQuat::from_mat3(&DMat3::from_cols(across, -up, -normal));
+    let shot = Shot { spp: 64, seed: Seed(1), ..Shot::new("test", lens, Pose::new(facing, normal * 2.0)) };
     let prepared = renderer.prepare(&scene).unwrap();
     let picture = renderer.render(&prepared, &shot, true, &|_| false).unwrap().color.unwrap().radiance;
     picture.data.iter().map(|&rgb| Vec3::from(rgb)).sum::<Vec3>() / (width_px * height_px) as f32
