@@ -14,7 +14,7 @@ use crate::between::Moments;
 use crate::error::BuildError;
 use crate::furniture::furniture;
 use crate::ground::{Drape, Ground, ground};
-use crate::light::{LightChoice, is_dark, light, switch_on};
+use crate::light::{LightChoice, is_dark, light, solar_hour, switch_on};
 use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds, apart_s, moment_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
@@ -216,7 +216,9 @@ pub fn build_at(
     let snow = snow(settings.weather.snow, &surfaces, Drape::new(&ground).bounds());
     let light = Light { fog, falling, wind_mps, snow, ..sky };
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
-    switch_on(locale.driving_side, &mut assembly.stock, lit);
+    let (_, lon_deg) = drive.projection.geo_from_world(bounds.centre());
+    let solar_hour = solar_hour(settings.light.time_ns(drive), lon_deg);
+    switch_on(solar_hour, locale.driving_side, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {

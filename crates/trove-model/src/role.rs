@@ -10,8 +10,12 @@ pub enum Role {
     WallLamp,
     /// The shade of a lamp in a room where people are in: it shines in the dark.
     RoomLamp,
-    /// A bright panel below a ceiling, in an office or a shop: it shines in the dark.
+    /// A bright panel below a ceiling, in an office: it shines in the dark.
     LightPanel,
+    /// The same in a shop: it shines in the dark while shops are open.
+    ShopPanel,
+    /// A lamp over a shop's sign: it shines in the dark until late.
+    SignLamp,
     /// A headlamp of a vehicle: it shines in the dark while the vehicle is driven.
     Headlamp,
     /// A tail lamp of a vehicle, likewise.
@@ -26,11 +30,13 @@ pub enum Role {
 
 impl Role {
     /// Every role with its name in files.
-    pub const ALL: [(Self, &str); 9] = [
+    pub const ALL: [(Self, &str); 11] = [
         (Self::StreetLamp, "street_lamp"),
         (Self::WallLamp, "wall_lamp"),
         (Self::RoomLamp, "room_lamp"),
         (Self::LightPanel, "light_panel"),
+        (Self::ShopPanel, "shop_panel"),
+        (Self::SignLamp, "sign_lamp"),
         (Self::Headlamp, "headlamp"),
         (Self::TailLamp, "tail_lamp"),
         (Self::Insulator, "insulator"),

@@ -171,6 +171,8 @@ fn fittings(
         back,
         Material { role: Some(Role::RoomLamp), ..plain("lampshade", vec3(0.6, 0.57, 0.5), 0.9) },
         Material { role: Some(Role::LightPanel), ..plain("light panel", Vec3::splat(0.7), 0.5) },
+        Material { role: Some(Role::ShopPanel), ..plain("light panel", Vec3::splat(0.7), 0.5) },
+        Material { role: Some(Role::SignLamp), ..plain("sign lamp", Vec3::splat(0.6), 0.3) },
         Material { role: Some(Role::WallLamp), ..plain("wall lamp", Vec3::splat(0.6), 0.3) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
         Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },

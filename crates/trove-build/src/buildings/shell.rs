@@ -56,6 +56,9 @@ pub(super) enum Slot {
     /// Lamps in rooms, whose light is on in the dark.
     Lampshade,
     LightPanel,
+    ShopPanel,
+    /// Over signs.
+    SignLamp,
     /// Lenses of lamps on walls.
     Lamp,
     /// Awnings, and every second stripe of theirs.

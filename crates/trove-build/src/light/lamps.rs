@@ -15,12 +15,15 @@ const DARK_IRRADIANCE: f32 = 0.5;
 const DIMMED: f32 = 0.15;
 const LOW_BEAM: &str = include_str!("low_beam.tsv");
 
-/// Radiance of lamps of houses: a lampshade of 0.7 m² that gives 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that
-/// gives 3,600 lm and looks like 4,000 K.
-const HOUSES: [(Role, Vec3); 3] = [
-    (Role::WallLamp, vec3(0.14, 0.1, 0.06)),
-    (Role::RoomLamp, vec3(0.042, 0.022, 0.007)),
-    (Role::LightPanel, vec3(0.122, 0.096, 0.067)),
+/// Radiance of lamps of houses, and between which hours by the sun they are on if it is dark: a lampshade of 0.7 m² that
+/// gives 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K; a bar that gives
+/// 600 lm a metre to the sign below it.
+const HOUSES: [(Role, [f64; 2], Vec3); 5] = [
+    (Role::WallLamp, [0.0, 24.0], vec3(0.14, 0.1, 0.06)),
+    (Role::RoomLamp, [0.0, 24.0], vec3(0.042, 0.022, 0.007)),
+    (Role::LightPanel, [0.0, 24.0], vec3(0.122, 0.096, 0.067)),
+    (Role::ShopPanel, [7.0, 20.0], vec3(0.122, 0.096, 0.067)),
+    (Role::SignLamp, [5.0, 23.0], vec3(0.122, 0.096, 0.067)),
 ];
 
 /// Colours of vehicles' lamps, of luminance 1: white, and red behind glass or lens.
@@ -35,13 +38,18 @@ const BRAKE_CD: f32 = 220.0;
 /// No lamp is smaller, m².
 const SMALLEST_M2: f32 = 1e-3;
 
-/// Switches lights on walls and in rooms on where street lamps are, and the lamps of the vehicles that move during the recording; and
-/// brake lamps where vehicles brake, day and night.
-pub(crate) fn switch_on<'a>(side: DrivingSide, stock: &mut Stock, actors: impl Iterator<Item = &'a mut Actor>) {
+/// Switches lights of houses on, by the hour, where street lamps are, and the lamps of the vehicles that move during the
+/// recording; and brake lamps where vehicles brake, day and night.
+pub(crate) fn switch_on<'a>(
+    solar_hour: f64,
+    side: DrivingSide,
+    stock: &mut Stock,
+    actors: impl Iterator<Item = &'a mut Actor>,
+) {
     if stock.is_dark {
         // Street lamps are lit already.
         for material in stock.materials.iter_mut().filter(|material| material.role != Some(Role::StreetLamp)) {
-            material.emission = glow(material).unwrap_or(material.emission * DIMMED);
+            material.emission = glow(material, solar_hour).unwrap_or(material.emission * DIMMED);
         }
     }
     let low_beam = stock.is_dark.then(|| low_beam(side));
@@ -91,8 +99,10 @@ impl Lamp {
     }
 }
 
-fn glow(material: &Material) -> Option<Vec3> {
-    HOUSES.iter().find(|(role, _)| material.role == Some(*role)).map(|(_, emission)| *emission)
+/// What a lamp of a house gives at an hour; `None` for what is none.
+fn glow(material: &Material, solar_hour: f64) -> Option<Vec3> {
+    let (_, [from, until], emission) = HOUSES.iter().find(|(role, _, _)| material.role == Some(*role))?;
+    Some(if (*from..*until).contains(&solar_hour) { *emission } else { Vec3::ZERO })
 }
 
 /// Of triangles of some slots, what faces along x, or against it where `along` is −1, as seen from there.
@@ -160,7 +170,7 @@ mod tests {
         stock.painted(&lamp, Seed(1));
         stock.material(&Material { role: Some(Role::RoomLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
-        switch_on(DrivingSide::Right, &mut stock, std::iter::empty());
+        switch_on(19.0, DrivingSide::Right, &mut stock, std::iter::empty());
         [0, 1, 2].map(|i| stock.materials[i].emission)
     }
 
@@ -204,12 +214,27 @@ mod tests {
         };
         for dark in [sky(-0.2), sky(0.0), map(0.1)] {
             let [street, room, signal] = shining(dark);
-            assert_eq!([room, signal], [HOUSES[1].1, Vec3::X * DIMMED]);
+            assert_eq!([room, signal], [HOUSES[1].2, Vec3::X * DIMMED]);
             assert!(street.min_element() > 0.0, "{street}");
         }
         for bright in [sky(0.5), map(0.6)] {
             assert_eq!(shining(bright), [Vec3::ZERO, Vec3::ZERO, Vec3::X]);
         }
+    }
+
+    #[test]
+    fn shops_are_lit_while_they_are_open_and_their_signs_until_late() {
+        let lit = |role: Role, solar_hour: f64| {
+            let mut stock = Stock::default();
+            stock.is_dark = true;
+            stock.material(&Material { role: Some(role), emission: Vec3::ONE, ..Material::default() });
+            switch_on(solar_hour, DrivingSide::Right, &mut stock, std::iter::empty());
+            stock.materials[0].emission != Vec3::ZERO
+        };
+        let hours = [3.0, 6.0, 18.0, 22.0, 23.5];
+        assert_eq!(hours.map(|hour| lit(Role::ShopPanel, hour)), [false, false, true, false, false]);
+        assert_eq!(hours.map(|hour| lit(Role::SignLamp, hour)), [false, true, true, true, false]);
+        assert!(hours.iter().all(|hour| lit(Role::RoomLamp, *hour)));
     }
 
     #[test]

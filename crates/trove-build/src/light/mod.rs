@@ -110,6 +110,12 @@ pub(crate) fn light(drive: &Drive, bounds: Bounds, choice: &LightChoice, snow: f
     Light::clear(environment)
 }
 
+/// Hour of the day by the mean sun, 0 to 24, at nanoseconds since 1970 UTC.
+pub(crate) fn solar_hour(time_ns: i64, lon_deg: f64) -> f64 {
+    let days = time_ns as f64 / DAY_NS as f64 + lon_deg / 360.0;
+    24.0 * days.rem_euclid(1.0)
+}
+
 /// The sun at a time drawn within the 24 hours around `time_ns`; where it never rises high enough, at its highest.
 fn daytime_sun(time_ns: i64, lat_deg: f64, lon_deg: f64, random: &mut Random) -> glam::DVec3 {
     let quarter_hours = (0..96).map(|i| to_sun(time_ns + i * (DAY_NS / 96), lat_deg, lon_deg));
@@ -133,6 +139,14 @@ mod tests {
             Environment::Sky(sky) => sky,
             Environment::Map(_) => panic!("a sky was asked for"),
         }
+    }
+
+    #[test]
+    fn hours_are_those_of_the_place() {
+        // 2018-08-01 16:45 UTC is noon at 71.25° W and half past midnight at 116.25° E.
+        let time_ns = 1_533_141_900_000_000_000;
+        assert!((solar_hour(time_ns, -71.25) - 12.0).abs() < 1e-6);
+        assert!((solar_hour(time_ns, 116.25) - 0.5).abs() < 1e-6);
     }
 
     #[test]

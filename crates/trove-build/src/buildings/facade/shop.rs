@@ -31,6 +31,7 @@ pub(super) fn front(ink: &mut Ink<'_>, hole: &Hole<'_>, shares: &Fixtures, top: 
         ink.sides(Slot::Iron, from, to, &[Left, Right, Bottom, Top]);
         ink.pane(Slot::Iron, from.truncate(), to.truncate(), from.z, false);
         sign(ink, which, [DVec2::new(left, foot), DVec2::new(right, foot + tall)].map(|p| p.extend(0.12)));
+        sign_lamp(ink, [left, right], foot + tall);
     }
     if shaded && room_m > 0.2 {
         awning(ink, hole, random);
@@ -38,6 +39,19 @@ pub(super) fn front(ink: &mut Ink<'_>, hole: &Hole<'_>, shares: &Fixtures, top: 
     if blade {
         let (foot, tall) = (top + random.range(0.1, 0.5), random.range(1.6, 3.0));
         blade_sign(ink, (low.x + 0.3).max(0.3), [foot, foot + tall], which);
+    }
+}
+
+/// A bar before a sign's upper edge that shines down on it.
+fn sign_lamp(ink: &mut Ink<'_>, [left, right]: [f64; 2], top: f64) {
+    let [low, high] = [DVec3::new(left + 0.1, top + 0.02, 0.2), DVec3::new(right - 0.1, top + 0.06, 0.26)];
+    use super::ink::Side::{Front, Left, Right, Top};
+    ink.sides(Slot::Zinc, low, high, &[Front, Left, Right, Top]);
+    ink.pane(Slot::Zinc, low.truncate(), high.truncate(), low.z, false);
+    let at = |x: f64, z: f64| DVec3::new(x, low.y, z);
+    ink.face(Slot::SignLamp, &[at(low.x, low.z), at(high.x, low.z), at(high.x, high.z), at(low.x, high.z)]);
+    for x in [low.x + 0.1, high.x - 0.1] {
+        ink.bar(Slot::Zinc, DVec3::new(x, low.y + 0.02, 0.0), DVec3::new(x, low.y + 0.02, low.z + 0.01), 0.02);
     }
 }
 

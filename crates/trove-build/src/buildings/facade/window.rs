@@ -17,7 +17,7 @@ pub(super) const INNER_REVEAL_M: f64 = 0.08;
 const ASKEW_RAD: f64 = 0.005;
 /// A room's front and back are cut this far from their edges, metres: less than openings keep from them.
 const SKIRT_M: f64 = 0.002;
-/// Shares of rooms with a light on.
+/// Share of rooms with a light on, but for shops.
 const LIT_SHARE: f64 = 0.3;
 /// Lampshades, how far they hang below the ceiling, and how far they are apart; panels likewise, right below it.
 const SHADE_M: DVec3 = DVec3::new(0.4, 0.25, 0.4);
@@ -174,7 +174,8 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
     };
     let slot = if bare { wall } else { Slot::RoomBack };
     plane(ink, back, row, back_z, true, slot, uv);
-    if lit {
+    // Shops are lit in all of them while they are open.
+    if lit || interior == Interior::Shop {
         lamps(ink, room, interior, [back_z, front_z]);
     }
     for hole in holes {
@@ -188,6 +189,7 @@ pub(super) fn room(ink: &mut Ink<'_>, holes: &[Hole<'_>], room: Room, design: &F
 /// A lampshade here and there in a home, panels below other ceilings; `z` are the room's back and front.
 fn lamps(ink: &mut Ink<'_>, room: Room, interior: Interior, z: [f64; 2]) {
     let is_home = interior == Interior::Home;
+    let panel = if interior == Interior::Shop { Slot::ShopPanel } else { Slot::LightPanel };
     let size = if is_home { SHADE_M } else { PANEL_M };
     let pitch_m = if is_home { SHADES_APART_M } else { PANELS_APART_M };
     // Where the sides run towards each other they leave this in the middle of the room.
@@ -206,7 +208,7 @@ fn lamps(ink: &mut Ink<'_>, room: Room, interior: Interior, z: [f64; 2]) {
         } else {
             let [near, far] = [low.z + size.z, low.z];
             let at = |x: f64, z: f64| DVec3::new(low.x + x, low.y, z);
-            ink.face(Slot::LightPanel, &[at(size.x, near), at(0.0, near), at(0.0, far), at(size.x, far)]);
+            ink.face(panel, &[at(size.x, near), at(0.0, near), at(0.0, far), at(size.x, far)]);
         }
     }
 }
