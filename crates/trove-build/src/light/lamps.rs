@@ -17,13 +17,13 @@ const LOW_BEAM: &str = include_str!("low_beam.tsv");
 
 /// Radiance of lamps of houses, and between which hours by the sun they are on if it is dark: a lampshade of 0.7 m² that
 /// gives 1,800 lm and looks like 2,700 K; a panel of 0.36 m² that gives 3,600 lm and looks like 4,000 K; a bar that gives
-/// 600 lm a metre to the sign below it.
+/// 300 lm a metre to the sign below it.
 const HOUSES: [(Role, [f64; 2], Vec3); 5] = [
     (Role::WallLamp, [0.0, 24.0], vec3(0.14, 0.1, 0.06)),
     (Role::RoomLamp, [0.0, 24.0], vec3(0.042, 0.022, 0.007)),
     (Role::LightPanel, [0.0, 24.0], vec3(0.122, 0.096, 0.067)),
     (Role::ShopPanel, [7.0, 20.0], vec3(0.122, 0.096, 0.067)),
-    (Role::SignLamp, [5.0, 23.0], vec3(0.122, 0.096, 0.067)),
+    (Role::SignLamp, [5.0, 23.0], vec3(0.061, 0.048, 0.0335)),
 ];
 
 /// Colours of vehicles' lamps, of luminance 1: white, and red behind glass or lens.

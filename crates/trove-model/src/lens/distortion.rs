@@ -45,6 +45,9 @@ pub struct KannalaBrandt {
 }
 
 impl Distortion {
+    /// The fisheye whose radius is the angle from its axis.
+    pub const EQUIDISTANT: Self = Self::KannalaBrandt(KannalaBrandt { k: [0.0; 4], max_rad: PI });
+
     /// Brown–Conrady from up to eight coefficients in OpenCV's order k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆, those left out being 0;
     /// `None` for more, for NaN and infinity.
     pub fn brown_conrady(coefficients: &[f64]) -> Option<Self> {

@@ -33,7 +33,7 @@ pub(crate) fn wide(shot: &Shot) -> Shot {
         fy_px: WIDE_PX_RAD,
         cx_px: half_px,
         cy_px: half_px,
-        distortion: Distortion::kannala_brandt(&[]).unwrap_or(Distortion::Equirectangular),
+        distortion: Distortion::EQUIDISTANT,
     };
     Shot { lens, shutter: Shutter::INSTANT, seed: shot.seed.child("drops"), ..shot.clone() }
 }

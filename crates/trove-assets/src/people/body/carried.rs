@@ -121,16 +121,16 @@ impl Wearer<'_> {
     /// A knitted hat over the ears' tips, with its brim turned up.
     pub(super) fn beanie(&self, slot: u16) -> Piece {
         let turned = [
-            vec2(0.107, -0.014),
-            vec2(0.115, -0.008),
-            vec2(0.116, 0.02),
-            vec2(0.109, 0.026),
-            vec2(0.103, 0.052),
-            vec2(0.082, 0.082),
-            vec2(0.046, 0.102),
-            vec2(0.0, 0.108),
+            vec2(0.1, -0.014),
+            vec2(0.106, -0.01),
+            vec2(0.107, 0.018),
+            vec2(0.101, 0.024),
+            vec2(0.097, 0.052),
+            vec2(0.082, 0.083),
+            vec2(0.049, 0.105),
+            vec2(0.0, 0.113),
         ];
-        let hat = Shape::lathe(&turned, 20).scaled(vec3(1.12, 0.93, 1.0));
+        let hat = Shape::lathe(&turned, 20).scaled(vec3(1.14, 0.94, 1.0));
         self.on_head(hat, vec3(0.056, 0.0, 0.765), -0.12, slot)
     }
 
