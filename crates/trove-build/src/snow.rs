@@ -24,7 +24,7 @@ const BETWEEN: u8 = 16;
 const PARKING: u8 = 32;
 
 /// Snow of a cover on the ground of a place; `None` for none.
-pub(crate) fn snow(cover: f64, surfaces: &RoadSurfaces, bounds: Bounds) -> Option<Snow> {
+pub(crate) fn lying(cover: f64, surfaces: &RoadSurfaces, bounds: Bounds) -> Option<Snow> {
     (cover > 0.0).then(|| Snow { cover, left: Some(Arc::new(left(surfaces, bounds))) })
 }
 

@@ -175,6 +175,8 @@ impl Variation {
                 fog: self.fog,
                 falling: self.falling,
                 snow: self.snow,
+                // Its pictures show the same people.
+                dresses_people: recipe.variations.counterfactual.is_none(),
                 ..recipe.weather.weather()
             },
             on_disagreement: recipe.map.on_disagreement.into(),

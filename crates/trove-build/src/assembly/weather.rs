@@ -23,12 +23,23 @@ pub struct Weather {
     pub wind_mps: DVec2,
     /// Share of level surfaces in the open that snow covers, 0 to 1, but for roads, where wheels have left less of it.
     pub snow: f64,
+    /// Whether people are dressed for what falls and lies, or for the season alone, as who is to be the same in any weather.
+    pub dresses_people: bool,
 }
 
 impl Default for Weather {
     /// Dry, as dirty as streets are, in the season of the recording and in clear air.
     fn default() -> Self {
-        Self { dirt: 1.0, wetness: 0.0, season: None, fog: None, falling: None, wind_mps: DVec2::ZERO, snow: 0.0 }
+        Self {
+            dirt: 1.0,
+            wetness: 0.0,
+            season: None,
+            fog: None,
+            falling: None,
+            wind_mps: DVec2::ZERO,
+            snow: 0.0,
+            dresses_people: true,
+        }
     }
 }
 

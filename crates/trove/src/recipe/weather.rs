@@ -57,7 +57,8 @@ pub struct WeatherSection {
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness, season: _, fog: _, falling: _, wind_mps, snow } = Weather::default();
+        let Weather { dirt, wetness, season: _, fog: _, falling: _, wind_mps, snow, dresses_people: _ } =
+            Weather::default();
         let season = SeasonChoice::default();
         Self {
             wetness,
@@ -84,7 +85,7 @@ impl WeatherSection {
         // From the north it blows to the south.
         let from = (90.0 - self.wind_from_deg.unwrap_or(WEST_DEG)).to_radians();
         let wind_mps = -DVec2::from_angle(from) * self.wind_mps;
-        Weather { dirt, wetness, season, fog, falling, wind_mps, snow }
+        Weather { dirt, wetness, season, fog, falling, wind_mps, snow, ..Weather::default() }
     }
 
     /// Fog of a visibility, over a ground at 0.
