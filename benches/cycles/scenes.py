@@ -73,6 +73,22 @@ class Scene:
         self.names = [row["name"] for row in json.loads((out / "manifest.json").read_text())["classes"]]
         return radiance(frame / "radiance.exr"), timing["render_seconds"], timing["prepare_seconds"]
 
+    def halves(self, spp):
+        """Two undenoised references that differ by their noise alone, and the exposure; kept as one is."""
+        program = digest(programs(self.args.trove))
+        kept = self.folder / f"halves-{spp}-{self.digest}-{program}.npz"
+        if not kept.exists():
+            out = self.folder / "halves"
+            shutil.rmtree(out, ignore_errors=True)
+            recipe = self.recipe(spp, False)
+            recipe.write_text(recipe.read_text() + "[variations]\ncount = 2\nfactors = []\n")
+            report = json.loads(trove(self.args, "generate", recipe, "--out", out, "--json"))
+            frames = [out / timing["path"] for timing in report["timings"]]
+            exposure_ev = json.loads((frames[0] / "frame.json").read_text())["exposure_ev"]
+            first, second = (radiance(frame / "radiance.exr") for frame in frames)
+            np.savez(kept, first=first, second=second, exposure_ev=exposure_ev)
+        return np.load(kept)
+
     def reference(self, spp):
         """The undenoised reference with its exposure and classes, kept as long as scene and program stay the same."""
         program = digest(programs(self.args.trove))

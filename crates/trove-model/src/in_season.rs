@@ -1,6 +1,8 @@
-//! The library as it looks over the year.
+//! The library as it looks over the year, and who of it is dressed for the weather.
 
-use crate::{Asset, AssetLibrary, Season};
+use std::collections::BTreeSet;
+
+use crate::{Asset, AssetLibrary, Kind, Outdoors, Season};
 
 impl Asset {
     /// As it looks in a season.
@@ -20,6 +22,22 @@ impl AssetLibrary {
     /// The library as it looks in a season; shapes and images are shared.
     pub fn in_season(&self, season: Season) -> Self {
         Self { assets: self.assets.iter().map(|a| a.in_season(season)).collect(), ..self.clone() }
+    }
+}
+
+impl Asset {
+    /// Whether what it wears is worn then.
+    pub fn suits(&self, outdoors: Outdoors) -> bool {
+        self.worn_in.is_empty() || self.worn_in.contains(&outdoors)
+    }
+}
+
+impl AssetLibrary {
+    /// The library without who is not dressed for it; of a kind of which nobody is, all stay.
+    pub fn dressed_for(self, outdoors: Outdoors) -> Self {
+        let dressed: BTreeSet<Kind> = self.assets.iter().filter(|a| a.suits(outdoors)).map(|a| a.kind).collect();
+        let stays = |asset: &Asset| asset.suits(outdoors) || !dressed.contains(&asset.kind);
+        Self { assets: self.assets.into_iter().filter(stays).collect(), ..self }
     }
 }
 
@@ -45,5 +63,27 @@ mod tests {
         };
         assert_eq!(seen(Season::Autumn), [(1, 0.0), (2, 0.8)]);
         assert_eq!(seen(Season::Summer), [(1, 0.0), (1, 0.0)]);
+    }
+
+    #[test]
+    fn who_is_not_dressed_for_it_is_left_out_unless_nobody_of_the_kind_is() {
+        let asset = |id: &str, kind: Kind, worn_in: &[Outdoors]| Asset {
+            worn_in: worn_in.to_vec(),
+            ..Asset::new(id, kind, kind.class(), Mesh::default(), Vec::new(), "test")
+        };
+        let assets = vec![
+            asset("adult/coat", Kind::Adult, &[Outdoors::Wet, Outdoors::Cold]),
+            asset("adult/plain", Kind::Adult, &[]),
+            asset("adult/tee", Kind::Adult, &[Outdoors::Warm]),
+            asset("car/a", Kind::Car, &[]),
+            asset("child/tee", Kind::Child, &[Outdoors::Warm]),
+        ];
+        let library = AssetLibrary { assets, ..AssetLibrary::default() };
+        let left = |outdoors: Outdoors| {
+            library.clone().dressed_for(outdoors).assets.iter().map(|a| a.id.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(left(Outdoors::Cold), ["adult/coat", "adult/plain", "car/a", "child/tee"]);
+        assert_eq!(left(Outdoors::Warm), ["adult/plain", "adult/tee", "car/a", "child/tee"]);
+        assert_eq!(left(Outdoors::Mild), ["adult/plain", "car/a", "child/tee"]);
     }
 }
