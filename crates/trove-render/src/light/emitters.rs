@@ -22,6 +22,8 @@ const PROBE_FROM_M: f32 = 1e-3;
 
 /// How far light of the outermost emitters reaches, roughly.
 const MARGIN_M: f32 = 20.0;
+/// What a triangle with a broad beam is taken to give at least, since its mean is one of a table.
+const LEAST_SHARE: f32 = 1e-3;
 
 /// All shining triangles of a scene, drawn by what they give to the place that asks.
 ///
@@ -83,7 +85,7 @@ impl Emitters {
                         let known = aims[first_aim..].iter().position(|aim: &Aim| Arc::ptr_eq(&aim.beam, beam));
                         let index = first_aim + known.unwrap_or(aims.len() - first_aim);
                         if index == aims.len() {
-                            aims.push(Aim { beam: beam.clone(), mesh_from_world });
+                            aims.push(Aim::new(beam.clone(), mesh_from_world));
                         }
                         index as u32
                     });
@@ -92,7 +94,7 @@ impl Emitters {
             }
         }
         triangles.par_iter_mut().for_each(|emitter| emitter.away = emitter.measured(gets_away));
-        let entries: Vec<TreeEntry> = triangles.iter().map(Emitter::entry).collect();
+        let entries: Vec<TreeEntry> = triangles.iter().map(|emitter| emitter.entry(&aims)).collect();
         (!triangles.is_empty()).then(|| Self { triangles, tree: Tree::new(&entries, aims) })
     }
 
@@ -184,15 +186,18 @@ impl Emitter {
         self.corner + self.edges[0] * (root * (1.0 - u[1])) + self.edges[1] * (root * u[1])
     }
 
-    fn entry(&self) -> TreeEntry {
+    /// As the tree knows it: with a beam that leaves much of what is before it, as a light that shines evenly.
+    fn entry(&self, aims: &[Aim]) -> TreeEntry {
+        let aim = self.aim.map(|aim| &aims[aim as usize]);
+        let broad = aim.filter(|aim| aim.is_broad);
         let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
         TreeEntry {
             low: corners[0].min(corners[1]).min(corners[2]),
             high: corners[0].max(corners[1]).max(corners[2]),
             centre: self.centre(),
             axis: self.cross.normalize(),
-            power: self.power(),
-            aim: self.aim,
+            power: self.power() * broad.map_or(1.0, |aim| aim.flux_share(self.cross).max(LEAST_SHARE)),
+            aim: self.aim.filter(|_| broad.is_none()),
         }
     }
 
@@ -236,7 +241,7 @@ mod tests {
     }
 
     fn emitters(triangles: Vec<Emitter>, aims: Vec<Aim>) -> Emitters {
-        let entries: Vec<TreeEntry> = triangles.iter().map(Emitter::entry).collect();
+        let entries: Vec<TreeEntry> = triangles.iter().map(|emitter| emitter.entry(&aims)).collect();
         Emitters { triangles, tree: Tree::new(&entries, aims) }
     }
 
@@ -257,8 +262,7 @@ mod tests {
         });
         let beam = Arc::new(beam.unwrap());
         let (ahead, towards) = (Mat3::IDENTITY, Mat3::from_rotation_z(PI));
-        let aims =
-            (0..40).map(|i| Aim { beam: beam.clone(), mesh_from_world: if i % 2 == 0 { ahead } else { towards } });
+        let aims = (0..40).map(|i| Aim::new(beam.clone(), if i % 2 == 0 { ahead } else { towards }));
         let lamps = (0..30).flat_map(|i| {
             let at = Vec3::new((i / 2) as f32 * 60.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 7.0);
             lamp(i, at, 20.0, None)
@@ -281,8 +285,7 @@ mod tests {
         });
         let beam = Arc::new(beam.unwrap());
         let turns = [PI / 2.0, -PI / 2.0];
-        let aims = (0..200)
-            .map(|i| Aim { beam: beam.clone(), mesh_from_world: Mat3::from_rotation_z(-turns[i as usize % 2]) });
+        let aims = (0..200).map(|i| Aim::new(beam.clone(), Mat3::from_rotation_z(-turns[i as usize % 2])));
         let lamps = (0..200).flat_map(|i| {
             let at = Vec3::new((i / 2) as f32 * 30.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 8.0);
             lamp(i, at, 20.0, Some(i))
@@ -365,7 +368,7 @@ mod tests {
         };
         let steps = |count: i32, least: f32| -> Vec<f32> { (0..=count).map(|i| least + 2.0 * i as f32).collect() };
         let beam = Beam::of(&steps(180, -180.0), &steps(42, -90.0), |toward| candelas(toward) / (0.04 * -toward.z));
-        let aim = Aim { beam: Arc::new(beam.unwrap()), mesh_from_world: Mat3::IDENTITY };
+        let aim = Aim::new(Arc::new(beam.unwrap()), Mat3::IDENTITY);
         let at = Vec3::new(0.0, 0.0, 8.0);
         let half = |number: u32, sign: f32| {
             let edges = [Vec3::Y * 0.2 * sign, Vec3::X * 0.2 * sign];

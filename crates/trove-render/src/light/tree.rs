@@ -18,6 +18,8 @@ const APART_IN_BEAM: f32 = 12.0;
 /// Beams that at best give this share of all before them are not told apart.
 const FAINT: f32 = 0.02;
 
+/// A beam that fills more than this at its brightest is broad, as street lamps' are; low beams fill some hundredths.
+const BROAD_SR: f32 = 0.5;
 /// What a beam is taken to give at least: another part of the lamp may shine there.
 const LEAST_SHARE: f32 = 1e-3;
 
@@ -41,10 +43,17 @@ pub(super) struct TreeEntry {
 /// A beam, turned.
 pub(super) struct Aim {
     pub(super) beam: Arc<Beam>,
-    pub(super) mesh_from_world: Mat3,
+    mesh_from_world: Mat3,
+    /// Whether its light is spread so wide that groups of it need no telling apart.
+    pub(super) is_broad: bool,
 }
 
 impl Aim {
+    pub(super) fn new(beam: Arc<Beam>, mesh_from_world: Mat3) -> Self {
+        let is_broad = beam.flux() > BROAD_SR * beam.most();
+        Self { beam, mesh_from_world, is_broad }
+    }
+
     /// Share of the radiance that leaves into a direction, World.
     pub(super) fn share(&self, direction: Vec3) -> f32 {
         self.beam.share(self.mesh_from_world * direction)
