@@ -22,7 +22,9 @@ def arguments():
     parser = scenes.parser(__doc__)
     parser.add_argument("--scale", type=float, default=0.2, help="of 1600×900")
     parser.add_argument("--spp", type=int, nargs="+", default=[4, 16, 64], help="samples a pixel")
-    parser.add_argument("--reference", type=int, default=1024, help="samples a pixel of each half of a weather's reference")
+    parser.add_argument(
+        "--reference", type=int, default=1024, help="samples a pixel of each half of a weather's reference"
+    )
     parser.add_argument("--weather", nargs="+", default=list(WEATHER), choices=list(WEATHER), help="beside the day")
     return parser.parse_args()
 
