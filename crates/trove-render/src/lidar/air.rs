@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use trove_model::{Class, InstanceId, Random, Scanner, SensorRay};
+use trove_model::{Class, InstanceId, Scanner, Seed, SensorRay};
 
 use super::echo::{Echo, Part};
 use crate::PreparedScene;
@@ -18,9 +18,10 @@ pub(super) fn of_fog(
     scanner: &Scanner,
     middle: &SensorRay,
     met: &[Part],
-    mut random: Random,
+    seed: Seed,
 ) -> Option<Echo> {
     let fog = scene.fog?;
+    let mut random = seed.child("fog").random();
     let [near_m, far_m] = free_m(scanner, met)?;
     let range_m = 1.0 / (1.0 / near_m + random.unit() * (1.0 / far_m - 1.0 / near_m));
     let height_m = middle.origin.z + middle.direction.z * range_m;
@@ -41,12 +42,16 @@ pub(super) fn of_spray(
     scanner: &Scanner,
     middle: &SensorRay,
     met: &[Part],
-    mut random: Random,
+    seed: Seed,
 ) -> Option<Echo> {
+    if scene.spray.is_none() {
+        return None;
+    }
     let [near_m, far_m] = free_m(scanner, met)?;
     let (origin, direction) = (middle.origin.as_vec3(), middle.direction.as_vec3());
     let lost = 1.0 - scene.spray.transmittance(origin, direction, far_m as f32);
-    let range_m = scene.spray.met(origin, direction, far_m as f32, lost * random.unit() as f32)?;
+    let range_m =
+        scene.spray.met(origin, direction, far_m as f32, lost * seed.child("spray").random().unit() as f32)?;
     let thick = scene.spray.extinction_at(origin + direction * range_m);
     (f64::from(range_m) > near_m).then(|| echo(scene, scanner, middle, f64::from(thick), f64::from(range_m)))
 }

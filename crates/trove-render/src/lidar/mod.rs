@@ -58,8 +58,8 @@ fn points(scene: &PreparedScene, shot: &LidarShot, carrier: &Carrier, column: us
     for (ring, parts) in met.into_iter().enumerate() {
         let middle = shot.ray(column, ring);
         let seed = shot.seed.nth((column * rings + ring) as u64);
-        let of_fog = air::of_fog(scene, &shot.scanner, &middle, &parts, seed.child("fog").random());
-        let of_spray = air::of_spray(scene, &shot.scanner, &middle, &parts, seed.child("spray").random());
+        let of_fog = air::of_fog(scene, &shot.scanner, &middle, &parts, seed);
+        let of_spray = air::of_spray(scene, &shot.scanner, &middle, &parts, seed);
         let mut echoes = echo::echoes(parts, shot.scanner.pulse_m);
         echoes.extend(of_fog.into_iter().chain(of_spray));
         echoes.sort_by(|a, b| a.range_m.total_cmp(&b.range_m));

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use trove_model::Scene;
 
 use super::luminance::luminance;
-use super::tree::{Aim, Cut, Tree, TreeEntry};
+use super::tree::{Aim, Cut, LEAST_SHARE, Tree, TreeEntry};
 use crate::ray::Ray;
 use crate::sampling::{Basis, cosine_hemisphere};
 
@@ -22,8 +22,6 @@ const PROBE_FROM_M: f32 = 1e-3;
 
 /// How far light of the outermost emitters reaches, roughly.
 const MARGIN_M: f32 = 20.0;
-/// What a triangle with a broad beam is taken to give at least, since its mean is one of a table.
-const LEAST_SHARE: f32 = 1e-3;
 
 /// All shining triangles of a scene, drawn by what they give to the place that asks.
 ///

@@ -21,7 +21,7 @@ const FAINT: f32 = 0.02;
 /// A beam that fills more than this at its brightest is broad, as street lamps' are; low beams fill some hundredths.
 const BROAD_SR: f32 = 0.5;
 /// What a beam is taken to give at least: another part of the lamp may shine there.
-const LEAST_SHARE: f32 = 1e-3;
+pub(super) const LEAST_SHARE: f32 = 1e-3;
 
 /// Places at which a node may be cut, along each axis.
 const BINS: usize = 12;
