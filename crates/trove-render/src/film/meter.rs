@@ -16,6 +16,11 @@ const MOST_EV: f64 = 11.0;
 /// (nuScenes), 0.39 ± 0.02 (KITTI) and 0.42 ± 0.08 (CamVid by day), however much sky is in them.
 const SHOWN_MEAN: f64 = 0.42;
 
+/// What the brightest hundredth of a developed picture is shown at, at least, however little contrast fog or snow leaves: no
+/// photograph of nuScenes, KITTI and CamVid has less than 0.80.
+const SHOWN_BRIGHTEST: f64 = 0.8;
+const BRIGHTEST: f64 = 0.01;
+
 /// Colours that may be grey under the light that is looked for differ from it by so much, stops between two channels.
 const GREY_STOPS: f64 = 0.4;
 /// Each round looks around the light that the last one found: light by light a sunset is reached.
@@ -28,8 +33,8 @@ const CORRECTED: f64 = 0.5;
 /// The farthest that red or blue are turned up or down against green, stops.
 const MOST_STOPS: f64 = 1.0;
 
-/// The exposure at which the developed picture's mean brightness is [`SHOWN_MEAN`]. White clips, so that a bright sky
-/// counts for no more than it covers. 0 for a black picture.
+/// The least exposure at which the developed picture's mean brightness is [`SHOWN_MEAN`] and its brightest parts are shown at
+/// [`SHOWN_BRIGHTEST`]. White clips, so that a bright sky counts for no more than it covers. 0 for a black picture.
 pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
     let mut histogram = vec![0u64; (SPAN_STOPS * STEPS_PER_STOP) as usize];
     for &rgb in &radiance.data {
@@ -42,17 +47,24 @@ pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
     if histogram.iter().all(|&count| count == 0) {
         return 0.0;
     }
-    let shown_mean = |ev: f64| {
-        let shown =
-            |bin: usize| tone::shown(((bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev).exp2() as f32);
-        let sum: f64 = (1..histogram.len()).map(|bin| histogram[bin] as f64 * f64::from(shown(bin))).sum();
-        sum / radiance.data.len() as f64
+    let pixels = radiance.data.len() as f64;
+    let brighter = histogram.iter().rev().scan(0, |sum, count| {
+        *sum += count;
+        Some(*sum as f64)
+    });
+    let bright = histogram.len() - 1 - brighter.take_while(|&sum| sum < BRIGHTEST * pixels).count();
+    let is_too_dark = |ev: f64| {
+        let shown = |bin: usize| {
+            f64::from(tone::shown(((bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev).exp2() as f32))
+        };
+        let sum: f64 = (1..histogram.len()).map(|bin| histogram[bin] as f64 * shown(bin)).sum();
+        sum < SHOWN_MEAN * pixels || shown(bright) < SHOWN_BRIGHTEST
     };
     // Brightness grows with exposure.
     let (mut low, mut high) = (-SPAN_STOPS / 2.0, MOST_EV);
     while high - low > 1e-10 {
         let middle = (low + high) / 2.0;
-        *if shown_mean(middle) < SHOWN_MEAN { &mut low } else { &mut high } = middle;
+        *if is_too_dark(middle) { &mut low } else { &mut high } = middle;
     }
     high
 }
@@ -102,6 +114,28 @@ mod tests {
             };
             [0, 1, 2].map(|c| reflects[c] * light[c])
         })
+    }
+
+    #[test]
+    fn a_street_is_exposed_by_its_mean_and_what_has_no_contrast_by_its_brightest_part() {
+        let shown = |picture: &Raster<[f32; 3]>| {
+            let gain = exposure_ev(picture).exp2() as f32;
+            let mut shown: Vec<f32> = picture.data.iter().map(|&rgb| tone::shown(luminance(rgb) * gain)).collect();
+            shown.sort_by(f32::total_cmp);
+            (shown.iter().sum::<f32>() / shown.len() as f32, shown[shown.len() * 99 / 100])
+        };
+        // The histogram's steps are a fiftieth of a stop.
+        let bright_sky = Raster::from_fn(60, 30, |_, y| [if y < 10 { 2.0 } else { 0.1 }; 3]);
+        let (mean, brightest) = shown(&bright_sky);
+        assert!((f64::from(mean) - SHOWN_MEAN).abs() < 0.01 && f64::from(brightest) > SHOWN_BRIGHTEST);
+        for light in [0.001, 1.0, 500.0] {
+            let fog = Raster::from_fn(60, 30, |x, y| [light * (0.8 + 0.2 * (x + y) as f32 / 90.0); 3]);
+            let (mean, brightest) = shown(&fog);
+            assert!(
+                (f64::from(brightest) - SHOWN_BRIGHTEST).abs() < 0.01 && f64::from(mean) > SHOWN_MEAN,
+                "{mean} {brightest}"
+            );
+        }
     }
 
     #[test]
