@@ -146,8 +146,8 @@ pub fn build_at(
 
     // Plants are those of the season, and people wear what is worn in it.
     let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season());
-    let Weather { falling, wind_mps, snow, dresses_people, .. } = settings.weather;
-    let outdoors = if dresses_people { conditions.outdoors(falling, snow) } else { conditions.outdoors(None, 0.0) };
+    let Weather { falling, wind_mps, snow, people_respond, .. } = settings.weather;
+    let outdoors = if people_respond { conditions.outdoors(falling, snow) } else { conditions.outdoors(None, 0.0) };
     let library = &library.in_season(conditions.season()).dressed_for(outdoors);
 
     // What lies and stands for good.
@@ -218,7 +218,8 @@ pub fn build_at(
     let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
     let (_, lon_deg) = drive.projection.geo_from_world(bounds.centre());
     let solar_hour = solar_hour(settings.light.time_ns(drive), lon_deg);
-    switch_on(solar_hour, locale.driving_side, &mut assembly.stock, lit);
+    let drives_lit = assembly.stock.is_dark || settings.weather.asks_for_lights();
+    switch_on(solar_hour, locale.driving_side, drives_lit, &mut assembly.stock, lit);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {
@@ -583,7 +584,7 @@ mod tests {
         let flakes = Precipitation { form: Form::Snow, rate_mm_h: 1.0 };
         let snows = Weather { falling: Some(flakes), ..Weather::default() };
         let snowed = Weather { snow: 0.5, ..Weather::default() };
-        let alike = Weather { falling: Some(flakes), dresses_people: false, ..Weather::default() };
+        let alike = Weather { falling: Some(flakes), people_respond: false, ..Weather::default() };
         let named = |id: &str| vec![id.to_owned()];
         assert_eq!(walks(&[&coat, &tee], Weather::default()), (named("person/tee"), false));
         assert_eq!(walks(&[&coat, &tee], snows), (named("person/coat"), false));

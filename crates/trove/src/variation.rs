@@ -176,7 +176,7 @@ impl Variation {
                 falling: self.falling,
                 snow: self.snow,
                 // Its pictures show the same people.
-                dresses_people: recipe.variations.counterfactual.is_none(),
+                people_respond: recipe.variations.counterfactual.is_none(),
                 ..recipe.weather.weather()
             },
             on_disagreement: recipe.map.on_disagreement.into(),

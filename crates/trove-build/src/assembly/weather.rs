@@ -5,6 +5,9 @@ use trove_model::{Class, Drive, Fog, Material, Precipitation, Season};
 
 use crate::assembly::{Actor, Assembly};
 
+/// Weather services speak of fog below this visibility (WMO No. 8), metres.
+const FOGGY_BELOW_M: f64 = 1000.0;
+
 /// How weather has treated a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weather {
@@ -23,8 +26,9 @@ pub struct Weather {
     pub wind_mps: DVec2,
     /// Share of level surfaces in the open that snow covers, 0 to 1, but for roads, where wheels have left less of it.
     pub snow: f64,
-    /// Whether people are dressed for what falls and lies, or for the season alone, as who is to be the same in any weather.
-    pub dresses_people: bool,
+    /// Whether people respond to it: dress for what falls and lies, and drive with their lights on. They do not where nothing
+    /// but the weather is to differ.
+    pub people_respond: bool,
 }
 
 impl Default for Weather {
@@ -38,7 +42,7 @@ impl Default for Weather {
             falling: None,
             wind_mps: DVec2::ZERO,
             snow: 0.0,
-            dresses_people: true,
+            people_respond: true,
         }
     }
 }
@@ -54,6 +58,12 @@ impl Weather {
         let path_z = drive.keyframes.iter().map(|k| k.world_from_ego.translation.z);
         let ground_z_m = path_z.reduce(f64::min).unwrap_or(0.0);
         self.fog.map(|fog| Fog { ground_z_m, ..fog })
+    }
+
+    /// Whether vehicles are driven with their lights on by day: in fog, and while their wipers run.
+    pub(crate) fn asks_for_lights(self) -> bool {
+        let is_foggy = self.fog.is_some_and(|fog| fog.visibility_m < FOGGY_BELOW_M);
+        self.people_respond && (is_foggy || self.falling.is_some())
     }
 
     /// Treats the materials of a place that has been put together, and of its road users.

@@ -38,11 +38,12 @@ const BRAKE_CD: f32 = 220.0;
 /// No lamp is smaller, m².
 const SMALLEST_M2: f32 = 1e-3;
 
-/// Switches lights of houses on, by the hour, where street lamps are, and the lamps of the vehicles that move during the
-/// recording; and brake lamps where vehicles brake, day and night.
+/// Switches lights of houses on, by the hour, where street lamps are; where vehicles are driven with their lights on, those
+/// of all that move during the recording; and brake lamps where vehicles brake, day and night.
 pub(crate) fn switch_on<'a>(
     solar_hour: f64,
     side: DrivingSide,
+    drives_lit: bool,
     stock: &mut Stock,
     actors: impl Iterator<Item = &'a mut Actor>,
 ) {
@@ -52,7 +53,7 @@ pub(crate) fn switch_on<'a>(
             material.emission = glow(material, solar_hour).unwrap_or(material.emission * DIMMED);
         }
     }
-    let low_beam = stock.is_dark.then(|| low_beam(side));
+    let low_beam = drives_lit.then(|| low_beam(side));
     let tail = Lamp { role: Role::TailLamp, along: -1.0, candelas: TAIL_CD, color: RED, beam: None };
     for actor in actors {
         let Some(mesh) = actor.mesh().map(|mesh| stock.meshes[mesh].clone()) else { continue };
@@ -155,7 +156,7 @@ mod tests {
     use std::sync::Arc;
 
     use glam::DVec3;
-    use trove_model::{EnvironmentMap, Kind, PhysicalSky, Report, Seed, State};
+    use trove_model::{EnvironmentMap, Fog, Form, Kind, PhysicalSky, Precipitation, Report, Seed, State};
 
     use super::*;
     use crate::testing;
@@ -170,7 +171,7 @@ mod tests {
         stock.painted(&lamp, Seed(1));
         stock.material(&Material { role: Some(Role::RoomLamp), ..Material::default() });
         stock.material(&Material { emission: Vec3::X, ..Material::default() });
-        switch_on(19.0, DrivingSide::Right, &mut stock, std::iter::empty());
+        switch_on(19.0, DrivingSide::Right, true, &mut stock, std::iter::empty());
         [0, 1, 2].map(|i| stock.materials[i].emission)
     }
 
@@ -228,13 +229,50 @@ mod tests {
             let mut stock = Stock::default();
             stock.is_dark = true;
             stock.material(&Material { role: Some(role), emission: Vec3::ONE, ..Material::default() });
-            switch_on(solar_hour, DrivingSide::Right, &mut stock, std::iter::empty());
+            switch_on(solar_hour, DrivingSide::Right, true, &mut stock, std::iter::empty());
             stock.materials[0].emission != Vec3::ZERO
         };
         let hours = [3.0, 6.0, 18.0, 22.0, 23.5];
         assert_eq!(hours.map(|hour| lit(Role::ShopPanel, hour)), [false, false, true, false, false]);
         assert_eq!(hours.map(|hour| lit(Role::SignLamp, hour)), [false, true, true, true, false]);
         assert!(hours.iter().all(|hour| lit(Role::RoomLamp, *hour)));
+    }
+
+    #[test]
+    fn vehicles_are_driven_with_their_lights_on_in_fog_and_while_it_rains_or_snows() {
+        let drive = testing::drive();
+        let mut library = testing::library();
+        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
+        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::Headlamp));
+        let lit = |weather: Weather| {
+            let settings = BuildSettings { weather, ..settings() };
+            let scene = build(&drive, None, &library, &settings, &Report::default()).unwrap().scene(&drive, 0);
+            let cars = scene.instances.iter().filter(|i| i.class == Class::Car);
+            cars.filter(|car| car.materials.iter().any(|&m| scene.materials[m].is_emitter())).count()
+        };
+        let fog = |visibility_m: f64| Weather {
+            fog: Some(Fog { visibility_m, height_m: 300.0, ground_z_m: 0.0 }),
+            ..Weather::default()
+        };
+        let falling =
+            |form: Form| Weather { falling: Some(Precipitation { form, rate_mm_h: 1.0 }), ..Weather::default() };
+        let wet = Weather { wetness: 1.0, ..Weather::default() };
+        assert_eq!([Weather::default(), wet, fog(1500.0)].map(lit), [0; 3]);
+        let [in_fog, in_rain, in_snow] = [fog(200.0), falling(Form::Rain), falling(Form::Snow)].map(lit);
+        assert!(in_fog > 0 && in_fog == in_rain && in_rain == in_snow, "{in_fog} {in_rain} {in_snow}");
+    }
+
+    fn settings() -> BuildSettings {
+        BuildSettings {
+            seeds: Seed(1).into(),
+            top_k: 1,
+            traffic: crate::Traffic::default(),
+            light: LightChoice::default(),
+            weather: Weather::default(),
+            on_disagreement: OnDisagreement::default(),
+            locale: testing::locale("SG"),
+            borders: None,
+        }
     }
 
     #[test]
@@ -253,17 +291,7 @@ mod tests {
         let mut library = testing::library();
         let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
         lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::TailLamp));
-        let settings = BuildSettings {
-            seeds: Seed(1).into(),
-            top_k: 1,
-            traffic: crate::Traffic::default(),
-            light: LightChoice::default(),
-            weather: Weather::default(),
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("SG"),
-            borders: None,
-        };
-        let site = build(&drive, None, &library, &settings, &Report::default()).unwrap();
+        let site = build(&drive, None, &library, &settings(), &Report::default()).unwrap();
         let mut braking = Vec::new();
         for k in 0..drive.keyframes.len() {
             let scene = site.scene(&drive, k);

@@ -57,7 +57,7 @@ pub struct WeatherSection {
 
 impl Default for WeatherSection {
     fn default() -> Self {
-        let Weather { dirt, wetness, season: _, fog: _, falling: _, wind_mps, snow, dresses_people: _ } =
+        let Weather { dirt, wetness, season: _, fog: _, falling: _, wind_mps, snow, people_respond: _ } =
             Weather::default();
         let season = SeasonChoice::default();
         Self {
