@@ -41,6 +41,11 @@ const MAP_CELLS: usize = 256;
 /// Samples that are compared where lamps give most of the light: most of them fall on what gives little there.
 const CANDIDATES: u32 = 4;
 
+/// Light that would bring less than this share of what a white surface has in the open is asked for by chance: under a sky,
+/// and where lamps give most of the light. The noise that it adds is as much as the time that it saves, or less.
+const FAINT: f32 = 0.02;
+const FAINT_OF_LAMPS: f32 = 0.1;
+
 /// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
 const SHARE_BELOW: f64 = 0.05;
 
@@ -159,7 +164,16 @@ impl Lights {
 
     /// How many samples of the rest are compared before one of them is asked for: one by day, since the sky is drawn well.
     pub(crate) fn candidates(&self) -> u32 {
-        if self.emitter_share > 0.5 { CANDIDATES } else { 1 }
+        if self.are_mostly_lamps() { CANDIDATES } else { 1 }
+    }
+
+    /// Share of [`Self::scale`] below which light is asked for by chance.
+    pub(crate) fn faint(&self) -> f32 {
+        if self.are_mostly_lamps() { FAINT_OF_LAMPS } else { FAINT }
+    }
+
+    fn are_mostly_lamps(&self) -> bool {
+        self.emitter_share > 0.5
     }
 
     /// Density over solid angle with which [`Rest::draw`], given that normal, draws a direction of the sky.

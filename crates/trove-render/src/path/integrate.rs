@@ -23,6 +23,9 @@ const ROULETTE: f32 = 2.0;
 /// has: rare paths that carry more would be speckles long before they are an average.
 const MOST_DIRECT: f32 = 64.0;
 const MOST_INDIRECT: f32 = 6.0;
+/// Of droplets, the light that shadow rays ask for by chance, as [`Lights::faint`] is for surfaces: most of the noise in fog
+/// is not theirs, and a quarter of the time was.
+const FAINT_IN_AIR: f32 = 0.2;
 /// Textures are looked up at this share of the pixel's width: the samples in the pixel do the rest.
 const SHARPNESS: f32 = 0.5;
 
@@ -202,11 +205,10 @@ impl Vertex<'_> {
         let events = if bsdf.is_matt { MATT_EVENTS } else { 1 };
         let air = Scattering::after(path.events + events);
         let sun = self.sun(path, surface.point, air);
-        let shadow = sun.and_then(|sun| self.ask(path, &surface, &bsdf, sun));
-        self.shadows.to_sun.extend(shadow);
+        let sun = sun.and_then(|sun| self.ask(path, &surface, &bsdf, sun));
         let rest = lights.rest(surface.point, lit_side);
-        let shadow = self.ask_rest(path, &rest, u_light, air, |path, light| self.ask(path, &surface, &bsdf, light));
-        self.shadows.to_rest.extend(shadow);
+        let rest = self.ask_rest(path, &rest, u_light, air, |path, light| self.ask(path, &surface, &bsdf, light));
+        self.trace(path, sun, rest, lights.faint());
 
         let [u_lobe, u_roulette] = path.sampler.next2();
         let [u0, u1] = path.sampler.next2();
@@ -270,8 +272,7 @@ impl Vertex<'_> {
         };
         let sun = sun.and_then(|sun| ask(path, sun));
         let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
-        self.shadows.to_sun.extend(sun);
-        self.shadows.to_rest.extend(rest);
+        self.trace(path, sun, rest, FAINT_IN_AIR);
 
         path.droplets += 1;
         path.events += 1;
@@ -322,6 +323,19 @@ impl Vertex<'_> {
         }
         let (shadow, brings) = chosen?;
         Some(Shadow { light: shadow.light * (total / (brings * count as f32)), ..shadow })
+    }
+
+    /// Has shadow rays traced; those that would bring little by chance, the likelier the more, and then for all of them.
+    fn trace(&mut self, path: &mut Path, sun: Option<Shadow>, rest: Option<Shadow>, faint: f32) {
+        let us = path.sampler.next2();
+        let faint = faint * self.scene.lights.scale();
+        let worth = |shadow: Option<Shadow>, u: f32| {
+            let shadow = shadow?;
+            let chance = (shadow.light.max_element() / faint).min(1.0);
+            (u < chance).then(|| Shadow { light: shadow.light / chance, ..shadow })
+        };
+        self.shadows.to_sun.extend(worth(sun, us[0]));
+        self.shadows.to_rest.extend(worth(rest, us[1]));
     }
 
     /// The sun as it shines through the air on a surface, some of it from around its disk.

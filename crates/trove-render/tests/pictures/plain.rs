@@ -12,7 +12,7 @@ const SIDE: usize = 64;
 const BLOCK: usize = 8;
 const BLOCKS: usize = (SIDE / BLOCK) * (SIDE / BLOCK);
 /// Paths a pixel of the plain pictures, and how often they bounce; what is left then is below a part in a thousand.
-const PATHS: usize = 25;
+const PATHS: usize = 60;
 const BOUNCES: usize = 12;
 /// Samples a pixel of the renderer's, and how many it takes.
 const SPP: u32 = 64;
