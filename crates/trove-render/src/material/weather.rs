@@ -17,7 +17,7 @@ const WATER_F0: f32 = 0.02;
 /// GGX α of water that stands, and of a film over something rough: of what rain has just begun to wet, and of what it runs
 /// over.
 const STILL: f32 = 0.004;
-const FILM: [f32; 2] = [0.35, 0.12];
+const FILM: [f32; 2] = [0.35, 0.06];
 
 /// How much of it a material has.
 #[derive(Clone, Copy)]
@@ -117,7 +117,7 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
     }
     // Cloth soaks it up.
     if water > 0.0 && p.sheen == Vec3::ZERO {
-        let mut normal = normal.lerp(surface.shading, (0.4 + 0.4 * wetness).max(puddle)).normalize_or(normal);
+        let mut normal = normal.lerp(surface.shading, (0.4 + 0.5 * wetness).max(puddle)).normalize_or(normal);
         if puddle > 0.0 {
             normal = (normal + water::rings(surface) * puddle).normalize_or(normal);
         }
