@@ -124,7 +124,7 @@ mod tests {
             shown.sort_by(f32::total_cmp);
             (shown.iter().sum::<f32>() / shown.len() as f32, shown[shown.len() * 99 / 100])
         };
-        // The histogram's steps are a fiftieth of a stop.
+        // Steps of the histogram are a thirtieth of a stop.
         let bright_sky = Raster::from_fn(60, 30, |_, y| [if y < 10 { 2.0 } else { 0.1 }; 3]);
         let (mean, brightest) = shown(&bright_sky);
         assert!((f64::from(mean) - SHOWN_MEAN).abs() < 0.01 && f64::from(brightest) > SHOWN_BRIGHTEST);

@@ -44,7 +44,7 @@ const CANDIDATES: u32 = 4;
 /// Light that would bring less than this share of what a white surface has in the open is asked for by chance: under a sky,
 /// and where lamps give most of the light. The noise that it adds is as much as the time that it saves, or less.
 const FAINT: f32 = 0.02;
-const FAINT_OF_LAMPS: f32 = 0.3;
+const FAINT_OF_LAMPS: f32 = 0.1;
 
 /// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
 const SHARE_BELOW: f64 = 0.05;
