@@ -16,8 +16,8 @@ const MOST_EV: f64 = 11.0;
 /// (nuScenes), 0.39 ± 0.02 (KITTI) and 0.42 ± 0.08 (CamVid by day), however much sky is in them.
 const SHOWN_MEAN: f64 = 0.42;
 
-/// What the brightest hundredth of a developed picture is shown at, at least, however little contrast fog or snow leaves: no
-/// photograph of nuScenes, KITTI and CamVid has less than 0.80.
+/// What the brightest hundredth of a developed picture is shown at, at least, however little contrast fog or snow leaves: of
+/// 482 photographs of nuScenes, KITTI, CamVid and Cityscapes two have less than 0.80.
 const SHOWN_BRIGHTEST: f64 = 0.8;
 const BRIGHTEST: f64 = 0.01;
 
