@@ -48,11 +48,11 @@ pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
         return 0.0;
     }
     let pixels = radiance.data.len() as f64;
-    let brighter = histogram.iter().rev().scan(0, |sum, count| {
-        *sum += count;
-        Some(*sum as f64)
-    });
-    let bright = histogram.len() - 1 - brighter.take_while(|&sum| sum < BRIGHTEST * pixels).count();
+    let (mut bright, mut brighter) = (histogram.len() - 1, 0);
+    while bright > 0 && ((brighter + histogram[bright]) as f64) < BRIGHTEST * pixels {
+        brighter += histogram[bright];
+        bright -= 1;
+    }
     let is_too_dark = |ev: f64| {
         let shown = |bin: usize| {
             f64::from(tone::shown(((bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev).exp2() as f32))
@@ -136,6 +136,12 @@ mod tests {
                 "{mean} {brightest}"
             );
         }
+    }
+
+    #[test]
+    fn a_night_in_which_hardly_anything_shines_is_exposed_by_the_most_that_a_camera_does() {
+        let lamp = Raster::from_fn(60, 30, |x, y| [if (x, y) == (7, 3) { 1.0 } else { 0.0 }; 3]);
+        assert!((exposure_ev(&lamp) - MOST_EV).abs() < 1e-6, "{}", exposure_ev(&lamp));
     }
 
     #[test]
