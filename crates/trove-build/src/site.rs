@@ -461,16 +461,7 @@ mod tests {
     use crate::views::{PictureSize, ViewPlan, ViewSettings};
 
     fn settings(seed: u64) -> BuildSettings {
-        BuildSettings {
-            seeds: Seed(seed).into(),
-            top_k: 3,
-            traffic: Traffic::default(),
-            light: LightChoice::default(),
-            weather: Weather::default(),
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("SG"),
-            borders: None,
-        }
+        BuildSettings { seeds: Seed(seed).into(), top_k: 3, ..testing::settings() }
     }
 
     fn site(seed: u64) -> Site {

@@ -46,7 +46,7 @@ fn standing(field: &HeightField, world_from_ego: &Pose<World, Ego>, middle: DVec
 mod tests {
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, OnDisagreement, PlacePlan, Traffic, Weather, build, place_drive};
+    use crate::{BuildSettings, PlacePlan, build, place_drive};
     use trove_model::{AssetLibrary, DrivingSide, MapProjection, Provenance, Raster, Relief, RoadKind, Seed};
 
     #[test]
@@ -69,16 +69,7 @@ mod tests {
         let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side, time_ns: 0 };
         let flat = place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
         let drive = on_relief(flat.clone(), &map);
-        let settings = BuildSettings {
-            seeds: Seed(1).into(),
-            top_k: 1,
-            traffic: Traffic::default(),
-            light: LightChoice::default(),
-            weather: Weather::default(),
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("FR"),
-            borders: None,
-        };
+        let settings = BuildSettings { locale: testing::locale("FR"), ..testing::settings() };
         let site = build(&drive, Some(&map), &AssetLibrary::default(), &settings, &Report::default()).unwrap();
         let heights = drive.keyframes.iter().map(|k| k.world_from_ego.translation.z);
         let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), z| (low.min(z), high.max(z)));

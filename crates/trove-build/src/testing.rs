@@ -11,15 +11,34 @@ use trove_model::{
 };
 use trove_read::locale::Locales;
 
+use crate::agreement::OnDisagreement;
+use crate::assembly::Weather;
 use crate::ground::Spans;
+use crate::light::LightChoice;
 use crate::place::{Conditions, Place, Seeds};
 use crate::roads::{self, RoadSurfaces};
+use crate::site::BuildSettings;
+use crate::traffic::Traffic;
 
 static LOCALES: LazyLock<Locales> = LazyLock::new(Locales::built_in);
 
 /// A country's customs, from the built-in table.
 pub(crate) fn locale(country: &str) -> Locale {
     LOCALES.country(country).unwrap().clone()
+}
+
+/// A dry day in Singapore, with the recorded traffic alone and the model that fits best.
+pub(crate) fn settings() -> BuildSettings {
+    BuildSettings {
+        seeds: Seed(1).into(),
+        top_k: 1,
+        traffic: Traffic::default(),
+        light: LightChoice::default(),
+        weather: Weather::default(),
+        on_disagreement: OnDisagreement::default(),
+        locale: locale("SG"),
+        borders: None,
+    }
 }
 
 /// How a country builds.

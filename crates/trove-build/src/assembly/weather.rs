@@ -119,23 +119,14 @@ impl Weather {
 
 #[cfg(test)]
 mod tests {
-    use trove_model::{Report, Scene, Seed};
+    use trove_model::{Report, Scene};
 
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, OnDisagreement, build};
+    use crate::{BuildSettings, build};
 
     fn scene(weather: Weather) -> Scene {
-        let settings = BuildSettings {
-            seeds: Seed(1).into(),
-            top_k: 1,
-            traffic: crate::Traffic::default(),
-            light: LightChoice::default(),
-            weather,
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("SG"),
-            borders: None,
-        };
+        let settings = BuildSettings { weather, ..testing::settings() };
         let drive = testing::drive();
         build(&drive, None, &testing::library(), &settings, &Report::default()).unwrap().scene(&drive, 0)
     }

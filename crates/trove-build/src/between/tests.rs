@@ -1,11 +1,11 @@
 use glam::{DVec3, Vec3};
 use trove_model::{
     Asset, AssetLibrary, Body, Drive, Ego, Figure, Instance, Keypoints, Kind, Mesh, Origin, Pose, Posture, Report,
-    Scene, Seed, Trajectory, World,
+    Scene, Trajectory, World,
 };
 
 use super::*;
-use crate::{BuildSettings, LightChoice, OnDisagreement, Site, Traffic, Weather, build_at, testing};
+use crate::{BuildSettings, Site, Traffic, build_at, testing};
 
 fn dense(drive: &Drive, rate_hz: f64) -> Timeline {
     between(drive.clone(), rate_hz, &Report::default())
@@ -127,16 +127,8 @@ fn keyframes_far_apart_have_nothing_between_them() {
 }
 
 fn site(drive: &Drive, moments: Moments, library: &AssetLibrary, density: f64) -> Site {
-    let settings = BuildSettings {
-        seeds: Seed(1).into(),
-        top_k: 3,
-        traffic: Traffic { density, ..Traffic::default() },
-        light: LightChoice::default(),
-        weather: Weather::default(),
-        on_disagreement: OnDisagreement::default(),
-        locale: testing::locale("SG"),
-        borders: None,
-    };
+    let traffic = Traffic { density, ..Traffic::default() };
+    let settings = BuildSettings { top_k: 3, traffic, ..testing::settings() };
     build_at(drive, moments, None, library, &settings, &Report::default()).unwrap()
 }
 

@@ -160,7 +160,7 @@ mod tests {
 
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, OnDisagreement, Weather, build};
+    use crate::{BuildSettings, Weather, build};
 
     /// Emission of a street lamp, of a lampshade and of a signal under a sky.
     fn shining(environment: Environment) -> [Vec3; 3] {
@@ -245,7 +245,7 @@ mod tests {
         let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
         lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::Headlamp));
         let lit = |weather: Weather| {
-            let settings = BuildSettings { weather, ..settings() };
+            let settings = BuildSettings { weather, ..testing::settings() };
             let scene = build(&drive, None, &library, &settings, &Report::default()).unwrap().scene(&drive, 0);
             let cars = scene.instances.iter().filter(|i| i.class == Class::Car);
             cars.filter(|car| car.materials.iter().any(|&m| scene.materials[m].is_emitter())).count()
@@ -260,19 +260,6 @@ mod tests {
         assert_eq!([Weather::default(), wet, fog(1500.0)].map(lit), [0; 3]);
         let [in_fog, in_rain, in_snow] = [fog(200.0), falling(Form::Rain), falling(Form::Snow)].map(lit);
         assert!(in_fog > 0 && in_fog == in_rain && in_rain == in_snow, "{in_fog} {in_rain} {in_snow}");
-    }
-
-    fn settings() -> BuildSettings {
-        BuildSettings {
-            seeds: Seed(1).into(),
-            top_k: 1,
-            traffic: crate::Traffic::default(),
-            light: LightChoice::default(),
-            weather: Weather::default(),
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("SG"),
-            borders: None,
-        }
     }
 
     #[test]
@@ -291,7 +278,7 @@ mod tests {
         let mut library = testing::library();
         let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
         lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::TailLamp));
-        let site = build(&drive, None, &library, &settings(), &Report::default()).unwrap();
+        let site = build(&drive, None, &library, &testing::settings(), &Report::default()).unwrap();
         let mut braking = Vec::new();
         for k in 0..drive.keyframes.len() {
             let scene = site.scene(&drive, k);

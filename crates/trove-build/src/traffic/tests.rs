@@ -1,7 +1,7 @@
 use super::*;
 use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
-use crate::{LightChoice, OnDisagreement, Weather, testing};
+use crate::testing;
 use room::Outline;
 use trove_model::{AssetLibrary, Instance, Origin, Scene, SceneObject, State};
 
@@ -19,16 +19,8 @@ fn site(density: f64, seed: u64, report: &Report) -> Site {
 }
 
 fn site_with(traffic: Traffic, seed: u64, report: &Report) -> Site {
-    let settings = BuildSettings {
-        seeds: crate::Seeds { traffic: Seed(seed), ..Seed(1).into() },
-        top_k: 3,
-        traffic,
-        light: LightChoice::default(),
-        weather: Weather::default(),
-        on_disagreement: OnDisagreement::default(),
-        locale: testing::locale("SG"),
-        borders: None,
-    };
+    let seeds = crate::Seeds { traffic: Seed(seed), ..Seed(1).into() };
+    let settings = BuildSettings { seeds, top_k: 3, traffic, ..testing::settings() };
     crate::build(&testing::drive(), None, &library(), &settings, report).unwrap()
 }
 

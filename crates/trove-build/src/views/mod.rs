@@ -98,8 +98,8 @@ mod tests {
     use super::*;
     use std::collections::{BTreeMap, BTreeSet};
 
+    use crate::build;
     use crate::testing;
-    use crate::{BuildSettings, LightChoice, OnDisagreement, build};
     use glam::DVec3;
     use trove_model::{LensDrops, Pose, Seed, Trajectory};
 
@@ -108,18 +108,7 @@ mod tests {
     }
 
     fn build_site(drive: &Drive) -> Site {
-        let weather = crate::Weather::default();
-        let settings = BuildSettings {
-            seeds: Seed(1).into(),
-            top_k: 1,
-            traffic: crate::Traffic::default(),
-            light: LightChoice::default(),
-            weather,
-            on_disagreement: OnDisagreement::default(),
-            locale: testing::locale("SG"),
-            borders: None,
-        };
-        build(drive, None, &testing::library(), &settings, &Report::default()).unwrap()
+        build(drive, None, &testing::library(), &testing::settings(), &Report::default()).unwrap()
     }
 
     fn taken(site: &Site, keyframe: usize, seed: u64) -> Vec<Shot> {
