@@ -16,7 +16,7 @@ pub enum Role {
     ShopPanel,
     /// A lamp over a shop's sign: it shines in the dark until late.
     SignLamp,
-    /// A headlamp of a vehicle: it shines in the dark while the vehicle is driven.
+    /// A headlamp of a vehicle: it shines in the dark, and in fog, rain and snow, while the vehicle is driven.
     Headlamp,
     /// A tail lamp of a vehicle, likewise.
     TailLamp,

@@ -175,7 +175,7 @@ impl Variation {
                 fog: self.fog,
                 falling: self.falling,
                 snow: self.snow,
-                // Its pictures show the same people.
+                // Its pictures show the same people, who do the same.
                 people_respond: recipe.variations.counterfactual.is_none(),
                 ..recipe.weather.weather()
             },

@@ -24,7 +24,7 @@ const ROULETTE: f32 = 2.0;
 const MOST_DIRECT: f32 = 64.0;
 const MOST_INDIRECT: f32 = 6.0;
 /// Of droplets, the light that shadow rays ask for by chance, as [`Lights::faint`] is for surfaces: most of the noise in fog
-/// is not theirs, and a quarter of the time was.
+/// is not theirs, and a fifth of the time was.
 const FAINT_IN_AIR: f32 = 0.2;
 /// Textures are looked up at this share of the pixel's width: the samples in the pixel do the rest.
 const SHARPNESS: f32 = 0.5;
