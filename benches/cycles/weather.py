@@ -25,14 +25,17 @@ def arguments():
     parser.add_argument(
         "--reference", type=int, default=1024, help="samples a pixel of each half of a weather's reference"
     )
+    parser.add_argument(
+        "--read", action="store_true", help="light that fog scatters often is read from a field; references follow it"
+    )
     parser.add_argument("--weather", nargs="+", default=list(WEATHER), choices=list(WEATHER), help="beside the day")
     return parser.parse_args()
 
 
-def measured(scene, args):
+def measured(scene, reference, args):
     """By (measure, denoised): the curve of (seconds, error) over samples a pixel; prints a row for each picture."""
-    scene.build()
-    halves = scene.halves(args.reference)
+    reference.build()
+    halves = reference.halves(args.reference)
     gain = np.float32(2.0 ** halves["exposure_ev"])
     first, second = halves["first"] * gain, halves["second"] * gain
     against = (first + second) / 2
@@ -64,7 +67,10 @@ def main():
         for weather in dict.fromkeys(["day", *args.weather]):
             print(f"  {weather}\n    {'spp':>4} {'':9} {'seconds':>8} {'relMSE':>9} {'FLIP':>7}")
             tables = WEATHER[weather].format(night=NIGHT[name])
-            found = measured(Scene(name, args.scale, args, f"-{weather}", tables), args)
+            reference = Scene(name, args.scale, args, f"-{weather}", tables)
+            # Tables follow that of `[render]`.
+            read = Scene(name, args.scale, args, f"-{weather}-read", "cache = true\n" + tables) if args.read else reference
+            found = measured(read, reference, args)
             day = day or found
             for measure, denoise in found if found is not day else ():
                 mean, least, most = curves.ratio(day[measure, denoise], [found[measure, denoise]])

@@ -175,6 +175,9 @@ pub struct Shot {
     /// Mean error, as a share of brightness, at which a few neighbouring pixels have had enough samples; 0: all get
     /// `spp`.
     pub noise: f32,
+    /// Whether light that fog scatters again and again is read from a field around the camera and not followed: far less noise
+    /// for some bias.
+    pub cache: bool,
     /// Drops on the glass before the lens; `None` where it is dry.
     pub drops: Option<LensDrops>,
     /// From light to picture.
@@ -204,6 +207,7 @@ impl Shot {
             shutter: Shutter::INSTANT,
             spp: 1,
             noise: 0.0,
+            cache: false,
             drops: None,
             film: Film::default(),
             seed: Seed(0),

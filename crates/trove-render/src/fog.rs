@@ -9,6 +9,7 @@
 //! for all of them.
 
 use std::f32::consts::PI;
+use std::sync::LazyLock;
 
 use glam::Vec3;
 use trove_model::Light;
@@ -26,6 +27,8 @@ const TOGETHER_ASYMMETRY: f32 = 0.9;
 /// Scattering events after which light takes the fewest turns; up to [`EXACT_EVENTS`] it meets every droplet.
 const MIXED_EVENTS: u32 = 5;
 const EXACT_EVENTS: u32 = 1;
+/// Turns of light that are told apart at most.
+const MOST_TURNS: u32 = 12;
 /// What a matt surface counts for, which does not tell ways apart that differ by the turns of single droplets.
 pub(crate) const MATT_EVENTS: u32 = 3;
 
@@ -34,8 +37,35 @@ pub(crate) const MATT_EVENTS: u32 = 3;
 pub(crate) struct Scattering {
     /// Share of the droplets that scatter it one by one; the others are taken together.
     share: f32,
-    /// Mean cosine.
+    /// Mean cosine of Henyey and Greenstein's function, which is kept below `most` and then made a density again.
     asymmetry: f32,
+    most: f32,
+    sum: f32,
+    /// Mean cosine of what those droplets scatter that are taken together, seen where light arrives.
+    together: f32,
+}
+
+/// Angle within which [`Scattering::broad`] has no peak.
+const PEAK_RAD: f32 = 25.0 * PI / 180.0;
+
+static BROAD: LazyLock<Scattering> = LazyLock::new(broad);
+
+fn broad() -> Scattering {
+    let exact = Scattering::after(0);
+    let most = exact.phase(PEAK_RAD.cos());
+    let (mut sum, mut peak, steps) = (0.0f64, 0.0f64, 20_000);
+    // Finest ahead.
+    let from_ahead = |i: i32| 2.0 * (f64::from(i) / f64::from(steps)).powi(3);
+    for i in 0..steps {
+        let cos = 1.0 - 0.5 * (from_ahead(i) + from_ahead(i + 1));
+        let width_sr = (from_ahead(i + 1) - from_ahead(i)) * 2.0 * std::f64::consts::PI;
+        let all = exact.phase(cos as f32);
+        let left = f64::from(all.min(most)) * width_sr;
+        sum += left;
+        peak += (f64::from(all) * width_sr - left) * cos;
+    }
+    let share = sum as f32;
+    Scattering { share, asymmetry: ASYMMETRY, most, sum: share, together: (peak / (1.0 - sum)) as f32 }
 }
 
 impl Scattering {
@@ -45,7 +75,36 @@ impl Scattering {
         let mixed = events.clamp(EXACT_EVENTS, MIXED_EVENTS) - EXACT_EVENTS;
         let together = ASYMMETRY * ASYMMETRY * mixed as f32 / (MIXED_EVENTS - EXACT_EVENTS) as f32;
         let share = 1.0 - together;
-        Self { share, asymmetry: (ASYMMETRY - together) / share }
+        Self {
+            share,
+            asymmetry: (ASYMMETRY - together) / share,
+            most: f32::INFINITY,
+            sum: 1.0,
+            together: TOGETHER_ASYMMETRY,
+        }
+    }
+
+    /// Of light whose scattering is not followed but read from a field: the peak of what droplets scatter nearly straight
+    /// on is taken as not scattered (after Iwabuchi and Suzuki 2009).
+    pub(crate) fn broad() -> Self {
+        *BROAD
+    }
+
+    /// Share of light from afar that droplets, met one by one, scatter into a direction, a steradian, by the cosine between
+    /// the ways, if it came through so much depth and only those were taken together that [`Self::broad`] leaves out.
+    pub(crate) fn phase_of_turned(self, cos: f32, depth: f32) -> f32 {
+        let mean = (1.0 - BROAD.share) * depth;
+        let (mut chance, mut left, mut turned, mut sum) = ((-mean).exp(), 1.0, self, 0.0);
+        for met in 1..=MOST_TURNS {
+            sum += turned.phase(cos) * if met == MOST_TURNS { left } else { chance };
+            left -= chance;
+            if left < 1e-3 {
+                break;
+            }
+            chance *= mean / met as f32;
+            turned.asymmetry *= BROAD.together;
+        }
+        sum
     }
 
     /// Share of light from a direction that is scattered into another, a steradian, by the cosine between the ways; also the
@@ -53,7 +112,7 @@ impl Scattering {
     pub(crate) fn phase(self, cos: f32) -> f32 {
         let g = self.asymmetry;
         let square = 1.0 + g * g - 2.0 * g * cos;
-        (1.0 - g * g) / (4.0 * PI * square * square.sqrt())
+        ((1.0 - g * g) / (4.0 * PI * square * square.sqrt())).min(self.most) / self.sum
     }
 
     /// A way on from a unit direction.
@@ -65,7 +124,7 @@ impl Scattering {
     /// turns by Henyey and Greenstein's function, one after another, are one with the product of their mean cosines.
     pub(crate) fn turn_together(self, direction: Vec3, depth: f32, u: [f32; 3]) -> Vec3 {
         let met = poisson((1.0 - self.share) * depth, u[0]);
-        if met == 0 { direction } else { turned(direction, TOGETHER_ASYMMETRY.powi(met), [u[1], u[2]]) }
+        if met == 0 { direction } else { turned(direction, self.together.powi(met), [u[1], u[2]]) }
     }
 }
 

@@ -74,6 +74,7 @@ mod card;
 mod denoise;
 mod drops;
 mod error;
+mod field;
 mod film;
 mod fog;
 mod labels;

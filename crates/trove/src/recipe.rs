@@ -335,6 +335,8 @@ pub struct RenderSection {
     pub spp: u32,
     /// The share of brightness by which a pixel may still be wrong when it has had enough samples; 0: all get `spp`.
     pub noise: f32,
+    /// Whether light that fog scatters again and again is read from a field around the camera.
+    pub cache: bool,
     /// Whether noise is removed.
     pub denoise: Denoise,
     /// False: labels only.
@@ -394,6 +396,7 @@ impl Default for RenderSection {
             size: None,
             spp: 64,
             noise: 0.0,
+            cache: false,
             denoise: Denoise::Switched(true),
             light: true,
             radiance: false,

@@ -123,6 +123,7 @@ fn view_settings(recipe: &Recipe) -> Result<ViewSettings> {
         pitch_rad: 0.0,
         spp: recipe.render.spp,
         noise: recipe.render.noise,
+        cache: recipe.render.cache,
         lenses: recipe.camera.lenses()?,
         exposure_s: recipe.camera.exposure_s,
         readout_s: recipe.camera.readout_s,

@@ -188,6 +188,7 @@ impl Stay {
                     shutter: views.shutter(),
                     spp: views.spp,
                     noise: views.noise,
+                    cache: views.cache,
                     drops: views.drops(seeds, &view),
                     film: views.film,
                     labels: views.labels.clone(),

@@ -81,6 +81,7 @@ fn recorded(
             shutter: views.shutter(),
             spp: views.spp,
             noise: views.noise,
+            cache: views.cache,
             drops: views.drops(seeds, &view),
             film: views.film,
             labels: views.labels.clone(),

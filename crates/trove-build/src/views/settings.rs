@@ -26,6 +26,8 @@ pub struct ViewSettings {
     pub spp: u32,
     /// As in [`Shot::noise`](trove_model::Shot::noise).
     pub noise: f32,
+    /// As in [`Shot::cache`](trove_model::Shot::cache).
+    pub cache: bool,
     /// Lenses in place of the recorded ones, by the camera's name; [`ALL_CAMERAS`] is for those that are not named.
     pub lenses: BTreeMap<String, LensChange>,
     /// Time for which a row of the sensor is exposed, seconds.

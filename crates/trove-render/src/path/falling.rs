@@ -149,7 +149,7 @@ fn light(scene: &PreparedScene, shot: &Shot, form: Form, depth_m: &Raster<f32>) 
             let ray = Ray::new(origin, from);
             wave.paths.push(Path::new(ray, Cone { width_m: 0.0, spread_rad: 0.05 }, sampler));
         }
-        wave.run(scene);
+        wave.run(scene, None);
         wave.paths.iter().map(|path| path.sample().radiance).sum::<Vec3>() / PATHS as f32
     };
     (0..NODES[0] * NODES[1]).into_par_iter().map(node).collect()

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::PreparedScene;
+use crate::field::LightField;
 use crate::fog::{MATT_EVENTS, Scattering};
 use crate::light::{LightSample, Rest};
 use crate::material::Bsdf;
@@ -28,6 +29,8 @@ const MOST_INDIRECT: f32 = 6.0;
 const FAINT_IN_AIR: f32 = 0.2;
 /// Textures are looked up at this share of the pixel's width: the samples in the pixel do the rest.
 const SHARPNESS: f32 = 0.5;
+/// Paths of which droplets that are not met leave less than this end by chance.
+const HARDLY: f32 = 0.05;
 
 /// Most that the sun's light seen around its disk is brighter by for coming in at a slant.
 const MOST_ASLANT: f32 = 3.0;
@@ -108,11 +111,6 @@ impl Path {
         }
     }
 
-    /// How the air scatters what comes along its ray, and at the droplet that it meets there.
-    fn scattering(&self) -> Scattering {
-        Scattering::after(self.events)
-    }
-
     /// Lets it end by chance, the likelier the less it carries; false where it has.
     fn survives(&mut self, u: f32) -> bool {
         let survival = (self.throughput.max_element() * ROULETTE).min(0.95);
@@ -157,6 +155,8 @@ pub(crate) struct Shadows {
 /// Where a path's ray has arrived.
 pub(crate) struct Vertex<'a> {
     pub(crate) scene: &'a PreparedScene,
+    /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
+    pub(crate) field: Option<&'a LightField>,
     /// Index of the path.
     pub(crate) index: u32,
     pub(crate) shadows: &'a mut Shadows,
@@ -168,6 +168,11 @@ impl Vertex<'_> {
         let lights = &self.scene.lights;
         if let Some(t) = self.droplet(path, hit) {
             return self.scatter(path, t, hit);
+        }
+        if let Some(field) = self.field.filter(|_| path.events > 0)
+            && !self.air(path, field, hit.map_or(f32::INFINITY, |hit| hit.t))
+        {
+            return false;
         }
         let Some(hit) = hit else {
             let direction = path.ray.direction;
@@ -203,7 +208,7 @@ impl Vertex<'_> {
 
         let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
         let events = if bsdf.is_matt { MATT_EVENTS } else { 1 };
-        let air = Scattering::after(path.events + events);
+        let air = self.after(path.events + events);
         let sun = self.sun(path, surface.point, air);
         let sun = sun.and_then(|sun| self.ask(path, &surface, &bsdf, sun));
         let rest = lights.rest(surface.point, lit_side);
@@ -242,8 +247,8 @@ impl Vertex<'_> {
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
         let spray = Some(&self.scene.spray).filter(|spray| !spray.is_none() && path.scattered.is_none());
         let in_spray = spray.and_then(|spray| spray.met(origin, direction, free, path.sampler.next2()[0]));
-        let in_fog = self.scene.fog.and_then(|fog| {
-            let fog = fog.scattering(path.scattering());
+        let in_fog = self.scene.fog.filter(|_| self.field.is_none() || path.events == 0).and_then(|fog| {
+            let fog = fog.scattering(self.after(path.events));
             fog.met(origin, direction, in_spray.unwrap_or(free), path.sampler.next2()[0])
         });
         in_fog.or(in_spray)
@@ -262,7 +267,7 @@ impl Vertex<'_> {
         }
         let point = path.ray.origin + direction * t;
         path.cone.width_m += path.cone.spread_rad * t;
-        let (scattering, air) = (path.scattering(), Scattering::after(path.events + 1));
+        let (scattering, air) = (self.after(path.events), self.after(path.events + 1));
         let on_sun = path.sampler.next2();
         let sun = lights.sample_sun(on_sun).map(|sun| self.dimmed(sun, point, air));
         let [u_light, u_roulette] = path.sampler.next2();
@@ -270,7 +275,12 @@ impl Vertex<'_> {
             let phase = scattering.phase(direction.dot(light.wi));
             Some(self.shadow(path, point, Vec3::splat(phase), phase, &light))
         };
-        let sun = sun.and_then(|sun| ask(path, sun));
+        let sun = sun.and_then(|sun| {
+            let Some(fog) = self.scene.fog.filter(|_| self.field.is_some()) else { return ask(path, sun) };
+            let depth = fog.depth(point, sun.wi, f32::INFINITY);
+            let phase = scattering.phase_of_turned(direction.dot(sun.wi), depth);
+            Some(self.shadow(path, point, Vec3::splat(phase), 0.0, &sun))
+        });
         let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
         self.trace(path, sun, rest, FAINT_IN_AIR);
 
@@ -282,6 +292,37 @@ impl Vertex<'_> {
         let on = scattering.turn(direction, path.sampler.next2());
         path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf: scattering.phase(direction.dot(on)) });
         path.ray = path.ray.then(point, on);
+        true
+    }
+
+    /// How the air scatters light that so many events part from the eye.
+    fn after(&self, events: u32) -> Scattering {
+        if self.field.is_some() && events > 0 { Scattering::broad() } else { Scattering::after(events) }
+    }
+
+    /// Gathers what droplets send on along a path's ray as far as it is free, and leaves the path what comes through them;
+    /// false where that is so little that it has ended.
+    fn air(&mut self, path: &mut Path, field: &LightField, free: f32) -> bool {
+        let (lights, scattering) = (&self.scene.lights, Scattering::broad());
+        let Some(fog) = self.scene.fog.map(|fog| fog.scattering(scattering)) else { return true };
+        let (origin, direction) = (path.ray.origin, path.ray.direction);
+        let clear = fog.transmittance(origin, direction, free);
+        let ([u_t, u_grid], on_sun) = (path.sampler.next2(), path.sampler.next2());
+        if let Some(t) = fog.met(origin, direction, free, u_t * (1.0 - clear)) {
+            let point = origin + direction * t;
+            let nearest = field.nearest(point, u_grid);
+            let mut light = field.sent_on(&nearest, direction);
+            if let Some(sun) = lights.sample_sun(on_sun).map(|sun| self.dimmed(sun, point, scattering)) {
+                light += field.sun(&nearest) * sun.radiance * (scattering.phase(direction.dot(sun.wi)) / sun.pdf);
+            }
+            path.gather(path.throughput * (1.0 - clear) * light, path.bounce + 1, lights.scale());
+        }
+        path.throughput *= clear;
+        let carries = path.throughput.max_element();
+        if carries < HARDLY {
+            path.throughput *= HARDLY / carries.max(f32::MIN_POSITIVE);
+            return path.sampler.next2()[0] * HARDLY < carries;
+        }
         true
     }
 

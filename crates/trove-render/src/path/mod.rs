@@ -2,6 +2,7 @@
 
 mod camera;
 pub(crate) mod falling;
+mod fill;
 mod integrate;
 mod rates;
 mod splash;
@@ -38,7 +39,11 @@ pub(crate) struct Buffers {
 pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> bool + Sync)) -> Option<Buffers> {
     let (width, height) = (shot.lens.width_px, shot.lens.height_px);
     let carrier = Carrier::new(scene, shot.carrier);
-    let eye = Eye { scene, shot, carrier: &carrier };
+    let field = (shot.cache && scene.fog.is_some()).then(|| {
+        let eye = shot.world_from_camera.translation.as_vec3();
+        scene.fields.get(eye, |place| fill::fill(scene, place))
+    });
+    let eye = Eye { scene, shot, carrier: &carrier, field: field.as_deref() };
     let mut tiles = tile::tiles(width, height);
     let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));
 

@@ -9,6 +9,7 @@ use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
 use super::wave::Wave;
 use crate::PreparedScene;
+use crate::field::LightField;
 use crate::prepare::Carrier;
 use crate::sampling::{Sampler, tent};
 
@@ -28,6 +29,7 @@ pub(super) struct Eye<'a> {
     pub(super) scene: &'a PreparedScene,
     pub(super) shot: &'a Shot,
     pub(super) carrier: &'a Carrier,
+    pub(super) field: Option<&'a LightField>,
 }
 
 /// A square of the picture.
@@ -99,7 +101,7 @@ impl Tile {
     /// One more sample for the pixels of some blocks, which so far have had all that any has.
     fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
         self.start_blocks(eye, wave, blocks);
-        wave.run(eye.scene);
+        wave.run(eye.scene, eye.field);
         for (path, &place) in wave.paths.iter().zip(&wave.places) {
             let (pixel, sample) = (&mut self.pixels[place], path.sample());
             if self.samples % 2 == 1 {

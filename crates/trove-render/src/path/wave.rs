@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::integrate::{Path, Shadows, Vertex};
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
+use crate::field::LightField;
 use crate::ray::{Hit, Ray};
 
 /// Paths under way, with room that is used again and again.
@@ -23,7 +24,7 @@ pub(super) struct Wave {
 
 impl Wave {
     /// Follows all paths to their ends.
-    pub(super) fn run(&mut self, scene: &PreparedScene) {
+    pub(super) fn run(&mut self, scene: &PreparedScene, field: Option<&LightField>) {
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         let mut coherence = Coherence::Coherent;
@@ -35,7 +36,7 @@ impl Wave {
                 self.rays += group.len() as u64;
                 for (&index, hit) in group.iter().zip(hits) {
                     let path = &mut self.paths[index as usize];
-                    let mut vertex = Vertex { scene, index, shadows: &mut self.shadows };
+                    let mut vertex = Vertex { scene, field, index, shadows: &mut self.shadows };
                     if vertex.advance(path, hit) {
                         self.going.push(index);
                     }

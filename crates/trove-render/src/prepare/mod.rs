@@ -11,6 +11,7 @@ use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
+use crate::field::LightFields;
 use crate::fog::{Fog, Scattering};
 use crate::light::{LastSurroundings, Lights, PROBES};
 use crate::material::{Opacity, PreparedMaterial};
@@ -35,6 +36,8 @@ pub struct PreparedScene {
     pub(crate) falling: Option<Precipitation>,
     pub(crate) wind_mps: DVec2,
     pub(crate) spray: Spray,
+    /// The light around eyes, as far as it was asked for.
+    pub(crate) fields: LightFields,
     comes_down: ComesDown,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
@@ -133,6 +136,7 @@ impl PreparedScene {
             falling,
             wind_mps,
             spray,
+            fields: LightFields::default(),
             comes_down,
             accel,
             others,

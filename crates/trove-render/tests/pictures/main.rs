@@ -5,6 +5,7 @@
 
 mod converged;
 mod drops;
+mod field;
 mod plain;
 mod sets;
 mod snow;
