@@ -69,8 +69,10 @@ def main():
             tables = WEATHER[weather].format(night=NIGHT[name])
             reference = Scene(name, args.scale, args, f"-{weather}", tables)
             # Tables follow that of `[render]`.
-            read = Scene(name, args.scale, args, f"-{weather}-read", "cache = true\n" + tables) if args.read else reference
-            found = measured(read, reference, args)
+            scene = reference
+            if args.read:
+                scene = Scene(name, args.scale, args, f"-{weather}-read", "cache = true\n" + tables)
+            found = measured(scene, reference, args)
             day = day or found
             for measure, denoise in found if found is not day else ():
                 mean, least, most = curves.ratio(day[measure, denoise], [found[measure, denoise]])
