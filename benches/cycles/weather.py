@@ -67,10 +67,9 @@ def main():
         for weather in dict.fromkeys(["day", *args.weather]):
             print(f"  {weather}\n    {'spp':>4} {'':9} {'seconds':>8} {'relMSE':>9} {'FLIP':>7}")
             tables = WEATHER[weather].format(night=NIGHT[name])
-            reference = Scene(name, args.scale, args, f"-{weather}", tables)
-            # Tables follow that of `[render]`.
-            scene = reference
+            scene = reference = Scene(name, args.scale, args, f"-{weather}", tables)
             if args.read:
+                # They follow the recipe's `[render]`.
                 scene = Scene(name, args.scale, args, f"-{weather}-read", "cache = true\n" + tables)
             found = measured(scene, reference, args)
             day = day or found

@@ -108,7 +108,7 @@ impl Scattering {
     }
 
     /// Share of light from a direction that is scattered into another, a steradian, by the cosine between the ways; also the
-    /// density of [`Self::turn`].
+    /// density of [`Self::turn`], but for [`Self::broad`].
     pub(crate) fn phase(self, cos: f32) -> f32 {
         let g = self.asymmetry;
         let square = 1.0 + g * g - 2.0 * g * cos;

@@ -121,13 +121,13 @@ mod tests {
 
     #[test]
     fn what_lies_between_parts_changes_without_a_jump() {
-        // Heights of the parts, which are 25° wide.
-        let heights: [f32; PARTS] = std::array::from_fn(|part| direction_in(part, [0.5; 2]).z);
-        let height = |d| parts_around(d).iter().map(|&(part, weight)| heights[part] * weight).sum::<f32>();
+        // The middles of the parts, which are 25° wide.
+        let middles: [Vec3; PARTS] = std::array::from_fn(|part| direction_in(part, [0.5; 2]));
+        let middle = |d| parts_around(d).iter().map(|&(part, weight)| middles[part] * weight).sum::<Vec3>();
         for direction in all_around(20_000) {
-            let (found, beside) = (height(direction), height((direction + Vec3::splat(1e-4)).normalize()));
-            assert!((found - direction.z).abs() < 0.3, "{direction}: {found}");
-            assert!((found - beside).abs() < 2e-3, "{direction}: {found}, {beside}");
+            let (found, beside) = (middle(direction), middle((direction + Vec3::splat(1e-4)).normalize()));
+            assert!((found - direction).length() < 0.3, "{direction}: {found}");
+            assert!((found - beside).length() < 2e-3, "{direction}: {found}, {beside}");
             assert!((parts_around(direction).iter().map(|(_, weight)| weight).sum::<f32>() - 1.0).abs() < 1e-5);
         }
     }

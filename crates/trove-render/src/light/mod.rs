@@ -61,6 +61,13 @@ pub(crate) struct LightSample {
     pub(crate) pdf: f32,
 }
 
+impl LightSample {
+    /// How far a ray goes towards it that must not meet the light itself, metres.
+    pub(crate) fn reach(&self) -> f32 {
+        self.distance * (1.0 - 1e-4)
+    }
+}
+
 /// Everything infinitely far away.
 pub(crate) struct Surroundings {
     dome: Dome,

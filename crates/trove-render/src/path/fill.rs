@@ -15,6 +15,7 @@ use crate::field::{LightField, Node, Site};
 use crate::fog::Scattering;
 use crate::ray::{Hit, Ray};
 use crate::sampling::{Basis, disk};
+use crate::surface::Surface;
 
 /// Rays to the sun and to lamps that a node asks with.
 const TO_SUN: usize = 8;
@@ -52,7 +53,9 @@ struct Met {
 
 /// What a node sees.
 struct Seen {
-    hits: Vec<Option<Hit>>,
+    /// One ray into each part, in another direction for each node.
+    rays: [Ray; PARTS],
+    hits: [Option<Hit>; PARTS],
     of_lamps: ByDirection,
     node: Node,
 }
@@ -78,22 +81,20 @@ pub(super) fn fill(scene: &PreparedScene, place: [i32; 3]) -> LightField {
     field
 }
 
-/// A direction in each part, another for each node.
-fn ways(site: &Site) -> [Vec3; PARTS] {
-    let mut random = site.random(DIRECTIONS);
-    std::array::from_fn(|part| directions::direction_in(part, [random.unit() as f32, random.unit() as f32]))
-}
-
 fn seen(scene: &PreparedScene, site: &Site) -> Seen {
-    let rays = ways(site).map(|way| Ray { through_glass: true, ..Ray::new(site.point, way) });
-    let mut hits = vec![None; PARTS];
+    let mut random = site.random(DIRECTIONS);
+    let rays: [Ray; PARTS] = std::array::from_fn(|part| {
+        let way = directions::direction_in(part, [random.unit() as f32, random.unit() as f32]);
+        Ray { through_glass: true, ..Ray::new(site.point, way) }
+    });
+    let mut hits = [None; PARTS];
     for (rays, hits) in rays.chunks(PACKET).zip(hits.chunks_mut(PACKET)) {
         scene.closest(rays, Coherence::Incoherent, hits);
     }
     let from_within = |(hit, ray): (&Option<Hit>, &Ray)| {
         let Some(hit) = hit else { return false };
-        let (surface, material) = scene.surface(hit, ray);
-        !surface.is_front && !material.is_translucent()
+        let placed = scene.placed(hit.instance);
+        !Surface::new(placed, hit, ray).is_front && !scene.materials[placed.material(hit)].is_translucent()
     };
     let inside = hits.iter().zip(&rays).filter(|&of| from_within(of)).count();
     let (mut node, mut of_lamps) = (Node::default(), [Vec3::ZERO; PARTS]);
@@ -104,7 +105,7 @@ fn seen(scene: &PreparedScene, site: &Site) -> Seen {
         node.sun = share_of_sun(scene, site, &mut unit);
         of_lamps = from_lamps(scene, site, &mut unit);
     }
-    Seen { hits, of_lamps, node }
+    Seen { rays, hits, of_lamps, node }
 }
 
 /// A place near a node's.
@@ -131,7 +132,7 @@ fn from_lamps(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32
         let drawn = scene.lights.rest(from, Vec3::ZERO).draw(u);
         if let Some(lamp) = drawn.filter(|light| light.distance.is_finite()) {
             let clear = scene.clear(from, lamp.wi, lamp.distance, Scattering::broad());
-            rays.push(Ray { t_max: lamp.distance * (1.0 - 1e-4), ..Ray::new(from, lamp.wi) });
+            rays.push(Ray { t_max: lamp.reach(), ..Ray::new(from, lamp.wi) });
             light.push(lamp.radiance * (clear / (lamp.pdf * TO_LAMPS as f32)));
         }
     }
@@ -151,14 +152,13 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
     let mut random = site.random(WAYS);
     let mut unit = || random.unit() as f32;
     let (mut all, mut rays, mut light, mut whose) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (i, (way, hit)) in ways(site).into_iter().zip(&seen.hits).enumerate() {
-        let ray = Ray { through_glass: true, ..Ray::new(site.point, way) };
+    for (i, (ray, hit)) in seen.rays.iter().zip(&seen.hits).enumerate() {
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
-        let clear = scene.clear(site.point, way, free, Scattering::broad());
-        let mut met = in_air(scene, field, &ray, free, clear, &mut unit);
+        let clear = scene.clear(site.point, ray.direction, free, Scattering::broad());
+        let mut met = in_air(scene, field, ray, free, clear, &mut unit);
         match hit {
             None => {
-                let basis = Basis::about(way);
+                let basis = Basis::about(ray.direction);
                 for _ in 0..AT_SKY {
                     let [x, y] = disk([unit(), unit()]).map(|c| c * SPREAD_RAD);
                     let way = basis.to_world(Vec3::new(x, y, 1.0)).normalize();
@@ -166,7 +166,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
                 }
             }
             Some(hit) if clear > HARDLY_SEEN => {
-                let (surface, material) = scene.surface(hit, &ray);
+                let (surface, material) = scene.surface(hit, ray);
                 let sends = material.shade(&surface, 2.0 * SPREAD_RAD * hit.t, unit()).albedo * (clear / PI);
                 let beside = surface.point + surface.shading * (0.25 * site.step_m).min(0.5 * hit.t);
                 let node = field.nearest(beside, unit()).one(unit());

@@ -169,7 +169,7 @@ impl Vertex<'_> {
         if let Some(t) = self.droplet(path, hit) {
             return self.scatter(path, t, hit);
         }
-        if let Some(field) = self.field.filter(|_| path.events > 0)
+        if let Some(field) = self.field_after(path.events)
             && !self.air(path, field, hit.map_or(f32::INFINITY, |hit| hit.t))
         {
             return false;
@@ -247,7 +247,7 @@ impl Vertex<'_> {
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
         let spray = Some(&self.scene.spray).filter(|spray| !spray.is_none() && path.scattered.is_none());
         let in_spray = spray.and_then(|spray| spray.met(origin, direction, free, path.sampler.next2()[0]));
-        let in_fog = self.scene.fog.filter(|_| self.field.is_none() || path.events == 0).and_then(|fog| {
+        let in_fog = self.scene.fog.filter(|_| self.field_after(path.events).is_none()).and_then(|fog| {
             let fog = fog.scattering(self.after(path.events));
             fog.met(origin, direction, in_spray.unwrap_or(free), path.sampler.next2()[0])
         });
@@ -295,14 +295,19 @@ impl Vertex<'_> {
         true
     }
 
+    /// From where the light of droplets is read that so many events part from the eye; `None` where they are met.
+    fn field_after(&self, events: u32) -> Option<&LightField> {
+        self.field.filter(|_| events > 0)
+    }
+
     /// How the air scatters light that so many events part from the eye.
     fn after(&self, events: u32) -> Scattering {
-        if self.field.is_some() && events > 0 { Scattering::broad() } else { Scattering::after(events) }
+        self.field_after(events).map_or_else(|| Scattering::after(events), |_| Scattering::broad())
     }
 
     /// Gathers what droplets send on along a path's ray as far as it is free, and leaves the path what comes through them;
     /// false where that is so little that it has ended.
-    fn air(&mut self, path: &mut Path, field: &LightField, free: f32) -> bool {
+    fn air(&self, path: &mut Path, field: &LightField, free: f32) -> bool {
         let (lights, scattering) = (&self.scene.lights, Scattering::broad());
         let Some(fog) = self.scene.fog.map(|fog| fog.scattering(scattering)) else { return true };
         let (origin, direction) = (path.ray.origin, path.ray.direction);
@@ -405,8 +410,7 @@ impl Vertex<'_> {
 
     /// The ray that asks for light at a point of which so much is sent on, in a direction that would be drawn so often.
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
-        let t_max = if light.distance.is_finite() { light.distance * (1.0 - 1e-4) } else { f32::INFINITY };
-        let ray = Ray { t_max, ..path.ray.then(origin, light.wi) };
+        let ray = Ray { t_max: light.reach(), ..path.ray.then(origin, light.wi) };
         let weight = power_heuristic(light.pdf, pdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
         Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }
