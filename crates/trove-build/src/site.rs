@@ -215,11 +215,12 @@ pub fn build_at(
     let fog = settings.weather.fog_over(drive);
     let snow = lying(snow, &surfaces, Drape::new(&ground).bounds());
     let light = Light { fog, falling, wind_mps, snow, ..sky };
-    let lit = actors.iter_mut().flatten().chain(added.iter_mut().map(|a| &mut a.actor));
+    let recorded = actors.iter_mut().flatten().map(|actor| (actor.moves(), actor));
+    let driven = recorded.chain(added.iter_mut().map(|a| (a.speed_mps > 0.0, &mut a.actor)));
     let (_, lon_deg) = drive.projection.geo_from_world(bounds.centre());
     let solar_hour = solar_hour(settings.light.time_ns(drive), lon_deg);
     let drives_lit = assembly.stock.is_dark || settings.weather.asks_for_lights();
-    switch_on(solar_hour, locale.driving_side, drives_lit, &mut assembly.stock, lit);
+    switch_on(solar_hour, locale.driving_side, drives_lit, &mut assembly.stock, driven);
     let sources = assembly.provenance(drive, known).into_iter().chain(settings.borders.clone());
     let sources = sources.chain(relief.into_iter().flat_map(|relief| relief.sources.clone())).collect();
     Ok(Site {

@@ -39,13 +39,13 @@ const BRAKE_CD: f32 = 220.0;
 const SMALLEST_M2: f32 = 1e-3;
 
 /// Switches lights of houses on, by the hour, where street lamps are; where vehicles are driven with their lights on, those
-/// of all that move during the recording; and brake lamps where vehicles brake, day and night.
+/// of the actors that are told to be driven; and brake lamps where vehicles brake, day and night.
 pub(crate) fn switch_on<'a>(
     solar_hour: f64,
     side: DrivingSide,
     drives_lit: bool,
     stock: &mut Stock,
-    actors: impl Iterator<Item = &'a mut Actor>,
+    actors: impl Iterator<Item = (bool, &'a mut Actor)>,
 ) {
     if stock.is_dark {
         // Street lamps are lit already.
@@ -55,10 +55,10 @@ pub(crate) fn switch_on<'a>(
     }
     let low_beam = drives_lit.then(|| low_beam(side));
     let tail = Lamp { role: Role::TailLamp, along: -1.0, candelas: TAIL_CD, color: RED, beam: None };
-    for actor in actors {
+    for (is_driven, actor) in actors {
         let Some(mesh) = actor.mesh().map(|mesh| stock.meshes[mesh].clone()) else { continue };
         let is_bicycle = actor.class() == Class::CycleRider;
-        if let Some((beam, most_cd)) = low_beam.as_ref().filter(|_| actor.moves()) {
+        if let Some((beam, most_cd)) = low_beam.as_ref().filter(|_| is_driven) {
             let (candelas, beam) =
                 if is_bicycle { (CYCLE_CD, None) } else { (LOW_BEAMS * most_cd, Some(beam.clone())) };
             let head = Lamp { role: Role::Headlamp, along: 1.0, candelas, color: WHITE, beam };
@@ -156,11 +156,11 @@ mod tests {
     use std::sync::Arc;
 
     use glam::DVec3;
-    use trove_model::{EnvironmentMap, Fog, Form, Kind, PhysicalSky, Precipitation, Report, Seed, State};
+    use trove_model::{EnvironmentMap, Fog, Form, Kind, Origin, PhysicalSky, Precipitation, Report, Seed, State};
 
     use super::*;
     use crate::testing;
-    use crate::{BuildSettings, Weather, build};
+    use crate::{BuildSettings, Traffic, Weather, build};
 
     /// Emission of a street lamp, of a lampshade and of a signal under a sky.
     fn shining(environment: Environment) -> [Vec3; 3] {
@@ -260,6 +260,31 @@ mod tests {
         assert_eq!([Weather::default(), wet, fog(1500.0)].map(lit), [0; 3]);
         let [in_fog, in_rain, in_snow] = [fog(200.0), falling(Form::Rain), falling(Form::Snow)].map(lit);
         assert!(in_fog > 0 && in_fog == in_rain && in_rain == in_snow, "{in_fog} {in_rain} {in_snow}");
+    }
+
+    #[test]
+    fn made_up_vehicles_are_driven_with_their_lights_on_where_each_is_seen_but_once() {
+        let mut drive = testing::drive();
+        drive.tracks.clear();
+        drive.keyframes.truncate(1);
+        drive.keyframes[0].boxes.clear();
+        let mut library = testing::library();
+        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
+        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::Headlamp));
+        let weather =
+            Weather { fog: Some(Fog { visibility_m: 200.0, height_m: 300.0, ground_z_m: 0.0 }), ..Weather::default() };
+        let traffic = Traffic { density: 3.0, ..Traffic::default() };
+        let settings = BuildSettings { weather, traffic, ..testing::settings() };
+        let scene = build(&drive, None, &library, &settings, &Report::default()).unwrap().scene(&drive, 0);
+        let mut counts = [0, 0];
+        for car in scene.instances.iter().filter(|i| i.class == Class::Car) {
+            let Some(object) = car.object.as_ref().filter(|object| object.origin == Origin::Added) else { continue };
+            let moves = object.states.contains(&State::Moving);
+            let is_lit = car.materials.iter().any(|&m| scene.materials[m].is_emitter());
+            assert_eq!(is_lit, moves, "{:?}", car.id);
+            counts[usize::from(moves)] += 1;
+        }
+        assert!(counts.iter().all(|&n| n > 0), "{counts:?}");
     }
 
     #[test]
