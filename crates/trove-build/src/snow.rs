@@ -52,7 +52,7 @@ fn left(surfaces: &RoadSurfaces, bounds: Bounds) -> SnowLeft {
 fn share(bits: u8) -> f64 {
     let is = |bit: u8| bits & bit != 0;
     match () {
-        () if is(TRACKS) && !is(BETWEEN) => 0.03,
+        () if is(TRACKS) && !is(BETWEEN) => 0.08,
         () if is(BETWEEN) => 0.55,
         () if is(PARKING) => 0.97,
         () if is(LANE) => 0.75,

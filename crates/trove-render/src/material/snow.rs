@@ -1,9 +1,13 @@
-//! Snow on what faces up: white as it fell, grey and uneven where wheels and feet have been, ragged where it ends.
+//! Snow on what faces up: white as it fell, grey and uneven where wheels and feet have been; where it ends it crumbles,
+//! thins out to slush and wets what it has left bare.
+
+use std::f32::consts::FRAC_PI_3;
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::bsdf::Parameters;
+use super::bsdf::{Coat, Parameters};
 use super::field::{TOO_WIDE_M, field, step};
+use super::weather::{WATER_F0, soak};
 use crate::surface::Surface;
 
 /// Reflectance of snow a day old (Wiscombe and Warren 1980), and of slush full of grit.
@@ -16,10 +20,31 @@ const DIFFUSE_ROUGHNESS: f32 = 0.3;
 const OPAQUE: f32 = 0.8;
 /// Cosines of slopes between which it begins to hold: 65° and 45°.
 const HOLDS: [f32; 2] = [0.42, 0.7];
-/// Widths of its waves as it fell and of what is left of it, metres, and their heights as shares of it.
-const WAVES: [(f32, f32); 2] = [(0.3, 0.05), (0.09, 0.12)];
-/// Samples that cover more than this see no waves, metres.
-const WAVES_WIDE_M: f32 = 0.1;
+
+/// Periods of the fields that say where it is thick, metres, and their weights: patches of 80 cm and finer, crumbs of 11 cm
+/// down to 1 cm.
+const PATCHES: (f32, f32) = (13.0, 0.5);
+const CRUMBS: (f32, f32) = (1.7, 0.5);
+/// Samples of these widths begin to miss crumbs, and see none, metres.
+const CRUMBS_WIDE_M: [f32; 2] = [0.03, 0.25];
+/// Ranges of those fields in which it ends, is thin, and has wetted what is bare.
+const ENDS: f32 = 0.02;
+const THIN: f32 = 0.12;
+const WET: f32 = 0.1;
+/// Light goes through where it is thin: its least cover.
+const THIN_COVER: f32 = 0.8;
+/// How high its edge is, how much patches rise beyond it, and crumbs of what is pressed, metres.
+const EDGE_M: f32 = 0.015;
+const RISE_M: f32 = 0.03;
+const PRESSED_M: f32 = 0.03;
+/// Its steepest slope.
+const STEEPEST: f32 = 1.2;
+/// Where what is left grows faster than this, a track ends, per metre; and what is drawn out there, metres.
+const TRACK_PER_M: f32 = 0.4;
+const STREAK_M: [f32; 4] = [-0.18, -0.06, 0.06, 0.18];
+/// GGX α of the water that it leaves, and its share where all is wet.
+const MELT_ALPHA: f32 = 0.15;
+const MELT: f32 = 0.7;
 
 /// Whether it may lie on a slope.
 pub(crate) fn holds(outward_z: f32) -> bool {
@@ -29,22 +54,31 @@ pub(crate) fn holds(outward_z: f32) -> bool {
 /// Lays snow on a point; returns its normal.
 pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
     let exposure = surface.exposure;
-    let outward_z = surface.outward_z();
-    let share = exposure.snow * exposure.left * step(HOLDS[0], HOLDS[1], outward_z);
-    if share <= 0.0 {
+    let holds = step(HOLDS[0], HOLDS[1], surface.outward_z());
+    if holds <= 0.0 {
         return normal;
     }
-    let at = surface.point.truncate();
     let used = 1.0 - exposure.left;
-    let covered = if width_m < TOO_WIDE_M {
-        let low = 0.6 * field(at / 11.0) + 0.4 * field(vec2(at.y, -at.x) / 2.3);
-        // All of it at 1, none at 0; what is pressed thins out softly.
-        let soft = 0.1 + 0.4 * used;
-        step(-soft, soft, (1.0 + 2.0 * soft) * below(share) - soft - low)
-    } else {
-        share
+    // What is pressed is spread, and hides the ground until little is left.
+    let share = (exposure.snow * holds * exposure.left * (1.0 + 2.0 * used * exposure.left)).min(1.0);
+    let at = surface.point.truncate();
+    let thick = Thickness::new(share, exposure.left_grows, width_m);
+    let crumb = thick.crumb(at);
+    let depth = thick.depth(at, crumb);
+    let far = step(0.5, TOO_WIDE_M, width_m);
+    let thin = 1.0 - step(ENDS - thick.ends, thick.thin, depth);
+    let covered = {
+        let near = thick.lies(depth) * (1.0 - (1.0 - THIN_COVER) * thin);
+        near + (share - near) * far
     };
-    let grit = (used * (0.6 + 0.8 * field(vec2(at.y, at.x) / 5.0))).min(1.0);
+    let wet = step(-WET - thick.ends, 0.0, depth) * (1.0 - far);
+    melt(surface, wet.max(used * exposure.snow), p);
+    if covered <= 0.0 {
+        return normal;
+    }
+    // Grit is where it was pressed, and in hollows between crumbs.
+    let uneven = 1.8 * step(0.1, 0.9, 0.5 * field(vec2(at.y, at.x) / 5.0) + 0.5 * crumb);
+    let grit = (used.sqrt() * uneven + thin * (3.0 * used).min(1.0)).min(1.0);
     let keep = 1.0 - covered;
     p.base_color = p.base_color.lerp(FRESH.lerp(SLUSH, grit), covered);
     p.alpha += (ALPHA - p.alpha) * covered;
@@ -54,31 +88,90 @@ pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Paramet
     p.metalness *= keep;
     p.transmission *= keep;
     p.coat.share *= keep;
-    let waves = if width_m < WAVES_WIDE_M { slope(at, used) } else { Vec2::ZERO };
+    let slope = if thick.crumbs > 0.0 { thick.slope(at, depth, used) } else { Vec2::ZERO };
     let side = if surface.is_front { 1.0 } else { -1.0 };
-    let lying = (surface.shading - side * waves.extend(0.0)).normalize_or(surface.shading);
+    let lying = (surface.shading - side * slope.extend(0.0)).normalize_or(surface.shading);
     normal.lerp(lying, covered).normalize_or(normal)
+}
+
+/// Wets the ground beside it.
+fn melt(surface: &Surface, wet: f32, p: &mut Parameters) {
+    let film = MELT * soak(wet, p);
+    if film > p.coat.share {
+        p.coat = Coat { normal: surface.shading, share: film, alpha: MELT_ALPHA, f0: WATER_F0 };
+    }
+}
+
+/// How thick it lies on a plane, as a sample sees it that covers so much.
+struct Thickness {
+    /// What the fields are below where it lies.
+    limit: f32,
+    /// Share of the crumbs that are seen.
+    crumbs: f32,
+    /// Unit, along the track of wheels at whose edge it is; `None` elsewhere.
+    along: Option<Vec2>,
+    /// Half the range in which it ends: those that are not seen blur it.
+    ends: f32,
+    /// Up to this depth it is thin.
+    thin: f32,
+}
+
+impl Thickness {
+    fn new(share: f32, left_grows: Vec2, width_m: f32) -> Self {
+        let crumbs = 1.0 - step(CRUMBS_WIDE_M[0], CRUMBS_WIDE_M[1], width_m);
+        let ends = ENDS + (1.0 - crumbs) * CRUMBS.1 / 2.0;
+        // All of it lies at 1, none at 0.
+        let limit = (1.0 + 2.0 * ENDS) * below(share) - ENDS;
+        let along = (left_grows.length() > TRACK_PER_M).then(|| left_grows.perp().normalize());
+        Self { limit, crumbs, along, ends, thin: ends + THIN * (8.0 * (1.0 - share)).min(1.0) }
+    }
+
+    /// Above 0 where it lies.
+    fn depth(&self, at: Vec2, crumb: f32) -> f32 {
+        self.limit - PATCHES.1 * field(at / PATCHES.0) - CRUMBS.1 * crumb
+    }
+
+    /// Share of a sample that it lies on: as many crumbs as are above the depth, being spread evenly.
+    fn lies(&self, depth: f32) -> f32 {
+        (0.5 + 0.5 * depth / self.ends).clamp(0.0, 1.0)
+    }
+
+    /// How steep its surface is against what it lies on, along x and y, where it is so thick.
+    fn slope(&self, at: Vec2, depth: f32, used: f32) -> Vec2 {
+        const STEP_M: f32 = 0.012;
+        let height_m = |depth: f32| EDGE_M * step(0.0, self.thin, depth) + (RISE_M + PRESSED_M * used) * depth;
+        let here = height_m(depth);
+        let rise_m = |off: Vec2| {
+            let there = at + off * STEP_M;
+            height_m(self.depth(there, self.crumb(there))) - here
+        };
+        (vec2(rise_m(Vec2::X), rise_m(Vec2::Y)) * (self.crumbs / STEP_M)).clamp_length_max(STEEPEST)
+    }
+
+    /// The field of crumbs, as far as they are seen; where wheels roll along, it is drawn out.
+    fn crumb(&self, at: Vec2) -> f32 {
+        if self.crumbs <= 0.0 {
+            return 0.5;
+        }
+        // Turned, so that no grid is seen.
+        let crumb = |at: Vec2| 0.5 + self.crumbs * (field(Vec2::from_angle(FRAC_PI_3).rotate(at) / CRUMBS.0) - 0.5);
+        let Some(along) = self.along else { return crumb(at) };
+        let mean = STREAK_M.map(|off_m| crumb(at + along * off_m)).iter().sum::<f32>() / STREAK_M.len() as f32;
+        // A mean differs less than what it is of.
+        (0.5 + 1.6 * (mean - 0.5)).clamp(0.0, 1.0)
+    }
 }
 
 /// What the mixture of fields is below on this share of a plane, both being spread evenly.
 fn below(share: f32) -> f32 {
-    let near = |share: f32| (0.48 * share).sqrt();
+    let (most, least) = (PATCHES.1, CRUMBS.1);
+    let near = |share: f32| (2.0 * most * least * share).sqrt();
+    let corner = least / (2.0 * most);
     match share {
-        s if s < 1.0 / 3.0 => near(s),
-        s if s > 2.0 / 3.0 => 1.0 - near(1.0 - s),
-        s => 0.4 + 0.6 * (s - 1.0 / 3.0),
+        s if s < corner => near(s),
+        s if s > 1.0 - corner => 1.0 - near(1.0 - s),
+        s => least + most * (s - corner),
     }
-}
-
-/// How steep its surface is against what it lies on, along x and y.
-fn slope(at: Vec2, used: f32) -> Vec2 {
-    let height_m = |p: Vec2| {
-        let wave = |(width_m, share): (f32, f32)| width_m * share * field(p / (16.0 * width_m));
-        wave(WAVES[0]) + used * wave(WAVES[1])
-    };
-    const STEP_M: f32 = 0.015;
-    let here = height_m(at);
-    vec2(height_m(at + Vec2::X * STEP_M) - here, height_m(at + Vec2::Y * STEP_M) - here) / STEP_M
 }
 
 #[cfg(test)]
@@ -130,5 +223,27 @@ mod tests {
         assert!(reflectance(Vec3::Z, open(1.0, 0.5)) < 0.5);
         assert!(is(reflectance(Vec3::Y, open(1.0, 1.0)), 0.1));
         assert!(is(reflectance(Vec3::new(0.0, 0.5, 0.75f32.sqrt()), open(1.0, 1.0)), FRESH.y));
+    }
+
+    #[test]
+    fn borders_crumble_at_several_sizes_and_wide_samples_see_as_much_snow() {
+        let n = 40_000;
+        let covers = |thick: &Thickness, along_m: f32| {
+            let at = vec2(along_m, 0.37 * along_m);
+            thick.lies(thick.depth(at, thick.crumb(at)))
+        };
+        for share in [0.2, 0.6, 0.9] {
+            let [near, far] = [0.005, 0.3].map(|width_m| Thickness::new(share, Vec2::ZERO, width_m));
+            let covered = |thick: &Thickness| (0..n).map(|i| covers(thick, i as f32 * 0.21)).sum::<f32>() / n as f32;
+            assert!((covered(&near) - share).abs() < 0.03, "{} of {share}", covered(&near));
+            assert!((covered(&far) - share).abs() < 0.03, "{} of {share} from afar", covered(&far));
+        }
+        // Metres on which it lies or does not without a break.
+        let thick = Thickness::new(0.6, Vec2::ZERO, 0.005);
+        let lies: Vec<bool> = (0..n).map(|i| covers(&thick, i as f32 * 0.004) > 0.5).collect();
+        let runs: Vec<f32> = lies.chunk_by(|a, b| a == b).map(|run| run.len() as f32 * 0.0043).collect();
+        let share = |is: &dyn Fn(f32) -> bool| runs.iter().filter(|&&run| is(run)).count() as f32 / runs.len() as f32;
+        let [fine, broad] = [share(&|run| run < 0.05), share(&|run| run > 0.3)];
+        assert!(fine > 0.2 && broad > 0.1, "{fine} below 5 cm, {broad} above 30 cm");
     }
 }

@@ -13,7 +13,7 @@ const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);
 /// Up to about this height wheels and rain throw it, metres.
 const SPLASH_M: f32 = 0.7;
 /// Normal reflectance of water.
-const WATER_F0: f32 = 0.02;
+pub(super) const WATER_F0: f32 = 0.02;
 /// GGX α of water that stands, and of a film over something rough: of what rain has just begun to wet, and of what it runs
 /// over.
 const STILL: f32 = 0.004;
@@ -103,10 +103,7 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
         full
     };
     let soaked = damp.max(puddle);
-    let porosity = step(0.2, 0.6, p.alpha) * (1.0 - p.metalness);
-    p.base_color *= Vec3::ONE.lerp(0.45 + 0.35 * p.base_color, soaked * porosity);
-    p.alpha *= 1.0 - 0.5 * soaked;
-    p.diffuse_roughness *= 1.0 - soaked;
+    soak(soaked, p);
     let film = wetness * level * 0.8;
     let water = film.max(puddle);
     if p.coat.share > 0.0 || p.transmission > 0.0 {
@@ -126,6 +123,15 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
         p.coat = Coat { normal, share: water, alpha, f0: WATER_F0 };
     }
     normal.lerp(surface.shading, puddle).normalize_or(normal)
+}
+
+/// Water in pores; returns the share of it that found any.
+pub(super) fn soak(soaked: f32, p: &mut Parameters) -> f32 {
+    let held = soaked * step(0.2, 0.6, p.alpha) * (1.0 - p.metalness);
+    p.base_color *= Vec3::ONE.lerp(0.45 + 0.35 * p.base_color, held);
+    p.alpha *= 1.0 - 0.5 * soaked;
+    p.diffuse_roughness *= 1.0 - soaked;
+    held
 }
 
 #[cfg(test)]

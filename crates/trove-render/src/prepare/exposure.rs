@@ -1,7 +1,7 @@
 //! What comes down on surfaces: who bears snow, and what shelters from it and from rain.
 
-use glam::Vec3;
-use trove_model::{Class, Form, Instance, Light, Snow, State};
+use glam::{Vec2, Vec3, vec2};
+use trove_model::{Class, Form, Instance, Light, Snow, SnowLeft, State};
 
 use crate::accel::{Accel, Coherence};
 use crate::material::holds_snow;
@@ -16,6 +16,8 @@ const SLANT: f32 = 0.08;
 const SLANT_WIDE_M: f32 = 0.15;
 /// Nothing nearer shelters: surfaces are layers of paint and patches, millimetres apart, metres.
 const LAYERS_M: f32 = 0.03;
+/// Wheels and feet sway by so much: the edge of a track is no line, metres.
+const SWAY_M: f32 = 0.15;
 
 /// What snow an instance bears.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,9 +73,19 @@ pub(super) fn exposure(accel: &dyn Accel, what: &ComesDown, bears: Bears, surfac
     }
     let bare = Exposure { rain_mm_h: what.rain_mm_h, moment_s: what.moment_s, ..bare };
     let Some(snow) = &what.snow else { return bare };
-    let (share, left) = match bears {
-        Bears::Ground => (1.0, snow.left.as_ref().map_or(1.0, |left| left.at(surface.point.truncate()))),
-        Bears::Share(share) => (share, 1.0),
-    };
-    Exposure { snow: snow.cover as f32 * share, left, ..bare }
+    match (bears, &snow.left) {
+        (Bears::Ground, Some(left)) => {
+            let (left, left_grows) = around(left, surface.point.truncate());
+            Exposure { snow: snow.cover as f32, left, left_grows, ..bare }
+        }
+        (Bears::Ground, None) => Exposure { snow: snow.cover as f32, ..bare },
+        (Bears::Share(share), _) => Exposure { snow: snow.cover as f32 * share, ..bare },
+    }
+}
+
+/// The mean share that is left around a point, and how fast it grows along x and y.
+fn around(left: &SnowLeft, at: Vec2) -> (f32, Vec2) {
+    let [west, east] = [-SWAY_M, SWAY_M].map(|off_m| left.at(at + Vec2::X * off_m));
+    let [south, north] = [-SWAY_M, SWAY_M].map(|off_m| left.at(at + Vec2::Y * off_m));
+    ((west + east + south + north) / 4.0, vec2(east - west, north - south) / (2.0 * SWAY_M))
 }
