@@ -16,6 +16,8 @@ pub(crate) struct Exposure {
     pub(crate) left: f32,
     /// How fast that share grows along World's x and y, per metre: across tracks of wheels.
     pub(crate) left_grows: Vec2,
+    /// Whether it lies on what moves on, and so where that is.
+    pub(crate) moves: bool,
     /// Millimetres of rain an hour on what is level.
     pub(crate) rain_mm_h: f32,
     /// When this is, seconds.
@@ -24,8 +26,15 @@ pub(crate) struct Exposure {
 
 impl Exposure {
     /// In the open where no snow lies.
-    pub(crate) const BARE: Self =
-        Self { is_open: true, snow: 0.0, left: 1.0, left_grows: Vec2::ZERO, rain_mm_h: 0.0, moment_s: 0.0 };
+    pub(crate) const BARE: Self = Self {
+        is_open: true,
+        snow: 0.0,
+        left: 1.0,
+        left_grows: Vec2::ZERO,
+        moves: false,
+        rain_mm_h: 0.0,
+        moment_s: 0.0,
+    };
 }
 
 /// A point on a surface, in World, seen from where the ray came.

@@ -61,7 +61,7 @@ pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Paramet
     let used = 1.0 - exposure.left;
     // What is pressed is spread, and hides the ground until little is left.
     let share = (exposure.snow * holds * exposure.left * (1.0 + 2.0 * used * exposure.left)).min(1.0);
-    let at = surface.point.truncate();
+    let at = if exposure.moves { surface.point_mesh } else { surface.point }.truncate();
     let thick = Thickness::new(share, exposure.left_grows, width_m);
     let crumb = thick.crumb(at);
     let depth = thick.depth(at, crumb);
@@ -223,6 +223,24 @@ mod tests {
         assert!(reflectance(Vec3::Z, open(1.0, 0.5)) < 0.5);
         assert!(is(reflectance(Vec3::Y, open(1.0, 1.0)), 0.1));
         assert!(is(reflectance(Vec3::new(0.0, 0.5, 0.75f32.sqrt()), open(1.0, 1.0)), FRESH.y));
+    }
+
+    #[test]
+    fn snow_on_what_drives_moves_on_with_it() {
+        let colors = |moved_m: f32, moves: bool| -> Vec<f32> {
+            let exposure = Exposure { snow: 0.5, moves, ..Exposure::BARE };
+            let color = |i: u16| {
+                let on_roof = Vec3::new(f32::from(i) * 0.13, 0.2, 1.5);
+                let plain = Surface::plain(on_roof, Vec3::Z);
+                let surface = Surface { point: on_roof + Vec3::X * moved_m, exposure, ..plain };
+                let mut p = asphalt();
+                lie(&surface, 0.01, Vec3::Z, &mut p);
+                p.base_color.y
+            };
+            (0..20).map(color).collect()
+        };
+        assert_eq!(colors(0.0, true), colors(4.0, true));
+        assert_ne!(colors(0.0, false), colors(4.0, false));
     }
 
     #[test]

@@ -24,6 +24,8 @@ const SWAY_M: f32 = 0.15;
 pub(super) enum Bears {
     /// Where wheels and feet are.
     Ground,
+    /// [`DRIVEN`] of what falls, which moves on with it.
+    Driven,
     /// This share of what falls.
     Share(f32),
 }
@@ -33,9 +35,7 @@ impl Bears {
         match (instance.class, &instance.object) {
             (Class::Road | Class::Sidewalk | Class::Ground, None) => Self::Ground,
             (Class::Human | Class::CycleRider | Class::MotorcycleRider, _) => Self::Share(0.0),
-            (_, Some(object)) if object.kind.is_vehicle() && !object.states.contains(&State::Parked) => {
-                Self::Share(DRIVEN)
-            }
+            (_, Some(object)) if object.kind.is_vehicle() && !object.states.contains(&State::Parked) => Self::Driven,
             _ => Self::Share(1.0),
         }
     }
@@ -79,6 +79,7 @@ pub(super) fn exposure(accel: &dyn Accel, what: &ComesDown, bears: Bears, surfac
             Exposure { snow: snow.cover as f32, left, left_grows, ..bare }
         }
         (Bears::Ground, None) => Exposure { snow: snow.cover as f32, ..bare },
+        (Bears::Driven, _) => Exposure { snow: snow.cover as f32 * DRIVEN, moves: true, ..bare },
         (Bears::Share(share), _) => Exposure { snow: snow.cover as f32 * share, ..bare },
     }
 }
