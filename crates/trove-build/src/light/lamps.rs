@@ -156,11 +156,25 @@ mod tests {
     use std::sync::Arc;
 
     use glam::DVec3;
-    use trove_model::{EnvironmentMap, Fog, Form, Kind, Origin, PhysicalSky, Precipitation, Report, Seed, State};
+    use trove_model::{
+        AssetLibrary, EnvironmentMap, Fog, Form, Kind, Origin, PhysicalSky, Precipitation, Report, Seed, State,
+    };
 
     use super::*;
     use crate::testing;
     use crate::{BuildSettings, Traffic, Weather, build};
+
+    /// Its cars are lamps of a sort.
+    fn library_of_lamps(role: Role) -> AssetLibrary {
+        let mut library = testing::library();
+        let cars = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
+        cars.for_each(|asset| asset.slots[0].material.role = Some(role));
+        library
+    }
+
+    fn fog(visibility_m: f64) -> Weather {
+        Weather { fog: Some(Fog { visibility_m, height_m: 300.0, ground_z_m: 0.0 }), ..Weather::default() }
+    }
 
     /// Emission of a street lamp, of a lampshade and of a signal under a sky.
     fn shining(environment: Environment) -> [Vec3; 3] {
@@ -241,18 +255,12 @@ mod tests {
     #[test]
     fn vehicles_are_driven_with_their_lights_on_in_fog_and_while_it_rains_or_snows() {
         let drive = testing::drive();
-        let mut library = testing::library();
-        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
-        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::Headlamp));
+        let library = library_of_lamps(Role::Headlamp);
         let lit = |weather: Weather| {
             let settings = BuildSettings { weather, ..testing::settings() };
             let scene = build(&drive, None, &library, &settings, &Report::default()).unwrap().scene(&drive, 0);
             let cars = scene.instances.iter().filter(|i| i.class == Class::Car);
             cars.filter(|car| car.materials.iter().any(|&m| scene.materials[m].is_emitter())).count()
-        };
-        let fog = |visibility_m: f64| Weather {
-            fog: Some(Fog { visibility_m, height_m: 300.0, ground_z_m: 0.0 }),
-            ..Weather::default()
         };
         let falling =
             |form: Form| Weather { falling: Some(Precipitation { form, rate_mm_h: 1.0 }), ..Weather::default() };
@@ -268,13 +276,9 @@ mod tests {
         drive.tracks.clear();
         drive.keyframes.truncate(1);
         drive.keyframes[0].boxes.clear();
-        let mut library = testing::library();
-        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
-        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::Headlamp));
-        let weather =
-            Weather { fog: Some(Fog { visibility_m: 200.0, height_m: 300.0, ground_z_m: 0.0 }), ..Weather::default() };
+        let library = library_of_lamps(Role::Headlamp);
         let traffic = Traffic { density: 3.0, ..Traffic::default() };
-        let settings = BuildSettings { weather, traffic, ..testing::settings() };
+        let settings = BuildSettings { weather: fog(200.0), traffic, ..testing::settings() };
         let scene = build(&drive, None, &library, &settings, &Report::default()).unwrap().scene(&drive, 0);
         let mut counts = [0, 0];
         for car in scene.instances.iter().filter(|i| i.class == Class::Car) {
@@ -300,9 +304,7 @@ mod tests {
             let annotated = drive.keyframes[*k].boxes.iter_mut().find(|b| b.track == 1).unwrap();
             annotated.cuboid = *cuboid;
         }
-        let mut library = testing::library();
-        let lamps = library.assets.iter_mut().filter(|asset| asset.kind == Kind::Car);
-        lamps.for_each(|asset| asset.slots[0].material.role = Some(Role::TailLamp));
+        let library = library_of_lamps(Role::TailLamp);
         let site = build(&drive, None, &library, &testing::settings(), &Report::default()).unwrap();
         let mut braking = Vec::new();
         for k in 0..drive.keyframes.len() {

@@ -21,10 +21,10 @@ const OPAQUE: f32 = 0.8;
 /// Cosines of slopes between which it begins to hold: 65° and 45°.
 const HOLDS: [f32; 2] = [0.42, 0.7];
 
-/// Periods of the fields that say where it is thick, metres, and their weights: patches of 80 cm and finer, crumbs of 11 cm
-/// down to 1 cm.
-const PATCHES: (f32, f32) = (13.0, 0.5);
-const CRUMBS: (f32, f32) = (1.7, 0.5);
+/// Periods of the two fields that say by halves where it is thick, metres: patches of 80 cm and finer, crumbs of 11 cm down
+/// to 1 cm.
+const PATCHES_M: f32 = 13.0;
+const CRUMBS_M: f32 = 1.7;
 /// Samples of these widths begin to miss crumbs, and see none, metres.
 const CRUMBS_WIDE_M: [f32; 2] = [0.03, 0.25];
 /// Ranges of those fields in which it ends, is thin, and has wetted what is bare.
@@ -119,7 +119,7 @@ struct Thickness {
 impl Thickness {
     fn new(share: f32, left_grows: Vec2, width_m: f32) -> Self {
         let crumbs = 1.0 - step(CRUMBS_WIDE_M[0], CRUMBS_WIDE_M[1], width_m);
-        let ends = ENDS + (1.0 - crumbs) * CRUMBS.1 / 2.0;
+        let ends = ENDS + (1.0 - crumbs) * 0.25;
         // All of it lies at 1, none at 0.
         let limit = (1.0 + 2.0 * ENDS) * below(share) - ENDS;
         let along = (left_grows.length() > TRACK_PER_M).then(|| left_grows.perp().normalize());
@@ -128,7 +128,7 @@ impl Thickness {
 
     /// Above 0 where it lies.
     fn depth(&self, at: Vec2, crumb: f32) -> f32 {
-        self.limit - PATCHES.1 * field(at / PATCHES.0) - CRUMBS.1 * crumb
+        self.limit - 0.5 * field(at / PATCHES_M) - 0.5 * crumb
     }
 
     /// Share of a sample that it lies on: as many crumbs as are above the depth, being spread evenly.
@@ -154,7 +154,7 @@ impl Thickness {
             return 0.5;
         }
         // Turned, so that no grid is seen.
-        let crumb = |at: Vec2| 0.5 + self.crumbs * (field(Vec2::from_angle(FRAC_PI_3).rotate(at) / CRUMBS.0) - 0.5);
+        let crumb = |at: Vec2| 0.5 + self.crumbs * (field(Vec2::from_angle(FRAC_PI_3).rotate(at) / CRUMBS_M) - 0.5);
         let Some(along) = self.along else { return crumb(at) };
         let mean = STREAK_M.map(|off_m| crumb(at + along * off_m)).iter().sum::<f32>() / STREAK_M.len() as f32;
         // A mean differs less than what it is of.
@@ -162,16 +162,10 @@ impl Thickness {
     }
 }
 
-/// What the mixture of fields is below on this share of a plane, both being spread evenly.
+/// What the mean of both fields is below on this share of a plane, both being spread evenly.
 fn below(share: f32) -> f32 {
-    let (most, least) = (PATCHES.1, CRUMBS.1);
-    let near = |share: f32| (2.0 * most * least * share).sqrt();
-    let corner = least / (2.0 * most);
-    match share {
-        s if s < corner => near(s),
-        s if s > 1.0 - corner => 1.0 - near(1.0 - s),
-        s => least + most * (s - corner),
-    }
+    let near = |share: f32| (0.5 * share).sqrt();
+    if share < 0.5 { near(share) } else { 1.0 - near(1.0 - share) }
 }
 
 #[cfg(test)]
