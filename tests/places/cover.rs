@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use trove_build::OnDisagreement;
 use trove_model::{Bounds, Class, Drive, Polygon, Report, Scene, StreetMap};
 
-use crate::drawing::{Drawing, is_built, triangles};
+use crate::drawing::{Drawing, Hit, Triangle, is_built, triangles};
 use crate::mapped::Footprint;
 
 /// Distance of the points that are compared, metres.
@@ -14,6 +14,8 @@ const ROAD_IOU: f64 = 0.9;
 /// Of a building so much of its footprint may be seen as something else, and so many rays more: along its edges.
 const UNSEEN_SHARE: f64 = 0.02;
 const UNSEEN_RAYS: f64 = 4.0;
+/// What hangs over open ground does so at least this high, metres: the undersides of models lie on the ground.
+const OVERHANG_M: f64 = 1.8;
 /// A recording moves its map by less than this, metres and radians.
 const MOVED_M: f64 = 8.0;
 const TURNED_RAD: f64 = 0.02;
@@ -59,7 +61,7 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
     }
     let built = triangles(scene, |i| is_built(scene, i));
     let drawing = Drawing::new(&built, area, DVec3::NEG_Z, STEP_M);
-    let (mut both, mut either, mut rays) = (0u64, 0u64, 0u64);
+    let (mut both, mut either, mut over, mut rays) = (0u64, 0u64, 0u64, 0u64);
     // For each building its rays, those that do not see one there, and of these those that see a road.
     let mut of_each = vec![[0u32; 3]; within.len()];
     for ray in drawing.rays() {
@@ -80,6 +82,10 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
             counts[1] += u32::from(!is_seen);
             counts[2] += u32::from(class == Class::Road);
         }
+        if is_seen && !is_mapped && hangs_over(ray, &built, scene) {
+            over += 1;
+            continue;
+        }
         either += u64::from(is_mapped || is_seen);
         both += u64::from(is_mapped && is_seen);
     }
@@ -97,7 +103,11 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
     let cut = list(&|[all, _, road]| is_much(road, all));
     let incomplete = list(&|[all, unseen, road]| is_much(unseen - road, all));
     let (cuts, lacks, number) = (cut.len(), incomplete.len(), within.len());
-    println!("{name}: IoU of seen buildings {iou:.4}; of {number} {cuts} are cut and {lacks} incomplete");
+    let seen = both as f64 / (either + over).max(1) as f64;
+    println!(
+        "{name}: IoU of footprints {iou:.4}, with what hangs over {seen:.4}; of {number} {cuts} are cut and {lacks} \
+         incomplete"
+    );
     if iou < bar.iou {
         wrong.push(format!("IoU of the buildings that are seen with mapped footprints is {iou:.4}"));
     }
@@ -111,6 +121,16 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
         }
     }
     wrong
+}
+
+/// Whether what a ray from above sees of a building hangs over open ground there: eaves, balconies, awnings.
+fn hangs_over(ray: &[Hit], built: &[Triangle], scene: &Scene) -> bool {
+    let is_building = |hit: &&Hit| scene.instances[built[hit.triangle as usize].instance].class == Class::Building;
+    let lowest = ray.iter().rfind(is_building);
+    let ground = ray.iter().find(|hit| !is_building(hit));
+    lowest
+        .zip(ground)
+        .is_some_and(|(lowest, ground)| !lowest.from_front && ground.depth_m - lowest.depth_m > OVERHANG_M)
 }
 
 /// Footprints of a map that was not read from XML.

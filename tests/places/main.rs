@@ -220,6 +220,9 @@ fn assert_real(place: &Place, file: &str, bar: Option<&cover::Bar>) {
         wrong.extend(read.missing(place.area, &place.map));
         mapped = read.footprints();
     }
+    let measured = |name: &str| place.report.measurements().iter().find(|m| m.name == name).map_or(0.0, |m| m.value);
+    let [rectangular, replaced] = ["buildings.rectangular", "buildings.replaced_by_assets"].map(measured);
+    println!("{}: {replaced} of {rectangular} rectangular buildings are models", place.name);
     wrong.extend(cover::road(&place.scene, &place.drive));
     match bar {
         Some(bar) => {

@@ -81,6 +81,10 @@ impl MapFile {
             }
             let Some((is_way, at)) = open else { continue };
             let element = if is_way { &mut file.ways } else { &mut file.relations }.entry(at).or_default();
+            if line.starts_with("<way ") || line.starts_with("<relation ") {
+                // Some extracts tell a way twice: its edges counted twice would enclose nothing.
+                *element = Element::default();
+            }
             if line.starts_with("<nd ") || (line.starts_with("<member ") && attribute(line, "type") == Some("way")) {
                 element.members.extend(id("ref"));
             } else if let (true, Some(k), Some(v)) =

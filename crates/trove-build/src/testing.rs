@@ -106,9 +106,14 @@ fn street() -> LaneMap {
 
 /// The surfaces of a drive on some ground.
 pub(crate) fn surfaces(drive: &Drive, ground: &HeightField) -> RoadSurfaces {
+    surfaces_on(drive, None, ground)
+}
+
+/// The same where there is a street map.
+pub(crate) fn surfaces_on(drive: &Drive, map: Option<&StreetMap>, ground: &HeightField) -> RoadSurfaces {
     let bounds = crate::site::area(drive).unwrap();
     let (library, seeds, report) = (library(), Seed(0).into(), Report::default());
-    roads::surfaces(&place(drive, None, bounds, ground, &library, &seeds, &report), &Spans::default(), None)
+    roads::surfaces(&place(drive, map, bounds, ground, &library, &seeds, &report), &Spans::default(), None)
 }
 
 /// What a place in Singapore is built from, in the climate and season of the made-up drive.

@@ -1,8 +1,10 @@
 //! Buildings from their footprints, or from the LiDAR where no map has them: extruded with a facade, or replaced by an asset where it fits.
 
+mod bays;
 mod dress;
 mod extrude;
 mod facade;
+mod floor_plan;
 mod lidar;
 mod rectangle;
 mod replace;
@@ -14,18 +16,20 @@ mod volumes;
 mod wall;
 mod walls;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DAffine3;
 use rayon::prelude::*;
-use trove_model::{AssetLibrary, Building, Class, Kind, Material, Outcome, Polygon, Random, Report, Slot};
+use trove_model::{Asset, Building, Class, Kind, Material, Mesh, Outcome, Polygon, Random, Report, Slot};
 
 use crate::pieces::Palette;
 use crate::pieces::Piece;
 use crate::place::Place;
 use crate::roads::RoadSurfaces;
+use bays::Bays;
 use sight::Sight;
-use volumes::House;
+use volumes::{House, Model};
 
 /// The buildings of a place.
 #[derive(Clone, Debug)]
@@ -50,13 +54,18 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();
     let seen_m = lidar::seen_walls(drive, &all, ground);
     let plot = volumes::Plot { drive, customs, streets: keep_clear, ground, bounds, seen_m: &seen_m };
-    let houses = volumes::houses(&all, &plot, seed, report);
+    let mut houses = volumes::houses(&all, &plot, seed, report);
+    replace::assign(&mut houses, library, keep_clear, seed.child("model"), report);
+    volumes::beside(&mut houses);
+    let grown = grown(&houses);
     let palette = Palette { library, report };
     let sight = Sight::new(drive, keep_clear);
     let build = |house: &House<'_>| {
         let mut random = seed.child("building").nth(house.building.id as u64).random();
-        replaced(house, keep_clear, library, &mut random, report)
-            .unwrap_or_else(|| extruded(house, &palette, &sight, &mut random, report))
+        match &house.model {
+            Some(model) => replaced(house, model, &grown, &mut random, report),
+            None => extruded(house, &palette, &sight, &mut random, report),
+        }
     };
     let pieces: Vec<Piece> = houses.par_iter().map(build).filter(|p| !p.mesh.triangles.is_empty()).collect();
     report.measure("buildings.built", pieces.len() as f64);
@@ -87,28 +96,31 @@ fn extruded(
     }
 }
 
-fn replaced(
-    house: &House<'_>,
-    streets: &RoadSurfaces,
-    library: &AssetLibrary,
-    random: &mut Random,
-    report: &Report,
-) -> Option<Piece> {
-    let found = replace::replacement(house, library, streets, random)?;
-    let name = volumes::name(house.building);
+/// The meshes of models with their bays and storeys, each once.
+type Grown<'a> = BTreeMap<(&'a str, Bays), Arc<Mesh>>;
+
+fn grown<'a>(houses: &[House<'a>]) -> Grown<'a> {
+    let models: BTreeMap<(&str, Bays), &Asset> =
+        houses.iter().filter_map(|h| h.model).map(|m| ((m.asset.id.as_str(), m.bays), m.asset)).collect();
+    let models: Vec<_> = models.into_iter().collect();
+    models.into_par_iter().map(|((id, bays), asset)| ((id, bays), bays.mesh(asset))).collect()
+}
+
+fn replaced(house: &House<'_>, model: &Model<'_>, grown: &Grown<'_>, random: &mut Random, report: &Report) -> Piece {
+    let (name, asset) = (volumes::name(house.building), model.asset);
     report.note(
         Outcome::Substituted,
         "rectangular building, replaced by an asset",
-        format_args!("{name}: {}", found.asset.id),
+        format_args!("{name}: {}", asset.id),
     );
-    Some(Piece {
-        mesh: Arc::clone(&found.asset.mesh),
-        world_from_mesh: found.world_from_mesh,
+    Piece {
+        mesh: Arc::clone(&grown[&(asset.id.as_str(), model.bays)]),
+        world_from_mesh: model.world_from_mesh,
         class: Class::Building,
-        materials: found.asset.slots.iter().map(|slot| painted(slot, random)).collect(),
+        materials: asset.slots.iter().map(|slot| painted(slot, random)).collect(),
         kind: Some(Kind::Building),
-        asset: Some(found.asset.id.clone()),
-    })
+        asset: Some(asset.id.clone()),
+    }
 }
 
 fn painted(slot: &Slot, random: &mut Random) -> Material {

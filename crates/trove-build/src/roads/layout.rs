@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{
-    Bounds, Cycleway, Drive, DrivingSide, LandKind, Outcome, Polygon, Report, Road, RoadKind, StreetMap,
+    Bounds, Cycleway, Drive, DriveOrigin, DrivingSide, LandKind, Outcome, Polygon, Report, Road, RoadKind, StreetMap,
 };
 
 use super::corners;
@@ -11,6 +11,7 @@ use super::course::{self, Bay, Course};
 use super::cross_section::{Band, CrossSection, cross_section};
 use super::decks::{self, Deck, Lift, Trench};
 use super::evidence::{self, Trace};
+use super::houses::Houses;
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
 use super::path::shifted;
@@ -82,6 +83,8 @@ pub(super) struct Layout<'a> {
     pub above: Vec<Polygon>,
     /// Where kerbs are dropped; may reach into all of the above.
     pub dropped: Vec<Polygon>,
+    /// Where roads lead through houses.
+    pub passages: Vec<Polygon>,
     /// Around vehicles that were parked; may reach into all of the above.
     pub car_parks: Vec<Polygon>,
 }
@@ -106,7 +109,8 @@ pub(super) fn layout<'a>(
     // Roads of the map where the recording ends, their corners rounded.
     let on_left = driving_side.is_left();
     let levels = map.map(|m| decks::levels(m, &recorded, bounds.grown(BEYOND_M), lift, report)).unwrap_or_default();
-    let stretches = network::stretches(levels.ground, &recorded, on_left, report);
+    let houses = Houses::new(map, bounds);
+    let stretches = network::stretches(levels.ground, &recorded, &houses, on_left, report);
     let section = |road: &Road| cross_section(road, road.width_m.filter(|w| (2.0..=30.0).contains(w)), on_left);
     let decks: Vec<_> = levels.decks.into_iter().map(|d| (d.clone(), section(d.road))).collect();
     let trenches: Vec<_> = levels.trenches.into_iter().map(|t| (t.clone(), section(t.deck.road))).collect();
@@ -117,25 +121,32 @@ pub(super) fn layout<'a>(
     let mut strips: Vec<Polygon> = stretches.par_iter().flat_map_iter(|s| strip(&s.line, s.width_m / 2.0)).collect();
     strips.extend(corners::corners(&nodes, &strips));
     strips.extend(bays.iter().flat_map(Bay::area));
+    let mut known = drivable.clone();
     let mut carriageway = union(&[drivable, closed(&union(&strips), SLIT_M)].concat());
 
     // Vehicles drove and parked on the road, whatever the maps say.
     let traces = evidence::driven(drive);
     if lanes.is_some() && is_patchy(&traces, &recorded) {
         report.note(Outcome::Substituted, "gaps in the recorded drivable area, closed", &drive.id);
-        let driven = traces.iter().flat_map(|t| strip(&t.line, t.half_width_m + CLEARANCE_M));
-        carriageway = closed(&union(&driven.chain(carriageway).collect::<Vec<_>>()), PATCH_M);
+        known.extend(traces.iter().flat_map(|t| strip(&t.line, t.half_width_m + CLEARANCE_M)));
+        carriageway = closed(&union(&[carriageway, known.clone()].concat()), PATCH_M);
         carriageway = without_specks(carriageway, PATCHY_ISLAND_M2);
     }
     let path = untouched_path(drive, &carriageway);
     if !path.is_empty() {
         report.note(Outcome::Guessed, "road under the driven path that is on no map", &drive.id);
         let strips: Vec<Polygon> = path.iter().flat_map(|line| strip(line, PATH_HALF_WIDTH_M)).collect();
-        carriageway = union(&[carriageway, closed(&union(&strips), CORNER_M)].concat());
+        let strips = closed(&union(&strips), CORNER_M);
+        known.extend(strips.iter().cloned());
+        carriageway = union(&[carriageway, strips].concat());
     }
     let parked = evidence::parked(drive);
     let lots = map.map(|m| car_parks(m, &recorded, bounds)).unwrap_or_default();
-    let carriageway = intersection(&with_bays(carriageway, &parked, &lots, bounds), &whole);
+    known.extend(grown(&union(&parked), CLEARANCE_M));
+    let carriageway = with_bays(carriageway, &parked, &lots, bounds);
+    let passages = houses.passages(&stretches);
+    known.extend(passages.iter().cloned());
+    let carriageway = intersection(&houses.left_of(carriageway, &known, bounds), &whole);
     let carriageway = without_islands(without_specks(carriageway, ISLAND_M2), map, bounds);
 
     // Walkways of the dataset, bands along the other roads, footpaths.
@@ -180,6 +191,7 @@ pub(super) fn layout<'a>(
         ramps,
         above,
         dropped,
+        passages,
         car_parks,
     }
 }
@@ -229,6 +241,10 @@ fn without_specks(mut carriageway: Vec<Polygon>, least_m2: f64) -> Vec<Polygon> 
 
 /// Stretches of the driven path that lie on no carriageway; a point off it makes a stretch with its neighbours.
 fn untouched_path(drive: &Drive, carriageway: &[Polygon]) -> Vec<Vec<DVec2>> {
+    // Nobody drove from one standpoint of a made-up drive to the next.
+    if drive.origin == DriveOrigin::MadeUp {
+        return Vec::new();
+    }
     let path: Vec<DVec2> = drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
     let off: Vec<bool> = path.iter().map(|&p| !carriageway.iter().any(|c| c.contains(p))).collect();
     let mut lines: Vec<Vec<DVec2>> = Vec::new();

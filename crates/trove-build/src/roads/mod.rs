@@ -6,6 +6,7 @@ mod cross_section;
 mod decks;
 mod evidence;
 mod footings;
+mod houses;
 mod kerb;
 mod land;
 mod layout;
@@ -23,6 +24,7 @@ use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, RoadPlan, SurfaceKi
 
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
+pub(crate) use houses::HEADROOM_M;
 pub(crate) use path::Path;
 
 use footings::Footings;
@@ -48,6 +50,8 @@ pub(crate) struct RoadSurfaces {
     pub pieces: Vec<Piece>,
     /// Where vehicles drive; polygons do not overlap.
     pub carriageway: Vec<Polygon>,
+    /// Where it leads through houses; polygons do not overlap.
+    pub passages: Vec<Polygon>,
     /// What each part of it is for, but for junctions.
     pub lanes: Vec<Lane>,
     /// Where grass grows; polygons do not overlap.
@@ -77,13 +81,14 @@ impl RoadSurfaces {
         self.below.at(position) == Footing::Carriageway
     }
 
-    /// The carriageway around a footprint, with half a metre for the kerb.
+    /// The carriageway around a footprint, with room for the kerb.
     pub(crate) fn carriageway_near(&self, footprint: &Polygon) -> Vec<Polygon> {
-        let Some(bounds) = footprint.bounds() else { return Vec::new() };
-        let frame = [plane::rectangle(bounds.grown(2.0))];
-        let near = |p: &&Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
-        let road: Vec<Polygon> = self.carriageway.iter().filter(near).cloned().collect();
-        plane::grown(&plane::intersection(&road, &frame), 0.5)
+        near(&self.carriageway, footprint)
+    }
+
+    /// What of it leads through a footprint, with room for the kerb.
+    pub(crate) fn passages_near(&self, footprint: &Polygon) -> Vec<Polygon> {
+        near(&self.passages, footprint)
     }
 
     /// How much the surface lies above the height field at a point: 0 on the carriageway, a kerb's height elsewhere,
@@ -95,6 +100,15 @@ impl RoadSurfaces {
             Footing::Water => WATER_M,
         }
     }
+}
+
+/// The part of a road around a footprint, with half a metre for the kerb.
+fn near(road: &[Polygon], footprint: &Polygon) -> Vec<Polygon> {
+    let Some(bounds) = footprint.bounds() else { return Vec::new() };
+    let frame = [plane::rectangle(bounds.grown(2.0))];
+    let near = |p: &&Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));
+    let road: Vec<Polygon> = road.iter().filter(near).cloned().collect();
+    plane::grown(&plane::intersection(&road, &frame), 0.5)
 }
 
 /// Builds the surfaces of a place: the dataset's map where it has one, OpenStreetMap beyond it.
@@ -205,6 +219,7 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
         driving_side,
         pieces,
         carriageway: layout.carriageway,
+        passages: layout.passages,
         lanes,
         lawns,
         lawn,

@@ -6,6 +6,7 @@ use glam::DVec2;
 use trove_model::{Outcome, Report, Road};
 
 use super::cross_section::{CrossSection, cross_section};
+use super::houses::Houses;
 use crate::geometry::plane_raster::PlaneRaster;
 
 /// Roads are looked at every so many metres.
@@ -35,6 +36,7 @@ pub(super) struct Stretch<'a> {
 pub(super) fn stretches<'a>(
     ground: Vec<(&'a Road, Vec<DVec2>)>,
     recorded: &PlaneRaster,
+    houses: &Houses<'_>,
     on_left: bool,
     report: &Report,
 ) -> Vec<Stretch<'a>> {
@@ -50,7 +52,14 @@ pub(super) fn stretches<'a>(
         let points = resampled(&centreline);
         let measured = measured_width_m(&points, road.oneway, recorded);
         let known_m = measured.or(road.width_m.filter(|w| (2.0..=WIDEST_M).contains(w)));
-        let section = cross_section(road, known_m, on_left);
+        let usual = cross_section(road, known_m, on_left);
+        let room_m = houses.room_m(road.kind, &points);
+        let section = if known_m.is_none() && usual.width_m > room_m {
+            // As if that were its tagged width: nobody is guessed to park there.
+            cross_section(&Road { width_m: Some(room_m), ..road.clone() }, Some(room_m), on_left)
+        } else {
+            usual
+        };
         for line in beyond(&points, meets, recorded) {
             if known_m.is_none() {
                 let what = "width of a road, from its lanes or kind";
@@ -162,7 +171,8 @@ mod tests {
     fn a_road_goes_on_where_the_recording_ends_with_the_recorded_width() {
         let raster = recorded();
         let road = road(&[(-50.0, 0.0), (150.0, 0.0)]);
-        let found = stretches(vec![(&road, road.centreline.clone())], &raster, false, &Report::default());
+        let found =
+            stretches(vec![(&road, road.centreline.clone())], &raster, &Houses::default(), false, &Report::default());
         assert_eq!(found.len(), 1);
         assert!((found[0].width_m - 12.0).abs() <= 1.0, "{}", found[0].width_m);
         assert!(found[0].line[0].x < 100.0 && found[0].line[0].x > 90.0);
@@ -180,13 +190,16 @@ mod tests {
         let roads =
             [[(-90.0, 0.0), (0.0, 0.0)], [(0.0, 0.0), (90.0, 0.0)], [(0.0, 80.0), (0.0, 0.0)]].map(|r| road(&r));
         let ground = roads.iter().map(|r| (r, r.centreline.clone())).collect();
-        assert_eq!(stretches(ground, &raster, false, &Report::default()).len(), 3);
+        assert_eq!(stretches(ground, &raster, &Houses::default(), false, &Report::default()).len(), 3);
     }
 
     #[test]
     fn a_road_drawn_beside_the_recorded_one_is_not_built_again() {
         let raster = recorded();
         let road = road(&[(-90.0, 9.0), (90.0, 9.0)]);
-        assert!(stretches(vec![(&road, road.centreline.clone())], &raster, false, &Report::default()).is_empty());
+        assert!(
+            stretches(vec![(&road, road.centreline.clone())], &raster, &Houses::default(), false, &Report::default())
+                .is_empty()
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! An entry of a library and its model → `Asset`.
 
+use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
@@ -8,10 +9,14 @@ use trove_model::{Asset, Coarser, Figure, Kind, Mesh, Posture, Slot};
 use super::axes::Axis;
 use super::fault::Fault;
 use super::guess::scale;
-use super::library_file::AssetEntry;
+use super::library_file::{AssetEntry, RepeatsEntry};
 use super::model::Model;
 use super::names::{class_named, kind_named, outdoors_named, role_named};
 use super::repair::thinned;
+
+/// A bay or a storey is no thinner, metres, and reaches out of its model by rounding only.
+const THINNEST_M: f64 = 0.5;
+const WITHIN_M: f64 = 0.01;
 
 /// Turns, scales and places a model by a completed entry; `None` for one that is not to be placed.
 pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option<Asset>, Fault> {
@@ -24,7 +29,9 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
         return Err(Fault::new(place, "up and front at right angles", found, "correct one of them in library.toml"));
     }
     let mut mesh = model.mesh;
-    stand(&mut mesh, Axis::turn(front, up), entry, kind);
+    // Buildings lie along x with their fronts towards −y.
+    let forward = if kind == Kind::Building { Mat3::from_rotation_z(-FRAC_PI_2) } else { Mat3::IDENTITY };
+    stand(&mut mesh, forward * Axis::turn(front, up), entry, kind);
     let mut slots: Vec<Slot> =
         model.materials.into_iter().map(|material| Slot { material, paints: Vec::new() }).collect();
     for (name, role) in &entry.roles {
@@ -42,7 +49,28 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     asset.worn_in = entry.worn_in.iter().map(|name| outdoors_named(name, &place)).collect::<Result<_, _>>()?;
     asset.figure = posture(entry).map(|posture| Figure { person: id.into(), posture });
     asset.coarser = coarser(&asset);
+    asset.repeats = repeats(entry, &asset, &place)?;
     Ok(Some(asset))
+}
+
+/// The slabs that may be repeated, of a building alone and within it.
+fn repeats(entry: &AssetEntry, asset: &Asset, place: &str) -> Result<[Option<[f64; 2]>; 3], Fault> {
+    let RepeatsEntry { x, y, z } = entry.repeats;
+    let (low, high) = asset.mesh.bounds().unwrap_or_default();
+    for (axis, slab) in [x, y, z].into_iter().enumerate() {
+        let Some([from, to]) = slab else { continue };
+        let place = || format!("{place}: repeats.{}", ["x", "y", "z"][axis]);
+        if asset.kind != Kind::Building {
+            return Err(Fault::new(place(), "nothing", "a slab of what is no building", "remove the key"));
+        }
+        let [low, high] = [low, high].map(|v| f64::from(v[axis]));
+        let is_within = from >= low - WITHIN_M && to <= high + WITHIN_M && to - from >= THINNEST_M;
+        if !is_within {
+            let expected = format!("from and to between {low:.2} and {high:.2} m, at least {THINNEST_M} m apart");
+            return Err(Fault::new(place(), expected, format!("[{from}, {to}]"), "measure the model's bay or storey"));
+        }
+    }
+    Ok([x, y, z])
 }
 
 /// Metres, x forward, z up, standing on z = 0 over the origin.

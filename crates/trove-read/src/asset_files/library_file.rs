@@ -82,6 +82,8 @@ pub struct AssetEntry {
     pub light: Option<LightEntry>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: Option<f32>,
+    /// What of a building may stand there several times.
+    pub repeats: RepeatsEntry,
     /// Names of what its clothes are worn in ([`Outdoors`](trove_model::Outdoors)); without any: always.
     pub worn_in: Vec<String>,
     /// As the library's.
@@ -96,6 +98,19 @@ pub struct AssetEntry {
     /// Length, width and height that it has by the above, metres; `None` until [`super::import`] has measured it.
     #[serde(skip)]
     pub size_m: Option<DVec3>,
+}
+
+/// Slabs of a building along its front, along its depth and upwards: from and to, metres, of the model as it is placed: the
+/// middle of its plan and its lowest point at 0, its front towards −y.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RepeatsEntry {
+    /// A bay or some.
+    pub x: Option<[f64; 2]>,
+    /// A bay of its sides or some.
+    pub y: Option<[f64; 2]>,
+    /// A storey or some.
+    pub z: Option<[f64; 2]>,
 }
 
 /// How a street lamp shines.

@@ -91,12 +91,7 @@ fn cage(ink: &mut Ink<'_>, hole: &Hole<'_>) {
         let x = low.x + (high.x - low.x) * i as f64 / count as f64;
         rod(ink, Slot::Zinc, p(x, low.y, out), high.y - low.y, 0.014);
     }
-    ink.sides(
-        Slot::Slab,
-        p(low.x + 0.02, low.y - 0.035, 0.0),
-        p(high.x - 0.02, low.y - 0.014, out - 0.02),
-        &[super::ink::Side::Top, super::ink::Side::Bottom, super::ink::Side::Front],
-    );
+    ink.block(Slot::Slab, p(low.x + 0.02, low.y - 0.035, 0.0), p(high.x - 0.02, low.y - 0.014, out - 0.02));
 }
 
 /// The outside half of an air conditioner on brackets.

@@ -19,6 +19,8 @@ const ROOM_M: f64 = 1.6;
 /// A volume as others see it.
 struct Neighbour {
     floor_m: f64,
+    /// Walls of models are not where their footprints are, to the centimetre.
+    hides: bool,
     rings: Vec<Vec<DVec2>>,
     /// World heights.
     bottom_m: f64,
@@ -27,7 +29,7 @@ struct Neighbour {
 }
 
 /// Draws touching walls apart, and tells every volume what stands beside it.
-pub(super) fn beside(houses: &mut [House<'_>]) {
+pub(in crate::buildings) fn beside(houses: &mut [House<'_>]) {
     let mut neighbours: Vec<Neighbour> = Vec::new();
     let mut boxes: Vec<Option<Bounds>> = Vec::new();
     for house in houses.iter() {
@@ -35,6 +37,7 @@ pub(super) fn beside(houses: &mut [House<'_>]) {
             boxes.push(volume.footprint.bounds());
             neighbours.push(Neighbour {
                 floor_m: house.floor_m,
+                hides: house.model.is_none(),
                 rings: volume.footprint.rings().cloned().collect(),
                 bottom_m: volume.bottom_m + house.floor_m,
                 eaves_m: volume.eaves_m + house.floor_m,
@@ -150,7 +153,8 @@ fn side((a, b): (DVec2, DVec2), own: &Neighbour, near: &[(usize, &Neighbour)]) -
         // Roofs are in the way of eaves, walls hide walls.
         let in_the_way = other.top_m > own.eaves_m - 1.0 && other.bottom_m < own.eaves_m + 1.0;
         for edge in other.rings.iter().flat_map(|r| edges(r)) {
-            if other.bottom_m < own.bottom_m + 0.5
+            if other.hides
+                && other.bottom_m < own.bottom_m + 0.5
                 && let Some([from_m, to_m, _]) =
                     along(a, b, edge).filter(|[_, _, out]| (-OVERLAP_M..TOUCHING_M).contains(out))
             {

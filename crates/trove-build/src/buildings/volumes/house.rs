@@ -1,6 +1,8 @@
 //! A building that is to be built: its volumes, and what stands beside each of their sides.
 
-use trove_model::{Building, BuildingCustoms, BuildingKind, Polygon, RoofShape};
+use trove_model::{Asset, Building, BuildingCustoms, BuildingKind, Polygon, RoofShape};
+
+use crate::buildings::bays::Bays;
 
 /// Ids of buildings that are on no map start here, far below those of any relation.
 pub(in crate::buildings) const FIRST_UNMAPPED_ID: i64 = i64::MIN / 2;
@@ -69,13 +71,24 @@ pub(in crate::buildings) struct House<'a> {
     /// From the driven path, metres; [`FAR_M`] where it is further.
     pub path_m: f64,
     pub customs: &'a BuildingCustoms,
+    /// What stands there in place of its volumes.
+    pub model: Option<Model<'a>>,
+}
+
+/// A model that stands for a building.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::buildings) struct Model<'a> {
+    pub asset: &'a Asset,
+    pub bays: Bays,
+    pub world_from_mesh: glam::DAffine3,
 }
 
 #[cfg(test)]
 impl<'a> House<'a> {
     /// On level ground at 0, far from the path and from everything else.
     pub(in crate::buildings) fn alone(building: &'a Building, volumes: Vec<Volume<'a>>) -> Self {
-        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, customs: crate::testing::building_customs("KE") }
+        let customs = crate::testing::building_customs("KE");
+        Self { building, volumes, floor_m: 0.0, path_m: FAR_M, customs, model: None }
     }
 }
 

@@ -8,30 +8,34 @@ mod house;
 mod tests;
 
 use rayon::prelude::*;
-use trove_model::{Bounds, Building, BuildingCustoms, Drive, HeightField, Outcome, Polygon, Report, RoofShape, Seed};
+use trove_model::{
+    Bounds, Building, BuildingCustoms, Drive, DriveOrigin, HeightField, Outcome, Polygon, Report, RoofShape, Seed,
+};
 
 use self::house::{FAR_M, LEAST_M2};
 use crate::geometry::near::Near;
 use crate::geometry::plane::{difference, grown, intersection, union};
 use crate::geometry::segments::SegmentIndex;
-use crate::roads::{Footing, KERB_M, RoadSurfaces};
+use crate::roads::{Footing, HEADROOM_M, KERB_M, RoadSurfaces};
 use crate::surroundings::recorded;
+pub(super) use beside::beside;
 use heights::{Neighbourhood, heights};
 #[cfg(test)]
 pub(super) use house::Beside;
-pub(super) use house::{FIRST_UNMAPPED_ID, House, STOREY_M, Volume, name};
+pub(super) use house::{FIRST_UNMAPPED_ID, House, Model, STOREY_M, Volume, name};
 
 /// A building of which less than this share stands clear of the road is a mistake of one of the maps.
 const CLEAR_SHARE: f64 = 0.5;
 /// Walls are this far from what was recorded beside them, metres, and give way by at most this share of their building.
 const BESIDE_WALL_M: f64 = 0.4;
 const VACATED_SHARE: f64 = 0.1;
-/// A building that starts this high stands over the road, not on it.
-const HEADROOM_M: f64 = 4.0;
-/// Height of a passage through a building, of what stands beside it, and how much of the building either side is, metres.
+/// Height of a passage through a building, of what stands beside it, and how much of the building either side is where
+/// nothing else tells that it is one, metres.
 const PASSAGE_M: f64 = 4.2;
 const UNDER_M: f64 = PASSAGE_M - 0.01;
 const PASSAGE_SIDE_SHARE: f64 = 0.08;
+/// So much of what a road takes of a building lies where it leads through it.
+const LED_THROUGH_SHARE: f64 = 0.8;
 /// An outline without a part on it is built only if it is this share of the whole.
 const REST_SHARE: f64 = 0.1;
 /// Posts of a canopy stand this far in from its edge and at most this far apart, metres.
@@ -55,7 +59,7 @@ pub(super) struct Plot<'a> {
     pub seen_m: &'a [Option<f64>],
 }
 
-/// The buildings within the plot, standing clear of the road and of each other.
+/// The buildings within the plot, standing clear of the road and of each other; what stands beside them is not told yet.
 pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'a>, seed: Seed, report: &Report) -> Vec<House<'a>> {
     let around = Neighbourhood::new(buildings, plot.customs);
     let path: Vec<_> = plot.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect();
@@ -71,7 +75,7 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'a>, seed: Seed
                 let whole = std::mem::take(&mut shape.footprint);
                 let left = clear(whole.clone(), shape, plot.streets, report);
                 let left: Vec<Polygon> = left.into_iter().flat_map(|p| vacated(p, shape, &recorded, report)).collect();
-                let upper = is_passage(&whole, &left, shape, plot.drive).then(|| {
+                let upper = is_passage(&whole, &left, shape, plot).then(|| {
                     report.note(
                         Outcome::Guessed,
                         "passage through a building where a road crosses it",
@@ -97,12 +101,12 @@ pub(super) fn houses<'a>(buildings: &[&'a Building], plot: &Plot<'a>, seed: Seed
             let near = path.nearest(whole.footprint.centroid(), FAR_M + 100.0);
             let reach_m = whole.footprint.bounds().map_or(0.0, |b| b.size_m().length() / 2.0);
             let path_m = near.map_or(FAR_M, |n| (n.distance_m - reach_m).max(0.0));
-            (!volumes.is_empty()).then_some(House { building: whole, volumes, floor_m, path_m, customs: plot.customs })
+            let customs = plot.customs;
+            (!volumes.is_empty()).then_some(House { building: whole, volumes, floor_m, path_m, customs, model: None })
         })
         .collect();
     apart::apart(&mut houses, report);
     houses.retain(|h| !h.volumes.is_empty());
-    beside::beside(&mut houses);
     houses
 }
 
@@ -185,7 +189,7 @@ fn clear(footprint: Polygon, volume: &Volume<'_>, keep_clear: &RoadSurfaces, rep
         report.note(Outcome::Dropped, "building smaller than 4 m²", name(source));
         return Vec::new();
     }
-    if volume.bottom_m >= HEADROOM_M - 0.5 || !touches_road(&footprint, keep_clear) {
+    if volume.bottom_m >= HEADROOM_M || !touches_road(&footprint, keep_clear) {
         return vec![footprint];
     }
     let before_m2 = footprint.area_m2();
@@ -225,12 +229,24 @@ fn vacated(footprint: Polygon, volume: &Volume<'_>, recorded: &[Polygon], report
     left
 }
 
-/// Whether a road goes through a building, which goes on above it: it parts a high one in two, and nobody drove there.
-fn is_passage(whole: &Polygon, left: &[Polygon], volume: &Volume<'_>, drive: &Drive) -> bool {
-    let is_large = |p: &&Polygon| p.area_m2() > PASSAGE_SIDE_SHARE * whole.area_m2();
+/// Whether a road goes through a building, which goes on above it: it leads through it or parts a high one in two, and
+/// nobody drove there.
+fn is_passage(whole: &Polygon, left: &[Polygon], volume: &Volume<'_>, plot: &Plot<'_>) -> bool {
+    let left_m2: f64 = left.iter().map(Polygon::area_m2).sum();
+    let cut_m2 = whole.area_m2() - left_m2;
     let is_high = volume.bottom_m <= 0.0 && volume.eaves_m > PASSAGE_M + STOREY_M && !volume.is_canopy;
-    let path = || drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
-    is_high && left.iter().filter(is_large).count() > 1 && !path().any(|p| whole.contains(p))
+    if left.is_empty() || cut_m2 < LEAST_M2 || !is_high {
+        return false;
+    }
+    let is_large = |p: &&Polygon| p.area_m2() > PASSAGE_SIDE_SHARE * whole.area_m2();
+    let leads_through = || {
+        let through = intersection(std::slice::from_ref(whole), &plot.streets.passages_near(whole));
+        through.iter().map(Polygon::area_m2).sum::<f64>() > LED_THROUGH_SHARE * cut_m2
+    };
+    let is_recorded = plot.drive.origin == DriveOrigin::Recorded;
+    let path = || plot.drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate());
+    let was_driven = is_recorded && path().any(|p| whole.contains(p));
+    !was_driven && (left.iter().filter(is_large).count() > 1 || leads_through())
 }
 
 /// Whether an edge of the footprint comes to lie on the road, to half a metre.

@@ -1,5 +1,5 @@
 use glam::DVec2;
-use trove_model::{HeightField, Seed};
+use trove_model::{HeightField, RoadKind, Seed, StreetMap};
 
 use super::*;
 use crate::testing;
@@ -13,10 +13,15 @@ fn square(id: i64, x: f64, y: f64, size: [f64; 2], height_m: f64) -> Building {
 
 /// What is built of some buildings: id, bottom, top and footprint of each volume.
 fn built(buildings: &[Building]) -> Vec<(i64, f64, f64, Polygon, Vec<Beside>)> {
+    built_on(None, buildings)
+}
+
+/// The same in a place with a street map.
+fn built_on(map: Option<&StreetMap>, buildings: &[Building]) -> Vec<(i64, f64, f64, Polygon, Vec<Beside>)> {
     let drive = testing::drive();
     let bounds = crate::area(&drive).unwrap();
     let ground = HeightField::flat(bounds, 0.0);
-    let streets = testing::surfaces(&drive, &ground);
+    let streets = testing::surfaces_on(&drive, map, &ground);
     let plot = Plot {
         drive: &drive,
         customs: testing::building_customs("SG"),
@@ -26,7 +31,8 @@ fn built(buildings: &[Building]) -> Vec<(i64, f64, f64, Polygon, Vec<Beside>)> {
         seen_m: &[],
     };
     let all: Vec<&Building> = buildings.iter().collect();
-    let houses = houses(&all, &plot, Seed(1), &Report::default());
+    let mut houses = houses(&all, &plot, Seed(1), &Report::default());
+    beside(&mut houses);
     let volumes = houses.into_iter().flat_map(|h| h.volumes);
     volumes.map(|v| (v.building.id, v.bottom_m, v.top_m, v.footprint, v.sides)).collect()
 }
@@ -119,4 +125,20 @@ fn a_road_through_a_high_building_leaves_a_passage() {
     let spans: Vec<String> = found.iter().map(|f| format!("{:.2} {:.2}", f.1, f.2)).collect();
     assert_eq!(spans, ["0.00 4.19", "0.00 4.19", "4.20 15.00"]);
     assert!(built(&[across(6.0)]).iter().all(|f| f.1 == 0.0));
+}
+
+#[test]
+fn a_road_that_leads_through_the_end_of_a_house_leaves_what_is_above_it() {
+    let road = testing::road(9, RoadKind::Service, &[[102.0, -4.0], [102.0, -58.0]]);
+    let spans = |house: Building| {
+        let map = StreetMap { roads: vec![road.clone()], buildings: vec![house], ..StreetMap::default() };
+        let found = built_on(Some(&map), &map.buildings);
+        found.iter().map(|f| format!("{:.2} {:.2}", f.1, f.2)).collect::<Vec<_>>()
+    };
+    let house = |height_m| square(1, 99.5, 20.0, [24.0, 12.0], height_m);
+    assert_eq!(spans(house(15.0)), ["0.00 4.19", "4.20 15.00"]);
+    assert_eq!(spans(house(5.0)), ["0.00 5.00"]);
+    // A part that begins above a low storey is over the road already.
+    let upper = Building { part: true, min_height_m: 3.1, ..house(15.0) };
+    assert_eq!(spans(upper), ["3.10 15.00"]);
 }
