@@ -47,6 +47,8 @@ pub(crate) struct Bar {
     pub(crate) cut: usize,
     /// And so many of which more than that is not there and no road either.
     pub(crate) incomplete: usize,
+    /// The least share of the rectangular ones that models of the built-in library stand for.
+    pub(crate) modelled: f64,
     /// What shows of their insides in all views together, m².
     pub(crate) inside_m2: f64,
 }

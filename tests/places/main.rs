@@ -223,6 +223,9 @@ fn assert_real(place: &Place, file: &str, bar: Option<&cover::Bar>) {
     let measured = |name: &str| place.report.measurements().iter().find(|m| m.name == name).map_or(0.0, |m| m.value);
     let [rectangular, replaced] = ["buildings.rectangular", "buildings.replaced_by_assets"].map(measured);
     println!("{}: {replaced} of {rectangular} rectangular buildings are models", place.name);
+    if bar.is_some_and(|bar| replaced < bar.modelled * rectangular) {
+        wrong.push(format!("models stand for {replaced} of {rectangular} rectangular buildings"));
+    }
     wrong.extend(cover::road(&place.scene, &place.drive));
     match bar {
         Some(bar) => {

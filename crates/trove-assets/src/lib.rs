@@ -77,7 +77,7 @@ fn assets(ingredients: &Ingredients<'_>, surfaces: &[Surface]) -> Vec<Asset> {
         || people::assets(&Plans::built_in().persons, ingredients.human_body),
     );
     assets.extend(people);
-    assets.extend(buildings::assets(surfaces));
+    assets.extend(buildings::assets(&Plans::built_in().buildings, surfaces));
     assets.sort_by(|a, b| a.id.cmp(&b.id));
     assets
 }

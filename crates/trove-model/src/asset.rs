@@ -36,6 +36,8 @@ pub struct Asset {
     pub coarser: Vec<Coarser>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: f32,
+    /// ISO 3166-1 codes of the countries in which it stands; empty: everywhere.
+    pub countries: Vec<String>,
     /// When what it wears is worn; empty: always, as for all that wears nothing.
     pub worn_in: Vec<Outdoors>,
     /// Who it shows and how; `None` for all but people on foot.
@@ -69,6 +71,7 @@ impl Asset {
             extras: Vec::new(),
             coarser: Vec::new(),
             commonness: 1.0,
+            countries: Vec::new(),
             worn_in: Vec::new(),
             figure: None,
             keypoints: None,

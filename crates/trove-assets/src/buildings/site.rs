@@ -40,11 +40,16 @@ impl<'a> Site<'a> {
 
     /// The slot of a material; the same name is the same slot.
     pub(super) fn plain(&mut self, material: Material) -> u16 {
+        self.painted(material, &[])
+    }
+
+    /// The same in one of some colours.
+    pub(super) fn painted(&mut self, material: Material, colors: &[Vec3]) -> u16 {
         if let Some((_, slot)) = self.slots.iter().find(|s| s.0 == material.name) {
             return *slot;
         }
         let name = material.name.clone();
-        let slot = self.model.slot(material, &[]);
+        let slot = self.model.slot(material, colors);
         self.slots.push((name, slot));
         slot
     }
@@ -54,8 +59,14 @@ impl<'a> Site<'a> {
         if let Some((_, slot)) = self.slots.iter().find(|s| s.0 == id) {
             return *slot;
         }
+        let material = self.material(id);
+        self.plain(material)
+    }
+
+    /// A surface's material, or a plain one of that name.
+    pub(super) fn material(&self, id: &str) -> Material {
         let found = self.surfaces.iter().find(|s| s.id == id);
-        self.plain(found.map_or_else(|| Material::plain(id, Vec3::splat(0.3), 0.8), |s| s.material.clone()))
+        found.map_or_else(|| Material::plain(id, Vec3::splat(0.3), 0.8), |s| s.material.clone())
     }
 
     pub(super) fn add(&mut self, slot: u16, shape: Shape) {
@@ -69,13 +80,16 @@ impl<'a> Site<'a> {
 
     /// Walls around an outline, an edge each from `ids` in turn; every wall shows whole bays and whole storeys.
     pub(super) fn walls(&mut self, outline: &[Vec2], z: Range<f32>, ids: &[&str]) {
+        let walls: Vec<(u16, &str)> = ids.iter().map(|id| (self.surface(id), *id)).collect();
+        self.walls_of(outline, z, &walls);
+    }
+
+    /// The same with the slots of the surfaces.
+    pub(super) fn walls_of(&mut self, outline: &[Vec2], z: Range<f32>, walls: &[(u16, &str)]) {
         for (i, (a, b, _)) in edges(outline).enumerate() {
-            let id = ids[i % ids.len()];
-            let slot = self.surface(id);
+            let (slot, id) = walls[i % walls.len()];
             let surface = self.surfaces.iter().find(|s| s.id == id);
-            let (cell, cells) = surface.map_or((vec2(3.0, 3.0), [1, 1]), |s| {
-                (vec2(s.size_m[0] / s.cells[0] as f32, s.size_m[1] / s.cells[1] as f32), s.cells)
-            });
+            let (cell, cells) = surface.map_or((vec2(3.0, 3.0), [1, 1]), cell);
             let count = (vec2(a.distance(b), z.end - z.start) / cell).round().max(Vec2::ONE);
             // Opposite walls show other parts of the texture.
             let low = cell * vec2((i as u32 * 3 % cells[0]) as f32, 0.0);
@@ -84,11 +98,12 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// A wall around an outline without openings, uvs in metres.
-    pub(super) fn blank_walls(&mut self, slot: u16, outline: &[Vec2], z: Range<f32>) {
-        for (a, b, _) in edges(outline) {
-            self.add(slot, wall([a, b], &z, Vec2::ZERO, vec2(a.distance(b), z.end - z.start)));
-        }
+    /// The slot of a surface, and the corners of one of its cells counted in rows from below.
+    pub(super) fn cell(&mut self, id: &str, number: u32) -> (u16, [Vec2; 4]) {
+        let (size, cells) = self.surfaces.iter().find(|s| s.id == id).map_or((Vec2::ONE, [1, 1]), cell);
+        let low = size * vec2((number % cells[0]) as f32, (number / cells[0] % cells[1]) as f32);
+        let high = low + size;
+        (self.surface(id), [low, vec2(high.x, low.y), high, vec2(low.x, high.y)])
     }
 
     /// A moulding along every edge that stands out by `out_m` and reaches `in_m` inwards, mitred at the corners.
@@ -106,50 +121,6 @@ impl<'a> Site<'a> {
             self.add(slot, slope(&[low(c), low(d), high(d), high(c)]));
             self.add(slot, slope(&[high(a), high(b), high(c), high(d)]));
             self.add(slot, slope(&[low(d), low(c), low(b), low(a)]));
-        }
-    }
-
-    /// A flat roof behind a parapet with a coping.
-    pub(super) fn flat_roof(&mut self, outline: &[Vec2], z_m: f32, parapet_m: f32, covering: &str, coping: u16) {
-        let cover = self.surface(covering);
-        self.add(cover, Shape::flat(outline).moved(Vec3::Z * z_m));
-        self.band(coping, outline, z_m..z_m + parapet_m, 0.0, 0.3);
-        self.band(coping, outline, z_m + parapet_m..z_m + parapet_m + 0.08, 0.06, 0.36);
-    }
-
-    /// A roof with its ridge along x over a rectangle, with eaves; `hip_m` pulls the ridge's ends in (0: gables).
-    pub(super) fn pitched_roof(&mut self, tiles: &str, gable: u16, size: Vec2, z_m: f32, rise_m: f32, hip_m: f32) {
-        let tiles = self.surface(tiles);
-        let eaves = if hip_m > 0.0 { vec2(0.45, 0.45) } else { vec2(0.2, 0.4) };
-        let half = size / 2.0;
-        let out = half + eaves;
-        // Eaves lie lower, along the slope.
-        let low = z_m - rise_m * eaves.y / half.y;
-        let ridge = if hip_m > 0.0 { half.x - hip_m } else { out.x };
-        let top = z_m + rise_m;
-        for side in [-1.0f32, 1.0] {
-            let corner = |x: f32| vec3(x * side, -out.y * side, low);
-            let end = |x: f32| vec3(x * side, 0.0, top);
-            self.roof_plane(tiles, gable, &[corner(-out.x), corner(out.x), end(ridge), end(-ridge)]);
-            if hip_m > 0.0 {
-                let foot = |y: f32| vec3(out.x * side, y * out.y * side, low);
-                self.roof_plane(tiles, gable, &[foot(-1.0), foot(1.0), end(ridge)]);
-            } else {
-                let at = |y: f32, z: f32| vec3(half.x * side, y * half.y * side, z);
-                self.add(gable, slope(&[at(-1.0, z_m), at(1.0, z_m), at(0.0, top)]));
-            }
-        }
-    }
-
-    /// One sloping plane with its underside and its edges, counter-clockwise from above.
-    fn roof_plane(&mut self, tiles: u16, under: u16, corners: &[Vec3]) {
-        let thick = Vec3::Z * 0.12;
-        self.add(tiles, slope(corners));
-        let below: Vec<Vec3> = corners.iter().rev().map(|&c| c - thick).collect();
-        self.add(under, slope(&below));
-        for (i, &a) in corners.iter().enumerate() {
-            let b = corners[(i + 1) % corners.len()];
-            self.add(under, slope(&[a - thick, b - thick, b, a]));
         }
     }
 
@@ -194,16 +165,12 @@ impl<'a> Site<'a> {
             self.add(metal, Shape::cylinder(0.16, 1.1, 12).moved(at));
         }
     }
+}
 
-    /// A roof over an entrance.
-    pub(super) fn canopy(&mut self, slot: u16, middle: Vec3, size: Vec3) {
-        self.block(slot, middle, size);
-        for x in [-0.4, 0.4] {
-            let from = middle + vec3(x * size.x, -size.y * 0.4, size.z / 2.0);
-            let to = middle + vec3(x * size.x, size.y * 0.5, 1.2);
-            self.add(slot, Shape::tube(&[from, to], 0.025, 6));
-        }
-    }
+/// Size and numbers of a surface's cells.
+fn cell(surface: &Surface) -> (Vec2, [u32; 2]) {
+    let [across, up] = surface.cells;
+    (vec2(surface.size_m[0] / across as f32, surface.size_m[1] / up as f32), surface.cells)
 }
 
 /// An upright rectangle over an edge, with the texture's corners.
@@ -219,7 +186,7 @@ fn wall([a, b]: [Vec2; 2], z: &Range<f32>, low: Vec2, high: Vec2) -> Shape {
 }
 
 /// A flat polygon in space, counter-clockwise from outside; u runs along its first edge, in metres.
-fn slope(corners: &[Vec3]) -> Shape {
+pub(super) fn slope(corners: &[Vec3]) -> Shape {
     let along = (corners[1] - corners[0]).normalize_or(Vec3::X);
     let normal = along.cross(corners[2] - corners[0]).normalize_or(Vec3::Z);
     let frame = Mat3::from_cols(along, normal.cross(along), normal);

@@ -10,8 +10,8 @@ use super::error::PlanError;
 /// Keys whose value may be the name of a table of the same key (`paint = "fleet"` is `[paint.fleet]`), or a list of such.
 const PIECES: [&str; 10] = ["paint", "plate", "face", "back", "skin", "hair", "dye", "top", "bottom", "shoes"];
 /// Lists of entries.
-const ENTRIES: [&str; 11] =
-    ["car", "facade", "person", "cone", "furniture", "signal", "wall", "tree", "shrub", "hedge", "bed"];
+const ENTRIES: [&str; 12] =
+    ["building", "car", "facade", "person", "cone", "furniture", "signal", "wall", "tree", "shrub", "hedge", "bed"];
 /// Tables of which an entry may change single keys, taking the others from the entry that it is like.
 const MERGED: [&str; 2] = ["profile", "build"];
 

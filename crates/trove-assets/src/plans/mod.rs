@@ -13,10 +13,11 @@ mod tests;
 use std::sync::LazyLock;
 
 use serde::de::DeserializeOwned;
-use trove_model::{Asset, AssetLibrary, HumanBody};
+use trove_model::{Asset, AssetLibrary, HumanBody, Surface};
 
 pub use error::PlanError;
 
+use crate::buildings::{self, BuildingPlan};
 use crate::measure::Wrong;
 use crate::people::{self, PersonPlan};
 use crate::plants::{self, PlantPlans, RowPlan, ShrubPlan, TreePlan};
@@ -29,6 +30,8 @@ use file::PlanFile;
 pub const FILE_NAME: &str = "plans.toml";
 
 const BUILT_IN: &str = concat!(
+    include_str!("../../plans/buildings.toml"),
+    "\n",
     include_str!("../../plans/cars.toml"),
     "\n",
     include_str!("../../plans/facades.toml"),
@@ -46,6 +49,7 @@ static BUILT_IN_FILE: LazyLock<PlanFile<'static>> =
 /// What a file of plans asks for.
 #[derive(Clone, Debug)]
 pub struct Plans {
+    pub(crate) buildings: Vec<BuildingPlan>,
     pub(crate) cars: Vec<CarPlan>,
     pub(crate) facades: Vec<FacadePlan>,
     pub(crate) persons: Vec<PersonPlan>,
@@ -72,6 +76,7 @@ impl Plans {
 
     fn of(file: &PlanFile<'_>) -> Result<Self, PlanError> {
         Ok(Self {
+            buildings: checked(file, "building", BuildingPlan::check)?,
             cars: checked(file, "car", CarPlan::check)?,
             facades: checked(file, "facade", FacadePlan::check)?,
             persons: checked(file, "person", PersonPlan::check)?,
@@ -99,11 +104,14 @@ impl Plans {
     /// The library of a user's plans, with ids that begin with the library's name; sorted by id. Without a body it has
     /// no persons.
     pub fn library(&self, name: &str, body: Option<&HumanBody>) -> AssetLibrary {
-        let mut library = AssetLibrary {
-            assets: [vehicles::cars(&self.cars), street::planned(&self.street), plants::planned(&self.plants)].concat(),
-            surfaces: surfaces::facades(&self.facades),
-            ..AssetLibrary::default()
-        };
+        let facades = surfaces::facades(&self.facades);
+        let families = [
+            self.houses(&facades),
+            vehicles::cars(&self.cars),
+            street::planned(&self.street),
+            plants::planned(&self.plants),
+        ];
+        let mut library = AssetLibrary { assets: families.concat(), surfaces: facades, ..AssetLibrary::default() };
         for asset in &mut library.assets {
             asset.id = format!("{name}/{}", asset.id);
             asset.licence = self.licence.clone().unwrap_or_else(|| asset.licence.clone());
@@ -115,6 +123,15 @@ impl Plans {
         library.assets.sort_by(|a, b| a.id.cmp(&b.id));
         library.surfaces.sort_by(|a, b| a.id.cmp(&b.id));
         library
+    }
+
+    /// The buildings, in the built-in surfaces and these facades.
+    fn houses(&self, facades: &[Surface]) -> Vec<Asset> {
+        if self.buildings.is_empty() {
+            return Vec::new();
+        }
+        let built_in = surfaces::surfaces(&Self::built_in().facades, 1);
+        buildings::planned(&self.buildings, &[facades, &built_in].concat())
     }
 
     /// The persons, whose ids begin with the library's name from the start: textures are named after them.

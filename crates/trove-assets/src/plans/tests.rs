@@ -5,6 +5,7 @@ use trove_model::{Asset, Kind, PlantForm};
 use super::Plans;
 
 const CAR: &str = "[[car]]\nid = \"kombi\"\nlike = \"car/estate\"\n";
+const BUILDING: &str = "[[building]]\nid = \"shed\"\nlike = \"building/garage-row\"\n";
 const CONE: &str = "[[cone]]\nid = \"red\"\nlike = \"cone/standard\"\n";
 const FURNITURE: &str = "[[furniture]]\nid = \"post\"\nkind = \"bollard\"\n";
 const PERSON: &str = "[[person]]\nid = \"nurse\"\nlike = \"adult/woman-tee\"\n";
@@ -58,6 +59,19 @@ fn what_stands_along_streets_is_built_with_the_measures_of_its_plan() {
     let [.., post, cone] = assets.as_slice() else { unreachable!() };
     assert!((cone.size_m.z - 0.9).abs() < 0.02 && (post.size_m - glam::dvec3(0.2, 0.2, 1.2)).length() < 0.01);
     assert!(assets[0].tags.iter().any(|tag| tag == "own") && assets[0].tags.iter().any(|tag| tag == "green"));
+}
+
+#[test]
+fn a_building_of_a_plan_wears_surfaces_of_both_libraries() {
+    let text = format!(
+        "{FACADE}{BUILDING}tags = [\"shed\"]\nparts = []\nfinishes = {{ front = {{ surface = \"clinker\" }} }}\n\
+         masses = [{{ size_m = [11.6, 6], levels = [{{ storey_m = 3.1, count = 2, walls = [\"front\", \"wall/brick\"] }}] }}]\n"
+    );
+    let library = Plans::parse(&text).unwrap().library("mine", None);
+    let [shed] = library.assets.as_slice() else { unreachable!() };
+    let names: Vec<&str> = shed.slots.iter().map(|slot| &*slot.material.name).collect();
+    assert_eq!((&*shed.id, names), ("mine/shed", vec!["clinker as front", "wall/brick"]));
+    assert!(shed.tags.has("shed") && shed.slots.iter().all(|slot| slot.material.base_color_map.is_some()));
 }
 
 #[test]
@@ -136,6 +150,22 @@ fn a_mistake_is_named_with_its_entry_and_key_and_what_was_expected() {
         (format!("{FACADE}cells = [0, 4]\n"), &["cells", "from 1 to 16"]),
         (format!("{FACADE}fixtures = {{ balcony = 1 }}\n"), &["fixtures.balcony", "did you mean `balconies`?"]),
         (format!("{FACADE}bays = [[{{ low_m = [9, 0], size_m = [1, 1] }}]]\n"), &["bays", "inside their bay"]),
+        (format!("{BUILDING}storeys = 3\n"), &["building \"shed\": storeys", "a known key"]),
+        (format!("{BUILDING}repeat = {{ x = [2, -2] }}\n"), &["building \"shed\": repeat", "from below upwards"]),
+        (format!("{BUILDING}module_m = [nan, 0]\n"), &["building \"shed\": module_m", "metres from 0 to 100", "NaN"]),
+        (format!("{BUILDING}masses = [{{ size_m = [9, 9], levles = [] }}]\n"), &["levles", "did you mean `levels`?"]),
+        (
+            format!("{BUILDING}masses = [{{ size_m = [9, 9], levels = [{{ storey_m = 3, walls = [\"brik\"] }}] }}]\n"),
+            &["building \"shed\": finish", "one of its finishes", "brik"],
+        ),
+        (
+            format!("{BUILDING}parts = [{{ finish = \"dark\", mass = 1, shape = {{ pipe = {{ height = 3 }} }} }}]\n"),
+            &["building \"shed\": parts.mass", "the number of a mass"],
+        ),
+        (
+            format!("{BUILDING}parts = [{{ finish = \"dark\", up = 3, shape = {{ pipe = {{ height = 3 }} }} }}]\n"),
+            &["building \"shed\": parts", "a list of metres or"],
+        ),
         (format!("{CONE}height_m = 9.0\n"), &["cone \"red\": height_m", "from 0.2 to 3", "9.0"]),
         (format!("{CONE}bands = [[0.5, 0.2]]\n"), &["bands", "from a lower to a higher share"]),
         (format!("{FURNITURE}parts = []\n"), &["furniture \"post\": parts", "1 to 400 shapes"]),

@@ -86,9 +86,10 @@ impl Copy<'_> {
             let corners = triangle.map(|index| self.vertex(index)).to_vec();
             let above = self.cut(corners, between[0], 1.0);
             let part = self.cut(above, between[1], -1.0);
-            // What lies in the plane of a cut belongs to neither side of it: it would be there twice.
-            let is_flat = part.iter().all(|v| (v.position[self.axis] - between[0]).abs() <= ON_PLANE_M);
-            if part.len() < 3 || is_flat && between[0].is_finite() {
+            // A face in the plane of a cut belongs to the side that it is the surface of.
+            let is_at = |plane: f32| part.iter().all(|v| (v.position[self.axis] - plane).abs() <= ON_PLANE_M);
+            let faces_up = self.normal(*triangle)[self.axis] > 0.0;
+            if part.len() < 3 || is_at(between[0]) && faces_up || is_at(between[1]) && !faces_up {
                 continue;
             }
             let indices: Vec<u32> = part.iter().map(|v| self.put(v, by, &mut known)).collect();
@@ -99,6 +100,11 @@ impl Copy<'_> {
                 }
             }
         }
+    }
+
+    fn normal(&self, triangle: [u32; 3]) -> Vec3 {
+        let [a, b, c] = triangle.map(|i| self.mesh.positions[i as usize]);
+        (b - a).cross(c - a)
     }
 
     fn vertex(&self, index: u32) -> Vertex {
@@ -206,6 +212,41 @@ mod tests {
         assert_eq!((low, high), (Vec3::new(-13.0, -6.0, 0.0), Vec3::new(13.0, 6.0, 19.0)));
         assert!((volume_m3(&mesh) - 26.0 * 12.0 * 19.0).abs() < 0.05, "{}", volume_m3(&mesh));
         assert_eq!(mesh.defect(), None);
+    }
+
+    #[test]
+    fn what_begins_where_a_bay_ends_is_not_repeated_with_it() {
+        let mut house = house();
+        // A box on the roof, from the end of the bay on.
+        let sheets: Vec<Mesh> = [0.0, 1.0]
+            .iter()
+            .map(|up| Mesh {
+                positions: [[1.0, -2.0], [4.0, -2.0], [4.0, 2.0], [1.0, 2.0]]
+                    .map(|[x, y]| Vec3::new(x, y, 10.0 + up))
+                    .into(),
+                triangles: if *up > 0.0 { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 2, 1], [0, 3, 2]] },
+                ..Mesh::default()
+            })
+            .collect();
+        let on_roof = Arc::make_mut(&mut house.mesh);
+        let first = on_roof.positions.len() as u32;
+        for sheet in &sheets {
+            let from = on_roof.positions.len() as u32;
+            on_roof.positions.extend(&sheet.positions);
+            on_roof.triangles.extend(sheet.triangles.iter().map(|t| t.map(|i| i + from)));
+        }
+        for i in 0..4 {
+            let [a, b] = [first + i, first + (i + 1) % 4];
+            on_roof.triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
+        }
+        let mesh = Bays([4, 1, 1]).mesh(&house);
+        let expected = 29.0 * 12.0 * 10.0 + 3.0 * 4.0;
+        assert!((volume_m3(&mesh) - expected).abs() < 0.05, "{}", volume_m3(&mesh));
+        let ends = mesh.triangles.iter().filter(|t| {
+            let [a, b, c] = t.map(|i| mesh.positions[i as usize]);
+            (b - a).cross(c - a).normalize_or_zero().x < -0.9 && a.z > 9.9 && b.z > 9.9 && c.z > 9.9
+        });
+        assert_eq!(ends.count(), 2, "the box has one end");
     }
 
     #[test]

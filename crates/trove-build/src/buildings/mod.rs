@@ -55,7 +55,7 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     let seen_m = lidar::seen_walls(drive, &all, ground);
     let plot = volumes::Plot { drive, customs, streets: keep_clear, ground, bounds, seen_m: &seen_m };
     let mut houses = volumes::houses(&all, &plot, seed, report);
-    replace::assign(&mut houses, library, keep_clear, seed.child("model"), report);
+    replace::assign(&mut houses, library, locale.country.as_deref(), keep_clear, seed.child("model"), report);
     volumes::beside(&mut houses);
     let grown = grown(&houses);
     let palette = Palette { library, report };
@@ -72,7 +72,8 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| p.asset.is_some()).count() as f64);
     let triangles: usize = pieces.iter().filter(|p| p.asset.is_none()).map(|p| p.mesh.triangles.len()).sum();
     report.measure("buildings.triangles", triangles as f64);
-    let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).collect();
+    let models = houses.iter().filter_map(|h| h.model.as_ref()).map(replace::outline);
+    let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).chain(models).collect();
     BuiltBuildings { pieces, footprints }
 }
 

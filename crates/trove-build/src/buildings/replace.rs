@@ -37,11 +37,15 @@ const ABOUT_AS_GOOD: f64 = 0.06;
 pub(super) fn assign<'a>(
     houses: &mut [House<'a>],
     library: &'a AssetLibrary,
+    country: Option<&str>,
     streets: &RoadSurfaces,
     seed: Seed,
     report: &Report,
 ) {
-    let buildings: Vec<&Asset> = library.of_kind(Kind::Building).collect();
+    let is_local = |asset: &&Asset| {
+        country.is_none_or(|code| asset.countries.is_empty() || asset.countries.iter().any(|c| c == code))
+    };
+    let buildings: Vec<&Asset> = library.of_kind(Kind::Building).filter(is_local).collect();
     let plans = buildings.par_iter().filter_map(|asset| Plan::new(asset));
     let plans: Vec<Plan<'a>> = plans.filter(|plan| plan.filled >= WELL_FILLED).collect();
     let bounds = |house: &House<'_>| {
@@ -92,14 +96,18 @@ fn plain<'h, 'a>(house: &'h House<'a>) -> Option<&'h Volume<'a>> {
     (!is_described && is_whole && !volume.is_canopy && !volume.is_built_on).then_some(volume)
 }
 
-/// Whether a model reaches into no other building.
-fn stands_clear(model: &Model<'_>, index: usize, houses: &[House<'_>], near: &Near) -> bool {
+/// The box of a model on the ground.
+pub(super) fn outline(model: &Model<'_>) -> Polygon {
     let (low, high) = model.asset.mesh.bounds().unwrap_or_default();
     let more = model.bays.more_m(model.asset) / 2.0;
     let (low, high) = (low.as_dvec3() - more, high.as_dvec3() + more);
     let corner = |x: f64, y: f64| model.world_from_mesh.transform_point3(DVec3::new(x, y, 0.0)).truncate();
-    let corners = [corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y), corner(low.x, high.y)];
-    let own = [Polygon::simple(corners.to_vec())];
+    Polygon::simple(vec![corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y), corner(low.x, high.y)])
+}
+
+/// Whether a model reaches into no other building.
+fn stands_clear(model: &Model<'_>, index: usize, houses: &[House<'_>], near: &Near) -> bool {
+    let own = [outline(model)];
     let Some(bounds) = own[0].bounds() else { return false };
     let others = near.at(bounds).filter(|&j| j != index).flat_map(|j| &houses[j].volumes);
     let shared = others.flat_map(|v| intersection(&own, std::slice::from_ref(&v.footprint)));

@@ -127,7 +127,7 @@ impl<'y, 'a, 'b, 'c> Layer<'y, 'a, 'b, 'c> {
     /// Off the carriageway, out of buildings, clear of what was recorded, of ways that cross, of cameras and of what has
     /// been laid.
     fn is_free(&self, a: DVec2, b: DVec2, in_sight_m: Option<f64>) -> bool {
-        let room = Room { road_m: 0.0, buildings_m: 0.0, recorded_m: 0.35, radius_m: 0.1 };
+        let room = Room { road_m: 0.0, buildings_m: 0.15, recorded_m: 0.35, radius_m: 0.1 };
         let along = (b - a).normalize_or_zero();
         let crossed = |p: DVec2| self.ways.nearest(p, GAP_M).is_some_and(|n| n.along.dot(along).abs() < 0.8);
         let out_of_sight =

@@ -3,10 +3,11 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
     Bounds, Camera, Distortion, Drive, DriveOrigin, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection,
-    Outcome, Pose, Report, RigCamera, Road, Seed, StreetMap, Trajectory, World,
+    Outcome, Polygon, Pose, Report, RigCamera, Road, RoadKind, Seed, StreetMap, Trajectory, World,
 };
 
 use crate::error::BuildError;
+use crate::geometry::segments::SegmentIndex;
 
 /// At most so many views' positions.
 const MAX_VIEWS: usize = 20;
@@ -18,6 +19,9 @@ const STEP_M: f64 = 5.0;
 const BORDER: f64 = 0.15;
 /// Where no lanes are tagged, the middle of the driven lane is this far from a two-way road's middle, metres.
 const LANE_OFFSET_M: f64 = 1.75;
+/// No wall is this near to the middle of a vehicle, metres, nor to points ahead of it up to its front.
+const WALL_M: f64 = 1.5;
+const LOOKED_AT_M: [f64; 3] = [-1.0, 1.2, 3.4];
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
 const STEP_NS: i64 = 60_000_000_000;
 
@@ -56,10 +60,13 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
 
     // Drawn one after the other; what is too near to one that stands is passed over.
     let mut random = seed.child("standpoints").random();
+    let walls = Walls::new(map, inner);
+    let has_room = candidates.iter().any(|pose| walls.leave_room(pose));
     let mut stands: Vec<Pose<World, Ego>> = Vec::new();
     while stands.len() < MAX_VIEWS && !candidates.is_empty() {
         let drawn = candidates.swap_remove(random.index(candidates.len()));
-        if stands.iter().all(|s| s.translation.distance(drawn.translation) >= SPACING_M) {
+        let is_apart = |s: &Pose<World, Ego>| s.translation.distance(drawn.translation) >= SPACING_M;
+        if stands.iter().all(is_apart) && (walls.leave_room(&drawn) || !has_room) {
             stands.push(drawn);
         }
     }
@@ -106,10 +113,36 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
     })
 }
 
+/// Houses that a vehicle may not stand in, nor at.
+struct Walls<'a> {
+    footprints: Vec<(&'a Polygon, Bounds)>,
+    index: SegmentIndex,
+}
+
+impl<'a> Walls<'a> {
+    fn new(map: &'a StreetMap, area: Bounds) -> Self {
+        let area = area.grown(SPACING_M);
+        let with_bounds = map.buildings.iter().filter_map(|b| Some((&b.footprint, b.footprint.bounds()?)));
+        let footprints: Vec<_> = with_bounds.filter(|(_, bounds)| bounds.overlaps(&area)).collect();
+        let closed = |ring: &Vec<DVec2>| [&ring[..], &ring[..1.min(ring.len())]].concat();
+        let rings: Vec<Vec<DVec2>> = footprints.iter().flat_map(|(p, _)| p.rings()).map(closed).collect();
+        Self { footprints, index: SegmentIndex::new(rings.iter().map(Vec::as_slice)) }
+    }
+
+    fn leave_room(&self, pose: &Pose<World, Ego>) -> bool {
+        LOOKED_AT_M.iter().all(|&ahead_m| {
+            let p = pose.point(DVec3::X * ahead_m).truncate();
+            let holds = |(polygon, bounds): &(&Polygon, Bounds)| bounds.contains(p) && polygon.contains(p);
+            self.index.nearest(p, WALL_M).is_none() && !self.footprints.iter().any(holds)
+        })
+    }
+}
+
 /// Poses along a road in a lane of its own, in both directions where it has both.
 fn standpoints(road: &Road, driving_side: DrivingSide) -> Vec<Pose<World, Ego>> {
     let lanes = f64::from(road.lanes.unwrap_or(0).max(1));
-    let offset_m = match (road.oneway, road.width_m) {
+    let is_shared = road.kind == RoadKind::Service && road.lanes.is_none_or(|lanes| lanes < 2);
+    let offset_m = match (road.oneway || is_shared, road.width_m) {
         (true, _) => 0.0,
         (false, Some(width_m)) => width_m / 4.0,
         (false, None) => LANE_OFFSET_M * (lanes / 2.0).max(1.0).round(),
@@ -165,7 +198,7 @@ fn rig() -> Vec<RigCamera> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trove_model::RoadKind;
+    use trove_model::Building;
 
     fn map() -> StreetMap {
         let road = |id: i64, ends: [[f64; 2]; 2]| crate::testing::road(id, RoadKind::Residential, &ends);
@@ -194,6 +227,24 @@ mod tests {
                 assert!(!drive.keyframes[i + 1..].iter().any(near));
             }
         }
+    }
+
+    #[test]
+    fn views_keep_from_walls_unless_there_is_no_room_at_all() {
+        let house = |low: [f64; 2], high: [f64; 2]| {
+            let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(DVec2::from_array);
+            Building::new(3, Polygon::simple(corners.to_vec()), None)
+        };
+        let stands = |house: Building| {
+            let map = StreetMap { buildings: vec![house], ..map() };
+            let drive = place_drive(&map, &plan(DrivingSide::Right), Seed(1), &Report::default()).unwrap();
+            drive.keyframes.iter().map(|k| k.world_from_ego.translation.truncate()).collect::<Vec<_>>()
+        };
+        // Before the northern lane of the street along x, up to a metre from the vehicle's middle.
+        let beside = stands(house([-300.0, 2.75], [300.0, 12.0]));
+        assert!(beside.len() >= 8 && beside.iter().all(|p| p.y.abs() > 14.0 || p.y < 0.0), "{beside:?}");
+        assert!(beside.iter().any(|p| (p.y + LANE_OFFSET_M).abs() < 0.01));
+        assert!(!stands(house([-300.0, -300.0], [300.0, 300.0])).is_empty());
     }
 
     #[test]

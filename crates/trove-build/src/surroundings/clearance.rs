@@ -1,6 +1,7 @@
 //! Where made-up things may stand: off the road, out of buildings, and clear of everything that was recorded.
 
 use std::collections::HashMap;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::DVec2;
 use trove_model::{Bounds, Cuboid, Drive, Keyframe, Polygon};
@@ -12,6 +13,8 @@ use crate::roads::{Footing, RoadSurfaces};
 
 /// Cells of the distance fields, metres.
 const CELL_M: f64 = 0.5;
+/// Of the distance to buildings, against which things are put.
+const WALL_CELL_M: f64 = 0.25;
 /// Buckets of what has been placed, metres.
 const BUCKET_M: f64 = 8.0;
 /// No made-up thing needs more room than this around its middle, metres.
@@ -56,7 +59,7 @@ impl<'a> Clearance<'a> {
             || DistanceField::to_cells(bounds, CELL_M, closed),
             || {
                 rayon::join(
-                    || DistanceField::to(footprints.iter().cloned(), bounds, CELL_M),
+                    || DistanceField::to(footprints.iter().cloned(), bounds, WALL_CELL_M),
                     || DistanceField::to(recorded(drive), bounds, CELL_M),
                 )
             },
@@ -66,12 +69,12 @@ impl<'a> Clearance<'a> {
 
     /// Whether a thing may stand at a position.
     pub(crate) fn is_free(&self, p: DVec2, room: &Room) -> bool {
-        // The fields are exact to half a cell.
-        let far = |field: &DistanceField, least_m: f64| field.at(p) >= least_m + CELL_M / 2.0;
+        // The fields are exact to about half of a cell's diagonal.
+        let far = |field: &DistanceField, least_m: f64, cell_m: f64| field.at(p) >= least_m + cell_m * FRAC_1_SQRT_2;
         !matches!(self.surfaces.footing(p), Footing::Carriageway | Footing::Water)
-            && far(&self.road_m, room.road_m)
-            && far(&self.buildings_m, room.buildings_m)
-            && far(&self.recorded_m, room.recorded_m)
+            && far(&self.road_m, room.road_m, CELL_M)
+            && far(&self.buildings_m, room.buildings_m, WALL_CELL_M)
+            && far(&self.recorded_m, room.recorded_m, CELL_M)
             && is_apart(&self.placed, p, room.radius_m)
     }
 

@@ -31,6 +31,8 @@ pub(crate) use undergrowth::{driven_path, undergrowth};
 
 /// Cells of the raster that tells lawns from paved ground, metres.
 const LAWN_CELL_M: f64 = 0.5;
+/// Corners of a row's pieces keep this far from walls, metres.
+const CORNER_OFF_WALLS_M: f64 = 0.3;
 /// Distances to roads and walls are known to this, metres.
 const UNSURE_M: f64 = 0.25;
 /// Feet are sunk into a slope by at most this, metres.
@@ -89,7 +91,8 @@ pub(crate) fn vegetation<'a>(around: &Surroundings<'a>, clearance: &mut Clearanc
         let is_loose = wish.kind == Kind::Bush && !is_hedge;
         let grows = wish.paved || (clearance.is_land(wish.position) && (!is_loose || lawns.at(wish.position) == 1));
         let is_free = wish.spots().iter().all(|&spot| clearance.is_free(spot, &room));
-        if grows && is_free && clearance.is_unplanted(wish.position, radius_m) {
+        let is_out = wish.corners().iter().all(|&corner| clearance.building_distance_m(corner) >= CORNER_OFF_WALLS_M);
+        if grows && is_free && is_out && clearance.is_unplanted(wish.position, radius_m) {
             clearance.plant(wish.position, radius_m);
             plants.push(grown.scenery(wish.position.extend(foot_m(around, wish))));
         }

@@ -61,6 +61,14 @@ impl Wish {
         };
         [self.position - reach, self.position, self.position + reach]
     }
+
+    /// The corners of a row's piece; none of what is round.
+    pub(super) fn corners(&self) -> Vec<DVec2> {
+        let Form::Row { yaw_rad, length_m, width_m, .. } = self.form else { return Vec::new() };
+        let along = DVec2::from_angle(yaw_rad);
+        let [reach, side] = [along * length_m / 2.0, along.perp() * width_m / 2.0];
+        [reach + side, reach - side, -reach + side, -reach - side].map(|d| self.position + d).into()
+    }
 }
 
 /// Plants in the same large square are of one species.

@@ -49,6 +49,7 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     asset.worn_in = entry.worn_in.iter().map(|name| outdoors_named(name, &place)).collect::<Result<_, _>>()?;
     asset.figure = posture(entry).map(|posture| Figure { person: id.into(), posture });
     asset.coarser = coarser(&asset);
+    asset.countries.clone_from(&entry.countries);
     asset.repeats = repeats(entry, &asset, &place)?;
     Ok(Some(asset))
 }

@@ -84,6 +84,8 @@ pub struct AssetEntry {
     pub commonness: Option<f32>,
     /// What of a building may stand there several times.
     pub repeats: RepeatsEntry,
+    /// ISO 3166-1 codes of the countries in which a building stands; without any: everywhere.
+    pub countries: Vec<String>,
     /// Names of what its clothes are worn in ([`Outdoors`](trove_model::Outdoors)); without any: always.
     pub worn_in: Vec<String>,
     /// As the library's.
@@ -223,6 +225,11 @@ impl LibraryFile {
             if let Some(LightEntry { lumens, kelvin, .. }) = &entry.light {
                 in_range(&place, "light.lumens", lumens.as_slice(), 1.0..=1e6)?;
                 in_range(&place, "light.kelvin", kelvin.as_slice(), 1667.0..=25_000.0)?;
+            }
+            let is_code = |code: &&String| code.len() == 2 && code.chars().all(|c| c.is_ascii_uppercase());
+            if let Some(wrong) = entry.countries.iter().find(|code| !is_code(code)) {
+                let expected = "ISO 3166-1 codes of countries, such as \"GB\"";
+                return Err(Fault::new(format!("{place}: countries"), expected, format!("{wrong:?}"), "correct it"));
             }
             let sizes = [entry.unit_m, entry.height_m, entry.length_m];
             if sizes.iter().flatten().count() > 1 {

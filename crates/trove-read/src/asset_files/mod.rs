@@ -48,7 +48,9 @@ use trove_model::{Asset, AssetLibrary, Outcome, Report, Surface};
 pub use self::axes::Axis;
 pub use self::check::{Finding, check};
 pub use self::gltf::{FileCamera, FileNode, FileScene, read_scene};
-pub use self::library_file::{AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, LightEntry, SurfaceEntry};
+pub use self::library_file::{
+    AssetEntry, EnvironmentEntry, FILE_NAME, Guess, LibraryFile, LightEntry, RepeatsEntry, SurfaceEntry,
+};
 
 use self::load::{guarded, load};
 use self::picture::Pictures;

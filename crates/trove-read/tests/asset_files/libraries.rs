@@ -201,3 +201,32 @@ fn lamps_shine_by_the_table_lumens_and_colour_that_the_file_gives_them() {
         assert!(parts.iter().all(|part| error.contains(part)), "{light}: {error}");
     }
 }
+
+#[test]
+fn a_building_repeats_the_bays_and_stands_in_the_countries_that_the_file_names() {
+    // 12 m wide, 9 m high, 8 m deep; its front looks towards +z of the file.
+    let folder = Folder::new(&[("house.glb", &Glb::cuboid([12.0, 9.0, 8.0]).bytes())]);
+    folder.read();
+    let toml = folder.toml();
+    let toml = toml.lines().filter(|l| !["kind", "front"].iter().any(|key| l.starts_with(key))).collect::<Vec<_>>();
+    let named = "file = \"house.glb\"\nkind = \"building\"\nfront = \"+z\"\n";
+    let with = |more: &str| toml.join("\n").replace("file = \"house.glb\"", &format!("{named}{more}"));
+    folder.write("library.toml", with("repeats = { x = [-2.0, 1.0], z = [3, 6] }\ncountries = [\"GB\"]").as_bytes());
+    let (library, report) = folder.read();
+    let house = &library.expect(&report).assets[0];
+    assert!((house.size_m - glam::DVec3::new(12.0, 8.0, 9.0)).length() < 1e-3, "{}", house.size_m);
+    assert_eq!(house.repeats, [Some([-2.0, 1.0]), None, Some([3.0, 6.0])]);
+    assert_eq!(house.countries, ["GB"]);
+    for (wrong, part) in [
+        ("repeats = { x = [-2.0, 7.0] }", "between -6.00 and 6.00 m"),
+        ("repeats = { z = [3.0, 3.0] }", "repeats.z"),
+        ("countries = [\"Germany\"]", "ISO 3166-1"),
+    ] {
+        folder.write("library.toml", with(wrong).as_bytes());
+        let (_, report) = folder.read();
+        assert!(report.contains(part), "{report}");
+    }
+    let car = with("repeats = { x = [-2.0, 1.0] }").replace("\"building\"", "\"truck\"");
+    folder.write("library.toml", car.as_bytes());
+    assert!(folder.read().1.contains("what is no building"));
+}
