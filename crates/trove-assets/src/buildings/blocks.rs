@@ -30,7 +30,7 @@ pub(super) fn warehouse(surfaces: &[Surface]) -> Asset {
         site.add(sheet, vent.moved(vec3(x, 0.0, 10.9)));
     }
     let mut asset = site.asset("building/warehouse").tagged(["warehouse"]);
-    asset.repeats[0] = repeat(&asset.mesh, 0, 9.0, [-half.x, half.x]);
+    asset.repeats[0] = repeat(&asset.mesh, 0, 9.0, [-half.x, half.x], -half.x);
     asset
 }
 
@@ -84,7 +84,7 @@ pub(super) fn corner(surfaces: &[Surface]) -> Asset {
         }
     }
     let mut asset = site.asset("building/mixed-use-corner").tagged(["shops", "mixed"]);
-    asset.repeats[0] = repeat(&asset.mesh, 0, 3.4, [-half.x, half.x]);
-    asset.repeats[2] = repeat(&asset.mesh, 2, 3.1, [4.2, top]);
+    asset.repeats[0] = repeat(&asset.mesh, 0, 3.4, [-half.x, half.x], -half.x);
+    asset.repeats[2] = repeat(&asset.mesh, 2, 3.1, [4.2, top], 4.2);
     asset
 }

@@ -20,17 +20,24 @@ impl BuildingPlan {
         let mut builder = Builder { plan: self, site: Site::new(surfaces) };
         self.masses.iter().for_each(|mass| builder.mass(mass));
         self.parts.iter().for_each(|part| builder.part(part));
+        let middle = builder.site.middle();
         let mut asset = builder.site.asset(&self.id).tagged(&self.tags);
         asset.commonness = self.commonness;
         asset.countries.clone_from(&self.countries);
-        asset.repeats = self.repeats(&asset);
+        asset.repeats = self.repeats(&asset, middle);
         asset
     }
 
     /// Slabs that the plan states, or else what its modules and storeys imply.
-    fn repeats(&self, asset: &Asset) -> [Option<[f64; 2]>; 3] {
+    fn repeats(&self, asset: &Asset, middle: Vec2) -> [Option<[f64; 2]>; 3] {
         let half = [asset.size_m.x as f32 / 2.0, asset.size_m.y as f32 / 2.0];
-        let level = |axis: usize| repeat(&asset.mesh, axis, self.module_m[axis], [-half[axis], half[axis]]);
+        // Bays begin at the corners of the walls.
+        let corner = |axis: usize| {
+            let mass = self.masses.first().map_or(0.0, |mass| mass.at_m[axis] - mass.size_m[axis] / 2.0);
+            mass - middle[axis]
+        };
+        let level =
+            |axis: usize| repeat(&asset.mesh, axis, self.module_m[axis], [-half[axis], half[axis]], corner(axis));
         let storeys = self.masses.iter().flat_map(MassPlan::levels).filter(|(_, level)| level.count > 1);
         let most = storeys.max_by(|(_, a), (_, b)| a.height_m().total_cmp(&b.height_m()));
         // Planes lie under the floors, over the heads of windows, so that the lowest begins below its level;
@@ -42,6 +49,7 @@ impl BuildingPlan {
                     2,
                     level.storey_m,
                     [(foot - level.storey_m / 2.0).max(0.75 * level.storey_m), foot + level.height_m()],
+                    foot,
                 )
             })
         };

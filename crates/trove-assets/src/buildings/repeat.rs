@@ -7,6 +7,8 @@ use trove_model::Mesh;
 
 /// Planes are tried at this distance.
 const STEP_M: f32 = 0.05;
+/// Planes lie this near to a border of bays.
+const BESIDE_M: f32 = 0.45;
 /// No plane is nearer to an end than this.
 const MARGIN_M: f32 = 0.3;
 /// Outlines of two sections whose lengths in a slot differ by less than this, and whose middles by about as much, are the
@@ -14,8 +16,16 @@ const MARGIN_M: f32 = 0.3;
 const LIKE_M: f32 = 0.02;
 
 /// A slab across an axis, `period_m` thick, of whose triangles there are as few as can be: the model looks the same on
-/// both of its planes, so that the next can stand on it. It lies between `low_m` and `high_m`, near the middle of them.
-pub(super) fn repeat(mesh: &Mesh, axis: usize, period_m: f32, [low_m, high_m]: [f32; 2]) -> Option<[f64; 2]> {
+/// both of its planes, so that the next can stand on it. It lies between `low_m` and `high_m`, near the middle of them, and
+/// begins where a bay or a storey does: there is one at `border_m`. Textures of walls differ from bay to bay and go on only
+/// there.
+pub(super) fn repeat(
+    mesh: &Mesh,
+    axis: usize,
+    period_m: f32,
+    [low_m, high_m]: [f32; 2],
+    border_m: f32,
+) -> Option<[f64; 2]> {
     let count = ((high_m - low_m - period_m - 2.0 * MARGIN_M) / STEP_M).floor();
     if period_m <= 0.0 || count.is_nan() || count < 0.0 {
         return None;
@@ -27,11 +37,14 @@ pub(super) fn repeat(mesh: &Mesh, axis: usize, period_m: f32, [low_m, high_m]: [
         .map(|z| [z.iter().copied().fold(f32::MAX, f32::min), z.iter().copied().fold(f32::MIN, f32::max)])
         .collect();
     let middle = (low_m + high_m - period_m) / 2.0;
+    let beside_m = |from: f32| ((from - border_m + period_m / 2.0).rem_euclid(period_m) - period_m / 2.0).abs();
     let mut planes: Vec<(usize, f32)> = (0..=count as usize)
         .map(|i| low_m + MARGIN_M + STEP_M * i as f32)
+        .filter(|from| beside_m(*from) <= BESIDE_M)
         .map(|from| (spans.iter().filter(|s| s[1] > from && s[0] < from + period_m).count(), from))
         .collect();
-    planes.sort_by(|a, b| a.0.cmp(&b.0).then((a.1 - middle).abs().total_cmp(&(b.1 - middle).abs())));
+    let far_m = |from: f32| (from - middle).abs() + 100.0 * beside_m(from);
+    planes.sort_by(|a, b| a.0.cmp(&b.0).then(far_m(a.1).total_cmp(&far_m(b.1))));
     let like = |from: f32| {
         let (here, there) = (section(mesh, &spans, axis, from), section(mesh, &spans, axis, from + period_m));
         let known = here.keys().chain(there.keys());
@@ -85,11 +98,13 @@ mod tests {
 
     #[test]
     fn a_slab_is_cut_where_least_crosses_its_planes() {
-        let [from, to] = repeat(&wall(&[-8.0, -4.0, 0.0, 4.0, 8.0]), 0, 4.0, [-10.0, 10.0]).unwrap();
+        let [from, to] = repeat(&wall(&[-8.0, -4.0, 0.0, 4.0, 8.0]), 0, 4.0, [-10.0, 10.0], -10.0).unwrap();
         assert!((to - from - 4.0).abs() < 1e-3);
         for pier in [-8.0, -4.0, 0.0, 4.0, 8.0] {
             assert!((from - pier).abs() > 0.2 && (to - pier).abs() > 0.2, "{from} to {to}");
         }
+        // Bays begin at −10, −6, −2 and so on.
+        assert!(((from + 2.0) / 4.0 - ((from + 2.0) / 4.0).round()).abs() < 0.06, "{from}");
     }
 
     #[test]
@@ -97,14 +112,14 @@ mod tests {
         // The duct has 2 m of outline, the hall around it 60.
         let hall = Shape::block(Vec3::new(20.0, 20.0, 10.0));
         let duct = Shape::block(Vec3::new(9.6, 0.5, 0.5)).moved(Vec3::new(5.0, 0.0, 5.3));
-        assert_eq!(repeat(&Shape::join([hall, duct]).into_mesh(), 0, 10.5, [-10.0, 10.0]), None);
+        assert_eq!(repeat(&Shape::join([hall, duct]).into_mesh(), 0, 10.5, [-10.0, 10.0], -9.0), None);
     }
 
     #[test]
     fn there_is_no_slab_where_both_sides_differ() {
         let ramp = Shape::extruded(&[glam::vec2(-9.0, 0.0), glam::vec2(9.0, 0.0), glam::vec2(9.0, 6.0)], 3.0);
-        assert_eq!(repeat(&ramp.into_mesh(), 0, 4.0, [-9.0, 9.0]), None);
-        assert_eq!(repeat(&wall(&[]), 0, 30.0, [-10.0, 10.0]), None);
-        assert_eq!(repeat(&wall(&[]), 0, 0.0, [-10.0, 10.0]), None);
+        assert_eq!(repeat(&ramp.into_mesh(), 0, 4.0, [-9.0, 9.0], -9.0), None);
+        assert_eq!(repeat(&wall(&[]), 0, 30.0, [-10.0, 10.0], -10.0), None);
+        assert_eq!(repeat(&wall(&[]), 0, 0.0, [-10.0, 10.0], -10.0), None);
     }
 }

@@ -34,6 +34,11 @@ impl<'a> Site<'a> {
         Self { surfaces, model: Model::default(), slots: Vec::new() }
     }
 
+    /// Where the asset's origin will be, seen from above.
+    pub(super) fn middle(&self) -> Vec2 {
+        self.model.middle()
+    }
+
     pub(super) fn asset(self, id: &str) -> Asset {
         self.model.asset(id, Kind::Building, Class::Building)
     }

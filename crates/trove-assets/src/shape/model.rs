@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Vec3, vec3};
+use glam::{Vec2, Vec3, vec3};
 use trove_model::{Asset, Class, Extra, Keypoints, Kind, Material, Mesh, Slot};
 
 use super::{Prism, Shape};
@@ -83,6 +83,13 @@ impl Model {
     /// Tints the vertices of the finished meshes: rust at the foot, soot below an edge.
     pub(crate) fn tint(&mut self, tint: impl Fn(u16, Vec3) -> Vec3 + 'static) {
         self.tint = Some(Box::new(tint));
+    }
+
+    /// Where the origin of its asset will be, seen from above: the middle of what has been built so far.
+    pub(crate) fn middle(&self) -> Vec2 {
+        let places = || self.shape.positions.iter().map(|p| p.truncate());
+        let (low, high) = (places().fold(Vec2::MAX, Vec2::min), places().fold(Vec2::MIN, Vec2::max));
+        (low + high) / 2.0
     }
 
     /// The asset: slots without triangles go, the origin comes to the ground, and but for what stands on a pole to the
