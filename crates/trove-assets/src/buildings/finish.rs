@@ -1,9 +1,9 @@
 //! What plans of buildings name: materials of their own, common ones, and surfaces of the library.
 
 use glam::{Vec3, vec3};
+use serde::Deserialize;
 use trove_model::Material;
 
-use super::plan::FinishPlan;
 use super::site::Site;
 
 /// Colour, roughness and metalness of what many buildings have.
@@ -26,6 +26,25 @@ const COMMON: [(&str, [f32; 3], f32, f32); 16] = [
     // Nothing is behind it: it mirrors the street, as two coated panes do, before a dark room.
     ("glass", [0.15, 0.17, 0.18], 0.04, 0.6),
 ];
+
+/// A material of one building.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FinishPlan {
+    /// The surface that it is, if it is no plain colour; colours multiply it.
+    pub(super) surface: Option<String>,
+    /// Where there are more than one, every copy of the building has one of them.
+    #[serde(default)]
+    pub(super) colors: Vec<[f32; 3]>,
+    #[serde(default = "rough")]
+    pub(super) roughness: f32,
+    #[serde(default)]
+    pub(super) metalness: f32,
+}
+
+fn rough() -> f32 {
+    0.8
+}
 
 /// Whether a name needs no finish of the building's own; whether a surface is there shows when it is built.
 pub(super) fn is_known(name: &str) -> bool {

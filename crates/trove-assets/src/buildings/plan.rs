@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::finish;
+use super::finish::{self, FinishPlan};
 use super::parts::PartPlan;
 use crate::measure::{Wrong, ordinary, within, wrong};
 
@@ -42,21 +42,6 @@ pub(super) struct RepeatPlan {
     pub(super) x: Option<[f64; 2]>,
     pub(super) y: Option<[f64; 2]>,
     pub(super) z: Option<[f64; 2]>,
-}
-
-/// A material of one building.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FinishPlan {
-    /// The surface that it is, if it is no plain colour; colours multiply it.
-    pub(super) surface: Option<String>,
-    /// Where there are more than one, every copy of the building has one of them.
-    #[serde(default)]
-    pub(super) colors: Vec<[f32; 3]>,
-    #[serde(default = "rough")]
-    pub(super) roughness: f32,
-    #[serde(default)]
-    pub(super) metalness: f32,
 }
 
 /// A box of storeys on one another.
@@ -162,10 +147,6 @@ pub(super) enum RoofPlan {
 
 fn one() -> u32 {
     1
-}
-
-fn rough() -> f32 {
-    0.8
 }
 
 impl LevelPlan {

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{Bounds, BuildingKind, Polygon, RoadKind, StreetMap};
 
-use super::network::{Stretch, resampled};
+use super::path::Path;
 use crate::geometry::distance_field::DistanceField;
 use crate::geometry::plane::{difference, grown, strip, union};
 use crate::geometry::segments::SegmentIndex;
@@ -65,8 +65,12 @@ impl<'a> Houses<'a> {
             return road;
         }
         let road_m = DistanceField::to(road.iter().cloned(), bounds, CELL_M);
-        let is_near =
-            |ring: &Vec<DVec2>| resampled(&closed(ring)).iter().any(|&p| road_m.at(p) < BEFORE_WALL_M + CELL_M);
+        let is_near = |ring: &Vec<DVec2>| {
+            let wall = closed(ring);
+            let path = Path::new(&wall);
+            let places = (0..=path.length_m() as u32).map(|m| path.at(f64::from(m)).0);
+            wall.len() > 1 && places.into_iter().any(|p| road_m.at(p) < BEFORE_WALL_M + CELL_M)
+        };
         let near = self.footprints.par_iter().filter(|(p, _)| is_near(&p.exterior));
         let yards: Vec<Polygon> =
             near.flat_map_iter(|(p, _)| grown(&union(std::slice::from_ref(*p)), BEFORE_WALL_M)).collect();
@@ -76,18 +80,16 @@ impl<'a> Houses<'a> {
         difference(&road, &difference(&union(&yards), &union(kept)))
     }
 
-    /// Where roads lead through houses or into them.
-    pub(super) fn passages(&self, stretches: &[Stretch<'_>]) -> Vec<Polygon> {
-        union(&stretches.par_iter().flat_map_iter(|s| self.passages_of(s)).collect::<Vec<_>>())
-    }
-
-    /// The strips of a road that lie within houses, with a step before and behind them.
-    fn passages_of(&self, stretch: &Stretch<'_>) -> Vec<Polygon> {
-        let inside: Vec<bool> = stretch.line.iter().map(|&p| self.holds(p)).collect();
-        let is_kept = |i: usize| (i.saturating_sub(1)..=(i + 1).min(inside.len() - 1)).any(|k| inside[k]);
-        let kept: Vec<usize> = (0..inside.len()).filter(|&i| is_kept(i)).collect();
-        let runs = kept.chunk_by(|a, b| a + 1 == *b);
-        runs.flat_map(|run| strip(&stretch.line[run[0]..=run[run.len() - 1]], stretch.width_m / 2.0)).collect()
+    /// Where roads, told by their lines and widths, lead through houses or into them, with a step before and behind.
+    pub(super) fn passages<'r>(&self, roads: impl Iterator<Item = (&'r [DVec2], f64)>) -> Vec<Polygon> {
+        let passages = |(line, width_m): (&[DVec2], f64)| {
+            let inside: Vec<bool> = line.iter().map(|&p| self.holds(p)).collect();
+            let is_kept = |i: usize| (i.saturating_sub(1)..=(i + 1).min(inside.len() - 1)).any(|k| inside[k]);
+            let kept: Vec<usize> = (0..inside.len()).filter(|&i| is_kept(i)).collect();
+            let runs = kept.chunk_by(|a, b| a + 1 == *b);
+            runs.flat_map(|run| strip(&line[run[0]..=run[run.len() - 1]], width_m / 2.0)).collect::<Vec<_>>()
+        };
+        union(&roads.collect::<Vec<_>>().into_par_iter().flat_map_iter(passages).collect::<Vec<_>>())
     }
 
     fn holds(&self, p: DVec2) -> bool {
@@ -104,7 +106,7 @@ mod tests {
     use super::*;
     use crate::geometry::plane::{intersection, rectangle};
     use crate::geometry::plane_raster::PlaneRaster;
-    use crate::roads::network::stretches;
+    use crate::roads::network::{Stretch, stretches};
     use trove_model::{Building, Report, Road};
 
     fn bounds() -> Bounds {
@@ -168,10 +170,13 @@ mod tests {
     fn a_road_leads_through_the_house_that_it_runs_into() {
         let map = map(&[house([20.0, -9.0], [32.0, 9.0])]);
         let (houses, road) = (Houses::new(Some(&map), bounds()), street(Some(4.0)));
-        let passages = houses.passages(&[stretch(&road, &houses)]);
+        let passages = {
+            let Stretch { line, width_m, .. } = stretch(&road, &houses);
+            houses.passages(std::iter::once((line.as_slice(), width_m)))
+        };
         let within = [house([20.0, -2.0], [32.0, 2.0])];
         assert!((shared_m2(&passages, &within) - 48.0).abs() < 0.1);
         assert!(passages.iter().all(|p| p.exterior.iter().all(|v| (15.9..36.1).contains(&v.x))));
-        assert!(houses.passages(&[]).is_empty());
+        assert!(houses.passages(std::iter::empty()).is_empty());
     }
 }

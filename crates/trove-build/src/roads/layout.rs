@@ -144,7 +144,7 @@ pub(super) fn layout<'a>(
     let lots = map.map(|m| car_parks(m, &recorded, bounds)).unwrap_or_default();
     known.extend(grown(&union(&parked), CLEARANCE_M));
     let carriageway = with_bays(carriageway, &parked, &lots, bounds);
-    let passages = houses.passages(&stretches);
+    let passages = houses.passages(stretches.iter().map(|s| (s.line.as_slice(), s.width_m)));
     known.extend(passages.iter().cloned());
     let carriageway = intersection(&houses.left_of(carriageway, &known, bounds), &whole);
     let carriageway = without_islands(without_specks(carriageway, ISLAND_M2), map, bounds);
