@@ -39,7 +39,7 @@ impl<'a> Houses<'a> {
         let on_ground = buildings.filter(|b| b.min_height_m < HEADROOM_M && is_solid(b.kind));
         let with_bounds = on_ground.filter_map(|b| Some((&b.footprint, b.footprint.bounds()?)));
         let footprints: Vec<_> = with_bounds.filter(|(_, b)| b.overlaps(&bounds)).collect();
-        let walls: Vec<Vec<DVec2>> = footprints.iter().flat_map(|(p, _)| p.rings()).map(closed).collect();
+        let walls: Vec<Vec<DVec2>> = footprints.iter().flat_map(|(p, _)| p.rings()).map(|ring| closed(ring)).collect();
         let walls = SegmentIndex::new(walls.iter().map(Vec::as_slice));
         Self { footprints, walls }
     }
@@ -97,8 +97,8 @@ impl<'a> Houses<'a> {
     }
 }
 
-fn closed(ring: &Vec<DVec2>) -> Vec<DVec2> {
-    [&ring[..], &ring[..1.min(ring.len())]].concat()
+fn closed(ring: &[DVec2]) -> Vec<DVec2> {
+    [ring, &ring[..1.min(ring.len())]].concat()
 }
 
 #[cfg(test)]
