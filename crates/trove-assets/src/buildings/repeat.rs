@@ -1,4 +1,4 @@
-//! Which slabs of a building may be taken out or stand several times.
+//! Which slabs of a building may stand several times.
 
 use std::collections::BTreeMap;
 

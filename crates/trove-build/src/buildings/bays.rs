@@ -1,4 +1,4 @@
-//! Models of buildings that grow and shrink by whole bays and storeys.
+//! Models of buildings that grow by whole bays and storeys.
 
 use std::collections::HashMap;
 use std::sync::Arc;
