@@ -56,9 +56,9 @@ pub(super) enum Sprig {
     Flowers,
 }
 
-/// Share of the light that a leaf does not swallow that comes out on its other side; about 0.4 over the visible range
+/// Share of the light that a leaf does not swallow that comes out on its other side; nearly half at green, where they swallow least
 /// (Jacquemoud and Baret, *PROSPECT: A model of leaf optical properties spectra*, 1990).
-const TRANSLUCENCY: f32 = 0.4;
+const TRANSLUCENCY: f32 = 0.46;
 /// What leaves have in the picture on average.
 const GREY: f32 = 0.6;
 /// Alpha of the first leaf to fall and of the last one; twigs have 1.

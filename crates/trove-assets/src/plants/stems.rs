@@ -14,8 +14,8 @@ use super::trees::plant;
 use crate::shape::Shape;
 use Climate::{Arid, Cold, Mediterranean, Subtropical, Temperate, Tropical};
 
-const EVERGREEN: Tones<'_> = Tones { green: vec3(0.046, 0.072, 0.036), year: &Year::Evergreen };
-const PALM: Tones<'_> = Tones { green: vec3(0.082, 0.115, 0.042), year: &Year::Evergreen };
+const EVERGREEN: Tones<'_> = Tones { green: vec3(0.06, 0.094, 0.046), year: &Year::Evergreen };
+const PALM: Tones<'_> = Tones { green: vec3(0.1, 0.142, 0.052), year: &Year::Evergreen };
 
 pub(super) fn assets() -> Vec<Asset> {
     let mut assets = Vec::new();
@@ -97,7 +97,7 @@ fn spruce(id: &str, [height_m, reach_m]: [f32; 2], wood: Material, leaves: Mater
     });
     let leaf = model.slot(leaves, &EVERGREEN.summer());
     model.add(leaf, |level| foliage.mesh(level));
-    let habitat = [(Tropical, 0.0), (Arid, 0.0), (Subtropical, 0.05), (Mediterranean, 0.1), (Temperate, 0.12)];
+    let habitat = [(Tropical, 0.0), (Arid, 0.0), (Subtropical, 0.05), (Mediterranean, 0.1), (Temperate, 0.06)];
     let genera = ["picea", "spruce", "abies", "larix", "pseudotsuga"];
     model.asset(id, Kind::Tree, plant("spruce", LeafType::Needle, &genera, &habitat, &EVERGREEN, leaf))
 }

@@ -13,7 +13,8 @@ const MAX_SCALE: f64 = 1.6;
 const VARIATION: f64 = 0.1;
 /// Of a species all models stand for a plant whose scale is within this of the best one's, as a difference of logarithms.
 const INDIVIDUALS: f64 = 0.2;
-/// Crowns are cut back to this share of their width at most; a tree that has less room is another tree or none.
+/// Crowns are cut back to this share of their width at most, and by its root of their height, lest they become columns; a
+/// tree that has less room is another tree or none.
 const LEAST_WIDTH: f64 = 0.5;
 /// What is driven on is clear up to this height: the clearance that road authorities keep over carriageways, metres.
 pub(super) const LANE_CLEARANCE_M: f64 = 4.5;
@@ -146,7 +147,8 @@ impl<'a> Species<'a> {
 
         let mut random = seed.random();
         let mut vary = || 1.0 + random.range(-VARIATION, VARIATION);
-        let (wide, high) = (vary().min(width(model)), vary());
+        let room = width(model);
+        let (wide, high) = (vary().min(room), vary() * room.min(1.0).sqrt());
         let size = scale_of(model).clamp(1.0 / MAX_SCALE, MAX_SCALE);
         let scale = DVec3::new(size * wide, size * wide, size * high);
         Some(Grown {

@@ -36,7 +36,7 @@ pub(super) fn wishes(around: &Surroundings, clearance: &Clearance, seed: Seed) -
             let seed = seed.nth(i as u64).nth(j as u64);
             let mut random = seed.random();
             let (trees, hedge) = (random.chance(TREE_SHARE), random.chance(HEDGE_SHARE));
-            let height_m = random.range(6.0, 11.0);
+            let height_m = random.range(7.0, 12.0);
             if trees {
                 row_of_trees(stretch, height_m, seed, &mut wishes);
             }
