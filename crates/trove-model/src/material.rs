@@ -101,6 +101,8 @@ pub struct Material {
     /// Radiance emitted to the side from which a triangle's corners run counter-clockwise, W·m⁻²·sr⁻¹ in the renderer's
     /// scale (a clear midday sky is about 0.1, see the light's docs).
     pub emission: Vec3,
+    /// What the emission is multiplied by where: its colour. Looked up by texture coordinates; without them its mean counts.
+    pub emission_map: Option<Arc<Texture>>,
     /// What the emission is multiplied by into each direction; `None`: the same everywhere on that side.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub beam: Option<Arc<Beam>>,
@@ -142,6 +144,7 @@ impl Default for Material {
             translucency: 0.0,
             retroreflection: 0.0,
             emission: Vec3::ZERO,
+            emission_map: None,
             beam: None,
             dirt: 0.0,
             wetness: 0.0,
@@ -172,6 +175,7 @@ impl Material {
             orm_map,
             normal_map,
             height_map,
+            emission_map,
             name: _,
             base_color: _,
             alpha_cutoff: _,
@@ -195,12 +199,12 @@ impl Material {
             tiling: _,
             role: _,
         } = self;
-        [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
+        [base_color_map, orm_map, normal_map, height_map, emission_map].into_iter().flatten()
     }
 
     /// The images that it uses, to be replaced.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut Arc<Texture>> {
-        let Self { base_color_map, orm_map, normal_map, height_map, .. } = self;
-        [base_color_map, orm_map, normal_map, height_map].into_iter().flatten()
+        let Self { base_color_map, orm_map, normal_map, height_map, emission_map, .. } = self;
+        [base_color_map, orm_map, normal_map, height_map, emission_map].into_iter().flatten()
     }
 }

@@ -1,5 +1,6 @@
 //! Images on surfaces: bilinear look-up in a chain of ever smaller copies.
 
+mod glow;
 mod mip_map;
 mod opacity;
 mod relief;
@@ -10,6 +11,7 @@ use trove_model::{Material, Texture};
 
 use crate::cache::Cache;
 
+pub(crate) use glow::Glow;
 pub(crate) use mip_map::MipMap;
 pub(crate) use opacity::OpacityMask;
 
@@ -25,7 +27,7 @@ pub(crate) struct Textures {
 impl Textures {
     /// Makes what these materials need and forgets what nobody uses any more.
     pub(crate) fn make_all(&self, materials: &[Material]) {
-        let plain = |m: &Material| [m.base_color_map.clone(), m.orm_map.clone()];
+        let plain = |m: &Material| [m.base_color_map.clone(), m.orm_map.clone(), m.emission_map.clone()];
         self.maps.make_all(materials.iter().flat_map(plain).flatten().collect::<Vec<_>>().iter(), MipMap::new);
         self.normals.make_all(materials.iter().filter_map(|m| m.normal_map.as_ref()), relief::from_normals);
         self.heights.make_all(materials.iter().filter_map(|m| m.height_map.as_ref()), relief::from_heights);

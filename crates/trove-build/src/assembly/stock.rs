@@ -38,7 +38,7 @@ pub(crate) struct Stock {
 struct MaterialKey {
     name: String,
     numbers: Vec<u32>,
-    images: [usize; 4],
+    images: [usize; 5],
     beam: usize,
     mapping: (Mapping, Tiling),
     role: Option<Role>,
@@ -100,6 +100,16 @@ impl Stock {
         })
     }
 
+    /// The index of a material in another colour; what shines or lets light through stays as it is.
+    pub(crate) fn tinted(&mut self, material: usize, factor: Vec3) -> usize {
+        let known = &self.materials[material];
+        if known.transmission > 0.0 || known.is_emitter() {
+            return material;
+        }
+        let base_color = (known.base_color * factor).min(known.base_color.max(Vec3::ONE));
+        self.material(&Material { base_color, ..known.clone() })
+    }
+
     /// The indices of the materials of an asset's individual; in the dark the lenses of street lamps are lit.
     pub(crate) fn painted(&mut self, asset: &Asset, seed: Seed) -> Vec<usize> {
         let mut materials = asset.materials(seed);
@@ -137,6 +147,7 @@ fn key(material: &Material) -> MaterialKey {
         translucency,
         retroreflection,
         emission,
+        emission_map,
         beam,
         dirt,
         wetness,
@@ -153,7 +164,7 @@ fn key(material: &Material) -> MaterialKey {
     MaterialKey {
         name: name.clone(),
         numbers: numbers.map(|number| number.to_bits()).collect(),
-        images: [base_color_map, orm_map, normal_map, height_map].map(image),
+        images: [base_color_map, orm_map, normal_map, height_map, emission_map].map(image),
         beam: beam.as_ref().map_or(0, |beam| Arc::as_ptr(beam).addr()),
         mapping: (*mapping, *tiling),
         role: *role,

@@ -95,6 +95,7 @@ impl Weather {
                 translucency: _,
                 retroreflection: _,
                 emission: _,
+                emission_map: _,
                 beam: _,
                 uv_scale: _,
                 mapping: _,

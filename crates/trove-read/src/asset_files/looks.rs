@@ -127,22 +127,6 @@ pub(super) fn mean(texture: &Texture) -> Vec4 {
     texels.map(|t| linear(texture, *t)).sum::<Vec4>() / count
 }
 
-/// Mean colour of a texture at seven points of a triangle.
-pub(super) fn mean_in_triangle(texture: &Texture, uvs: [Vec2; 3]) -> Vec3 {
-    let [a, b, c] = uvs;
-    let centre = (a + b + c) / 3.0;
-    let points = [
-        centre,
-        (a + centre) / 2.0,
-        (b + centre) / 2.0,
-        (c + centre) / 2.0,
-        a.lerp(b, 0.5),
-        b.lerp(c, 0.5),
-        c.lerp(a, 0.5),
-    ];
-    points.map(|uv| look_up(texture, uv).truncate()).iter().sum::<Vec3>() / 7.0
-}
-
 /// The texel at a texture coordinate (v up): linear colour and alpha.
 pub(super) fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
     let uv = if uv.is_finite() { uv } else { Vec2::ZERO };

@@ -81,7 +81,8 @@ pub(super) fn surface(
         material.height_map = texture(height, "height", ColorSpace::Linear);
     }
     if let Some(emission) = optional(&entry.emission).and_then(|p| texture(p, "emission", ColorSpace::Srgb)) {
-        material.emission = looks::radiance(looks::mean(&emission).truncate());
+        material.emission = looks::radiance(Vec3::ONE);
+        material.emission_map = Some(emission);
     }
     if matches!(kind, SurfaceKind::Asphalt | SurfaceKind::Grass | SurfaceKind::Soil | SurfaceKind::Gravel) {
         material.tiling = Tiling::Stochastic;

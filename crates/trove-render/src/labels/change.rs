@@ -112,6 +112,7 @@ impl<'a> Look<'a> {
             retroreflection: _,
             // Light alone is no difference.
             emission: _,
+            emission_map: _,
             beam: _,
             dirt,
             wetness,

@@ -11,9 +11,13 @@ use super::luminance::luminance;
 use super::tree::{Aim, Cut, LEAST_SHARE, Tree, TreeEntry};
 use crate::ray::Ray;
 use crate::sampling::{Basis, cosine_hemisphere};
+use crate::texture::Glow;
 
 /// Which rays that start on an instance do not end on it.
 pub(crate) type GetsAway<'a> = dyn Fn(u32, &[Ray; PROBES]) -> [bool; PROBES] + Sync + 'a;
+
+/// Radiance of a material, by its index, and what it is multiplied by where.
+pub(crate) type Emission<'a> = dyn Fn(usize) -> (Vec3, Option<Glow>) + 'a;
 
 /// Rays by which a triangle's share of light that gets away is measured, a square number.
 pub(crate) const PROBES: usize = 16;
@@ -38,11 +42,43 @@ struct Emitter {
     edges: [Vec3; 2],
     /// Twice the area, along the normal.
     cross: Vec3,
+    /// On average over it.
     radiance: Vec3,
+    /// What it is where, if not the same everywhere.
+    pattern: Option<Box<Pattern>>,
     /// Share of its light that gets away from what it is part of: little of a room's does, through the windows.
     away: f32,
     /// Index of the beam by which the radiance differs between directions.
     aim: Option<u32>,
+}
+
+/// How the radiance of a triangle differs over it.
+struct Pattern {
+    brightest: Vec3,
+    glow: Glow,
+    /// Texture coordinates of its corners.
+    uvs: [Vec2; 3],
+}
+
+impl Pattern {
+    /// Radiance at two barycentric coordinates.
+    fn at(&self, [b, c]: [f32; 2]) -> Vec3 {
+        let [first, second, third] = self.uvs;
+        self.brightest * self.glow.at(first + (second - first) * b + (third - first) * c)
+    }
+
+    /// The mean over points that are spread evenly.
+    fn mean(&self) -> Vec3 {
+        const SIDE: usize = 12;
+        let points = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE].map(|k| (k as f32 + 0.5) / SIDE as f32));
+        points.map(|u| self.at(barycentric(u))).sum::<Vec3>() / (SIDE * SIDE) as f32
+    }
+}
+
+/// Coordinates along both edges for two numbers in [0, 1), even over a triangle.
+fn barycentric(u: [f32; 2]) -> [f32; 2] {
+    let root = u[0].sqrt();
+    [root * (1.0 - u[1]), root * u[1]]
 }
 
 /// A point on a shining triangle.
@@ -55,10 +91,11 @@ pub(super) struct EmitterPoint {
 
 impl Emitters {
     /// `None` where nothing shines. Cut-out materials are left out: rays that meet them by chance still count them.
-    pub(super) fn new(scene: &Scene, gets_away: &GetsAway<'_>) -> Option<Self> {
+    ///
+    /// `emission` is that of each of the scene's materials.
+    pub(super) fn new(scene: &Scene, emission: &Emission<'_>, gets_away: &GetsAway<'_>) -> Option<Self> {
         let (mut triangles, mut aims) = (Vec::new(), Vec::new());
         for (i, instance) in scene.instances.iter().enumerate() {
-            let material = |slot: u16| &scene.materials[instance.materials[usize::from(slot)]];
             let first_aim = aims.len();
             if !instance.materials.iter().any(|&m| scene.materials[m].is_emitter()) {
                 continue;
@@ -68,7 +105,8 @@ impl Emitters {
             // A mirrored instance turns its triangles inside out.
             let side = instance.world_from_mesh.matrix3.determinant().signum() as f32;
             for (t, corners) in mesh.triangles.iter().enumerate() {
-                let material = material(mesh.slot(t));
+                let index = instance.materials[usize::from(mesh.slot(t))];
+                let material = &scene.materials[index];
                 if !material.is_emitter() || material.alpha_cutoff > 0.0 {
                     continue;
                 }
@@ -78,7 +116,15 @@ impl Emitters {
                 if cross.length() > 0.0 {
                     let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
                     let key = (i as u32, t as u32);
-                    let radiance = material.emission;
+                    let (brightest, glow) = emission(index);
+                    let pattern = glow.filter(|_| !mesh.uvs.is_empty()).map(|glow| {
+                        let uvs = corners.map(|c| mesh.uvs[c as usize]);
+                        Box::new(Pattern { brightest, glow, uvs })
+                    });
+                    let radiance = pattern.as_ref().map_or(brightest, |pattern| pattern.mean());
+                    if radiance == Vec3::ZERO {
+                        continue;
+                    }
                     let aim = material.beam.as_ref().map(|beam| {
                         let known = aims[first_aim..].iter().position(|aim: &Aim| Arc::ptr_eq(&aim.beam, beam));
                         let index = first_aim + known.unwrap_or(aims.len() - first_aim);
@@ -87,7 +133,16 @@ impl Emitters {
                         }
                         index as u32
                     });
-                    triangles.push(Emitter { key, corner: a.as_vec3(), edges, cross, radiance, away: 1.0, aim });
+                    triangles.push(Emitter {
+                        key,
+                        corner: a.as_vec3(),
+                        edges,
+                        cross,
+                        radiance,
+                        pattern,
+                        away: 1.0,
+                        aim,
+                    });
                 }
             }
         }
@@ -137,13 +192,11 @@ impl Near<'_> {
         let weight = |index: u32| triangles[index as usize].weight(self.from);
         let (index, probability) = tree.draw(&self.cut, self.from, self.normal, u[0], weight)?;
         let emitter = &triangles[index as usize];
-        let point = emitter.point([u[1], u[2]]);
+        let at = barycentric([u[1], u[2]]);
+        let point = emitter.point(at);
+        let radiance = emitter.pattern.as_ref().map_or(emitter.radiance, |pattern| pattern.at(at));
         let share = emitter.aim.map_or(1.0, |aim| tree.aim(aim).share(self.from - point));
-        Some(EmitterPoint {
-            point,
-            radiance: emitter.radiance * share,
-            pdf: probability * emitter.density(self.from, point),
-        })
+        Some(EmitterPoint { point, radiance: radiance * share, pdf: probability * emitter.density(self.from, point) })
     }
 }
 
@@ -170,7 +223,7 @@ impl Emitter {
         let rays = std::array::from_fn(|i| {
             let [column, row] = [i % side, i / side].map(|k| (k as f32 + 0.5) / side as f32);
             // Directions and places in another order, so that no direction always starts at the same edge.
-            let point = self.point([row, (column + 0.5 * row).fract()]);
+            let point = self.point(barycentric([row, (column + 0.5 * row).fract()]));
             let direction = basis.to_world(cosine_hemisphere([column, (row + column * 0.5).fract()]));
             Ray { through_glass: true, ..Ray::new(point + normal * PROBE_FROM_M, direction) }
         });
@@ -178,10 +231,8 @@ impl Emitter {
         (away as f32 + 0.25) / (PROBES as f32 + 0.25)
     }
 
-    /// A point for two numbers in [0, 1), even over the area.
-    fn point(&self, u: [f32; 2]) -> Vec3 {
-        let root = u[0].sqrt();
-        self.corner + self.edges[0] * (root * (1.0 - u[1])) + self.edges[1] * (root * u[1])
+    fn point(&self, [b, c]: [f32; 2]) -> Vec3 {
+        self.corner + self.edges[0] * b + self.edges[1] * c
     }
 
     /// As the tree knows it: with a beam that leaves much of what is before it, as a light that shines evenly.
@@ -233,7 +284,7 @@ mod tests {
                 let edges = [a * 0.3 * sign, b * 0.3 * sign];
                 let key = (number, 2 * side as u32 + half as u32);
                 let (corner, cross) = (at + axis * 0.15 - (a + b) * 0.15 * sign, edges[0].cross(edges[1]));
-                Emitter { key, corner, edges, cross, radiance: Vec3::splat(radiance), away: 1.0, aim }
+                Emitter { key, corner, edges, cross, radiance: Vec3::splat(radiance), pattern: None, away: 1.0, aim }
             })
         })
     }
@@ -372,7 +423,16 @@ mod tests {
             let edges = [Vec3::Y * 0.2 * sign, Vec3::X * 0.2 * sign];
             let corner = at - (Vec3::X + Vec3::Y) * 0.1 * sign;
             let cross = edges[0].cross(edges[1]);
-            Emitter { key: (0, number), corner, edges, cross, radiance: Vec3::ONE, away: 1.0, aim: Some(0) }
+            Emitter {
+                key: (0, number),
+                corner,
+                edges,
+                cross,
+                radiance: Vec3::ONE,
+                pattern: None,
+                away: 1.0,
+                aim: Some(0),
+            }
         };
         let lamp = emitters(vec![half(0, 1.0), half(1, -1.0)], vec![aim]);
         let mut random = Seed(8).random();

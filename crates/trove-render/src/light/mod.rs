@@ -26,8 +26,8 @@ use trove_model::{Environment, Scene};
 pub(crate) use noise::Plane;
 
 use dome::Dome;
+pub(crate) use emitters::{Emission, GetsAway, PROBES};
 use emitters::{EmitterPoint, Emitters, Near};
-pub(crate) use emitters::{GetsAway, PROBES};
 use luminance::luminance;
 pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
@@ -128,8 +128,13 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    pub(crate) fn new(scene: &Scene, around: Arc<Surroundings>, gets_away: &GetsAway<'_>) -> Self {
-        let emitters = Emitters::new(scene, gets_away);
+    pub(crate) fn new(
+        scene: &Scene,
+        emission: &Emission<'_>,
+        around: Arc<Surroundings>,
+        gets_away: &GetsAway<'_>,
+    ) -> Self {
+        let emitters = Emitters::new(scene, emission, gets_away);
         let from_sky = luminance(around.dome.irradiance());
         let from_sun = around.sun.as_ref().map_or(0.0, |sun| luminance(sun.level_irradiance()));
         let from_emitters = emitters.as_ref().map_or(0.0, Emitters::typical_irradiance);
@@ -250,10 +255,11 @@ impl Rest<'_> {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DAffine3, DVec3};
-    use trove_model::{Class, Instance, InstanceId, Light, Material, Mesh, PhysicalSky, Seed};
+    use glam::{DAffine3, DVec3, Vec2};
+    use trove_model::{Class, ColorSpace, Instance, InstanceId, Light, Material, Mesh, PhysicalSky, Seed, Texture};
 
     use super::*;
+    use crate::texture::{Glow, Textures};
 
     /// A lamp of two triangles above the origin, under a sky.
     fn scene() -> Scene {
@@ -292,11 +298,19 @@ mod tests {
         }
     }
 
+    fn lights(scene: &Scene) -> Lights {
+        let (around, textures) = (LastSurroundings::default().get(&scene.light.environment), Textures::default());
+        let emission = |index: usize| {
+            let Material { emission, emission_map, .. } = &scene.materials[index];
+            (*emission, emission_map.as_ref().map(|map| Glow::new(textures.map(map), Vec2::ONE)))
+        };
+        Lights::new(scene, &emission, around, &|_, _| [true; PROBES])
+    }
+
     #[test]
     fn light_samples_add_up_to_the_light_and_say_their_own_density() {
         let scene = scene();
-        let around = LastSurroundings::default().get(&scene.light.environment);
-        let lights = Lights::new(&scene, around, &|_, _| [true; PROBES]);
+        let lights = lights(&scene);
         let mut random = Seed(9).random();
         let mut unit = || random.unit() as f32;
         let (draws, mut from_far, mut from_lamp) = (60_000, 0.0, 0.0);
@@ -350,5 +364,37 @@ mod tests {
             sky.cloud_seed += 1;
         }
         assert!(!Arc::ptr_eq(&first, &last.get(&scene.light.environment)));
+    }
+
+    #[test]
+    fn a_lamp_with_a_map_shines_from_where_the_map_is_bright() {
+        let mut scene = scene();
+        let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from_array);
+        scene.meshes[0] = Arc::new(Mesh { uvs: uvs.to_vec(), ..Mesh::clone(&scene.meshes[0]) });
+        // The lamp's half beyond x = 1 shines, in green.
+        let (dark, green) = ([0, 0, 0, 255], [0, 255, 0, 255]);
+        let rgba = (0..64).map(|i| if i % 8 < 4 { dark } else { green }).collect();
+        let map = Texture { name: "half".into(), width: 8, height: 8, rgba, color_space: ColorSpace::Srgb };
+        scene.materials[0].emission_map = Some(Arc::new(map));
+        let lights = lights(&scene);
+        let mut random = Seed(5).random();
+        let mut unit = || random.unit() as f32;
+        let (draws, mut found) = (60_000, Vec3::ZERO);
+        for _ in 0..draws {
+            let Some(sample) = lights.rest(Vec3::ZERO, Vec3::Z).draw([unit(), unit(), unit()]) else { continue };
+            if sample.distance.is_finite() {
+                let x = sample.wi.x * sample.distance;
+                assert!(x > 0.93 || sample.radiance == Vec3::ZERO, "{x}");
+                found += sample.radiance * sample.wi.z.max(0.0) / sample.pdf;
+            }
+        }
+        let (mut expected, grid) = (0.0, 200);
+        for i in 0..grid * grid {
+            let [along, across] = [i / grid, i % grid].map(|k| (k as f32 + 0.5) / grid as f32);
+            let to_lamp = Vec3::new(1.0 + 0.5 * along, 2.0 * across, 1.5);
+            expected += 3.0 * 1.5 * 1.5 / to_lamp.length_squared().powi(2) / (grid * grid) as f32;
+        }
+        let found = found / draws as f32;
+        assert!((found.y / expected - 1.0).abs() < 0.05 && found.x == 0.0 && found.z == 0.0, "{found} {expected}");
     }
 }

@@ -14,11 +14,11 @@ mod weather;
 
 use std::sync::Arc;
 
-use glam::Vec3;
-use trove_model::{Beam, Material};
+use glam::{Vec2, Vec3};
+use trove_model::{Beam, Mapping, Material};
 
 use crate::surface::Surface;
-use crate::texture::{MipMap, Textures};
+use crate::texture::{Glow, MipMap, Textures};
 use bsdf::{Coat, Parameters};
 use opacity::Pane;
 use texturing::{Spot, Texturing};
@@ -65,6 +65,8 @@ pub(crate) struct PreparedMaterial {
     translucency: f32,
     retroreflection: f32,
     emission: Vec3,
+    /// What it is multiplied by where.
+    glow: Option<Glow>,
     beam: Option<Arc<Beam>>,
     texturing: Texturing,
     weather: Weather,
@@ -96,6 +98,7 @@ impl PreparedMaterial {
             translucency,
             retroreflection,
             emission,
+            emission_map,
             beam,
             dirt,
             wetness,
@@ -107,6 +110,12 @@ impl PreparedMaterial {
         } = material;
         let ior = ior.max(1.0);
         let share = |x: &f32| x.clamp(0.0, 1.0);
+        let glow = emission_map.as_ref().map(|t| Glow::new(textures.map(t), *uv_scale));
+        // Light is drawn from triangles by where it is on them, which directions in the World do not tell.
+        let (glow, evenly) = match mapping {
+            Mapping::Uv => (glow, Vec3::ONE),
+            Mapping::Triplanar => (None, glow.map_or(Vec3::ONE, |glow| glow.mean())),
+        };
         let prepared = Self {
             base_color: base_color.clamp(Vec3::ZERO, Vec3::ONE),
             base_color_map: base_color_map.as_ref().map(|t| textures.map(t)),
@@ -126,7 +135,8 @@ impl PreparedMaterial {
             transmission: share(transmission),
             translucency: share(translucency),
             retroreflection: share(retroreflection),
-            emission: emission.max(Vec3::ZERO),
+            emission: emission.max(Vec3::ZERO) * evenly,
+            glow,
             beam: beam.clone(),
             texturing: Texturing { scale: *uv_scale, mapping: *mapping, tiling: *tiling },
             weather: Weather { dirt: share(dirt), wetness: share(wetness) },
@@ -150,12 +160,18 @@ impl PreparedMaterial {
         self.translucency > 0.0
     }
 
-    /// Radiance that it emits from its front into a direction of the mesh.
-    pub(crate) fn emitted(&self, direction_mesh: impl FnOnce() -> Vec3) -> Vec3 {
-        match &self.beam {
-            Some(beam) if self.emission != Vec3::ZERO => self.emission * beam.share(direction_mesh()),
-            _ => self.emission,
+    /// Radiance that it emits from its front at a texture coordinate into a direction of the mesh.
+    pub(crate) fn emitted(&self, uv: Vec2, direction_mesh: impl FnOnce() -> Vec3) -> Vec3 {
+        if self.emission == Vec3::ZERO {
+            return Vec3::ZERO;
         }
+        let here = self.glow.as_ref().map_or(Vec3::ONE, |glow| glow.at(uv));
+        self.emission * here * self.beam.as_ref().map_or(1.0, |beam| beam.share(direction_mesh()))
+    }
+
+    /// Its emission where that is the same everywhere, and what it is multiplied by where.
+    pub(crate) fn emission(&self) -> (Vec3, Option<Glow>) {
+        (self.emission, self.glow.clone())
     }
 
     /// Whether rain may have wetted it.

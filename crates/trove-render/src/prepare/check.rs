@@ -89,6 +89,7 @@ fn is_finite(material: &Material) -> bool {
         translucency,
         retroreflection,
         emission,
+        emission_map: _,
         // Checked as it was made.
         beam: _,
         dirt,

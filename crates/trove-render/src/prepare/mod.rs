@@ -89,7 +89,7 @@ impl PreparedScene {
     ) -> Result<Self, RenderError> {
         check::check(scene)?;
         textures.make_all(&scene.materials);
-        let (materials, opacities): (_, Vec<_>) =
+        let (materials, opacities): (Vec<_>, Vec<_>) =
             scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).unzip();
         let opacities: Arc<[_]> = opacities.into();
         let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
@@ -106,7 +106,7 @@ impl PreparedScene {
         let shapes = Arc::new(Shapes::new(placed.collect(), opacities.clone()));
         let (accel, around) = rayon::join(|| kernel.build(&shapes), || last.get(&scene.light.environment));
         let accel = accel?;
-        let lights = Lights::new(scene, around, &|instance, rays| {
+        let lights = Lights::new(scene, &|index| materials[index].emission(), around, &|instance, rays| {
             let mut hits = [None; PROBES];
             accel.closest(rays, Coherence::Incoherent, &mut hits);
             hits.map(|hit| hit.is_none_or(|hit: Hit| hit.instance != instance))
@@ -207,7 +207,7 @@ impl PreparedScene {
     /// Radiance that a surface's material emits to where it is seen from, at the moment of the labels.
     pub(crate) fn emitted(&self, hit: &Hit, surface: &Surface, material: &PreparedMaterial) -> Vec3 {
         let mesh_from_world = || self.instances[hit.instance as usize].mesh_from_world;
-        material.emitted(|| mesh_from_world().transform_vector3(surface.wo.as_dvec3()).as_vec3())
+        material.emitted(surface.uv, || mesh_from_world().transform_vector3(surface.wo.as_dvec3()).as_vec3())
     }
 
     /// The surface at a ray's hit, and its material.

@@ -24,7 +24,7 @@ impl Materials {
             Self { materials: Vec::new(), textures: Vec::new(), images: Vec::new(), extensions: BTreeSet::new() };
         let mut texture_of: BTreeMap<&str, usize> = BTreeMap::new();
         let with_maps = scene.materials.iter().filter(|m| m.mapping == Mapping::Uv);
-        let maps = with_maps.flat_map(|m| [&m.base_color_map, &m.orm_map, &m.normal_map]).flatten();
+        let maps = with_maps.flat_map(|m| [&m.base_color_map, &m.orm_map, &m.normal_map, &m.emission_map]).flatten();
         for texture in maps {
             if !texture_of.contains_key(texture.name.as_str()) {
                 let view = binary.add(&encode_texture(texture)?, None);
@@ -66,6 +66,7 @@ impl Materials {
             // No glTF viewer knows it.
             retroreflection: _,
             emission,
+            emission_map,
             // Nor beams.
             beam: _,
             dirt,
@@ -105,6 +106,7 @@ impl Materials {
         if let Some(map) = normal_map {
             value["normalTexture"] = reference(map);
         }
+        let glow = emission_map.as_ref().map(|map| reference(map));
         let color_texture = surface.get("baseColorTexture").cloned();
         value["pbrMetallicRoughness"] = surface;
         if *alpha_cutoff > 0.0 {
@@ -116,6 +118,9 @@ impl Materials {
             // A factor goes up to 1; the rest is strength.
             let strength = emission.max_element().max(1.0);
             value["emissiveFactor"] = json!((emission / strength).max(Vec3::ZERO).to_array());
+            if let Some(map) = glow {
+                value["emissiveTexture"] = map;
+            }
             if strength > 1.0 {
                 let extension = json!({ "emissiveStrength": strength });
                 extend(&mut value, used, "KHR_materials_emissive_strength", extension);
@@ -183,6 +188,8 @@ fn without_maps(material: &Material) -> Material {
         orm_map: None,
         normal_map: None,
         height_map: None,
+        emission: material.emission * material.emission_map.as_deref().map_or(Vec3::ONE, mean),
+        emission_map: None,
         ..material.clone()
     }
 }

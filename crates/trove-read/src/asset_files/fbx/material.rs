@@ -26,6 +26,7 @@ pub(super) fn look(m: &ufbx::Material, path: &Path, pictures: &Pictures, model: 
     let normal_map = texture(&pbr.normal_map, ColorSpace::Linear);
     let maps = [&pbr.ambient_occlusion, &pbr.roughness, &pbr.metalness].map(|map| texture(map, ColorSpace::Linear));
     let opacity = texture(&pbr.opacity, ColorSpace::Linear);
+    let emission_map = texture(&pbr.emission_color, ColorSpace::Srgb);
     let orm_map = orm(&maps, pictures, model);
     let factor = number(&pbr.base_factor, 1.0);
     let mut material = Material {
@@ -46,8 +47,9 @@ pub(super) fn look(m: &ufbx::Material, path: &Path, pictures: &Pictures, model: 
         normal_map,
         ..Material::default()
     };
-    let emission = rgb(&pbr.emission_color, Vec3::ZERO) * number(&pbr.emission_factor, 1.0);
-    material.emission = looks::radiance(emission);
+    let emission = if emission_map.is_some() { Vec3::ONE } else { rgb(&pbr.emission_color, Vec3::ZERO) };
+    material.emission = looks::radiance(emission * number(&pbr.emission_factor, 1.0));
+    material.emission_map = emission_map;
     looks::apply_alpha(&mut material, Alpha::Blend, number(&pbr.opacity, 1.0));
     looks::clamp(&mut material);
     material

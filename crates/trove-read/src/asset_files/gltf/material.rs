@@ -1,18 +1,17 @@
 //! glTF's materials → `Material`.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use glam::{Mat2, Vec2, Vec3, Vec4, vec2};
 use serde_json::Value;
-use trove_model::{ColorSpace, Material, Outcome, Texture};
+use trove_model::{ColorSpace, Material, Outcome};
 
 use super::container::{Container, none};
 use super::json::{self, TextureRef};
 use super::texture::{Textures, moved};
 use crate::asset_files::fault::Fault;
 use crate::asset_files::looks::{self, Alpha};
-use crate::asset_files::model::{Model, Piece};
+use crate::asset_files::model::Model;
 use crate::asset_files::picture::Pictures;
 
 /// The materials that primitives have asked for.
@@ -25,7 +24,7 @@ pub(super) struct Looks<'a> {
 /// How a primitive's material is used.
 #[derive(Clone)]
 pub(super) struct Look {
-    slot: usize,
+    pub(super) slot: usize,
     /// Which texture coordinates its maps are looked up by.
     pub(super) uv_set: usize,
     /// Scale with rotation, then offset, of `KHR_texture_transform`.
@@ -33,8 +32,6 @@ pub(super) struct Look {
     offset: Vec2,
     /// It shines from both sides.
     pub(super) two_sided_light: bool,
-    /// Where it shines, if not everywhere, and the slot of what shines.
-    glow: Option<(Arc<Texture>, Vec3)>,
 }
 
 impl Look {
@@ -123,16 +120,14 @@ impl<'a> Looks<'a> {
         let strength = number("/KHR_materials_emissive_strength/emissiveStrength").unwrap_or(1.0);
         let emission = looks::radiance(Vec3::from(m.emissive_factor) * strength);
         let glow = m.emissive_texture.as_ref().filter(|_| emission.max_element() > 0.0);
-        let glow = glow.and_then(|r| self.textures.texture(r, ColorSpace::Srgb, model)).map(|t| (t, emission));
-        if glow.is_none() {
-            material.emission = emission;
-        }
+        material.emission_map = glow.and_then(|r| self.textures.texture(r, ColorSpace::Srgb, model));
+        material.emission = emission;
         looks::clamp(&mut material);
         let shines = emission.max_element() > 0.0;
         let leading = base_ref.as_ref().or(pbr.metallic_roughness_texture.as_ref()).or(m.normal_texture.as_ref());
         let (uv_set, turn, offset) =
             leading.or(m.emissive_texture.as_ref()).map_or((0, Mat2::IDENTITY, Vec2::ZERO), moved);
-        let others = [&pbr.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture];
+        let others = [&pbr.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture];
         if others.into_iter().flatten().any(|r| moved(r) != (uv_set, turn, offset)) {
             model.notice(
                 Outcome::Substituted,
@@ -141,45 +136,7 @@ impl<'a> Looks<'a> {
             );
         }
         model.materials.push(material);
-        Look { slot: model.materials.len() - 1, uv_set, turn, offset, two_sided_light: m.double_sided && shines, glow }
-    }
-
-    /// Parts a piece into what shines and what does not, by its emission map; each with its slot.
-    pub(super) fn split(&mut self, look: &Look, piece: Piece, model: &mut Model) -> Vec<(Piece, usize)> {
-        let Some((map, emission)) = look.glow.as_ref().filter(|_| !piece.uvs.is_empty()) else {
-            return vec![(piece, look.slot)];
-        };
-        let glow = |t: &[u32; 3]| {
-            let corners = t.map(|i| piece.uvs.get(i as usize).copied().unwrap_or_default());
-            looks::mean_in_triangle(map, corners)
-        };
-        let (mut bright, mut dark, mut sum) = (Vec::new(), Vec::new(), Vec3::ZERO);
-        for t in &piece.triangles {
-            let color = glow(t);
-            if color.max_element() > 0.05 {
-                sum += color;
-                bright.push(*t);
-            } else {
-                dark.push(*t);
-            }
-        }
-        if bright.is_empty() {
-            return vec![(Piece { triangles: dark, ..piece }, look.slot)];
-        }
-        let mut material = model.materials[look.slot].clone();
-        material.name = format!("{} (shining)", material.name);
-        material.emission = *emission * sum / bright.len() as f32;
-        model.materials.push(material);
-        let slot = model.materials.len() - 1;
-        let Piece { positions, normals, uvs, tints, .. } = piece;
-        let lit = Piece {
-            positions: positions.clone(),
-            normals: normals.clone(),
-            uvs: uvs.clone(),
-            tints: tints.clone(),
-            triangles: bright,
-        };
-        vec![(Piece { positions, normals, uvs, tints, triangles: dark }, look.slot), (lit, slot)]
+        Look { slot: model.materials.len() - 1, uv_set, turn, offset, two_sided_light: m.double_sided && shines }
     }
 }
 

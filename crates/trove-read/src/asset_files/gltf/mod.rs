@@ -84,9 +84,7 @@ fn add_node(
         let uvs = geometry.uvs.iter().map(|&uv| look.uv(uv)).collect();
         let Geometry { positions, normals, tints, triangles, .. } = geometry;
         let piece = Piece { positions, normals, uvs, tints, triangles };
-        for (piece, slot) in looks.split(&look, piece, model) {
-            model.add(name, piece, matrix, slot, look.two_sided_light, &container.budget)?;
-        }
+        model.add(name, piece, matrix, look.slot, look.two_sided_light, &container.budget)?;
     }
     Ok(())
 }

@@ -1,0 +1,31 @@
+//! Where a material shines.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use super::mip_map::MipMap;
+
+/// What a material's emission is multiplied by where.
+#[derive(Clone)]
+pub(crate) struct Glow {
+    map: Arc<MipMap>,
+    scale: Vec2,
+}
+
+impl Glow {
+    /// From a map, and what texture coordinates are multiplied by.
+    pub(crate) fn new(map: Arc<MipMap>, scale: Vec2) -> Self {
+        Self { map, scale }
+    }
+
+    /// At a texture coordinate as sharp as the map is, so that light that is drawn and light that is met are the same.
+    pub(crate) fn at(&self, uv: Vec2) -> Vec3 {
+        self.map.sample(uv * self.scale, Vec2::ZERO, 0.0).truncate()
+    }
+
+    /// On average over the map.
+    pub(crate) fn mean(&self) -> Vec3 {
+        self.map.sample(Vec2::ZERO, Vec2::INFINITY, 0.0).truncate()
+    }
+}
