@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use trove_model::{Bounds, Class, Instance, Kind, Origin, Report, Scene};
+use trove_model::{Bounds, Class, Cuboid, Instance, Kind, Origin, Report, Scene};
 
-use crate::drawing::{Drawing, Hit, Triangle, is_built, triangles};
+use crate::drawing::{BEYOND_M, Drawing, Hit, Triangle, is_built, triangles};
 use crate::footing::{Ground, Solids, foot_outline, overlap_m};
 
 /// Surfaces nearer to each other than this fight for the same pixels, metres.
@@ -41,10 +41,20 @@ pub(crate) fn numbers(scene: &Scene) -> Vec<String> {
 /// No two surfaces that face the same way coincide, and no building shows its inside to someone outside, but for what is
 /// known of the place, m² in all views.
 pub(crate) fn solids(scene: &Scene, area: Bounds, known_m2: f64) -> Vec<String> {
-    let all = triangles(scene, |i| is_built(scene, i));
+    let middle_and_reach = |i: usize| {
+        let object = scene.instances[i].object.as_ref().filter(|o| o.kind == Kind::Building)?;
+        let Cuboid { world_from_body, size_m } = object.cuboid;
+        Some((world_from_body.translation.truncate(), size_m.truncate().length() / 2.0))
+    };
+    // Houses beyond the place go on beyond what is drawn from above.
+    let drawn = area.grown(BEYOND_M);
+    let is_whole = |i: usize| middle_and_reach(i).is_none_or(|(p, reach_m)| drawn.grown(-reach_m).contains(p));
+    let all = triangles(scene, |i| is_built(scene, i) && is_whole(i));
     let (mut wrong, mut open) = (Vec::new(), Vec::new());
     look(scene, &all, area, (DVec3::NEG_Z, 0.2), &mut wrong, &mut open);
-    let buildings = triangles(scene, |i| scene.instances[i].class == Class::Building);
+    // They are shapes of the place, which are looked at where they are its own.
+    let is_own = |i: usize| middle_and_reach(i).is_none_or(|(p, _)| area.contains(p));
+    let buildings = triangles(scene, |i| scene.instances[i].class == Class::Building && is_own(i));
     for i in 0..AZIMUTHS {
         let azimuth = std::f64::consts::TAU * (i as f64 + 0.137) / AZIMUTHS as f64;
         let towards = DVec3::new(azimuth.cos(), azimuth.sin(), -0.05).normalize();
@@ -260,7 +270,11 @@ fn objects(scene: &Scene) -> impl Iterator<Item = (&Instance, Kind)> {
 
 /// Plants and furniture: what nobody recorded.
 fn made_up(scene: &Scene) -> impl Iterator<Item = (&Instance, Kind)> {
-    objects(scene).filter(|(i, kind)| *kind != Kind::Building && !is_recorded(i))
+    objects(scene).filter(|(i, kind)| *kind != Kind::Building && !is_recorded(i) && !is_added(i))
+}
+
+fn is_added(instance: &Instance) -> bool {
+    instance.object.as_ref().is_some_and(|o| o.origin == Origin::Added)
 }
 
 fn is_recorded(instance: &Instance) -> bool {

@@ -63,6 +63,9 @@ pub(crate) struct Drawing {
     axes: [DVec3; 2],
 }
 
+/// So far beyond an area things are drawn, metres.
+pub(crate) const BEYOND_M: f64 = 50.0;
+
 impl Drawing {
     /// Draws what lies in `area` along the unit vector `towards`, one ray a cell.
     pub(crate) fn new(triangles: &[Triangle], area: Bounds, towards: DVec3, cell_m: f64) -> Self {
@@ -70,8 +73,7 @@ impl Drawing {
         let up = right.cross(towards);
         // Rays off every round coordinate, so that none runs along an edge.
         let plane = |p: DVec3| DVec2::new(p.dot(right), p.dot(up)) / cell_m + DVec2::new(0.3717, 0.6113);
-        // Beyond the place lies only the plain ground up to the horizon.
-        let reach = area.grown(50.0);
+        let reach = area.grown(BEYOND_M);
         let near: Vec<(usize, &Triangle)> = triangles
             .iter()
             .enumerate()

@@ -58,6 +58,7 @@ mod radars;
 mod roads;
 mod scanners;
 mod site;
+mod skyline;
 mod snow;
 mod spray;
 mod standing;

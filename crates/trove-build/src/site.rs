@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    AssetLibrary, Bounds, Cuboid, Drive, DriveOrigin, HeightField, Instance, InstanceId, Kind, Light, Locale, Origin,
-    Outcome, Polygon, Provenance, Puff, Report, RoadPlan, Scene, SceneObject, Season, StreetMap,
+    AssetLibrary, Bounds, Cuboid, Drive, DriveOrigin, HeightField, Instance, InstanceId, Kind, Light, Locale, Looks,
+    Origin, Outcome, Polygon, Provenance, Puff, Report, RoadPlan, Scene, SceneObject, Season, StreetMap,
 };
 
 use crate::agreement::{OnDisagreement, agreed, assumed};
@@ -18,6 +18,7 @@ use crate::light::{LightChoice, is_dark, light, solar_hour, switch_on};
 use crate::pieces::Scenery;
 use crate::place::{Conditions, Place, Seeds, apart_s, moment_s, next, previous};
 use crate::placement::{Cast, Casting, ObjectFit, Stand};
+use crate::skyline::skyline;
 use crate::snow::lying;
 use crate::spray::{film_m, has_tyres, spray};
 use crate::surroundings::Clearance;
@@ -189,8 +190,9 @@ pub fn build_at(
         assembly.piece(piece, &mut next_id);
     }
     let left = (MAX_ID + 1).saturating_sub(next_id) as usize;
-    let others = furniture.scenery.len() + traffic::wanted(drive, settings.traffic.density);
+    let others = furniture.scenery.len() + traffic::most_added(&around, settings.traffic.density);
     drop_farthest(&mut plants, drive, left.saturating_sub(others), report);
+    let skyline = skyline(&place, &surfaces, land, &buildings, &plants);
     let undergrowth = undergrowth(&around, &clearance, &plants, seed.child("undergrowth"));
     for piece in &undergrowth {
         assembly.piece(piece, &mut next_id);
@@ -198,6 +200,12 @@ pub fn build_at(
     let path = driven_path(drive);
     // Plants come late, so that their number changes no other's.
     for scenery in furniture.scenery.iter().chain(&plants) {
+        assembly.scenery(scenery, distance_m(&path, scenery), &mut next_id);
+    }
+    for piece in &skyline.houses {
+        assembly.piece(piece, &mut next_id);
+    }
+    for scenery in &skyline.plants {
         assembly.scenery(scenery, distance_m(&path, scenery), &mut next_id);
     }
     // Road users whom nobody recorded come last: they take the room that is left.
@@ -374,6 +382,23 @@ impl Site {
             keypoints_world: pose.keypoints_world,
         };
         ego.instance(self.ego_id(drive), keyframe, neighbours, meshes, Some(object))
+    }
+
+    /// Colours it as photographs tell: the paint of vehicles, buildings, and what of other classes stands or lies still.
+    pub fn tint(&mut self, looks: &Looks) {
+        for instance in &mut self.fixed {
+            if let Some(&factor) = looks.things.get(&instance.id).or_else(|| looks.classes.get(&instance.class)) {
+                for material in &mut instance.materials {
+                    *material = self.stock.tinted(*material, factor);
+                }
+            }
+        }
+        for (track, actor) in self.actors.iter_mut().enumerate() {
+            let factor = looks.things.get(&track_id(track)).copied();
+            if let Some((actor, factor)) = actor.as_mut().zip(factor) {
+                actor.repaint(factor, &mut self.stock);
+            }
+        }
     }
 
     /// The number of the recording vehicle.

@@ -53,6 +53,7 @@ mod lens;
 mod lettering;
 mod light;
 mod locale;
+mod looks;
 mod luminaire;
 mod material;
 mod mesh;
@@ -110,10 +111,11 @@ pub use lettering::Lettering;
 pub use light::{Environment, EnvironmentMap, Fog, Light, Moon, PhysicalSky};
 pub use locale::{
     BuildingCustoms, CentreLine, Covering, CrossingStyle, Dash, DrivingSide, FacadeRule, FacadeUse, GiveWayLine,
-    KerbCustoms, KerbLines, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale, MarkingCustoms, MinorRoad,
-    ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms, SignalSide, SpeedUnit,
-    StreetCustoms, TrafficMix, WarrantedSign,
+    KerbCustoms, KerbLines, KerbParking, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale, MarkingCustoms,
+    MinorRoad, ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms, SignalSide,
+    SpeedUnit, StreetCustoms, TrafficMix, WarrantedSign,
 };
+pub use looks::Looks;
 pub use luminaire::Luminaire;
 pub use material::{ColorSpace, Mapping, Material, Texture, Tiling};
 pub use mesh::Mesh;

@@ -19,6 +19,15 @@ pub enum ExposureRule {
     },
 }
 
+impl ExposureRule {
+    /// Adds stops to it.
+    pub fn brighten(&mut self, more_ev: f64) {
+        match self {
+            Self::Auto { compensation_ev: ev } | Self::Fixed { ev } => *ev += more_ev,
+        }
+    }
+}
+
 /// Which light becomes white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhiteBalance {

@@ -54,6 +54,8 @@ pub(crate) struct Actor {
     pub braking: Option<Vec<usize>>,
     /// As in [`SceneObject::paint`].
     pub paint: Option<Vec3>,
+    /// The slot that has it.
+    painted: Option<usize>,
     /// What of it moves by itself.
     joints: Joints,
     /// By moment, in the order of time.
@@ -77,6 +79,15 @@ impl Actor {
     /// What its pixels are.
     pub(crate) fn class(&self) -> Class {
         self.class
+    }
+
+    /// Changes its paint by a factor.
+    pub(crate) fn repaint(&mut self, factor: Vec3, stock: &mut Stock) {
+        let Some(slot) = self.painted else { return };
+        for materials in [Some(&mut self.materials), self.braking.as_mut()].into_iter().flatten() {
+            materials[slot] = stock.tinted(materials[slot], factor);
+        }
+        self.paint = Some(stock.materials[self.materials[slot]].base_color);
     }
 
     /// Index of its mesh in the stock, as it first is; `None` for who is never there.
@@ -216,8 +227,10 @@ impl Assembly {
             }
         }
         let (class, materials) = (role.asset.class, self.stock.painted(role.asset, role.seed));
-        let paint = largest_painted(role.asset).map(|slot| role.asset.materials(role.seed)[slot].base_color);
-        Actor { class, assets, materials, braking: None, paint, joints, poses, slides_m: slides_m.unwrap_or(0.0) }
+        let painted = largest_painted(role.asset);
+        let paint = painted.map(|slot| self.stock.materials[materials[slot]].base_color);
+        let slides_m = slides_m.unwrap_or(0.0);
+        Actor { class, assets, materials, braking: None, paint, painted, joints, poses, slides_m }
     }
 
     /// Plants the feet of someone on foot where there are moments between keyframes; returns the legs, and how far a foot that

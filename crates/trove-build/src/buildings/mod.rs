@@ -1,6 +1,7 @@
 //! Buildings from their footprints, or from the LiDAR where no map has them: extruded with a facade, or replaced by an asset where it fits.
 
 mod bays;
+mod blocks;
 mod dress;
 mod extrude;
 mod facade;
@@ -36,6 +37,8 @@ use volumes::{House, Model};
 pub(crate) struct BuiltBuildings {
     /// One a building, each an object of its own.
     pub pieces: Vec<Piece>,
+    /// Of each piece its block: houses that touch each other are of one.
+    pub blocks: Vec<usize>,
     /// Where they stand; parts of one building may overlap.
     pub footprints: Vec<Polygon>,
 }
@@ -67,14 +70,15 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
             None => extruded(house, &palette, &sight, &mut random, report),
         }
     };
-    let pieces: Vec<Piece> = houses.par_iter().map(build).filter(|p| !p.mesh.triangles.is_empty()).collect();
+    let built = houses.par_iter().map(build).zip(blocks::blocks(&houses));
+    let (pieces, blocks): (Vec<Piece>, Vec<usize>) = built.filter(|(p, _)| !p.mesh.triangles.is_empty()).unzip();
     report.measure("buildings.built", pieces.len() as f64);
     report.measure("buildings.replaced_by_assets", pieces.iter().filter(|p| p.asset.is_some()).count() as f64);
     let triangles: usize = pieces.iter().filter(|p| p.asset.is_none()).map(|p| p.mesh.triangles.len()).sum();
     report.measure("buildings.triangles", triangles as f64);
     let models = houses.iter().filter_map(|h| h.model.as_ref()).map(replace::outline);
     let footprints = houses.iter().flat_map(|h| &h.volumes).map(|v| v.footprint.clone()).chain(models).collect();
-    BuiltBuildings { pieces, footprints }
+    BuiltBuildings { pieces, blocks, footprints }
 }
 
 fn extruded(

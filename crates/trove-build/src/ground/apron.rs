@@ -22,6 +22,15 @@ pub(crate) struct Apron {
     pub sea: Mesh,
 }
 
+/// Height of the ground beyond a field: that of the field's edge, or of the land.
+pub(crate) fn beyond_m(drape: &Drape<'_>, land: Option<Land<'_>>, p: DVec2) -> f64 {
+    let bounds = drape.bounds();
+    let edge_m = drape.height_m(p);
+    let away_m = p.distance(p.clamp(bounds.min, bounds.max));
+    let land_m = land.and_then(|land| land.height_m(p)).unwrap_or(edge_m);
+    edge_m + (land_m - edge_m) * ease(away_m / BLEND_M)
+}
+
 /// The ground out to `reach_m` beyond a field: as high as the field's edge, or as the land is. Land lies `land_lift_m`
 /// above the ground, the sea `sea_lift_m`.
 pub(crate) fn apron(
@@ -49,16 +58,11 @@ pub(crate) fn apron(
     let nodes = (0..ys.len()).flat_map(|j| (0..xs.len()).map(move |i| (i, j)));
     let is_sea: Vec<bool> = nodes.clone().map(|(i, j)| land.is_some_and(|land| land.is_sea(at(i, j)))).collect();
     let all_sea = |is: [usize; 2], js: [usize; 2]| (js[0]..=js[1]).all(|j| (is[0]..=is[1]).all(|i| is_sea[node(i, j)]));
-    let bounds = drape.bounds();
     let height_m = |(i, j): (usize, usize)| {
-        let p = at(i, j);
-        let edge_m = drape.height_m(p);
-        let away_m = p.distance(p.clamp(bounds.min, bounds.max));
-        let land_m = land.and_then(|land| land.height_m(p)).unwrap_or(edge_m);
         let around = |k: usize, count: usize| [k.saturating_sub(1), (k + 1).min(count - 1)];
         // Land and sea share the vertices of their shore.
         let lift_m = if all_sea(around(i, xs.len()), around(j, ys.len())) { sea_lift_m } else { land_lift_m };
-        edge_m + (land_m - edge_m) * ease(away_m / BLEND_M) + lift_m
+        beyond_m(drape, land, at(i, j)) + lift_m
     };
     let heights_m: Vec<f64> = nodes.map(height_m).collect();
     let normal = |i: usize, j: usize| {

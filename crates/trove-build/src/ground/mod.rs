@@ -18,7 +18,7 @@ mod tests;
 
 use trove_model::{Bounds, Drive, DriveOrigin, HeightField, Outcome, Relief, Report, StreetMap};
 
-pub(crate) use apron::{Apron, apron};
+pub(crate) use apron::{Apron, apron, beyond_m};
 pub(crate) use drape::Drape;
 pub(crate) use land::Land;
 pub(crate) use lawn::Lawn;

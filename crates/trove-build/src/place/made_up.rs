@@ -19,9 +19,14 @@ const STEP_M: f64 = 5.0;
 const BORDER: f64 = 0.15;
 /// Where no lanes are tagged, the middle of the driven lane is this far from a two-way road's middle, metres.
 const LANE_OFFSET_M: f64 = 1.75;
+/// Between parked vehicles one drives nearly in the middle.
+const QUIET_OFFSET_M: f64 = 0.4;
 /// No wall is this near to the middle of a vehicle, metres, nor to points ahead of it up to its front.
 const WALL_M: f64 = 1.5;
 const LOOKED_AT_M: [f64; 3] = [-1.0, 1.2, 3.4];
+/// A view has no wall so near to points farther ahead, metres.
+const IN_VIEW_M: f64 = 1.0;
+const AHEAD_M: [f64; 6] = [5.0, 7.0, 9.0, 12.0, 15.0, 18.0];
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
 const STEP_NS: i64 = 60_000_000_000;
 
@@ -58,16 +63,21 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         return Err(BuildError::NoRoads { place: place.into(), size_m });
     }
 
-    // Drawn one after the other; what is too near to one that stands is passed over.
+    // Drawn one after the other; what is too near to one that stands is passed over. Those with a view come first.
     let mut random = seed.child("standpoints").random();
     let walls = Walls::new(map, inner);
-    let has_room = candidates.iter().any(|pose| walls.leave_room(pose));
+    let mut drawn: Vec<Pose<World, Ego>> = Vec::new();
+    while !candidates.is_empty() {
+        drawn.push(candidates.swap_remove(random.index(candidates.len())));
+    }
+    let (with_room, without): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|pose| walls.leave_room(pose));
+    let (with_view, narrow): (Vec<_>, Vec<_>) = with_room.into_iter().partition(|pose| walls.leave_view(pose));
+    let has_room = !(with_view.is_empty() && narrow.is_empty());
     let mut stands: Vec<Pose<World, Ego>> = Vec::new();
-    while stands.len() < MAX_VIEWS && !candidates.is_empty() {
-        let drawn = candidates.swap_remove(random.index(candidates.len()));
-        let is_apart = |s: &Pose<World, Ego>| s.translation.distance(drawn.translation) >= SPACING_M;
-        if stands.iter().all(is_apart) && (walls.leave_room(&drawn) || !has_room) {
-            stands.push(drawn);
+    for pose in with_view.into_iter().chain(narrow).chain(without.into_iter().filter(|_| !has_room)) {
+        let is_apart = |s: &Pose<World, Ego>| s.translation.distance(pose.translation) >= SPACING_M;
+        if stands.len() < MAX_VIEWS && stands.iter().all(is_apart) {
+            stands.push(pose);
         }
     }
     if stands.len() < MAX_VIEWS {
@@ -130,10 +140,18 @@ impl<'a> Walls<'a> {
     }
 
     fn leave_room(&self, pose: &Pose<World, Ego>) -> bool {
-        LOOKED_AT_M.iter().all(|&ahead_m| {
+        self.keep_away(pose, &LOOKED_AT_M, WALL_M)
+    }
+
+    fn leave_view(&self, pose: &Pose<World, Ego>) -> bool {
+        self.keep_away(pose, &AHEAD_M, IN_VIEW_M)
+    }
+
+    fn keep_away(&self, pose: &Pose<World, Ego>, ahead_m: &[f64], reach_m: f64) -> bool {
+        ahead_m.iter().all(|&ahead_m| {
             let p = pose.point(DVec3::X * ahead_m).truncate();
             let holds = |(polygon, bounds): &(&Polygon, Bounds)| bounds.contains(p) && polygon.contains(p);
-            self.index.nearest(p, WALL_M).is_none() && !self.footprints.iter().any(holds)
+            self.index.nearest(p, reach_m).is_none() && !self.footprints.iter().any(holds)
         })
     }
 }
@@ -141,11 +159,12 @@ impl<'a> Walls<'a> {
 /// Poses along a road in a lane of its own, in both directions where it has both.
 fn standpoints(road: &Road, driving_side: DrivingSide) -> Vec<Pose<World, Ego>> {
     let lanes = f64::from(road.lanes.unwrap_or(0).max(1));
-    let is_shared = road.kind == RoadKind::Service && road.lanes.is_none_or(|lanes| lanes < 2);
-    let offset_m = match (road.oneway || is_shared, road.width_m) {
-        (true, _) => 0.0,
-        (false, Some(width_m)) => width_m / 4.0,
-        (false, None) => LANE_OFFSET_M * (lanes / 2.0).max(1.0).round(),
+    let offset_m = match (road.kind, road.lanes, road.width_m) {
+        _ if road.oneway => 0.0,
+        (RoadKind::Service, None | Some(0 | 1), _) => 0.0,
+        (_, _, Some(width_m)) => width_m / 4.0,
+        (RoadKind::Residential | RoadKind::Minor, None | Some(0 | 1), None) => QUIET_OFFSET_M,
+        _ => LANE_OFFSET_M * (lanes / 2.0).max(1.0).round(),
     };
     let side = if driving_side.is_left() { 1.0 } else { -1.0 };
     let mut poses = Vec::new();
@@ -201,7 +220,7 @@ mod tests {
     use trove_model::Building;
 
     fn map() -> StreetMap {
-        let road = |id: i64, ends: [[f64; 2]; 2]| crate::testing::road(id, RoadKind::Residential, &ends);
+        let road = |id: i64, ends: [[f64; 2]; 2]| crate::testing::road(id, RoadKind::Tertiary, &ends);
         StreetMap {
             roads: vec![road(1, [[-300.0, 0.0], [300.0, 0.0]]), road(2, [[0.0, -300.0], [0.0, 300.0]])],
             ..StreetMap::default()

@@ -1,6 +1,7 @@
 //! Fewer road users than were recorded, or more: made up, they are cast, placed and labelled as recorded ones are.
 
 mod motion;
+mod parking;
 mod room;
 mod shares;
 #[cfg(test)]
@@ -10,7 +11,7 @@ mod ways;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use trove_model::{Class, Cuboid, Drive, Kind, Outcome, Report, Seed, Track};
+use trove_model::{Class, Cuboid, Drive, DriveOrigin, Kind, Outcome, Report, Seed, Track, TrafficMix};
 
 use crate::assembly::Assembly;
 use crate::between::Moments;
@@ -18,6 +19,7 @@ use crate::place::{Place, next, previous};
 use crate::surroundings::Clearance;
 use crate::surroundings::Surroundings;
 use motion::Motion;
+use parking::Streets;
 use room::Room;
 use shares::Shares;
 use ways::Ways;
@@ -25,7 +27,8 @@ use ways::Ways;
 /// How many road users there are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traffic {
-    /// Road users against the recorded number; 1 leaves them as they are.
+    /// Road users against the recorded number, or, where the place is made up, against what is usual there; 1 leaves them
+    /// as they are.
     pub density: f64,
     /// Cyclists among those who are added, against what is usual at the place.
     pub cyclists: f64,
@@ -37,8 +40,10 @@ impl Default for Traffic {
     }
 }
 
-/// A place where nobody was recorded counts as if so many had been at each standpoint.
-const USUAL: usize = 20;
+/// Where nobody was recorded so many are usual at each standpoint, beside those who are parked.
+const USUAL: usize = 32;
+/// On so many metres of kerb at most one vehicle is parked.
+const PARKED_M: usize = 4;
 /// Places that are looked at for someone before the place counts as full.
 const TRIES: usize = 40;
 /// Someone whom nobody recorded.
@@ -70,12 +75,25 @@ pub(crate) fn absent(drive: &Drive, density: f64, seed: Seed, report: &Report) -
         .collect()
 }
 
-/// How many road users are added.
-pub(crate) fn wanted(drive: &Drive, density: f64) -> usize {
+/// How many road users are added, but for those parked by habit.
+fn wanted(drive: &Drive, density: f64) -> usize {
     let recorded = drive.tracks.iter().filter(|track| is_road_user(track.kind)).count();
     let standpoints = || (0..drive.keyframes.len()).filter(|&k| previous(drive, k).is_none()).count();
     let usual = if recorded > 0 { recorded } else { USUAL * standpoints() };
-    ((density - 1.0).max(0.0) * usual as f64).round() as usize
+    let more = if is_made_up(drive) { density } else { (density - 1.0).max(0.0) };
+    (more * usual as f64).round() as usize
+}
+
+/// The most road users that are added.
+pub(crate) fn most_added(around: &Surroundings, density: f64) -> usize {
+    let drive = around.place.drive;
+    let kerbs_m: usize = around.kerbs.runs.iter().map(Vec::len).sum();
+    let parked = if is_made_up(drive) && density > 0.0 { kerbs_m / PARKED_M } else { 0 };
+    wanted(drive, density) + parked
+}
+
+fn is_made_up(drive: &Drive) -> bool {
+    drive.origin == DriveOrigin::MadeUp
 }
 
 /// Makes road users up, who meet nobody at any keyframe nor halfway between two; `assembly` has all that stands still.
@@ -94,11 +112,33 @@ pub(crate) fn added(
     if wanted == 0 {
         return users;
     }
-    let shares = Shares::of(&around.place.locale.traffic, library, traffic.cyclists);
+    let mix = around.place.locale.traffic;
     let ways = Ways::new(around);
     let mut room = Room::new(around, absent, clearance, assembly);
+    let found = |motion: &Motion, visit: &room::Visit, number: usize, keyframe: usize| {
+        let user = user(around, motion, visit, number);
+        let at_moments = at_moments(around, motion, &user.track, keyframe, moments);
+        RoadUser { at_moments, ..user }
+    };
+    // Vehicles are parked for as long as anybody looks, and leave those who move what room there is.
+    let mix = if is_made_up(drive) {
+        let shares = Shares::of(&mix, library, traffic.cyclists);
+        let streets = Streets::new(around, traffic.density, ways.crossings());
+        let always = 0..drive.keyframes.len();
+        for motion in streets.parked(&shares, &mut seed.child("parked").random()) {
+            let Some(visit) = room.visit(&motion, 0, &always) else { continue };
+            room.take(&visit);
+            users.push(found(&motion, &visit, users.len(), 0));
+            report.note(Outcome::Guessed, "vehicle parked by the habit of the place", motion.kind.name());
+        }
+        TrafficMix { parked: 0.0, ..mix }
+    } else {
+        mix
+    };
+    let wanted = wanted + users.len();
+    let shares = Shares::of(&mix, library, traffic.cyclists);
     // Some find no place, and some come together.
-    for i in 0..2 * wanted as u64 {
+    for i in 0..2 * (wanted - users.len()) as u64 {
         let mut random = seed.nth(i).random();
         let keyframe = random.index(drive.keyframes.len());
         let Some(doing) = shares.draw(&mut random) else { break };
@@ -110,11 +150,7 @@ pub(crate) fn added(
             for (motion, visit) in group.iter().zip(visits) {
                 if users.len() < wanted {
                     room.take(&visit);
-                    let user = user(around, motion, &visit, users.len());
-                    users.push(RoadUser {
-                        at_moments: at_moments(around, motion, &user.track, keyframe, moments),
-                        ..user
-                    });
+                    users.push(found(motion, &visit, users.len(), keyframe));
                     report.note(Outcome::Guessed, "road user added for more traffic", doing);
                 }
             }

@@ -1,7 +1,7 @@
 //! How someone who was made up moves: steadily along a line, or not at all.
 
 use glam::{DVec2, DVec3};
-use trove_model::Kind;
+use trove_model::{Kind, Random};
 
 use crate::roads::Path;
 
@@ -37,6 +37,12 @@ pub(super) enum Place {
 }
 
 impl Motion {
+    /// A vehicle that nobody is in; nobody parks quite straight.
+    pub(super) fn parked(kind: Kind, size_m: DVec3, position: DVec2, looks: DVec2, random: &mut Random) -> Self {
+        let looks = DVec2::from_angle(random.range(-0.02, 0.02)).rotate(looks);
+        Self { kind, size_m, on: On::Carriageway, place: Place::Spot(position, looks), speed_mps: 0.0 }
+    }
+
     /// Position and heading (unit) at some seconds after the keyframe for which it was drawn; `None` where the line does
     /// not reach.
     pub(super) fn poses(&self, times_s: impl Iterator<Item = f64>) -> Vec<Option<[DVec2; 2]>> {

@@ -26,7 +26,7 @@ const OVERHEAD_M: f64 = 2.3;
 const FENCE_M: f64 = 0.6;
 /// Half the width of trunks and poles, metres.
 const POLE_M: f64 = 0.25;
-/// People keep so far from walls, vehicles from everything, and all from the recording vehicle, metres.
+/// People keep so far from walls, vehicles from everything, and all from the recording vehicle's ends, metres.
 const WALL_M: f64 = 0.3;
 const VEHICLE_M: f64 = 0.35;
 const EGO_M: f64 = 1.2;

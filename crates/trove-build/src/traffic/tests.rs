@@ -2,8 +2,13 @@ use super::*;
 use crate::placement::ego_cuboid;
 use crate::site::{BuildSettings, Site};
 use crate::testing;
+use glam::{DVec2, DVec3};
 use room::Outline;
-use trove_model::{AssetLibrary, Instance, Origin, Scene, SceneObject, State};
+use trove_model::{
+    AssetLibrary, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject, Sides, State,
+};
+
+use crate::place::PlacePlan;
 
 const RIDER: &str = "bicycle/rider";
 
@@ -114,15 +119,54 @@ fn a_place_without_a_recording_gets_the_usual_number_at_each_standpoint() {
         keyframe.time_ns += k as i64 * 60_000_000_000;
     }
     assert_eq!(wanted(&drive, 1.5), USUAL / 2 * 10);
+    drive.origin = DriveOrigin::MadeUp;
+    assert_eq!([0.0, 0.5, 1.0].map(|density| wanted(&drive, density)), [0, USUAL / 2 * 10, USUAL * 10]);
+}
+
+/// Boxes of what is parked in a place along a quiet street that is 7 m wide, by keyframe; nobody may park on its left.
+fn parked_in_a_place(density: f64, left: Option<Parking>) -> Vec<Vec<Cuboid>> {
+    let mut map = testing::map_with_road([[-200.0, 0.0], [200.0, 0.0]]);
+    map.roads[0].parking = Sides { left, right: None };
+    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
+    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
+    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
+    let traffic = Traffic { density, cyclists: 0.0 };
+    let settings = BuildSettings { traffic, ..testing::settings() };
+    let site = crate::build(&drive, Some(&map), &library(), &settings, &Report::default()).unwrap();
+    let parked = |k: usize| {
+        let scene = site.scene(&drive, k);
+        let objects = scene.instances.iter().filter_map(|i| i.object.as_deref());
+        let stands = |o: &&SceneObject| o.origin == Origin::Added && o.states.contains(&State::Parked);
+        let found: Vec<Cuboid> = objects.filter(stands).map(|o| o.cuboid).collect();
+        let ego = Outline::of(&ego_cuboid(&drive, &drive.keyframes[k]));
+        assert!(!found.iter().any(|cuboid| Outline::of(cuboid).meets(&ego)));
+        found
+    };
+    (0..drive.keyframes.len()).map(parked).collect()
+}
+
+#[test]
+fn kerbs_of_a_place_are_as_full_as_its_habit_and_stay_so() {
+    let both = parked_in_a_place(1.0, None);
+    let one = parked_in_a_place(1.0, Some(Parking::No));
+    assert!(both[0].len() > 20 && both.windows(2).all(|pair| pair[0] == pair[1]), "{}", both[0].len());
+    let side = |cuboid: &Cuboid| cuboid.world_from_body.translation.y > 0.0;
+    assert!(both[0].iter().any(side) && both[0].iter().any(|c| !side(c)));
+    assert!(!one[0].is_empty() && !one[0].iter().any(side));
+    for (i, a) in both[0].iter().enumerate() {
+        // At the kerb, along it, with room between the rows, and nobody in another.
+        let [along, aside] = [a.world_from_body.vector(DVec3::X), a.world_from_body.translation].map(|v| v.y.abs());
+        assert!(along < 0.03 && (1.8..2.9).contains(&aside), "{a:?}");
+        assert!(!both[0][..i].iter().any(|b| Outline::of(a).meets(&Outline::of(b))));
+    }
+    let fewer = parked_in_a_place(0.3, None);
+    assert!(fewer[0].len() * 2 < both[0].len() && parked_in_a_place(0.0, None)[0].is_empty());
 }
 
 #[test]
 fn outlines_that_are_turned_meet_where_their_corners_do() {
-    let square = |x: f64, turn: f64| Outline {
-        centre: glam::DVec2::new(x, 0.0),
-        along: glam::DVec2::from_angle(turn),
-        half_m: glam::DVec2::ONE,
-    };
+    let square =
+        |x: f64, turn: f64| Outline { centre: DVec2::new(x, 0.0), along: DVec2::from_angle(turn), half_m: DVec2::ONE };
     let eighth = std::f64::consts::FRAC_PI_4;
     assert!(square(0.0, 0.0).meets(&square(1.9, 0.0)) && !square(0.0, 0.0).meets(&square(2.1, 0.0)));
     assert!(square(0.0, 0.0).meets(&square(2.3, eighth)) && !square(0.0, 0.0).meets(&square(2.5, eighth)));

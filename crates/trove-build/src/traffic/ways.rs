@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
-use trove_model::{Kind, ParkingOrientation, Polygon, Random, RoadKind};
+use trove_model::{Kind, Polygon, Random, RoadKind};
 
 use super::motion::{Motion, On, Place};
+use super::parking::in_row;
 use super::shares::{Doing, Shares};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Lane, LaneUse, Path};
@@ -81,6 +82,11 @@ impl<'a> Ways<'a> {
             on_kerbs,
             driven: SegmentIndex::new(of_use(LaneUse::Driving).map(|lane| lane.line.as_slice())),
         }
+    }
+
+    /// Where people cross.
+    pub(super) fn crossings(&self) -> Vec<DVec2> {
+        self.at_crossings.iter().map(|spot| spot.0).collect()
     }
 
     /// Someone, or some together, somewhere in view at a keyframe; empty where the draw found no place.
@@ -192,15 +198,7 @@ impl<'a> Ways<'a> {
         let (position, looks) = if let Some(&(_, lane, s_m)) = row {
             let lane = &self.lanes[lane];
             let (position, along) = Path::new(&lane.line).at(s_m + random.range(-0.5, 0.5) * SPOT_M);
-            let kerb = *self.around.kerbs.near(position, lane.width_m + 1.0).first()?;
-            let into = if kerb.outward.dot(along.perp()) > 0.0 { along.perp() } else { -along.perp() };
-            let looks = match lane.usage {
-                LaneUse::Parking(ParkingOrientation::Perpendicular) => into,
-                LaneUse::Parking(ParkingOrientation::Diagonal) => (into + along).normalize(),
-                _ => along * kerb.traffic.dot(along).signum(),
-            };
-            let backs_in = !matches!(lane.usage, LaneUse::Parking(ParkingOrientation::Parallel)) && random.chance(0.3);
-            (position, if backs_in { -looks } else { looks })
+            (position, in_row(self.around, lane, [position, along], random)?)
         } else {
             let &(_, run, i) = self.in_view(&self.on_kerbs, keyframe, VEHICLES_M, random, |spot| spot.0)?;
             let kerb = self.around.kerbs.runs[run][i];
@@ -211,9 +209,7 @@ impl<'a> Ways<'a> {
             }
             (position, kerb.traffic)
         };
-        // Nobody parks quite straight.
-        let looks = DVec2::from_angle(random.range(-0.02, 0.02)).rotate(looks);
-        Some(Motion { kind, size_m, on: On::Carriageway, place: Place::Spot(position, looks), speed_mps: 0.0 })
+        Some(Motion::parked(kind, size_m, position, looks, random))
     }
 
     /// A lane with those before and after it that go straight on, and its own beginning on that line.

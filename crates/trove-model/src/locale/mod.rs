@@ -17,7 +17,7 @@ pub use street::{
     LampCustoms, LampRow, ModelShare, NamePlate, SignCustoms, SignalCustoms, SignalSide, SpeedUnit, StreetCustoms,
     WarrantedSign,
 };
-pub use traffic::TrafficMix;
+pub use traffic::{KerbParking, TrafficMix};
 
 /// Whose customs a place follows: what a country's roads, signs, traffic and houses have in common.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,4 +18,18 @@ pub struct TrafficMix {
     pub driving: f64,
     /// Cars and trucks that nobody is in.
     pub parked: f64,
+    /// Where nobody was recorded, how full kerbs are.
+    pub kerb_parking: KerbParking,
+}
+
+/// How much of the room for parked vehicles is taken, as shares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct KerbParking {
+    /// Kerbs of residential and minor streets.
+    pub quiet: f64,
+    /// Those of secondary and tertiary roads.
+    pub busy: f64,
+    /// Rows that the map tells of.
+    pub rows: f64,
 }

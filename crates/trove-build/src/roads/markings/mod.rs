@@ -245,10 +245,10 @@ fn is_unrecorded(line: &[DVec2], layout: &Layout<'_>) -> bool {
     line.iter().filter(|&&p| layout.recorded.at(p) == RECORDED).count() * 2 < line.len()
 }
 
-/// Where nobody may park: along all roads near the driven path but those that lead to houses alone.
+/// Where nobody may park: along all roads near the driven path but quiet ones, and those with rows for it.
 fn no_parking(layout: &Layout<'_>, near: &[Polygon]) -> Vec<Polygon> {
     let parks = |s: &&super::network::Stretch<'_>| {
-        s.road.kind >= RoadKind::Service || s.section.bands.iter().any(|b| matches!(b.usage, Use::Parking(_)))
+        s.road.kind >= RoadKind::Residential || s.section.bands.iter().any(|b| matches!(b.usage, Use::Parking(_)))
     };
     let reach = Bounds::around(near.iter().flat_map(|p| p.exterior.iter().copied()));
     let is_near = |s: &&super::network::Stretch<'_>| {
