@@ -34,6 +34,7 @@ pub mod audit;
 pub mod curate;
 mod error;
 pub mod evaluate;
+pub mod looks;
 mod numbering;
 pub mod page;
 mod pictures;

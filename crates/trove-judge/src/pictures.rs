@@ -168,7 +168,7 @@ fn check_size(path: &Path, width: u32, height: u32) -> Result<(), JudgeError> {
 /// A file that is missing or is not a picture that can be decoded.
 pub fn thumbnail(path: &Path, width: u32) -> Result<Raster<[u8; 3]>, JudgeError> {
     let picture = read(path)?.into_rgb8();
-    let height = (picture.height() * width / picture.width().max(1)).max(1);
+    let height = ((picture.height() * width + picture.width() / 2) / picture.width().max(1)).max(1);
     let small = resize(&picture, width, height, FilterType::Triangle);
     Ok(Raster::from_fn(width, height, |x, y| small.get_pixel(x, y).0))
 }

@@ -7,9 +7,11 @@ use anyhow::{Context, Result, ensure};
 use trove_build::Timeline;
 use trove_format::FitRow;
 use trove_model::{Report, Scene, Shot};
+use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
 use crate::contents::Contents;
 use crate::library;
+use crate::photographs::match_photographs;
 use crate::recipe::Recipe;
 use crate::run::fit_rows;
 use crate::sources::Sources;
@@ -51,7 +53,12 @@ impl BuiltScene {
         let library = library::gather(recipe, search, &mut Contents::open(), report)?;
         report.measure("library.seconds", started.elapsed().as_secs_f64());
         let started = Instant::now();
-        let built = VirtualScene::build(&sources, (&timeline, map.as_ref()), &library, 0, report)?;
+        let mut built = VirtualScene::build(&sources, (&timeline, map.as_ref()), &library, 0, report)?;
+        if recipe.views.match_photographs {
+            let (denoise, threads) = (Denoising::None, recipe.render.threads);
+            let options = RendererOptions { kernel: KernelChoice::Auto, denoise, threads, search: search.to_vec() };
+            match_photographs(&mut built, &sources, &Renderer::new(&options)?, report)?;
+        }
         let scene = built.at(keyframe);
         report.measure("build.seconds", started.elapsed().as_secs_f64());
         let shots = built.shots(keyframe, report);

@@ -37,6 +37,7 @@ mod library;
 mod map;
 mod message;
 mod overview;
+mod photographs;
 mod place;
 mod progress;
 mod ready_scene;

@@ -299,6 +299,8 @@ pub struct ViewsSection {
     pub rig: Rig,
     /// How many other vehicles carry the rig too.
     pub other_vehicles: usize,
+    /// Whether variation 0 is exposed and coloured as the recorded photographs are.
+    pub match_photographs: bool,
 }
 
 /// Cameras of the rig.
@@ -385,7 +387,7 @@ impl Default for AssetsSection {
 
 impl Default for ViewsSection {
     fn default() -> Self {
-        Self { rig: Rig::All, other_vehicles: 0 }
+        Self { rig: Rig::All, other_vehicles: 0, match_photographs: false }
     }
 }
 

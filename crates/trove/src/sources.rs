@@ -1,10 +1,12 @@
 //! What a recipe builds on: its drives, and the street map around each.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 use trove_build::Timeline;
+use trove_files::Folder;
 use trove_model::{
     Bounds, Drive, EnvironmentMap, Exposure, Locale, MapProjection, Outcome, Provenance, Report, RigCamera, StreetMap,
 };
@@ -129,8 +131,19 @@ impl<'a> Sources<'a> {
     /// SHA-256 of the files that one scene's drive alone is read from; `None` where there are none.
     pub(crate) fn recording(&self, scene: &str, contents: &mut Contents) -> Result<Option<String>> {
         let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else { return Ok(None) };
-        let files = dataset.recording(scene)?;
+        let mut files = dataset.recording(scene)?;
+        if self.recipe.views.match_photographs {
+            files.extend(self.photographs(&dataset.read(scene, &Report::default())?).into_iter().map(|(_, path)| path));
+        }
         if files.is_empty() { Ok(None) } else { contents.of_all(&self.recipe.at(&section.root), &files).map(Some) }
+    }
+
+    /// The recorded pictures of a drive that are at hand, with their names in the dataset.
+    pub(crate) fn photographs(&self, drive: &Drive) -> BTreeMap<String, PathBuf> {
+        let Some(section) = &self.recipe.drive else { return BTreeMap::new() };
+        let root = Folder::new(&self.recipe.at(&section.root));
+        let named = drive.keyframes.iter().flat_map(|k| &k.exposures).filter_map(|e| e.file.clone());
+        named.filter_map(|name| Some((name.clone(), root.file(root.path(), Path::new(&name)).ok()?))).collect()
     }
 
     /// Where one scene lies on earth, and the area that is built of it.

@@ -6,8 +6,7 @@ use anyhow::Result;
 use trove_build::{BuildSettings, LightChoice, Moment, Seeds, Site, SkyChoice, Traffic, ViewSettings, Weather};
 use trove_format::{Factors, LightFactor};
 use trove_model::{
-    Drive, Environment, ExposureRule, Fog, Form, Locale, MapProjection, Precipitation, Provenance, Random, Report,
-    Season, Seed,
+    Drive, Environment, Fog, Form, Locale, MapProjection, Precipitation, Provenance, Random, Report, Season, Seed,
 };
 use trove_read::locale;
 
@@ -190,9 +189,7 @@ impl Variation {
         views.other_vehicles = self.other_vehicles;
         views.lift_m = self.lift_m;
         views.pitch_rad = self.pitch_deg.to_radians();
-        match &mut views.film.exposure {
-            ExposureRule::Auto { compensation_ev: ev } | ExposureRule::Fixed { ev } => *ev += self.exposure_ev,
-        }
+        views.film.exposure.brighten(self.exposure_ev);
     }
 
     /// Its row in the manifest: of a factor without a quantity the variation that its seed is of, of others what was

@@ -1,13 +1,14 @@
 //! A scene of a recipe, built as one of its variations.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use anyhow::Result;
 use trove_build::{Moments, MountedLidar, MountedRadar, Seeds, Site, Timeline, ViewPlan, ViewSettings};
 use trove_format::Factors;
 use trove_model::{
-    AssetLibrary, Drive, GridFrame, GridPlan, GridShot, LidarShot, Locale, Outcome, RadarShot, Report, Scene, Shot,
-    StreetMap,
+    AssetLibrary, Drive, GridFrame, GridPlan, GridShot, LidarShot, Locale, Looks, Outcome, RadarShot, Report, Scene,
+    Shot, StreetMap, Viewpoint,
 };
 
 use crate::recipe::{GridSection, Recipe, SensorKind, SensorSection};
@@ -28,6 +29,8 @@ pub(crate) struct VirtualScene<'a> {
     radars: Vec<MountedRadar>,
     grids: Vec<(String, Arc<GridPlan>)>,
     seeds: Seeds,
+    /// Stops on the exposure of recorded cameras, by their names.
+    exposure_ev: BTreeMap<String, f64>,
 }
 
 impl<'a> VirtualScene<'a> {
@@ -51,7 +54,8 @@ impl<'a> VirtualScene<'a> {
         let (lidars, radars) = (lidars(recipe, drive, report)?, radars(recipe, drive, report)?);
         let grids = grids(recipe, drive, report)?;
         let (locale, seeds) = (settings.locale, settings.seeds);
-        Ok(Self { moments, site, factors, locale, views, lidars, radars, grids, seeds })
+        let exposure_ev = BTreeMap::new();
+        Ok(Self { moments, site, factors, locale, views, lidars, radars, grids, seeds, exposure_ev })
     }
 
     /// The scene at a moment.
@@ -61,7 +65,23 @@ impl<'a> VirtualScene<'a> {
 
     /// The shots of a moment.
     pub(crate) fn shots(&self, moment: usize, report: &Report) -> Vec<Shot> {
-        self.views.shots(self.moments.drive, &self.site, moment, report)
+        let mut shots = self.views.shots(self.moments.drive, &self.site, moment, report);
+        for shot in &mut shots {
+            let Viewpoint::Recording { camera } = shot.viewpoint else { continue };
+            let name = self.moments.drive.rig.get(camera).map(|camera| &camera.name);
+            if let Some(more) = name.and_then(|name| self.exposure_ev.get(name)) {
+                shot.film.exposure.brighten(*more);
+            }
+        }
+        shots
+    }
+
+    /// Colours and exposes it otherwise.
+    pub(crate) fn look_like(&mut self, looks: &Looks) {
+        self.site.tint(looks);
+        for (camera, more) in &looks.exposure_ev {
+            *self.exposure_ev.entry(camera.clone()).or_default() += more;
+        }
     }
 
     /// The LiDARs' sweeps of a moment.

@@ -19,6 +19,7 @@ pub use histogram::{Histograms, Matching};
 use output::{Identity, OutputFolder};
 pub use report::report;
 pub use space::Space;
+pub(crate) use space::linear;
 pub use statistics::Statistics;
 
 /// What is moved.

@@ -45,10 +45,15 @@ static CODES: LazyLock<Vec<u8>> = LazyLock::new(|| {
     (0..4096).map(encoded).collect()
 });
 
+/// Linear Rec. 709 of 8-bit sRGB.
+pub(crate) fn linear(code: [u8; 3]) -> [f32; 3] {
+    code.map(|c| LINEAR[usize::from(c)])
+}
+
 impl Space {
     /// From 8-bit sRGB.
     pub fn from_srgb(self, code: [u8; 3]) -> [f32; 3] {
-        let rgb = code.map(|c| LINEAR[usize::from(c)]);
+        let rgb = linear(code);
         match self {
             Self::Lab => {
                 let [x, y, z] = times(&XYZ_FROM_RGB, rgb)

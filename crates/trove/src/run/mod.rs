@@ -36,6 +36,7 @@ use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOpt
 use trove_write::{Frame, FrameFolders, FrameMeta, Grid, RadarCycle, Sweep, WriteError};
 
 use crate::contents::Contents;
+use crate::photographs::match_photographs;
 use crate::progress::Progress;
 use crate::recipe::{GridSection, LibrarySource, Recipe};
 use crate::sources::Sources;
@@ -441,7 +442,10 @@ impl Run<'_> {
             None => library::gather(self.recipe, self.search, &mut self.contents, &self.report)?,
         };
         let library = self.library.insert(library);
-        let built = VirtualScene::build(&self.sources, (timeline, map.as_ref()), library, variation, &report)?;
+        let mut built = VirtualScene::build(&self.sources, (timeline, map.as_ref()), library, variation, &report)?;
+        if self.recipe.views.match_photographs && variation == 0 {
+            match_photographs(&mut built, &self.sources, self.renderer, &report)?;
+        }
         let keyframes = match &self.recipe.drive {
             Some(section) => section.keyframes.of(timeline.recorded.keyframes.len())?,
             None => (0..timeline.recorded.keyframes.len()).collect(),

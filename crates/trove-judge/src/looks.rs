@@ -1,0 +1,273 @@
+//! Photographs beside renders of the same views → by how much their colours differ, and what would make them alike.
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+use trove_model::{Class, InstanceId, Labels, Looks, Raster};
+
+use crate::recolor::{Space, linear};
+
+/// A photograph and a render of its view, of one size, with the render's labels.
+pub struct Pair<'a> {
+    /// The camera's name.
+    pub camera: &'a str,
+    /// 8-bit sRGB.
+    pub photograph: &'a Raster<[u8; 3]>,
+    /// 8-bit sRGB.
+    pub render: &'a Raster<[u8; 3]>,
+    /// What the render shows.
+    pub labels: &'a Labels,
+}
+
+/// What has a colour of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Thing {
+    Class(Class),
+    Instance(InstanceId),
+}
+
+/// Fewer pixels of something tell nothing.
+const LEAST_PX: usize = 40;
+/// Of what a photograph shows where something is in the render so much at either end is likely something else.
+const TRIMMED: f64 = 0.15;
+/// Below this light is the camera's own, linear.
+const DARK: f32 = 0.004;
+/// Lightness changes by at most so much, as a logarithm: that of surfaces by 2.7, that of paint, of which there is any, by
+/// more.
+const SURFACE: f32 = 1.0;
+const PAINT: f32 = 2.3;
+/// A channel of a surface leaves the others by at most so much: what is seen in its place may be of any colour.
+const HUE: f32 = 0.12;
+/// An exposure changes by at most so many stops.
+const MOST_EV: f64 = 2.0;
+/// Rounds of turns between exposures and colours.
+const ROUNDS: usize = 12;
+
+/// What would make renders look like photographs: each camera's exposure, and then the colours of vehicles, buildings and
+/// of the other classes. All are medians over what they are seen in, so that a photograph that shows something else at a place has
+/// little say.
+pub fn looks(pairs: &[Pair]) -> Looks {
+    // By camera and thing: how much lighter the photograph is, as a logarithm, and the weight of that.
+    let mut seen: BTreeMap<(&str, Thing), Vec<(Vec3, f64)>> = BTreeMap::new();
+    for pair in pairs {
+        for (thing, pixels) in things(pair) {
+            let [photograph, render] = [pair.photograph, pair.render].map(|picture| mean(picture, &pixels));
+            let lighter = ((photograph + DARK) / (render + DARK)).map(f32::ln);
+            seen.entry((pair.camera, thing)).or_default().push((lighter, (pixels.len() as f64).sqrt()));
+        }
+    }
+    let mut exposures: BTreeMap<&str, f32> = seen.keys().map(|(camera, _)| (*camera, 0.0)).collect();
+    let mut colours: BTreeMap<Thing, Vec3> = seen.keys().map(|(_, thing)| (*thing, Vec3::ZERO)).collect();
+    for _ in 0..ROUNDS {
+        for (camera, exposure) in &mut exposures {
+            let of_camera = seen.iter().filter(|((c, _), _)| c == camera);
+            // Paint may be any; of the rest the library's colours are a fair guess.
+            let rest = of_camera.filter(|((_, thing), _)| matches!(thing, Thing::Class(_)));
+            let lighter =
+                rest.flat_map(|((_, thing), seen)| seen.iter().map(|(l, w)| (luminance(*l - colours[thing]), *w)));
+            *exposure = median(lighter.collect()).clamp(-MOST_EV as f32, MOST_EV as f32);
+        }
+        for (thing, colour) in &mut colours {
+            let of_thing: Vec<_> = seen.iter().filter(|((_, t), _)| t == thing).collect();
+            let channel = |i: usize| {
+                let lighter =
+                    of_thing.iter().flat_map(|((c, _), seen)| seen.iter().map(|(l, w)| (l[i] - exposures[c], *w)));
+                median(lighter.collect())
+            };
+            let found = Vec3::new(channel(0), channel(1), channel(2));
+            let (most, hue) = if is_vehicle(*thing, pairs) { (PAINT, PAINT) } else { (SURFACE, HUE) };
+            let lighter = luminance(found).clamp(-most, most);
+            *colour = lighter + (found - luminance(found)).clamp(Vec3::splat(-hue), Vec3::splat(hue));
+        }
+    }
+    let mut looks = Looks::default();
+    for (thing, colour) in colours {
+        match thing {
+            Thing::Class(class) => drop(looks.classes.insert(class, colour.map(f32::exp))),
+            Thing::Instance(id) => drop(looks.things.insert(id, colour.map(f32::exp))),
+        }
+    }
+    let stops = |(camera, exposure): (&str, f32)| (camera.to_owned(), f64::from(exposure) / std::f64::consts::LN_2);
+    looks.exposure_ev = exposures.into_iter().map(stops).collect();
+    looks
+}
+
+/// CIE 1976 difference of the mean colours of each class between photographs and renders, as a mean over photographs.
+pub fn distances(pairs: &[Pair]) -> BTreeMap<Class, f64> {
+    let mut found: BTreeMap<Class, Vec<f64>> = BTreeMap::new();
+    for pair in pairs {
+        let mut pixels: BTreeMap<Class, Vec<usize>> = BTreeMap::new();
+        for i in inside(&pair.labels.class, |a, b| a == b) {
+            pixels.entry(pair.labels.class.data[i]).or_default().push(i);
+        }
+        for (class, pixels) in pixels.into_iter().filter(|(_, pixels)| pixels.len() >= LEAST_PX) {
+            let mean = |picture: &Raster<[u8; 3]>| {
+                let sum: Vec3 = pixels.iter().map(|&i| Vec3::from(Space::Lab.from_srgb(picture.data[i]))).sum();
+                sum / pixels.len() as f32
+            };
+            found.entry(class).or_default().push(f64::from(mean(pair.photograph).distance(mean(pair.render))));
+        }
+    }
+    found.into_iter().map(|(class, all)| (class, all.iter().sum::<f64>() / all.len() as f64)).collect()
+}
+
+/// The pixels of everything that has a colour of its own.
+fn things(pair: &Pair) -> BTreeMap<Thing, Vec<usize>> {
+    let Labels { class, instance, .. } = pair.labels;
+    let mut pixels: BTreeMap<Thing, Vec<usize>> = BTreeMap::new();
+    let both = Raster {
+        width: class.width,
+        height: class.height,
+        data: class.data.iter().copied().zip(instance.data.iter().copied()).collect(),
+    };
+    for i in inside(&both, |a, b| a == b || a.0 == b.0 && !is_thing(a.0)) {
+        let (class, instance) = both.data[i];
+        let thing = if is_thing(class) { Thing::Instance(InstanceId(instance)) } else { Thing::Class(class) };
+        if !matches!(class, Class::Void | Class::Sky) {
+            pixels.entry(thing).or_default().push(i);
+        }
+        // What is seen little of is painted as its class.
+        if class == Class::Building {
+            pixels.entry(Thing::Class(class)).or_default().push(i);
+        }
+    }
+    for (thing, pixels) in &mut pixels {
+        if matches!(thing, Thing::Class(Class::Tree | Class::Bush)) {
+            pixels.retain(|&i| is_green(pair.photograph.data[i]));
+        }
+    }
+    pixels.retain(|_, pixels| pixels.len() >= LEAST_PX);
+    pixels.into_iter().map(|(thing, pixels)| (thing, trimmed(pair.photograph, pixels))).collect()
+}
+
+/// Whether something may be leaves; beside them walls and the sky are seen.
+fn is_green([red, green, blue]: [u8; 3]) -> bool {
+    green > red && green > blue
+}
+
+/// Whether each of a class has a colour of its own.
+fn is_thing(class: Class) -> bool {
+    matches!(class, Class::Building | Class::Car | Class::Jeep | Class::Van | Class::Truck | Class::Bus)
+}
+
+fn is_vehicle(thing: Thing, pairs: &[Pair]) -> bool {
+    let Thing::Instance(id) = thing else { return false };
+    let of_it = |pair: &Pair| {
+        let i = pair.labels.instance.data.iter().position(|i| *i == id.0)?;
+        Some(pair.labels.class.data[i] != Class::Building)
+    };
+    pairs.iter().find_map(of_it).unwrap_or(false)
+}
+
+/// Pixels whose four neighbours are alike.
+fn inside<T>(raster: &Raster<T>, alike: impl Fn(&T, &T) -> bool) -> Vec<usize> {
+    let (width, height) = (raster.width as usize, raster.height as usize);
+    let is_inside = |&i: &usize| {
+        let (x, y) = (i % width, i / width);
+        let is_edge = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+        !is_edge && [i - 1, i + 1, i - width, i + width].iter().all(|&j| alike(&raster.data[i], &raster.data[j]))
+    };
+    (0..raster.data.len()).filter(is_inside).collect()
+}
+
+/// Without what is darkest and brightest in the photograph.
+fn trimmed(photograph: &Raster<[u8; 3]>, mut pixels: Vec<usize>) -> Vec<usize> {
+    let light = |i: &usize| photograph.data[*i].iter().map(|&v| u32::from(v)).sum::<u32>();
+    pixels.sort_by_key(|i| (light(i), *i));
+    let away = (pixels.len() as f64 * TRIMMED) as usize;
+    pixels[away..pixels.len() - away].to_vec()
+}
+
+fn mean(picture: &Raster<[u8; 3]>, pixels: &[usize]) -> Vec3 {
+    let sum: Vec3 = pixels.iter().map(|&i| Vec3::from(linear(picture.data[i]))).sum();
+    sum / pixels.len().max(1) as f32
+}
+
+fn luminance(rgb: Vec3) -> f32 {
+    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// The weighted median; 0 of nothing.
+fn median(mut values: Vec<(f32, f64)>) -> f32 {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = values.iter().map(|(_, w)| w).sum::<f64>() / 2.0;
+    let mut sum = 0.0;
+    for (value, weight) in &values {
+        sum += weight;
+        if sum >= half {
+            return *value;
+        }
+    }
+    0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trove_model::Labels;
+
+    const SIZE: u32 = 40;
+
+    /// The left half road, the right half a car whose id is 3.
+    fn labels() -> Labels {
+        let is_car = |x: u32| x >= SIZE / 2;
+        let grey = |v: f32| Raster::from_fn(SIZE, SIZE, |_, _| v);
+        let none = || Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 2]);
+        let seen = || Raster::from_fn(SIZE, SIZE, |_, _| trove_model::Occlusion::Seen);
+        Labels {
+            class: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { Class::Car } else { Class::Road }),
+            instance: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { 3 } else { 0 }),
+            depth_m: grey(1.0),
+            normal: Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 3]),
+            flow_forward: none(),
+            flow_backward: none(),
+            occluded_forward: seen(),
+            occluded_backward: seen(),
+            extra: trove_model::ExtraLabels::default(),
+            objects: Vec::new(),
+        }
+    }
+
+    /// A picture of what is road and car in linear light.
+    fn picture(road: [f32; 3], car: [f32; 3]) -> Raster<[u8; 3]> {
+        let code = |v: f32| ((1.055 * v.powf(1.0 / 2.4) - 0.055) * 255.0).round() as u8;
+        Raster::from_fn(SIZE, SIZE, |x, _| if x >= SIZE / 2 { car.map(code) } else { road.map(code) })
+    }
+
+    fn near(found: Vec3, expected: [f32; 3]) -> bool {
+        (found / Vec3::from(expected)).map(f32::ln).abs().max_element() < 0.06
+    }
+
+    #[test]
+    fn exposures_are_the_cameras_and_paint_is_the_vehicle_s() {
+        let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
+        // The second camera exposes a stop more; the car is red in both.
+        let dim = picture([0.2; 3], [0.4, 0.05, 0.05]);
+        let bright = picture([0.4; 3], [0.8, 0.1, 0.1]);
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
+        let pairs = [pair("a", &dim), pair("b", &bright)];
+        let found = looks(&pairs);
+        let apart = found.exposure_ev["b"] - found.exposure_ev["a"];
+        assert!((apart - 1.0).abs() < 0.05, "{found:?}");
+        let seen = |thing: Vec3, camera: &str| thing * found.exposure_ev[camera].exp2() as f32;
+        assert!(near(seen(found.classes[&Class::Road], "b"), [2.0; 3]), "{found:?}");
+        assert!(near(seen(found.things[&InstanceId(3)], "a"), [1.33, 0.167, 0.167]), "{found:?}");
+        let distances = distances(&pairs);
+        assert!(distances[&Class::Road] > 5.0 && distances[&Class::Car] > 40.0, "{distances:?}");
+        let alike = [pair("a", &render), pair("b", &render)];
+        assert!(super::distances(&alike).values().all(|d| *d == 0.0));
+        assert!(near(looks(&alike).things[&InstanceId(3)], [1.0; 3]));
+    }
+
+    #[test]
+    fn what_one_photograph_alone_shows_changes_no_surface_and_a_surface_keeps_its_hue() {
+        let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
+        let [alike, other] = [picture([0.2; 3], [0.3; 3]), picture([0.02, 0.3, 0.02], [0.3; 3])];
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
+        let pairs = [pair("a", &alike), pair("b", &alike), pair("c", &other)];
+        assert!(near(looks(&pairs).classes[&Class::Road], [1.0; 3]), "{:?}", looks(&pairs));
+        let only = looks(&[pair("c", &other)]);
+        let [red, green] = [only.classes[&Class::Road].x, only.classes[&Class::Road].y];
+        assert!(green / red < 1.3, "{only:?}");
+    }
+}
