@@ -133,7 +133,7 @@ impl<'a> Sources<'a> {
         let (Some(dataset), Some(section)) = (&self.dataset, &self.recipe.drive) else { return Ok(None) };
         let mut files = dataset.recording(scene)?;
         if self.recipe.views.match_photographs {
-            files.extend(self.photographs(&dataset.read(scene, &Report::default())?).into_iter().map(|(_, path)| path));
+            files.extend(self.photographs(&dataset.read(scene, &Report::default())?).into_values());
         }
         if files.is_empty() { Ok(None) } else { contents.of_all(&self.recipe.at(&section.root), &files).map(Some) }
     }

@@ -373,8 +373,8 @@ mod tests {
         scene.meshes[0] = Arc::new(Mesh { uvs: uvs.to_vec(), ..Mesh::clone(&scene.meshes[0]) });
         // The lamp's half beyond x = 1 shines, in green.
         let (dark, green) = ([0, 0, 0, 255], [0, 255, 0, 255]);
-        let rgba = (0..64).map(|i| if i % 8 < 4 { dark } else { green }).collect();
-        let map = Texture { name: "half".into(), width: 8, height: 8, rgba, color_space: ColorSpace::Srgb };
+        let rgba = (0..64).map(|i| if i < 32 { dark } else { green }).collect();
+        let map = Texture { name: "half".into(), width: 64, height: 1, rgba, color_space: ColorSpace::Srgb };
         scene.materials[0].emission_map = Some(Arc::new(map));
         let lights = lights(&scene);
         let mut random = Seed(5).random();
@@ -384,7 +384,8 @@ mod tests {
             let Some(sample) = lights.rest(Vec3::ZERO, Vec3::Z).draw([unit(), unit(), unit()]) else { continue };
             if sample.distance.is_finite() {
                 let x = sample.wi.x * sample.distance;
-                assert!(x > 0.93 || sample.radiance == Vec3::ZERO, "{x}");
+                // Between texels it fades, also across the edge.
+                assert!(!(0.52..=0.98).contains(&x) || sample.radiance == Vec3::ZERO, "{x}");
                 found += sample.radiance * sample.wi.z.max(0.0) / sample.pdf;
             }
         }
