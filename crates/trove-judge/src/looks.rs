@@ -23,7 +23,8 @@ pub struct Pair<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Thing {
     Class(Class),
-    Instance(InstanceId),
+    Building(InstanceId),
+    Vehicle(InstanceId),
 }
 
 /// Fewer pixels of something tell nothing.
@@ -44,8 +45,8 @@ const MOST_EV: f64 = 2.0;
 const ROUNDS: usize = 12;
 
 /// What would make renders look like photographs: each camera's exposure, and then the colours of vehicles, buildings and
-/// of the other classes. All are medians over what they are seen in, so that a photograph that shows something else at a place has
-/// little say.
+/// of the other classes. All are medians over what they are seen in, so that a photograph that shows something else at a
+/// place has little say.
 pub fn looks(pairs: &[Pair]) -> Looks {
     // By camera and thing: how much lighter the photograph is, as a logarithm, and the weight of that.
     let mut seen: BTreeMap<(&str, Thing), Vec<(Vec3, f64)>> = BTreeMap::new();
@@ -75,7 +76,7 @@ pub fn looks(pairs: &[Pair]) -> Looks {
                 median(lighter.collect())
             };
             let found = Vec3::new(channel(0), channel(1), channel(2));
-            let (most, hue) = if is_vehicle(*thing, pairs) { (PAINT, PAINT) } else { (SURFACE, HUE) };
+            let (most, hue) = if matches!(thing, Thing::Vehicle(_)) { (PAINT, PAINT) } else { (SURFACE, HUE) };
             let lighter = luminance(found).clamp(-most, most);
             *colour = lighter + (found - luminance(found)).clamp(Vec3::splat(-hue), Vec3::splat(hue));
         }
@@ -84,7 +85,7 @@ pub fn looks(pairs: &[Pair]) -> Looks {
     for (thing, colour) in colours {
         match thing {
             Thing::Class(class) => drop(looks.classes.insert(class, colour.map(f32::exp))),
-            Thing::Instance(id) => drop(looks.things.insert(id, colour.map(f32::exp))),
+            Thing::Building(id) | Thing::Vehicle(id) => drop(looks.things.insert(id, colour.map(f32::exp))),
         }
     }
     let stops = |(camera, exposure): (&str, f32)| (camera.to_owned(), f64::from(exposure) / std::f64::consts::LN_2);
@@ -122,7 +123,11 @@ fn things(pair: &Pair) -> BTreeMap<Thing, Vec<usize>> {
     };
     for i in inside(&both, |a, b| a == b || a.0 == b.0 && !is_thing(a.0)) {
         let (class, instance) = both.data[i];
-        let thing = if is_thing(class) { Thing::Instance(InstanceId(instance)) } else { Thing::Class(class) };
+        let thing = match class {
+            Class::Building => Thing::Building(InstanceId(instance)),
+            _ if is_thing(class) => Thing::Vehicle(InstanceId(instance)),
+            _ => Thing::Class(class),
+        };
         if !matches!(class, Class::Void | Class::Sky) {
             pixels.entry(thing).or_default().push(i);
         }
@@ -148,15 +153,6 @@ fn is_green([red, green, blue]: [u8; 3]) -> bool {
 /// Whether each of a class has a colour of its own.
 fn is_thing(class: Class) -> bool {
     matches!(class, Class::Building | Class::Car | Class::Jeep | Class::Van | Class::Truck | Class::Bus)
-}
-
-fn is_vehicle(thing: Thing, pairs: &[Pair]) -> bool {
-    let Thing::Instance(id) = thing else { return false };
-    let of_it = |pair: &Pair| {
-        let i = pair.labels.instance.data.iter().position(|i| *i == id.0)?;
-        Some(pair.labels.class.data[i] != Class::Building)
-    };
-    pairs.iter().find_map(of_it).unwrap_or(false)
 }
 
 /// Pixels whose four neighbours are alike.
