@@ -44,8 +44,8 @@ impl Textures {
         self.normals.get(texture, relief::from_normals)
     }
 
-    /// Slopes of a height map: along u and v from 0 to 1 for −1 to 1 of its range per texel, and the root of their
-    /// variance.
+    /// A height map: slopes along u and v from 0 to 1 for −1 to 1 of its range per texel, the height from 0 to 1, and the
+    /// root of the slopes' variance.
     pub(crate) fn heights(&self, texture: &Arc<Texture>) -> Arc<MipMap> {
         self.heights.get(texture, relief::from_heights)
     }

@@ -8,6 +8,7 @@ mod cells;
 mod clouds;
 mod dome;
 mod emitters;
+mod haze;
 mod luminance;
 mod noise;
 mod patches;
@@ -28,6 +29,7 @@ pub(crate) use noise::Plane;
 use dome::Dome;
 pub(crate) use emitters::{Emission, GetsAway, PROBES};
 use emitters::{EmitterPoint, Emitters, Near};
+use haze::Haze;
 use luminance::luminance;
 pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
@@ -45,6 +47,9 @@ const CANDIDATES: u32 = 4;
 /// and where lamps give most of the light. The noise that it adds is as much as the time that it saves, or less.
 const FAINT: f32 = 0.02;
 const FAINT_OF_LAMPS: f32 = 0.1;
+
+/// Haze has the colour of the sky so far above the horizon at least (sine), where the picture has no ground.
+const ABOVE_GROUND: f32 = 0.02;
 
 /// Draws of directions below the horizon, as a share of what their brightness asks for: the ground hides most of them.
 const SHARE_BELOW: f64 = 0.05;
@@ -72,6 +77,8 @@ impl LightSample {
 pub(crate) struct Surroundings {
     dome: Dome,
     sun: Option<Sun>,
+    /// A photographed sky may end at houses, so it tells nothing of the air.
+    haze: Option<Haze>,
 }
 
 impl Surroundings {
@@ -80,12 +87,13 @@ impl Surroundings {
             Environment::Map(map) => {
                 let mut map = map.as_ref().clone();
                 let sun = take_sun(&mut map).and_then(|sun| Sun::new(sun.to_sun, sun.irradiance));
-                Self { dome: Dome::new(map, MAP_CELLS, SHARE_BELOW), sun }
+                Self { dome: Dome::new(map, MAP_CELLS, SHARE_BELOW), sun, haze: None }
             }
             Environment::Sky(parameters) => {
                 let sky = sky::bake_sky(parameters);
                 let dome = Dome::new(sky.map, SKY_CELLS, SHARE_BELOW);
-                Self { dome, sun: Sun::new(sky.to_sun, sky.sun_irradiance) }
+                let sun = Sun::new(sky.to_sun, sky.sun_irradiance);
+                Self { dome, sun, haze: Some(Haze::new(parameters.turbidity)) }
             }
         }
     }
@@ -205,6 +213,14 @@ impl Lights {
     ) -> f32 {
         let pdf = self.emitters.as_ref().map_or(0.0, |e| e.pdf((instance, triangle), point, normal, on_light));
         self.emitter_share * pdf
+    }
+
+    /// What haze leaves of light that comes `distance_m` metres against a direction, and the light that it sends besides;
+    /// `None` where nothing is known of the air.
+    pub(crate) fn haze(&self, direction: Vec3, distance_m: f32) -> Option<(Vec3, Vec3)> {
+        let passes = self.around.haze?.transmittance(distance_m);
+        let sky = self.around.dome.radiance(direction.with_z(direction.z.max(ABOVE_GROUND)).normalize(), 0.0);
+        Some((passes, sky * (1.0 - passes)))
     }
 
     /// Radiance of the sky without the sun's disk, for a ray that stands for a cone of `spread_rad`.
@@ -332,7 +348,7 @@ mod tests {
             assert!((point.z - 1.5).abs() < 1e-4 && pdfs.iter().any(|pdf| (pdf / sample.pdf - 1.0).abs() < 1e-3));
         }
         // The same by a grid over the hemisphere for the sky, by the sun's own irradiance, and by a grid over the lamp.
-        let Surroundings { dome, sun } = &*lights.around;
+        let Surroundings { dome, sun, .. } = &*lights.around;
         let (mut sky, grid) = (0.0, 400);
         for i in 0..grid * grid {
             let (z, azimuth) = (((i / grid) as f32 + 0.5) / grid as f32, (i % grid) as f32 / grid as f32 * 2.0 * PI);

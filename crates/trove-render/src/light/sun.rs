@@ -84,13 +84,14 @@ fn solid_angle() -> f32 {
 pub(super) fn transmittance(elevation_rad: f64, turbidity: f64) -> Vec3 {
     let elevation_deg = elevation_rad.to_degrees().max(0.0);
     let air_mass = 1.0 / (elevation_rad.max(0.0).sin() + 0.50572 * (elevation_deg + 6.07995).powf(-1.6364));
+    let [air, haze] = thicknesses(turbidity);
+    Vec3::from_array([0, 1, 2].map(|i| (-air_mass * (air[i] + haze[i] + OZONE[i])).exp() as f32))
+}
+
+/// Optical thicknesses of the whole atmosphere above the ground for red, green and blue: of its air and of its haze.
+pub(super) fn thicknesses(turbidity: f64) -> [[f64; 3]; 2] {
     let haze = 0.025 * (turbidity - 1.0).max(0.0);
-    let share = |i: usize| {
-        let wavelength = WAVELENGTHS_UM[i];
-        let thickness = 0.008735 * wavelength.powf(-4.08) + haze * wavelength.powf(-1.3) + OZONE[i];
-        (-air_mass * thickness).exp() as f32
-    };
-    Vec3::new(share(0), share(1), share(2))
+    [WAVELENGTHS_UM.map(|um| 0.008735 * um.powf(-4.08)), WAVELENGTHS_UM.map(|um| haze * um.powf(-1.3))]
 }
 
 /// Irradiance of a surface that faces the sun, where `outside` is its mean over the colours above the atmosphere; the

@@ -6,6 +6,7 @@ mod diffuse;
 mod field;
 pub(crate) mod ggx;
 mod opacity;
+mod parallax;
 mod sheen;
 mod snow;
 mod texturing;
@@ -21,6 +22,7 @@ use crate::surface::Surface;
 use crate::texture::{Glow, MipMap, Textures};
 use bsdf::{Coat, Parameters};
 use opacity::Pane;
+use parallax::Heights;
 use texturing::{Spot, Texturing};
 use weather::Weather;
 
@@ -39,14 +41,6 @@ const FLAKE_SLOPE: f32 = 0.17;
 /// How metallic paint full of flakes is: pigment lies between them.
 const FLAKES_METALNESS: f32 = 0.6;
 
-/// The relief that a material shows.
-enum Relief {
-    None,
-    Normals(Arc<MipMap>),
-    /// With the height of its range.
-    Heights(Arc<MipMap>, f32),
-}
-
 /// A material with its textures filtered.
 pub(crate) struct PreparedMaterial {
     base_color: Vec3,
@@ -54,7 +48,9 @@ pub(crate) struct PreparedMaterial {
     roughness: f32,
     metalness: f32,
     orm_map: Option<Arc<MipMap>>,
-    relief: Relief,
+    /// Without it the heights tell where a surface faces.
+    normal_map: Option<Arc<MipMap>>,
+    heights: Option<Heights>,
     /// Normal reflectance of the dielectric.
     f0: f32,
     coat: f32,
@@ -122,11 +118,8 @@ impl PreparedMaterial {
             roughness: share(roughness),
             metalness: share(metalness),
             orm_map: orm_map.as_ref().map(|t| textures.map(t)),
-            relief: match (normal_map, height_map) {
-                (Some(normals), _) => Relief::Normals(textures.normals(normals)),
-                (None, Some(heights)) => Relief::Heights(textures.heights(heights), *height_m),
-                (None, None) => Relief::None,
-            },
+            normal_map: normal_map.as_ref().map(|t| textures.normals(t)),
+            heights: height_map.as_ref().map(|t| Heights::new(textures.heights(t), *height_m)),
             f0: ((ior - 1.0) / (ior + 1.0)).powi(2),
             coat: share(coat),
             flakes: share(flakes),
@@ -205,7 +198,7 @@ impl PreparedMaterial {
 
     /// What its lobes are made from at a point, and the shading normal.
     fn parameters(&self, surface: &Surface, width_m: f32, dither: f32) -> (Parameters, Vec3) {
-        let spot = self.texturing.spot(surface, width_m, dither);
+        let spot = self.spot(surface, width_m, dither);
         let look_up = |map: &Arc<MipMap>| map.sample(spot.uv, spot.footprint, spot.dither);
         let orm = self.orm_map.as_ref().map_or(Vec3::ONE, |map| look_up(map).truncate());
         let (normal, variance) = self.bumped(surface, &spot);
@@ -242,7 +235,14 @@ impl PreparedMaterial {
     /// Base colour at a point as sharp as its texture has it, before weather; where patches or directions are mixed, of one
     /// of them.
     pub(crate) fn base_color(&self, surface: &Surface) -> Vec3 {
-        self.colored(surface, &self.texturing.spot(surface, 0.0, 0.5))
+        self.colored(surface, &self.spot(surface, 0.0, 0.5))
+    }
+
+    /// Where on its textures lies what is seen at a point.
+    fn spot(&self, surface: &Surface, width_m: f32, dither: f32) -> Spot {
+        let spot = self.texturing.spot(surface, width_m, dither);
+        let shift = self.heights.as_ref().map_or(Vec2::ZERO, |heights| heights.shift(surface, &spot, width_m));
+        Spot { uv: spot.uv + shift, ..spot }
     }
 
     fn colored(&self, surface: &Surface, spot: &Spot) -> Vec3 {
@@ -254,19 +254,17 @@ impl PreparedMaterial {
     /// The shading normal turned by the relief, and the variance of the slopes that are too small to be seen.
     fn bumped(&self, surface: &Surface, spot: &Spot) -> (Vec3, f32) {
         let Some(axes) = spot.axes else { return (surface.shading, 0.0) };
-        match &self.relief {
-            Relief::None => (surface.shading, 0.0),
-            Relief::Normals(map) => {
-                let texel = map.sample(spot.uv, spot.footprint, spot.dither);
-                // A mean of unit vectors is shorter than 1 by the mean of both slopes' variances.
-                (turned(surface, axes, texel.truncate() * 2.0 - 1.0), texel.w * texel.w)
-            }
-            Relief::Heights(map, range_m) => {
-                let texel = map.sample(spot.uv, spot.footprint, spot.dither);
-                let gain = *range_m * map.size() / spot.metres;
-                let slope = (texel.truncate().truncate() * 2.0 - 1.0) * gain;
-                (turned(surface, axes, (-slope).extend(1.0)), (texel.w * gain).length_squared() / 2.0)
-            }
+        if let Some(map) = &self.normal_map {
+            let texel = map.sample(spot.uv, spot.footprint, spot.dither);
+            // A mean of unit vectors is shorter than 1 by the mean of both slopes' variances.
+            (turned(surface, axes, texel.truncate() * 2.0 - 1.0), texel.w * texel.w)
+        } else if let Some(Heights { map, range_m, .. }) = &self.heights {
+            let texel = map.sample(spot.uv, spot.footprint, spot.dither);
+            let gain = *range_m * map.size() / spot.metres;
+            let slope = (texel.truncate().truncate() * 2.0 - 1.0) * gain;
+            (turned(surface, axes, (-slope).extend(1.0)), (texel.w * gain).length_squared() / 2.0)
+        } else {
+            (surface.shading, 0.0)
         }
     }
 

@@ -189,6 +189,14 @@ impl Vertex<'_> {
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
             return false;
         };
+        // Between other surfaces there is little of it, and in fog it is lost.
+        if path.scattered.is_none()
+            && self.scene.fog.is_none()
+            && let Some((passes, sent)) = lights.haze(path.ray.direction, hit.t)
+        {
+            path.gather(path.throughput * sent, path.bounce, lights.scale());
+            path.throughput *= passes;
+        }
         let (surface, material) = self.scene.surface(&hit, &path.ray);
         path.cone.width_m += path.cone.spread_rad * hit.t;
 

@@ -26,6 +26,6 @@ impl Glow {
 
     /// On average over the map.
     pub(crate) fn mean(&self) -> Vec3 {
-        self.map.sample(Vec2::ZERO, Vec2::INFINITY, 0.0).truncate()
+        self.map.mean().truncate()
     }
 }

@@ -56,6 +56,11 @@ impl MipMap {
         Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32)
     }
 
+    /// The mean of all texels.
+    pub(crate) fn mean(&self) -> Vec4 {
+        self.levels.last().map_or(Vec4::ZERO, |last| last.bilinear(Vec2::ZERO, table(self.color_space)))
+    }
+
     /// Alpha at `uv` in full resolution.
     pub(super) fn alpha(&self, uv: Vec2) -> f32 {
         self.levels[0].bilinear_alpha(uv)

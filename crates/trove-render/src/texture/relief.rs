@@ -3,7 +3,7 @@
 //! The mean of unit normals is the shorter the more they differ; what it lacks becomes roughness (Toksvig 2005,
 //! Olano and Baker 2010), so that a rough road does not turn into a mirror with distance.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4, Vec4Swizzles};
 use trove_model::{ColorSpace, Texture};
 
 use super::mip_map::{Level, MipMap, PLAIN, decode, encode};
@@ -11,13 +11,14 @@ use super::mip_map::{Level, MipMap, PLAIN, decode, encode};
 /// The normals' directions, with √(1 − length of their mean) in alpha.
 pub(super) fn from_normals(texture: &Texture) -> MipMap {
     let normals = texture.rgba.iter().map(|&t| (decode(t, &PLAIN).truncate() * 2.0 - 1.0).normalize_or(Vec3::Z));
-    mip_map(texture, normals.collect(), |mean| {
+    mip_map(texture, normals.map(|normal| normal.extend(0.0)).collect(), |mean| {
+        let mean = mean.truncate();
         let length = mean.length().min(1.0);
         (mean.normalize_or(Vec3::Z) * 0.5 + 0.5).extend((1.0 - length).sqrt())
     })
 }
 
-/// Slopes by central differences of the first channel, with the root of their variance in alpha.
+/// Slopes by central differences of the first channel, the heights, and the root of the slopes' variance in alpha.
 pub(super) fn from_heights(texture: &Texture) -> MipMap {
     let (w, h) = (texture.width as usize, texture.height as usize);
     let height = |x: usize, y: usize| PLAIN[usize::from(texture.rgba[y * w + x][0])];
@@ -25,18 +26,18 @@ pub(super) fn from_heights(texture: &Texture) -> MipMap {
         let along_u = height((x + 1) % w, y) - height((x + w - 1) % w, y);
         let along_v = height(x, (y + h - 1) % h) - height(x, (y + 1) % h);
         let slope = Vec2::new(along_u, along_v) / 2.0;
-        slope.extend(slope.length_squared())
+        Vec4::new(slope.x, slope.y, height(x, y), slope.length_squared())
     };
     let slopes = (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).map(|(x, y)| slope(x, y));
     mip_map(texture, slopes.collect(), |mean| {
         // Of both directions alike.
-        let variance = (mean.z - mean.truncate().length_squared()).max(0.0) / 2.0;
-        Vec4::new(mean.x * 0.5 + 0.5, mean.y * 0.5 + 0.5, 0.0, variance.sqrt())
+        let variance = (mean.w - mean.xy().length_squared()).max(0.0) / 2.0;
+        Vec4::new(mean.x * 0.5 + 0.5, mean.y * 0.5 + 0.5, mean.z, variance.sqrt())
     })
 }
 
 /// Averages 2×2 of `texels` again and again, and keeps what `code` (0 to 1) makes of each mean.
-fn mip_map(texture: &Texture, mut texels: Vec<Vec3>, code: impl Fn(Vec3) -> Vec4) -> MipMap {
+fn mip_map(texture: &Texture, mut texels: Vec<Vec4>, code: impl Fn(Vec4) -> Vec4) -> MipMap {
     let (mut width, mut height) = (texture.width, texture.height);
     let mut levels = Vec::new();
     loop {
@@ -82,5 +83,6 @@ mod tests {
         let map = from_heights(&texture((0..256).map(ramp).collect()));
         let middle = map.sample(Vec2::splat(0.5), Vec2::ZERO, 0.0);
         assert!((middle.x * 2.0 - 1.0 - 8.0 / 255.0).abs() < 0.005 && middle.w < 0.01, "{middle}");
+        assert!((middle.z - 7.5 * 8.0 / 255.0).abs() < 0.005, "{middle}");
     }
 }
