@@ -100,6 +100,7 @@ fn site(timeline: &Timeline, library: &AssetLibrary) -> Site {
         light: LightChoice::Sky(SkyChoice::default()),
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
+        invent: false,
         locale: Locales::built_in().country("US").unwrap().clone(),
         borders: None,
     };

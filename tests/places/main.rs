@@ -47,6 +47,7 @@ fn build(name: &str, drive: Drive, map: StreetMap, area: Bounds, report: Report)
         light: LightChoice::Sky(SkyChoice::default()),
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
+        invent: false,
         locale: locale(drive.projection),
         borders: None,
     };

@@ -28,6 +28,7 @@
 //!     light: LightChoice::default(),
 //!     weather: Weather::default(),
 //!     on_disagreement: OnDisagreement::default(),
+//!     invent: false,
 //!     locale: trove_read::locale::Locales::built_in().country("GB").expect("a country of the table").clone(),
 //!     borders: None,
 //! };

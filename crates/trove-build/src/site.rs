@@ -55,6 +55,8 @@ pub struct BuildSettings {
     pub weather: Weather,
     /// What becomes of a street map that does not lie on the drive.
     pub on_disagreement: OnDisagreement,
+    /// Whether buildings are made up along streets beside which the map has none.
+    pub invent: bool,
     /// Whose customs it follows.
     pub locale: Locale,
     /// Where the borders come from that tell so; `None` where a user does.
@@ -154,8 +156,19 @@ pub fn build_at(
     // What lies and stands for good.
     let Ground { heights: ground, spans, land } = ground(drive, map, relief, locale.kerb.height_m, bounds, report);
     let is_assumed = assumed.is_some();
-    let place =
-        Place { drive, map, is_assumed, bounds, ground: &ground, library, locale, conditions, seeds: &seeds, report };
+    let place = Place {
+        drive,
+        map,
+        is_assumed,
+        invents: is_assumed || settings.invent,
+        bounds,
+        ground: &ground,
+        library,
+        locale,
+        conditions,
+        seeds: &seeds,
+        report,
+    };
     let surfaces = roads::surfaces(&place, &spans, land);
     let buildings = buildings::buildings(&place, &surfaces);
 
@@ -177,6 +190,7 @@ pub fn build_at(
     let sky = light(drive, bounds, &settings.light, settings.weather.snow, seeds.light.child("light"));
     let mut assembly = Assembly::default();
     assembly.stock.is_dark = is_dark(&sky.environment);
+    assembly.stock.car_colors = Some(place.locale.traffic.car_colors);
     let mut actors: Vec<Option<Actor>> =
         roles.iter().map(|role| Some(assembly.actor(role.as_ref()?, moments))).collect();
     for (track, actor) in drive.tracks.iter().zip(&actors) {

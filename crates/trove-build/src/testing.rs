@@ -36,6 +36,7 @@ pub(crate) fn settings() -> BuildSettings {
         light: LightChoice::default(),
         weather: Weather::default(),
         on_disagreement: OnDisagreement::default(),
+        invent: false,
         locale: locale("SG"),
         borders: None,
     }
@@ -59,7 +60,7 @@ pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {
         ..Mesh::default()
     };
     let paints = vec![Vec3::X, Vec3::Y, Vec3::Z];
-    let slots = vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints }];
+    let slots = vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints, by_region: false }];
     Asset { size_m: DVec3::from_array(size_m), ..Asset::new(id, kind, kind.class(), mesh, slots, "test") }
 }
 
@@ -131,6 +132,7 @@ pub(crate) fn place<'a>(
         drive,
         map,
         is_assumed: false,
+        invents: false,
         bounds,
         ground,
         library,

@@ -163,6 +163,8 @@ pub struct Slot {
     pub material: Material,
     /// Base colours to draw from, linear RGB, a colour as often as it is common; empty: always the material's own.
     pub paints: Vec<Vec3>,
+    /// Whether a paint is drawn as often as cars of its colour are met where it stands.
+    pub by_region: bool,
 }
 
 /// A material for built surfaces, whose textures tile.

@@ -110,10 +110,10 @@ pub use lens::{Distortion, Lens};
 pub use lettering::Lettering;
 pub use light::{Environment, EnvironmentMap, Fog, Light, Moon, PhysicalSky};
 pub use locale::{
-    BuildingCustoms, CentreLine, Covering, CrossingStyle, Dash, DrivingSide, FacadeRule, FacadeUse, GiveWayLine,
-    KerbCustoms, KerbLines, KerbParking, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale, MarkingCustoms,
-    MinorRoad, ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms, SignalSide,
-    SpeedUnit, StreetCustoms, TrafficMix, WarrantedSign,
+    BuildingCustoms, CarColors, CentreLine, Covering, CrossingStyle, Dash, DrivingSide, FacadeRule, FacadeUse,
+    GiveWayLine, KerbCustoms, KerbLines, KerbParking, LampCustoms, LampRow, LidarBuildings, LinePattern, Locale,
+    MarkingCustoms, MinorRoad, ModelShare, NamePlate, Paint, RoadSurfaceCustoms, RoofShare, SignCustoms, SignalCustoms,
+    SignalSide, SpeedUnit, StreetCustoms, TrafficMix, WarrantedSign,
 };
 pub use looks::Looks;
 pub use luminaire::Luminaire;

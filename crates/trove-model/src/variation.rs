@@ -4,21 +4,21 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::{Asset, Extra, Material, Mesh, Seed};
+use crate::{Asset, CarColors, Extra, Material, Mesh, Seed, Slot};
 
 /// How worn individuals are: what their materials' dirt is multiplied by. Few values, so that materials are shared.
 const WEAR: [f32; 5] = [0.3, 0.6, 1.0, 1.0, 1.7];
 
 impl Asset {
     /// The materials of an individual, one a slot: paints are drawn, the same for slots that have the same ones, and
-    /// with them how worn it is.
-    pub fn materials(&self, seed: Seed) -> Vec<Material> {
+    /// with them how worn it is. `colors` are those of cars where it stands; without them every paint is as common.
+    pub fn materials(&self, seed: Seed, colors: Option<&CarColors>) -> Vec<Material> {
         let wear = seed.child("wear").random().pick(&WEAR).copied().unwrap_or(1.0);
         let mut drawn: Vec<(&[Vec3], Vec3)> = Vec::new();
         let mut materials = Vec::with_capacity(self.slots.len());
         for (i, slot) in self.slots.iter().enumerate() {
             let known = drawn.iter().find(|(paints, _)| *paints == slot.paints).map(|(_, paint)| *paint);
-            let paint = known.or_else(|| seed.child("paint").nth(i as u64).random().pick(&slot.paints).copied());
+            let paint = known.or_else(|| paint(slot, colors, seed.child("paint").nth(i as u64)));
             let mut material = slot.material.clone();
             material.dirt = (material.dirt * wear).min(1.0);
             if let Some(paint) = paint {
@@ -62,6 +62,12 @@ impl Asset {
     }
 }
 
+fn paint(slot: &Slot, colors: Option<&CarColors>, seed: Seed) -> Option<Vec3> {
+    let mut random = seed.random();
+    let by_color = colors.filter(|_| slot.by_region).and_then(|colors| random.weighted(colors.weights(&slot.paints)));
+    by_color.map_or_else(|| random.pick(&slot.paints).copied(), |i| slot.paints.get(i).copied())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,9 +81,9 @@ mod tests {
         let paints: Vec<Vec3> = (0..50).map(|i| Vec3::splat(i as f32 / 50.0)).collect();
         let body = Material { dirt: 0.4, ..Material::plain("body", Vec3::ONE, 0.3) };
         let slots = vec![
-            Slot { material: body, paints: paints.clone() },
-            Slot { material: Material::plain("bumper", Vec3::ONE, 0.5), paints },
-            Slot { material: Material::plain("tyre", Vec3::ZERO, 0.9), paints: Vec::new() },
+            Slot { material: body, paints: paints.clone(), by_region: false },
+            Slot { material: Material::plain("bumper", Vec3::ONE, 0.5), paints, by_region: false },
+            Slot { material: Material::plain("tyre", Vec3::ZERO, 0.9), paints: Vec::new(), by_region: false },
         ];
         let extra = |group: &str, share: f32, when_driven: bool| Extra {
             group: group.into(),
@@ -92,16 +98,16 @@ mod tests {
     #[test]
     fn slots_with_the_same_paints_are_painted_alike_and_what_has_none_keeps_its_colour() {
         let car = car();
-        let painted = car.materials(Seed(1));
+        let painted = car.materials(Seed(1), None);
         assert_eq!(painted[0].base_color, painted[1].base_color);
         assert_eq!(painted[2].base_color, Vec3::ZERO);
-        assert_eq!(car.materials(Seed(1)), painted);
-        assert!((2..20).any(|s| car.materials(Seed(s))[0].base_color != painted[0].base_color));
+        assert_eq!(car.materials(Seed(1), None), painted);
+        assert!((2..20).any(|s| car.materials(Seed(s), None)[0].base_color != painted[0].base_color));
     }
 
     #[test]
     fn individuals_are_worn_differently() {
-        let dirt: Vec<f32> = (0..40).map(|s| car().materials(Seed(s))[0].dirt).collect();
+        let dirt: Vec<f32> = (0..40).map(|s| car().materials(Seed(s), None)[0].dirt).collect();
         assert!(dirt.iter().any(|d| *d < 0.2) && dirt.iter().any(|d| *d > 0.6), "{dirt:?}");
     }
 

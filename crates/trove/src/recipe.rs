@@ -187,6 +187,9 @@ pub struct MapSection {
     /// What becomes of the extract where it does not lie on the drive.
     #[serde(default)]
     pub on_disagreement: OnDisagreement,
+    /// Whether buildings are made up along streets beside which the extract has none.
+    #[serde(default)]
+    pub invent: bool,
     /// Whose customs the place follows: `auto`, the country that it lies in, or an ISO 3166-1 code.
     #[serde(default = "auto")]
     pub country: String,
@@ -208,6 +211,7 @@ impl Default for MapSection {
             geojson_frame: GeoJsonFrame::default(),
             elevation: Extracts::default(),
             on_disagreement: OnDisagreement::default(),
+            invent: false,
             country: auto(),
             locales: None,
         }

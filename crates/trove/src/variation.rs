@@ -179,6 +179,7 @@ impl Variation {
                 ..recipe.weather.weather()
             },
             on_disagreement: recipe.map.on_disagreement.into(),
+            invent: recipe.map.invent,
             locale: self.locale.clone(),
             borders: self.borders.clone(),
         })

@@ -23,8 +23,13 @@ pub(crate) struct Model {
 impl Model {
     /// A slot with a material; `paints` are the base colours that it is seen in, a colour as often as it is common.
     pub(crate) fn slot(&mut self, material: Material, paints: &[Vec3]) -> u16 {
-        self.slots.push(Slot { material, paints: paints.to_vec() });
+        self.slots.push(Slot { material, paints: paints.to_vec(), by_region: false });
         self.slots.len() as u16 - 1
+    }
+
+    /// Says whether a slot's paints are drawn by what colours cars have where it stands.
+    pub(crate) fn paint_by_region(&mut self, slot: u16, by_region: bool) {
+        self.slots[usize::from(slot)].by_region = by_region;
     }
 
     /// Adds a shape, all of it in one slot.

@@ -82,6 +82,9 @@ pub(crate) struct Paint {
     /// How metallic it is, 0 to 1.
     #[serde(default)]
     pub(crate) flakes: f32,
+    /// Whether a colour is as common as it is among the cars of the place.
+    #[serde(default)]
+    pub(crate) by_region: bool,
 }
 
 /// Delivery vans and lorries: mostly white.

@@ -30,7 +30,9 @@ impl Workshop {
     /// A passenger car: in a paint of its plan, with a plate of its own.
     pub(crate) fn of_car(id: &str, paint: &Paint, plate: Material) -> Self {
         let colors: Vec<Vec3> = paint.colors.iter().copied().map(Vec3::from_array).collect();
-        Self::with(id, &colors, paint.flakes, &[], plate)
+        let mut work = Self::with(id, &colors, paint.flakes, &[], plate);
+        work.model.paint_by_region(work.slots.paint, paint.by_region);
+        work
     }
 
     fn with(id: &str, paints: &[Vec3], flakes: f32, second: &[Vec3], plate: Material) -> Self {

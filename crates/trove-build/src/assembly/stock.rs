@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::Vec3;
-use trove_model::{Asset, Beam, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
+use trove_model::{Asset, Beam, CarColors, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
 use super::legs::Legs;
 use super::lens;
@@ -21,6 +21,8 @@ pub(crate) struct Stock {
     pub materials: Vec<Material>,
     /// Whether street lamps are on.
     pub is_dark: bool,
+    /// What colours cars have here.
+    pub car_colors: Option<CarColors>,
     // Only ever looked up, so the order inside does not reach the scene.
     mesh_index: HashMap<usize, usize>,
     material_index: HashMap<MaterialKey, usize>,
@@ -112,7 +114,7 @@ impl Stock {
 
     /// The indices of the materials of an asset's individual; in the dark the lenses of street lamps are lit.
     pub(crate) fn painted(&mut self, asset: &Asset, seed: Seed) -> Vec<usize> {
-        let mut materials = asset.materials(seed);
+        let mut materials = asset.materials(seed, self.car_colors.as_ref());
         let mut lenses = materials.iter_mut().filter(|material| material.role == Some(Role::StreetLamp)).peekable();
         if self.is_dark && lenses.peek().is_some() {
             let lit = self.lenses.entry(Arc::as_ptr(&asset.mesh).addr());

@@ -51,7 +51,7 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     let seed = seeds.facades.child("buildings");
     let plan_seed = seeds.place.child("buildings");
     let mut unmapped = lidar::unmapped(drive, mapped, &customs.from_lidar, keep_clear, ground, plan_seed, report);
-    if place.is_assumed {
+    if place.invents {
         unmapped.extend(rows::rows(place, keep_clear, &unmapped, plan_seed));
     }
     let all: Vec<&Building> = mapped.iter().chain(&unmapped).collect();

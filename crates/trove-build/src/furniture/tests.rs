@@ -92,7 +92,7 @@ fn library() -> AssetLibrary {
     }
     let mut insulator = pole.slots[0].material.clone();
     insulator.role = Some(trove_model::Role::Insulator);
-    let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new() }];
+    let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new(), by_region: false }];
     assets.push(Asset { mesh: Arc::new(mesh), slots, ..pole });
     for (make, size_m) in [
         ("bars", [2.4, 0.06, 1.3]),

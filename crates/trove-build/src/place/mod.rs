@@ -21,6 +21,8 @@ pub(crate) struct Place<'a> {
     pub map: Option<&'a StreetMap>,
     /// Whether that map is none but made up from the recording, streets without houses.
     pub is_assumed: bool,
+    /// Whether buildings are made up where that map may lack them.
+    pub invents: bool,
     /// The area that is built, World, metres.
     pub bounds: Bounds,
     /// Height of the carriageway.

@@ -114,7 +114,8 @@ fn near(road: &[Polygon], footprint: &Polygon) -> Vec<Polygon> {
 /// Builds the surfaces of a place: the dataset's map where it has one, OpenStreetMap beyond it.
 /// `spans` tells how high bridges and tunnels run, and `land` what lies beyond it, both where there is a relief.
 pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>) -> RoadSurfaces {
-    let Place { drive, map, is_assumed: _, bounds, ground, library, locale, conditions, seeds, report } = *place;
+    let Place { drive, map, is_assumed: _, invents: _, bounds, ground, library, locale, conditions, seeds, report } =
+        *place;
     let seed = seeds.materials.child("roads");
     let kerb_m = locale.kerb.height_m;
     // Up to the end of the height field, where the apron begins.

@@ -5,9 +5,11 @@ use crate::testing;
 use glam::{DVec2, DVec3};
 use room::Outline;
 use trove_model::{
-    AssetLibrary, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject, Sides, State,
+    AssetLibrary, Bounds, Building, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject, Sides,
+    State,
 };
 
+use crate::geometry::plane::rectangle;
 use crate::place::PlacePlan;
 
 const RIDER: &str = "bicycle/rider";
@@ -161,6 +163,40 @@ fn kerbs_of_a_place_are_as_full_as_its_habit_and_stay_so() {
     }
     let fewer = parked_in_a_place(0.3, None);
     assert!(fewer[0].len() * 2 < both[0].len() && parked_in_a_place(0.0, None)[0].is_empty());
+}
+
+/// How many people are on the left and on the right of a street with houses, of which those on the left have shops in them.
+fn people_beside(shops: bool) -> [usize; 2] {
+    let mut map = testing::map_with_road([[-200.0, 0.0], [200.0, 0.0]]);
+    let house = |(i, y): (i32, f64)| {
+        let at = DVec2::new(f64::from(i) * 12.0 - 196.0, y);
+        let footprint = rectangle(Bounds { min: at, max: at + DVec2::new(12.0, 8.0) });
+        Building {
+            shop: shops && y > 0.0,
+            ..Building::new(1000 + i64::from(i) * 2 + (y > 0.0) as i64, footprint, None)
+        }
+    };
+    map.buildings = (0..32).flat_map(|i| [(i, 7.5), (i, -15.5)]).map(house).collect();
+    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
+    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
+    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
+    let site = crate::build(&drive, Some(&map), &library(), &testing::settings(), &Report::default()).unwrap();
+    let mut count = [0; 2];
+    for k in 0..drive.keyframes.len() {
+        let (_, added) = road_users(&site.scene(&drive, k));
+        for person in added.iter().filter(|cuboid| cuboid.size_m.x < 1.0 && cuboid.size_m.y < 1.0) {
+            count[usize::from(person.world_from_body.translation.y < 0.0)] += 1;
+        }
+    }
+    count
+}
+
+#[test]
+fn people_are_where_shops_are() {
+    let ([left, right], [before_shops, opposite]) = (people_beside(false), people_beside(true));
+    let all = left + right;
+    assert!(all > 50 && (3 * all..7 * all).contains(&(10 * left)), "{left} {right}");
+    assert!(before_shops * 2 > opposite * 3, "{before_shops} {opposite}");
 }
 
 #[test]

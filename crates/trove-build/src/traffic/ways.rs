@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
-use trove_model::{Kind, Polygon, Random, RoadKind};
+use trove_model::{Bounds, Kind, Polygon, Random, RoadKind};
 
 use super::motion::{Motion, On, Place};
 use super::parking::in_row;
 use super::shares::{Doing, Shares};
+use crate::geometry::near::Near;
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::{Lane, LaneUse, Path};
 use crate::surroundings::KerbPoint;
@@ -20,6 +21,9 @@ const VEHICLES_M: f64 = 65.0;
 const SPOT_M: f64 = 3.0;
 /// Who waits for a gap stands so near to a crossing, metres.
 const CROSSING_M: f64 = 1.5;
+/// A kerb so near to a shop is before it, metres, and so many of those on foot are there.
+const SHOP_M: f64 = 9.0;
+const SHOPPING: f64 = 0.5;
 /// Lanes go on across a junction to one that begins within so many metres, so little aside and turned, radians.
 const JUNCTION_M: f64 = 35.0;
 const ASIDE_M: f64 = 1.5;
@@ -47,6 +51,8 @@ pub(super) struct Ways<'a> {
     on_kerbs: Vec<(DVec2, usize, usize)>,
     /// Those of them that are at crossings.
     at_crossings: Vec<(DVec2, usize, usize)>,
+    /// Those of them that are before shops.
+    at_shops: Vec<(DVec2, usize, usize)>,
     driven: SegmentIndex,
 }
 
@@ -73,12 +79,20 @@ impl<'a> Ways<'a> {
             lines.nearest(p, CROSSING_M).is_some()
                 || areas.iter().filter(|area| near(area)).any(|a| a.contains(p) || a.edge_distance_m(p) < CROSSING_M)
         };
+        let buildings = around.place.map.iter().flat_map(|map| &map.buildings);
+        let shops: Vec<&Polygon> = buildings.filter(|building| building.shop).map(|shop| &shop.footprint).collect();
+        let near_shops = Near::new(shops.iter().map(|shop| Some(shop.bounds()?.grown(SHOP_M))));
+        let sells = |p: DVec2| {
+            let mut near = near_shops.at(Bounds { min: p, max: p });
+            near.any(|i| shops[i].edge_distance_m(p) < SHOP_M)
+        };
         let of_use = |usage: LaneUse| lanes.iter().filter(move |lane| lane.usage == usage);
         Self {
             around,
             lanes,
             on_lanes: lanes.iter().enumerate().flat_map(on_lane).collect(),
             at_crossings: on_kerbs.iter().filter(|(p, ..)| crosses(*p)).copied().collect(),
+            at_shops: on_kerbs.iter().filter(|(p, ..)| sells(*p)).copied().collect(),
             on_kerbs,
             driven: SegmentIndex::new(of_use(LaneUse::Driving).map(|lane| lane.line.as_slice())),
         }
@@ -103,7 +117,7 @@ impl<'a> Ways<'a> {
 
     /// People side by side along the sidewalk.
     fn walking(&self, keyframe: usize, shares: &Shares, random: &mut Random) -> Option<Vec<Motion>> {
-        let &(_, run, i) = self.in_view(&self.on_kerbs, keyframe, PEOPLE_M, random, |spot| spot.0)?;
+        let &(_, run, i) = self.by_foot(keyframe, random)?;
         let (nearest_m, speed_mps) = (random.range(0.7, 2.6), random.range(0.95, 1.6));
         let is_along = random.chance(0.5);
         let together = how_many(&[0.62, 0.27, 0.11], random);
@@ -120,7 +134,7 @@ impl<'a> Ways<'a> {
 
     /// People who talk with each other, or someone alone.
     fn standing(&self, keyframe: usize, shares: &Shares, random: &mut Random) -> Option<Vec<Motion>> {
-        let &(_, run, i) = self.in_view(&self.on_kerbs, keyframe, PEOPLE_M, random, |spot| spot.0)?;
+        let &(_, run, i) = self.by_foot(keyframe, random)?;
         let kerb = self.around.kerbs.runs[run][i];
         let middle = kerb.position + kerb.outward * random.range(0.7, 2.8);
         let together = how_many(&[0.45, 0.33, 0.15, 0.07], random);
@@ -252,6 +266,13 @@ impl<'a> Ways<'a> {
             }
         }
         (line, before_m)
+    }
+
+    /// A spot on a kerb for someone on foot: mostly before a shop, if one is in view.
+    fn by_foot(&self, keyframe: usize, random: &mut Random) -> Option<&(DVec2, usize, usize)> {
+        let shops = if random.chance(SHOPPING) { &self.at_shops[..] } else { &[] };
+        let shop = self.in_view(shops, keyframe, PEOPLE_M, random, |spot| spot.0);
+        shop.or_else(|| self.in_view(&self.on_kerbs, keyframe, PEOPLE_M, random, |spot| spot.0))
     }
 
     /// One of the spots that the recording vehicle has in view at a keyframe.

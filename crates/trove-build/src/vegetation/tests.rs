@@ -27,7 +27,11 @@ fn library() -> AssetLibrary {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             ..Mesh::default()
         };
-        let slot = Slot { material: Material::plain("cover", Vec3::ONE, 0.9), paints: vec![Vec3::X, Vec3::Y] };
+        let slot = Slot {
+            material: Material::plain("cover", Vec3::ONE, 0.9),
+            paints: vec![Vec3::X, Vec3::Y],
+            by_region: false,
+        };
         GroundCover { id: format!("{kind:?}-{side_m}"), kind, side_m, mesh: Arc::new(mesh), slots: vec![slot] }
     };
     let grass = [CoverKind::GrassNear, CoverKind::GrassMiddle, CoverKind::GrassFar]

@@ -4,11 +4,13 @@
 //! not part of it: plants follow latitude and season.
 
 mod buildings;
+mod car_colors;
 mod markings;
 mod street;
 mod traffic;
 
 pub use buildings::{BuildingCustoms, Covering, FacadeRule, FacadeUse, LidarBuildings, RoofShare};
+pub use car_colors::CarColors;
 pub use markings::{
     CentreLine, CrossingStyle, Dash, GiveWayLine, KerbCustoms, KerbLines, LinePattern, MarkingCustoms, MinorRoad,
     Paint, RoadSurfaceCustoms,

@@ -1,5 +1,7 @@
 //! Who is on the road.
 
+use super::CarColors;
+
 /// How often those who share a street are met, as shares of their sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
@@ -20,6 +22,8 @@ pub struct TrafficMix {
     pub parked: f64,
     /// Where nobody was recorded, how full kerbs are.
     pub kerb_parking: KerbParking,
+    /// What colours cars have.
+    pub car_colors: CarColors,
 }
 
 /// How much of the room for parked vehicles is taken, as shares.

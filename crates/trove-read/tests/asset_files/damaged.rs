@@ -192,7 +192,7 @@ fn only_regular_files_of_the_library_are_read() {
     ] {
         folder.write("car.glb", &referring(uri));
         let (library, report) = folder.read();
-        let textured = library.unwrap().assets[0].materials(Seed(0)).iter().any(|m| m.base_color_map.is_some());
+        let textured = library.unwrap().assets[0].materials(Seed(0), None).iter().any(|m| m.base_color_map.is_some());
         assert_eq!(textured, read, "{uri}: {report}");
         assert!(read || report.contains("a texture was left out"), "{uri}: {report}");
         assert!(report.contains("a link out of the folder"), "{report}");
@@ -218,7 +218,7 @@ fn materials_and_maps_of_an_obj_are_regular_files_of_the_library() {
         folder.write("car.mtl", mtl.as_bytes());
         std::process::Command::new("mkfifo").arg(folder.path.join("pipe")).status().unwrap();
         let library = folder.read().0.unwrap();
-        let materials: Vec<_> = library.assets[0].materials(Seed(0));
+        let materials: Vec<_> = library.assets[0].materials(Seed(0), None);
         (materials.iter().any(|m| m.base_color_map.is_some()), materials.iter().any(|m| m.base_color.z > 0.5))
     };
     assert_eq!(colored(&mtl, "car.mtl"), (false, true), "its colour is that of the file beside it");

@@ -33,6 +33,7 @@ impl Street {
             light: LightChoice::Sky(SkyChoice::default()),
             weather: Weather::default(),
             on_disagreement: OnDisagreement::default(),
+            invent: false,
             locale,
             borders: None,
         };

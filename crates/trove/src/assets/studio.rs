@@ -54,7 +54,7 @@ impl Studio {
             Subject::Model(asset) => {
                 let seed = seed.child(&asset.id);
                 let mesh = asset.with_extras(&asset.drawn_extras(true, seed));
-                (asset.class, mesh, asset.materials(seed))
+                (asset.class, mesh, asset.materials(seed, None))
             }
             Subject::Sample(surface) => (Class::Void, Arc::new(sample()), vec![surface.material.clone()]),
         };

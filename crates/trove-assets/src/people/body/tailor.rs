@@ -58,7 +58,11 @@ impl<'a> Dressed<'a> {
         let mut slots: Vec<Slot> = Vec::new();
         let mut slot = |material: Material, paints: &[Vec3]| {
             let base_color = paints.first().copied().unwrap_or(material.base_color);
-            slots.push(Slot { material: Material { base_color, ..material }, paints: paints.to_vec() });
+            slots.push(Slot {
+                material: Material { base_color, ..material },
+                paints: paints.to_vec(),
+                by_region: false,
+            });
             slots.len() as u16 - 1
         };
         let mut pieces = Vec::new();

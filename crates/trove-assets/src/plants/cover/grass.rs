@@ -79,7 +79,12 @@ pub(super) fn covers() -> Vec<GroundCover> {
         let mut random = Seed(33).child(name).random();
         let patch = if name == "clover" { clover(&mut random) } else { dandelions(&mut random) };
         let material = blade_material(name, Vec3::ONE);
-        covers.push(patch.cover(name, CoverKind::Flowers, 0.5, Slot { material, paints: Vec::new() }));
+        covers.push(patch.cover(
+            name,
+            CoverKind::Flowers,
+            0.5,
+            Slot { material, paints: Vec::new(), by_region: false },
+        ));
     }
     covers
 }
@@ -90,7 +95,7 @@ fn blade_material(name: &str, color: Vec3) -> Material {
 
 /// A blade's material, in all shades.
 fn living(name: &str) -> Slot {
-    Slot { material: blade_material(name, SHADES[0]), paints: SHADES.to_vec() }
+    Slot { material: blade_material(name, SHADES[0]), paints: SHADES.to_vec(), by_region: false }
 }
 
 fn lawn(detail: &Detail, side_m: f32, random: &mut Random) -> Patch {
