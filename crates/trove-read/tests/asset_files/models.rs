@@ -80,6 +80,21 @@ fn materials_mean_what_their_extensions_say() {
 }
 
 #[test]
+fn what_of_a_material_is_not_rendered_is_told() {
+    let told = |extensions: serde_json::Value| {
+        let glb = Glb::cuboid(CAR).material(json!({"name": "paint", "extensions": extensions}));
+        let (library, report) = Folder::new(&[("car.glb", &glb.bytes())]).read();
+        library.expect(&report);
+        report.contains("paint: anisotropy, dispersion") as usize + report.contains("is not rendered") as usize
+    };
+    let some = json!({"KHR_materials_anisotropy": {"anisotropyStrength": 0.4}, "KHR_materials_dispersion": {"dispersion": 2.0}});
+    assert_eq!(told(some), 2);
+    let none = json!({"KHR_materials_anisotropy": {"anisotropyStrength": 0.0},
+        "KHR_materials_specular": {"specularColorFactor": [1.0, 1.0, 1.0]}});
+    assert_eq!(told(none), 0);
+}
+
+#[test]
 fn alpha_is_a_cut_out_or_a_pane() {
     let of = |alpha: &dyn Fn(u32) -> u8, mode: &str, factor: f32| {
         let mut glb = Glb::cuboid(CAR);

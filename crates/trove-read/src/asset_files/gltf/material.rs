@@ -14,6 +14,24 @@ use crate::asset_files::looks::{self, Alpha};
 use crate::asset_files::model::Model;
 use crate::asset_files::picture::Pictures;
 
+/// What glTF's extensions tell of a material and is not rendered, with what it is called.
+const LEFT_OUT: [(&str, &str); 14] = [
+    ("/KHR_materials_anisotropy/anisotropyStrength", "anisotropy"),
+    ("/KHR_materials_clearcoat/clearcoatTexture", "map of the clear coat"),
+    ("/KHR_materials_clearcoat/clearcoatRoughnessFactor", "roughness of the clear coat"),
+    ("/KHR_materials_clearcoat/clearcoatNormalTexture", "normals of the clear coat"),
+    ("/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", "map of diffuse transmission"),
+    ("/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture", "colours of diffuse transmission"),
+    ("/KHR_materials_dispersion/dispersion", "dispersion"),
+    ("/KHR_materials_iridescence/iridescenceFactor", "iridescence"),
+    ("/KHR_materials_sheen/sheenColorTexture", "map of the sheen"),
+    ("/KHR_materials_specular/specularTexture", "map of the reflectance"),
+    ("/KHR_materials_specular/specularColorFactor", "colour of the reflectance"),
+    ("/KHR_materials_specular/specularColorTexture", "colours of the reflectance"),
+    ("/KHR_materials_transmission/transmissionTexture", "map of transmission"),
+    ("/KHR_materials_volume/thicknessFactor", "thickness"),
+];
+
 /// The materials that primitives have asked for.
 pub(super) struct Looks<'a> {
     container: &'a Container,
@@ -109,6 +127,12 @@ impl<'a> Looks<'a> {
         } else {
             material.orm_map = self.textures.orm(m, model);
         }
+        let left_out = LEFT_OUT.iter().filter(|(pointer, _)| ext(pointer).is_some_and(has_effect));
+        let left_out: Vec<&str> = left_out.map(|(_, called)| *called).collect();
+        if !left_out.is_empty() {
+            let example = format!("{}: {}", material.name, left_out.join(", "));
+            model.notice(Outcome::Dropped, "what a material has besides is not rendered", example);
+        }
         material.normal_map = m.normal_texture.as_ref().and_then(|r| self.textures.normals(r, model));
         let mode = match m.alpha_mode.as_deref() {
             Some("MASK") => Alpha::Mask(m.alpha_cutoff.unwrap_or(0.5)),
@@ -137,6 +161,15 @@ impl<'a> Looks<'a> {
         }
         model.materials.push(material);
         Look { slot: model.materials.len() - 1, uv_set, turn, offset, two_sided_light: m.double_sided && shines }
+    }
+}
+
+/// Whether a value of an extension differs from its default: none of a factor, white of a colour, no map.
+fn has_effect(value: &Value) -> bool {
+    match value {
+        Value::Number(factor) => factor.as_f64() != Some(0.0),
+        Value::Array(color) => color.iter().any(|channel| channel.as_f64() != Some(1.0)),
+        _ => value.is_object(),
     }
 }
 
