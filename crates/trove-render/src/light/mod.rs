@@ -26,7 +26,7 @@ use trove_model::{Environment, Scene};
 
 pub(crate) use noise::Plane;
 
-use dome::Dome;
+use dome::{Dome, LookUp};
 pub(crate) use emitters::{Emission, GetsAway, PROBES};
 use emitters::{EmitterPoint, Emitters, Near};
 use haze::Haze;
@@ -87,11 +87,11 @@ impl Surroundings {
             Environment::Map(map) => {
                 let mut map = map.as_ref().clone();
                 let sun = take_sun(&mut map).and_then(|sun| Sun::new(sun.to_sun, sun.irradiance));
-                Self { dome: Dome::new(map, MAP_CELLS, SHARE_BELOW), sun, haze: None }
+                Self { dome: Dome::new(map, LookUp::Linear, MAP_CELLS, SHARE_BELOW), sun, haze: None }
             }
             Environment::Sky(parameters) => {
                 let sky = sky::bake_sky(parameters);
-                let dome = Dome::new(sky.map, SKY_CELLS, SHARE_BELOW);
+                let dome = Dome::new(sky.map, LookUp::Smooth, SKY_CELLS, SHARE_BELOW);
                 let sun = Sun::new(sky.to_sun, sky.sun_irradiance);
                 Self { dome, sun, haze: Some(Haze::new(parameters.turbidity)) }
             }
