@@ -198,6 +198,7 @@ fn recorded_place(scene: &str, file: &str) -> Place {
     let area = trove_build::area(&drive).unwrap();
     let driving_side = locale(drive.projection).driving_side;
     let map = osm::read(&data.join("osm").join(file), &drive.projection, area, driving_side, &report).unwrap();
+    let map = trove_build::with_bends(map);
     build(scene, drive, map, area, report)
 }
 
@@ -207,6 +208,7 @@ fn mapped_place(name: &str, file: &str, lat_deg: f64, lon_deg: f64) -> Place {
     let plan = plan(name, lat_deg, lon_deg, 300.0);
     let area = Bounds::square(DVec2::ZERO, 300.0);
     let map = osm::read(&data.join("osm").join(file), &plan.projection, area, plan.driving_side, &report).unwrap();
+    let map = trove_build::with_bends(map);
     let drive = trove_build::place_drive(&map, &plan, Seed(7), &report).unwrap();
     build(name, drive, map, area, report)
 }

@@ -79,7 +79,7 @@ pub use light::{LightChoice, Moment, SkyChoice};
 pub use place::{PlacePlan, Seeds, place_drive};
 pub use placement::{AssetFit, ObjectFit};
 pub use radars::{MountedRadar, radar_shots};
-pub use roads::HORIZON_M;
+pub use roads::{HORIZON_M, with_bends};
 pub use scanners::{MountedLidar, lidar_shots};
 pub use site::{BuildSettings, Site, area, build, build_at};
 pub use standing::on_relief;

@@ -60,7 +60,7 @@ pub(crate) fn asset(id: &str, kind: Kind, size_m: [f64; 3]) -> Asset {
         ..Mesh::default()
     };
     let paints = vec![Vec3::X, Vec3::Y, Vec3::Z];
-    let slots = vec![Slot { material: Material::plain(id, Vec3::ONE, 0.5), paints, by_region: false }];
+    let slots = vec![Slot::new(Material::plain(id, Vec3::ONE, 0.5), paints)];
     Asset { size_m: DVec3::from_array(size_m), ..Asset::new(id, kind, kind.class(), mesh, slots, "test") }
 }
 

@@ -167,6 +167,13 @@ pub struct Slot {
     pub by_region: bool,
 }
 
+impl Slot {
+    /// Of a material in these colours, one as likely as another.
+    pub fn new(material: Material, paints: Vec<Vec3>) -> Self {
+        Self { material, paints, by_region: false }
+    }
+}
+
 /// A material for built surfaces, whose textures tile.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

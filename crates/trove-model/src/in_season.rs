@@ -49,11 +49,7 @@ mod tests {
 
     #[test]
     fn a_season_changes_paints_and_cut_off_of_its_slot_alone() {
-        let slot = |name: &str| Slot {
-            material: Material::plain(name, Vec3::ONE, 0.5),
-            paints: vec![Vec3::Y],
-            by_region: false,
-        };
+        let slot = |name: &str| Slot::new(Material::plain(name, Vec3::ONE, 0.5), vec![Vec3::Y]);
         let autumn = Foliage { season: Season::Autumn, slot: 1, paints: vec![Vec3::X, Vec3::ONE], alpha_cutoff: 0.8 };
         let mesh = Mesh::default();
         let tree = Asset {

@@ -81,9 +81,9 @@ mod tests {
         let paints: Vec<Vec3> = (0..50).map(|i| Vec3::splat(i as f32 / 50.0)).collect();
         let body = Material { dirt: 0.4, ..Material::plain("body", Vec3::ONE, 0.3) };
         let slots = vec![
-            Slot { material: body, paints: paints.clone(), by_region: false },
-            Slot { material: Material::plain("bumper", Vec3::ONE, 0.5), paints, by_region: false },
-            Slot { material: Material::plain("tyre", Vec3::ZERO, 0.9), paints: Vec::new(), by_region: false },
+            Slot::new(body, paints.clone()),
+            Slot::new(Material::plain("bumper", Vec3::ONE, 0.5), paints),
+            Slot::new(Material::plain("tyre", Vec3::ZERO, 0.9), Vec::new()),
         ];
         let extra = |group: &str, share: f32, when_driven: bool| Extra {
             group: group.into(),

@@ -20,7 +20,7 @@ pub(crate) fn street_map<'r>(
     let mut elsewhere = None;
     for path in recipe.map.osm.paths() {
         match osm::read_in(recipe.map.geojson_frame, &recipe.at(path), projection, area, driving_side, report) {
-            Ok(map) => return Ok(Some((path, map))),
+            Ok(map) => return Ok(Some((path, trove_build::with_bends(map)))),
             Err(error @ ReadError::Elsewhere { .. }) => elsewhere = Some(error),
             Err(error) => return Err(error.into()),
         }

@@ -51,7 +51,7 @@ pub(super) struct Individual {
 impl Individual {
     /// A slot with a material and the colours that it is seen in.
     pub(super) fn slot(&mut self, material: Material, paints: &[Vec3]) -> u16 {
-        self.slots.push(Slot { material, paints: paints.to_vec(), by_region: false });
+        self.slots.push(Slot::new(material, paints.to_vec()));
         self.slots.len() as u16 - 1
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct Model {
 impl Model {
     /// A slot with a material; `paints` are the base colours that it is seen in, a colour as often as it is common.
     pub(crate) fn slot(&mut self, material: Material, paints: &[Vec3]) -> u16 {
-        self.slots.push(Slot { material, paints: paints.to_vec(), by_region: false });
+        self.slots.push(Slot::new(material, paints.to_vec()));
         self.slots.len() as u16 - 1
     }
 

@@ -1,12 +1,16 @@
 //! Fences, walls and guard rails: a piece of each, repeated along x by who builds. A post stands at the piece's beginning,
 //! and y is across; the side towards +y is the outer one.
 
+use std::f32::consts::FRAC_PI_2;
+
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use serde::Deserialize;
 use trove_model::{Asset, Class, Kind, Material};
 
 use super::finish::{bar, board, concrete, galvanised, grey_timber, painted, plastic, rubber, swept};
 use super::plan::Finish;
+use super::posters::{SIZE_M, poster};
+use super::signs::face;
 use crate::measure::{Wrong, ordinary, within};
 use crate::shape::{Model, Shape};
 use crate::surfaces::{self, Canvas, Texel, hash};
@@ -19,7 +23,8 @@ pub(super) fn assets() -> Vec<Asset> {
         bars(false),
         wood(),
         panels(),
-        hoarding(),
+        hoarding(false),
+        hoarding(true),
         site_fence(),
         picket(),
         railed(true),
@@ -83,7 +88,7 @@ fn standing(x: f32, y: f32, low_m: f32, high_m: f32, size: Vec2) -> Shape {
 /// Both sides of an upright sheet in the x–z plane, uvs in metres.
 fn sheet(length_m: f32, y: f32, low_m: f32, high_m: f32) -> Shape {
     let corners = [vec2(0.0, low_m), vec2(length_m, low_m), vec2(length_m, high_m), vec2(0.0, high_m)];
-    let front = Shape::flat(&corners).turned(Quat::from_rotation_x(std::f32::consts::FRAC_PI_2));
+    let front = Shape::flat(&corners).turned(Quat::from_rotation_x(FRAC_PI_2));
     front.clone().and(front.inside_out()).moved(Vec3::Y * y)
 }
 
@@ -191,8 +196,8 @@ fn panels() -> Asset {
     fence(model, "panel")
 }
 
-/// Corrugated sheets around a building site.
-fn hoarding() -> Asset {
+/// Corrugated sheets around a building site, every other piece of a length with posters pasted over it.
+fn hoarding(pasted: bool) -> Asset {
     let mut model = Model::default();
     let white = vec3(0.5, 0.5, 0.48);
     let sheet =
@@ -210,7 +215,17 @@ fn hoarding() -> Asset {
         model.add(steel, rail(length_m, 0.045, z, vec2(0.03, 0.06)));
     }
     model.add(steel, standing(0.0, 0.07, 0.0, 2.12, Vec2::splat(0.06)));
-    fence(model, "hoarding")
+    if !pasted {
+        return fence(model, "hoarding");
+    }
+    let white = model.slot(painted(Vec3::splat(0.4)), &[]);
+    model.add(white, rail(length_m, -0.01, 1.1, vec2(0.012, 1.9)));
+    for (i, which) in [1, 3].into_iter().enumerate() {
+        let sheet = face(SIZE_M).turned(Quat::from_rotation_z(-FRAC_PI_2));
+        let poster = model.slot(poster(which), &[]);
+        model.add(poster, sheet.moved(vec3(0.62 + 1.1 * i as f32, -0.018, 1.08)));
+    }
+    fence(model, "hoarding-pasted").tagged(["pasted"])
 }
 
 /// A movable steel fence on concrete feet.

@@ -6,6 +6,7 @@ use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Class, Kind, Material, Seed};
 
 use super::finish::{bar, board, concrete, galvanised, glass, painted, plastic, post, rubber, stainless, timber};
+use super::posters::poster;
 use crate::shape::{Model, Shape};
 
 pub(super) fn assets() -> Vec<Asset> {
@@ -157,13 +158,12 @@ fn advertising_column() -> Asset {
     let mut model = Model::default();
     let body = model.slot(concrete(), &[]);
     let green = model.slot(painted(vec3(0.03, 0.07, 0.05)), &[]);
-    let poster = super::signs::poster();
-    let poster = model.slot(poster, &[]);
+    let posters = [1, 2, 3].map(|which| model.slot(poster(which), &[]));
     model.add(body, post(Vec3::ZERO, 0.62, 0.35, 32));
     model.add(body, post(Vec3::Z * 0.35, 0.58, 2.5, 32));
     let cap = [(0.0, 2.85), (0.68, 2.85), (0.68, 2.97), (0.45, 3.1), (0.2, 3.3), (0.0, 3.38)];
     model.add(green, Shape::lathe(&cap.map(|(r, z)| vec2(r, z)), 32));
-    for k in 0..3 {
+    for (k, poster) in posters.into_iter().enumerate() {
         let (from, to) = (k as f32 / 3.0 + 0.02, (k + 1) as f32 / 3.0 - 0.02);
         let row = |z: f32| -> Vec<Vec3> {
             (0..=10)

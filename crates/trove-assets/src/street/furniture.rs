@@ -130,7 +130,7 @@ fn shelter() -> Asset {
     let pane = model.slot(glass(), &[]);
     let roof = model.slot(painted(vec3(0.32, 0.33, 0.34)), &[]);
     let wood = model.slot(timber(), &[]);
-    let poster = super::signs::poster();
+    let poster = super::posters::poster(0);
     let poster = model.slot(poster, &[]);
     for (x, y) in [(-0.65, -1.9), (-0.65, 0.0), (-0.65, 1.9), (0.5, 1.9), (0.5, -1.9)] {
         model.add(steel, bar(vec3(x, y, 1.22), vec3(0.08, 0.08, 2.44)));

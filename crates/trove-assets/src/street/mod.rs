@@ -11,9 +11,11 @@ mod fittings;
 mod furniture;
 mod lamps;
 mod plan;
+mod posters;
 mod seats;
 mod signals;
 mod signs;
+mod trade;
 mod wheeled;
 mod works;
 
@@ -59,6 +61,7 @@ pub(crate) fn assets(plans: &StreetPlans) -> Vec<Asset> {
         lamps::assets(),
         seats::assets(),
         signs::assets(),
+        trade::assets(),
         wheeled::assets(),
         works::assets(),
     ]

@@ -8,7 +8,7 @@ use trove_model::{Asset, Class, Kind, Lettering, Material, Role};
 
 use super::finish::{galvanised, painted, polygon, post, rounded, rust_at_foot, upright};
 use crate::shape::{Model, Shape};
-use crate::surfaces::{Canvas, Noise, Texel, hash, step};
+use crate::surfaces::{Canvas, Noise, Texel, step};
 
 const WHITE: Vec3 = vec3(0.66, 0.66, 0.65);
 const RED: Vec3 = vec3(0.44, 0.018, 0.022);
@@ -121,7 +121,7 @@ pub(super) fn face(size_m: Vec2) -> Shape {
 }
 
 /// A picture with grime and fading.
-fn weathered(size_m: Vec2, picture: Picture) -> Canvas {
+pub(super) fn weathered(size_m: Vec2, picture: Picture) -> Canvas {
     let px = (size_m / size_m.max_element() * 192.0).as_uvec2().max(glam::UVec2::splat(48));
     let grime = Noise::new(size_m, 0.2, 77);
     let texel_m = size_m / px.as_vec2() / 4.0;
@@ -142,7 +142,7 @@ fn board(size_m: Vec2, up_m: f32, picture: Picture) -> Plate {
     Plate { outline: rounded(size_m, corner_m), size_m, up_m, picture }
 }
 
-fn choose(inside: bool, yes: Vec3, no: Vec3) -> Vec3 {
+pub(super) fn choose(inside: bool, yes: Vec3, no: Vec3) -> Vec3 {
     if inside { yes } else { no }
 }
 
@@ -362,19 +362,4 @@ fn parking() -> Picture {
         let rim = (vec2(0.3, 0.3) - p.abs()).min_element();
         choose(writing.distance(p / 0.38) < 0.1 || (0.012..0.028).contains(&rim), WHITE, BLUE)
     })
-}
-
-/// An advertisement with no words in it.
-pub(super) fn poster() -> Material {
-    let size = vec2(0.95, 1.75);
-    let picture = Box::new(move |p: Vec2| {
-        let q = p / size + 0.5;
-        let sky = vec3(0.5, 0.32, 0.16).lerp(vec3(0.08, 0.2, 0.36), q.y);
-        let sun = q.distance(vec2(0.65, 0.62)) < 0.16;
-        let hill = q.y < 0.3 + 0.1 * (q.x * 7.0).sin() + 0.05 * (q.x * 17.0).sin();
-        let words = (0.84..0.93).contains(&q.y) && hash((q.x * 14.0) as i32, 1, 3) > 0.25 && q.x > 0.1 && q.x < 0.8;
-        choose(words, WHITE, choose(hill, vec3(0.04, 0.09, 0.07), choose(sun, vec3(0.6, 0.45, 0.2), sky)))
-    });
-    let canvas = weathered(size, picture);
-    Material { base_color_map: Some(canvas.color("poster")), ..Material::plain("poster", Vec3::ONE, 0.25) }
 }

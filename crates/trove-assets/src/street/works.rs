@@ -11,18 +11,10 @@ use crate::shape::{Model, Shape};
 use crate::surfaces::{self, hash};
 
 pub(super) fn assets() -> Vec<Asset> {
-    vec![
-        toilet(),
-        skip(),
-        scaffolding(),
-        cable_drum(),
-        pallets(),
-        sandbags(),
-        rubble(),
-        covered_heap(),
-        a_board(),
-        generator(),
-    ]
+    vec![toilet(), skip(), cable_drum(), pallets(), sandbags(), rubble(), covered_heap(), a_board(), generator()]
+        .into_iter()
+        .chain([2, 3, 4, 5, 6].into_iter().flat_map(|lifts| [scaffolding(lifts, false), scaffolding(lifts, true)]))
+        .collect()
 }
 
 fn works(model: Model, name: &str) -> Asset {
@@ -135,42 +127,72 @@ fn skip() -> Asset {
     works(model, "skip")
 }
 
-/// Two bays of tubes with decks of planks and rails.
-fn scaffolding() -> Asset {
+/// Height of a lift of scaffolding, metres.
+const LIFT_M: f32 = 2.0;
+
+/// Two bays of tubes with decks of planks and rails; x is the side away from the house, with netting or without.
+fn scaffolding(lifts: usize, netted: bool) -> Asset {
     let mut model = Model::default();
     let steel = model.slot(galvanised(), &[]);
     let wood = model.slot(grey_timber(), &[]);
     let coupler = model.slot(rusty(), &[]);
     let tube = |a: Vec3, b: Vec3| Shape::tube(&[a, b], 0.024, 8);
-    let (half_x, ys, height) = (0.45, [-2.2, 0.0, 2.2], 4.2);
+    let decks: Vec<f32> = (1..=lifts).map(|lift| lift as f32 * LIFT_M).collect();
+    let (half_x, ys, height) = (0.45, [-2.2, 0.0, 2.2], lifts as f32 * LIFT_M + 1.1);
     for y in ys {
         for x in [-half_x, half_x] {
             model.add(steel, tube(vec3(x, y, 0.03), vec3(x, y, height)));
             model.add(steel, Shape::rounded_block(vec3(0.15, 0.15, 0.012), 0.004).moved(vec3(x, y, 0.006)));
-            for z in [2.0, 4.0] {
-                model.add(coupler, bar(vec3(x, y + 0.03, z), vec3(0.08, 0.09, 0.07)));
+            for z in &decks {
+                model.add(coupler, bar(vec3(x, y + 0.03, *z), vec3(0.08, 0.09, 0.07)));
             }
         }
-        for z in [0.25, 2.0, 4.0] {
+        for z in decks.iter().copied().chain([0.25]) {
             model.add(steel, tube(vec3(-half_x - 0.12, y + 0.05, z - 0.05), vec3(half_x + 0.12, y + 0.05, z - 0.05)));
         }
     }
+    let along = |x: f32, z: f32| tube(vec3(x + 0.05, -2.35, z), vec3(x + 0.05, 2.35, z));
     for x in [-half_x, half_x] {
-        for z in [0.25, 2.0, 3.0, 3.5, 4.0] {
-            if z != 3.0 && z != 3.5 || x > 0.0 {
-                model.add(steel, tube(vec3(x + 0.05, -2.35, z), vec3(x + 0.05, 2.35, z)));
-            }
-        }
-        model.add(steel, tube(vec3(x, -2.2 * x.signum(), 0.2), vec3(x, 0.0, 2.0)));
-        model.add(steel, tube(vec3(x, 0.0, 2.05), vec3(x, 2.2 * x.signum(), 4.0)));
+        model.add(steel, along(x, 0.25));
     }
-    for z in [2.03, 4.03] {
+    for (lift, z) in decks.iter().copied().enumerate() {
+        for x in [-half_x, half_x] {
+            model.add(steel, along(x, z));
+            let (from, to) = (z - LIFT_M, z - 0.05);
+            let way = if lift % 2 == 0 { -2.2 * x.signum() } else { 2.2 * x.signum() };
+            model.add(steel, tube(vec3(x, way, from + 0.2), vec3(x, 0.0, to)));
+        }
+        for rail_m in [0.5, 1.0] {
+            model.add(steel, along(half_x, z + rail_m));
+        }
         for i in 0..4 {
-            model.add(wood, board(vec3(-0.33 + 0.22 * i as f32, 0.02 * i as f32, z), vec3(0.21, 4.6, 0.035)));
+            model.add(wood, board(vec3(-0.33 + 0.22 * i as f32, 0.02 * i as f32, z + 0.03), vec3(0.21, 4.6, 0.035)));
         }
-        model.add(wood, board(vec3(half_x + 0.02, 0.0, z + 0.1), vec3(0.03, 4.5, 0.15)));
+        model.add(wood, board(vec3(half_x + 0.02, 0.0, z + 0.13), vec3(0.03, 4.5, 0.15)));
     }
-    works(model, "scaffolding")
+    let number = format!("lifts-{lifts}");
+    // Labelled sets count it as part of the house.
+    let scaffolding = |model: Model, kind: &str| {
+        let id = format!("works/scaffolding-{number}-{kind}");
+        let asset = model.asset(&id, Kind::StreetFurniture, Class::Building);
+        asset.tagged(["works", "scaffolding", number.as_str(), kind])
+    };
+    if !netted {
+        return scaffolding(model, "bare");
+    }
+    // It hangs before the first deck and up, drawn in between its ties.
+    let white = Vec3::splat(0.5);
+    let net = Material { translucency: 0.35, ..Material::plain("netting", white, 0.9) };
+    let net = model.slot(net, &[white, vec3(0.03, 0.2, 0.09), vec3(0.04, 0.12, 0.32)]);
+    let row = |i: usize| -> Vec<Vec3> {
+        let z = LIFT_M - 0.3 + (height - LIFT_M + 0.3) * i as f32 / (4 * lifts) as f32;
+        let at = |k: usize| k as f32 / 16.0;
+        let sag = |k: usize| 0.05 * (at(k) * 4.0 * PI).sin().abs() * (z * PI / LIFT_M).sin().abs();
+        (0..=16).map(|k| vec3(half_x + 0.13 - sag(k), -2.34 + 4.68 * at(k), z)).collect()
+    };
+    let sheet = Shape::sheet(&(0..=4 * lifts).map(row).collect::<Vec<_>>());
+    model.add(net, sheet.both_sides());
+    scaffolding(model, "netted")
 }
 
 /// A wooden drum with cable on it.
@@ -333,7 +355,7 @@ fn covered_heap() -> Asset {
 fn a_board() -> Asset {
     let mut model = Model::default();
     let wood = model.slot(super::finish::timber(), &[]);
-    let poster = model.slot(super::signs::poster(), &[]);
+    let poster = model.slot(super::posters::poster(4), &[]);
     for side in [-1.0f32, 1.0] {
         let lean = |shape: Shape| {
             shape.turned(Quat::from_rotation_y(-0.2)).moved(vec3(0.2, 0.0, 0.0)).scaled(vec3(side, side, 1.0))

@@ -64,9 +64,9 @@ pub(crate) fn assumed(drive: &Drive, locale: &Locale, report: &Report) -> Street
     }
 }
 
-/// Whether houses stand along an assumed road of a kind.
+/// Whether houses stand along a road of a kind.
 pub(crate) fn has_houses(kind: RoadKind) -> bool {
-    kind >= RoadKind::Tertiary
+    (RoadKind::Tertiary..=RoadKind::Minor).contains(&kind)
 }
 
 /// By the speed that was reached and the walls that were seen; on a motorway nobody walks.

@@ -124,7 +124,7 @@ mod tests {
             ..Mesh::default()
         };
         let lens = Material { role: Some(Role::StreetLamp), ..Material::default() };
-        let slots = [lens, Material::default()].map(|material| Slot { material, paints: Vec::new(), by_region: false });
+        let slots = [lens, Material::default()].map(|material| Slot::new(material, Vec::new()));
         let asset = Asset::new("lamp/a", Kind::StreetLamp, Kind::StreetLamp.class(), mesh, slots.to_vec(), "test");
         Asset { luminaire: luminaire.map(Arc::new), ..asset }
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use trove_model::{
     Bounds, Building, BuildingCustoms, BuildingKind, Drive, Land, LandKind, Outcome, Polygon, Random, Report, Road,
-    RoadKind, Seed,
+    Seed,
 };
 
 use super::lidar::{LEAST_M2, guess, kept_free};
@@ -87,7 +87,7 @@ pub(super) fn rows(place: &Place<'_>, streets: &RoadSurfaces, built: &[Building]
         report: place.report,
     };
     let mut random = seed.child("rows").random();
-    let roads = map.roads.iter().filter(|road| has_houses(road.kind) && road.kind <= RoadKind::Minor);
+    let roads = map.roads.iter().filter(|road| has_houses(road.kind));
     let houses: Vec<Building> = roads
         .filter(|road| !road.bridge && !road.tunnel && !road.link)
         .flat_map(|road| row.along(road, &mut random))
@@ -247,7 +247,7 @@ mod tests {
     use crate::geometry::plane::rectangle;
     use crate::{roads, testing};
     use glam::DVec3;
-    use trove_model::{HeightField, LidarSweep, StreetMap};
+    use trove_model::{HeightField, LidarSweep, RoadKind, StreetMap};
 
     fn houses(points: &[DVec3]) -> Vec<Building> {
         let mut drive = Drive { lane_map: None, ..testing::drive() };

@@ -35,8 +35,8 @@ pub(super) fn place(yard: &mut Yard<'_, '_, '_>, seed: Seed, report: &Report) ->
     for site in map.land.iter().filter(|l| l.kind == LandKind::Construction) {
         let mut ring = site.polygon.exterior.clone();
         ring.extend(site.polygon.exterior.first());
-        let make = if seed.nth(site.id as u64).random().chance(0.5) { "hoarding" } else { "site" };
-        let tags = &["fence", make];
+        let makes = [&["fence", "hoarding"], &["fence", "pasted"], &["fence", "site"], &["fence", "site"]];
+        let tags = makes[seed.nth(site.id as u64).random().index(makes.len())];
         layer.lay(&Run { kind: Kind::Fence, tags, line: &ring, scale: 1.0, in_sight_m: Some(WIDE_M) }, report);
         report.note(Outcome::Guessed, "fence around a building site", format_args!("osm {}", site.id));
     }

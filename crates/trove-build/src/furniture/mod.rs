@@ -3,12 +3,15 @@
 
 mod along;
 mod boundaries;
-mod cafes;
+mod fronts;
 mod junctions;
 mod layer;
 mod lines;
+mod litter;
 mod mapped;
 mod names;
+mod scaffolds;
+mod shops;
 mod signals;
 mod signs;
 #[cfg(test)]
@@ -44,8 +47,10 @@ pub(crate) fn furniture<'a>(around: &Surroundings<'a>, clearance: &mut Clearance
     pieces.extend(wires::place(&mut yard, seed.child("wires"), report));
     signs::place(&junctions, &mut yard, seed.child("signs"), report);
     pieces.extend(names::place(&junctions, &mut yard, report));
-    cafes::place(&mut yard, seed.child("cafes"), report);
+    scaffolds::place(&mut yard, seed.child("scaffolds"), report);
+    shops::place(&mut yard, seed.child("shops"), report);
     along::furnish(&mut yard, seed.child("along"), report);
+    litter::strew(&mut yard, seed.child("litter"), report);
     report.measure("furniture.placed", (yard.placed.len() + pieces.len()) as f64);
     Furniture { scenery: yard.placed, pieces }
 }

@@ -34,16 +34,21 @@ struct Furnished {
 
 /// Furnishes a map of roads, buildings and lines in a country.
 fn furnished(country: &str, map: &StreetMap) -> Furnished {
+    furnished_from(&library(), country, map)
+}
+
+/// The same with the models of a library.
+fn furnished_from(library: &AssetLibrary, country: &str, map: &StreetMap) -> Furnished {
     let mut drive = Drive { lane_map: None, tracks: Vec::new(), ..testing::drive() };
     let locale = &testing::locale(country);
     for keyframe in &mut drive.keyframes {
         keyframe.boxes.clear();
     }
-    let (library, report) = (library(), Report::default());
+    let report = Report::default();
     let bounds = Bounds::square(DVec2::ZERO, 400.0);
     let ground = HeightField::flat(bounds.grown(20.0), 0.0);
     let seeds = Seed(0).into();
-    let place = Place { locale, ..testing::place(&drive, Some(map), bounds, &ground, &library, &seeds, &report) };
+    let place = Place { locale, ..testing::place(&drive, Some(map), bounds, &ground, library, &seeds, &report) };
     let surfaces = roads::surfaces(&place, &Spans::default(), None);
     let footprints: Vec<Polygon> = map.buildings.iter().map(|b| b.footprint.clone()).collect();
     let mut clearance = Clearance::new(&drive, &surfaces, &footprints, bounds);
@@ -92,7 +97,7 @@ fn library() -> AssetLibrary {
     }
     let mut insulator = pole.slots[0].material.clone();
     insulator.role = Some(trove_model::Role::Insulator);
-    let slots = vec![pole.slots[0].clone(), Slot { material: insulator, paints: Vec::new(), by_region: false }];
+    let slots = vec![pole.slots[0].clone(), Slot::new(insulator, Vec::new())];
     assets.push(Asset { mesh: Arc::new(mesh), slots, ..pole });
     for (make, size_m) in [
         ("bars", [2.4, 0.06, 1.3]),
@@ -246,4 +251,80 @@ fn open_land_behind_a_sidewalk_is_bounded_but_not_before_houses_nor_across_paths
         assert!(nearest_m > 4.0 && p.y.abs() < nearest_m + 0.4, "{p}");
         assert!(p.y < 0.0 || !(-80.0..-30.0).contains(&p.x) && (p.x - 10.0).abs() > 0.9, "{p}");
     }
+}
+
+/// Houses on both sides of a street, those in the north with shops.
+fn shopping_street() -> StreetMap {
+    let sidewalk = SidewalkSides { left: Some(true), right: Some(true) };
+    let street = testing::road(1, RoadKind::Tertiary, &[[-190.0, 0.0], [190.0, 0.0]]);
+    let house = |i: i64| {
+        let (x, y) = ((i / 2) as f64 * 16.0 - 96.0, if i % 2 == 0 { 9.5 } else { -21.5 });
+        let corners = [[x, y], [x + 14.0, y], [x + 14.0, y + 12.0], [x, y + 12.0]].map(DVec2::from_array);
+        let house = Building::new(100 + i, Polygon::simple(corners.to_vec()), None);
+        Building { shop: i % 2 == 0, levels: Some(3.0), ..house }
+    };
+    StreetMap {
+        roads: vec![Road { sidewalk, width_m: Some(7.0), ..street }],
+        buildings: (0..24).map(house).collect(),
+        ..StreetMap::default()
+    }
+}
+
+#[test]
+fn shops_put_out_tables_goods_and_boards_and_homes_do_not() {
+    let mut library = library();
+    for (id, tags) in [
+        ("out table", &["cafe", "table"][..]),
+        ("out parasol", &["cafe", "parasol"]),
+        ("out goods", &["goods", "open"]),
+        ("out stall", &["goods", "stall"]),
+        ("out board", &["advertising", "board"]),
+    ] {
+        library.assets.push(testing::asset(id, Kind::StreetFurniture, [0.8, 0.8, 1.0]).tagged(tags));
+    }
+    // Germany's sidewalks have none of them, so what stands there stands in for nothing.
+    let found = furnished_from(&library, GERMANY, &shopping_street());
+    let before_walls = |y: f64| {
+        let out = found.scenery.iter().filter(|(id, at, _)| id.starts_with("out ") && (at.y - y).abs() < 0.3);
+        out.map(|(id, ..)| id.as_str()).collect::<std::collections::BTreeSet<_>>().len()
+    };
+    // 1.15 m before the walls.
+    assert!(before_walls(9.5 - 1.15) > 3 && before_walls(-9.5 + 1.15) == 0, "{:?}", found.scenery);
+}
+
+#[test]
+fn scaffolding_stands_before_houses_that_are_built_as_high_as_they_are() {
+    let mut library = library();
+    for lifts in 2..=6 {
+        let (id, tag) = (format!("scaffolding {lifts}"), format!("lifts-{lifts}"));
+        let asset = testing::asset(&id, Kind::StreetFurniture, [1.1, 4.7, 2.0 * f64::from(lifts)]);
+        library.assets.push(asset.tagged(["scaffolding", tag.as_str(), "bare", "netted"]));
+    }
+    let mut map = shopping_street();
+    let scaffolds = |map: &StreetMap| {
+        let found = furnished_from(&library, GERMANY, map);
+        // Before the wall in the middle of its depth; what stands in for other things stands at the kerb.
+        let is_before_wall = |at: &DVec3| (at.y.abs() - (9.5 - 0.8)).abs() < 0.05;
+        found
+            .scenery
+            .into_iter()
+            .filter(|(id, at, _)| id.starts_with("scaff") && is_before_wall(at))
+            .collect::<Vec<_>>()
+    };
+    let few = scaffolds(&map).len();
+    map.buildings.iter_mut().for_each(|b| b.kind = Some(trove_model::BuildingKind::Construction));
+    let many = scaffolds(&map);
+    assert!(many.len() > 3 * few && many.len() > 16, "{few} {}", many.len());
+    // Nine metres of house.
+    assert!(many.iter().all(|(id, ..)| id == "scaffolding 4"), "{many:?}");
+}
+
+#[test]
+fn litter_lies_on_sidewalks_only() {
+    let mut library = library();
+    library.assets.push(testing::asset("litter", Kind::StreetFurniture, [0.1, 0.1, 0.05]).tagged(["litter"]));
+    let found = furnished_from(&library, GERMANY, &shopping_street());
+    let litter: Vec<&DVec3> = found.scenery.iter().filter(|(id, ..)| id == "litter").map(|(_, at, _)| at).collect();
+    assert!(litter.len() > 4 && litter.iter().all(|at| (3.5..9.5).contains(&at.y.abs())), "{litter:?}");
+    assert_eq!(found.on_carriageway, 0);
 }

@@ -1,5 +1,6 @@
 //! Everything that lies on the ground: carriageway with its markings, sidewalks with their kerbs, land.
 
+mod bends;
 mod corners;
 mod course;
 mod cross_section;
@@ -22,6 +23,7 @@ mod wear;
 use glam::DVec2;
 use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, RoadPlan, SurfaceKind};
 
+pub use bends::with_bends;
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
 pub(crate) use houses::HEADROOM_M;

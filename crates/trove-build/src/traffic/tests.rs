@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use room::Outline;
 use trove_model::{
     AssetLibrary, Bounds, Building, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject, Sides,
-    State,
+    State, StreetMap,
 };
 
 use crate::geometry::plane::rectangle;
@@ -125,16 +125,21 @@ fn a_place_without_a_recording_gets_the_usual_number_at_each_standpoint() {
     assert_eq!([0.0, 0.5, 1.0].map(|density| wanted(&drive, density)), [0, USUAL / 2 * 10, USUAL * 10]);
 }
 
+/// A place on a map, with what drives, stands and walks in it.
+fn in_a_place(map: &StreetMap, traffic: Traffic) -> (Drive, Site) {
+    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
+    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
+    let drive = crate::place_drive(map, &plan, Seed(1), &Report::default()).unwrap();
+    let settings = BuildSettings { traffic, ..testing::settings() };
+    let site = crate::build(&drive, Some(map), &library(), &settings, &Report::default()).unwrap();
+    (drive, site)
+}
+
 /// Boxes of what is parked in a place along a quiet street that is 7 m wide, by keyframe; nobody may park on its left.
 fn parked_in_a_place(density: f64, left: Option<Parking>) -> Vec<Vec<Cuboid>> {
     let mut map = testing::map_with_road([[-200.0, 0.0], [200.0, 0.0]]);
     map.roads[0].parking = Sides { left, right: None };
-    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
-    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
-    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
-    let traffic = Traffic { density, cyclists: 0.0 };
-    let settings = BuildSettings { traffic, ..testing::settings() };
-    let site = crate::build(&drive, Some(&map), &library(), &settings, &Report::default()).unwrap();
+    let (drive, site) = in_a_place(&map, Traffic { density, cyclists: 0.0 });
     let parked = |k: usize| {
         let scene = site.scene(&drive, k);
         let objects = scene.instances.iter().filter_map(|i| i.object.as_deref());
@@ -177,10 +182,7 @@ fn people_beside(shops: bool) -> [usize; 2] {
         }
     };
     map.buildings = (0..32).flat_map(|i| [(i, 7.5), (i, -15.5)]).map(house).collect();
-    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
-    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
-    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
-    let site = crate::build(&drive, Some(&map), &library(), &testing::settings(), &Report::default()).unwrap();
+    let (drive, site) = in_a_place(&map, Traffic::default());
     let mut count = [0; 2];
     for k in 0..drive.keyframes.len() {
         let (_, added) = road_users(&site.scene(&drive, k));

@@ -27,11 +27,7 @@ fn library() -> AssetLibrary {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             ..Mesh::default()
         };
-        let slot = Slot {
-            material: Material::plain("cover", Vec3::ONE, 0.9),
-            paints: vec![Vec3::X, Vec3::Y],
-            by_region: false,
-        };
+        let slot = Slot::new(Material::plain("cover", Vec3::ONE, 0.9), vec![Vec3::X, Vec3::Y]);
         GroundCover { id: format!("{kind:?}-{side_m}"), kind, side_m, mesh: Arc::new(mesh), slots: vec![slot] }
     };
     let grass = [CoverKind::GrassNear, CoverKind::GrassMiddle, CoverKind::GrassFar]

@@ -32,8 +32,7 @@ pub(super) fn asset(id: &str, entry: &AssetEntry, model: Model) -> Result<Option
     // Buildings lie along x with their fronts towards −y.
     let forward = if kind == Kind::Building { Mat3::from_rotation_z(-FRAC_PI_2) } else { Mat3::IDENTITY };
     stand(&mut mesh, forward * Axis::turn(front, up), entry, kind);
-    let mut slots: Vec<Slot> =
-        model.materials.into_iter().map(|material| Slot { material, paints: Vec::new(), by_region: false }).collect();
+    let mut slots: Vec<Slot> = model.materials.into_iter().map(|material| Slot::new(material, Vec::new())).collect();
     for (name, role) in &entry.roles {
         let role = role_named(role, &place)?;
         let mut named = slots.iter_mut().filter(|slot| slot.material.name == *name).peekable();

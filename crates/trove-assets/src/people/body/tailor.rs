@@ -58,11 +58,7 @@ impl<'a> Dressed<'a> {
         let mut slots: Vec<Slot> = Vec::new();
         let mut slot = |material: Material, paints: &[Vec3]| {
             let base_color = paints.first().copied().unwrap_or(material.base_color);
-            slots.push(Slot {
-                material: Material { base_color, ..material },
-                paints: paints.to_vec(),
-                by_region: false,
-            });
+            slots.push(Slot::new(Material { base_color, ..material }, paints.to_vec()));
             slots.len() as u16 - 1
         };
         let mut pieces = Vec::new();

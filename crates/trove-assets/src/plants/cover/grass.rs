@@ -79,12 +79,7 @@ pub(super) fn covers() -> Vec<GroundCover> {
         let mut random = Seed(33).child(name).random();
         let patch = if name == "clover" { clover(&mut random) } else { dandelions(&mut random) };
         let material = blade_material(name, Vec3::ONE);
-        covers.push(patch.cover(
-            name,
-            CoverKind::Flowers,
-            0.5,
-            Slot { material, paints: Vec::new(), by_region: false },
-        ));
+        covers.push(patch.cover(name, CoverKind::Flowers, 0.5, Slot::new(material, Vec::new())));
     }
     covers
 }
@@ -95,7 +90,7 @@ fn blade_material(name: &str, color: Vec3) -> Material {
 
 /// A blade's material, in all shades.
 fn living(name: &str) -> Slot {
-    Slot { material: blade_material(name, SHADES[0]), paints: SHADES.to_vec(), by_region: false }
+    Slot::new(blade_material(name, SHADES[0]), SHADES.to_vec())
 }
 
 fn lawn(detail: &Detail, side_m: f32, random: &mut Random) -> Patch {

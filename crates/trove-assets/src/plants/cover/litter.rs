@@ -26,7 +26,7 @@ pub(super) fn covers() -> Vec<GroundCover> {
                 patch.lying_leaf(middle, heading(&mut random), length_m, curl_m, tint);
             }
             let material = Material { translucency: 0.2, ..Material::plain("fallen leaves", SHADES[0], 0.75) };
-            patch.cover(&name, CoverKind::Leaves, SIDE_M, Slot { material, paints: SHADES.to_vec(), by_region: false })
+            patch.cover(&name, CoverKind::Leaves, SIDE_M, Slot::new(material, SHADES.to_vec()))
         })
         .to_vec()
 }

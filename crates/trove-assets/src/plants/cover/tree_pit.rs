@@ -18,10 +18,8 @@ pub(super) fn covers() -> Vec<GroundCover> {
 }
 
 fn pit(name: &str, grated: bool) -> GroundCover {
-    let slot = |name: &str, color: Vec3, roughness: f32| Slot {
-        material: Material { dirt: 0.6, ..Material::plain(name, color, roughness) },
-        paints: Vec::new(),
-        by_region: false,
+    let slot = |name: &str, color: Vec3, roughness: f32| {
+        Slot::new(Material { dirt: 0.6, ..Material::plain(name, color, roughness) }, Vec::new())
     };
     let inner_m = SIDE_M - 2.0 * STONE_M;
     let soil = soil(inner_m, if grated { 0.0 } else { 0.035 });

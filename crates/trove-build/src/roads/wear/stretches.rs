@@ -96,6 +96,8 @@ struct Strip {
     edges_m: [f64; 2],
     lanes: Vec<Vec<DVec2>>,
     tagged: Option<Look>,
+    /// A street is laid in one go.
+    street: Option<String>,
     number: u64,
 }
 
@@ -121,10 +123,11 @@ pub(super) fn regions(
             continue;
         }
         left = difference(&left, &area);
+        let laid = strip.street.map_or(seed.nth(strip.number), |street| seed.child(&street));
         let seed = seed.nth(strip.number);
         let mut random = seed.random();
         let middle = strip.line[strip.line.len() / 2];
-        let drawn = match random.unit() {
+        let drawn = match laid.child("laid").random().unit() {
             u if u < concrete_share => Look::Concrete,
             u if u < concrete_share + FRESH_SHARE => Look::Fresh,
             _ => Look::Aged,
@@ -166,6 +169,7 @@ fn beyond(lane: &Strip, at_end: bool) -> Strip {
         line,
         edges_m: lane.edges_m,
         tagged: None,
+        street: None,
         number,
     }
 }
@@ -188,6 +192,7 @@ fn straight_lanes(drive: &Drive) -> Vec<Strip> {
                 line,
                 edges_m: [half_m, -half_m],
                 tagged: None,
+                street: None,
                 number: i as u64,
             })
         })
@@ -201,11 +206,13 @@ fn middle(lane: &Polygon) -> Option<Vec<DVec2>> {
     straight.then(|| vec![middle - along * half.x, middle + along * half.x])
 }
 
-/// The map's roads, cut into pieces.
+/// The map's roads, cut into pieces; lesser ones end at greater ones.
 fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
     let mut strips = Vec::new();
     let near = |s: &&Stretch<'_>| Bounds::around(s.line.iter().copied()).is_some_and(|b| b.overlaps(&reach));
-    for stretch in layout.stretches.iter().filter(near).filter(|s| s.line.len() > 1) {
+    let mut stretches: Vec<_> = layout.stretches.iter().filter(near).filter(|s| s.line.len() > 1).collect();
+    stretches.sort_by_key(|s| s.road.kind);
+    for stretch in stretches {
         let path = Path::new(&stretch.line);
         let pieces = (path.length_m() / LONGEST_M).ceil().max(1.0);
         for i in 0..pieces as usize {
@@ -222,6 +229,7 @@ fn mapped(layout: &Layout<'_>, reach: Bounds) -> Vec<Strip> {
                 line,
                 edges_m: [half_m, -half_m],
                 tagged: stretch.road.surface.and_then(Look::mapped),
+                street: stretch.road.name.clone(),
                 number: (stretch.road.id as u64) << 8 ^ i as u64,
             });
         }
