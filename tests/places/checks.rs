@@ -181,9 +181,12 @@ pub(crate) fn lanes(scene: &Scene) -> Vec<String> {
     let ground = Ground::new(scene);
     let mut wrong = Vec::new();
     for (instance, _) in made_up(scene) {
+        let outline = foot_outline(scene, instance);
+        let origin = instance.world_from_mesh.translation;
+        // What lies flat has no outline at the height of a foot.
         let foot =
-            foot_outline(scene, instance).iter().sum::<DVec2>() / foot_outline(scene, instance).len().max(1) as f64;
-        let at = foot.extend(instance.world_from_mesh.translation.z);
+            if outline.is_empty() { origin.truncate() } else { outline.iter().sum::<DVec2>() / outline.len() as f64 };
+        let at = foot.extend(origin.z);
         if ground.class_near(at) == Some(Class::Road) {
             wrong.push(format!("{} stands on the road at {at:.2}", name(instance)));
         }
@@ -292,7 +295,7 @@ fn is_line(instance: &Instance) -> bool {
 fn name(instance: &Instance) -> String {
     match &instance.object {
         Some(object) => match &object.asset {
-            Some(asset) => format!("{asset} {}", instance.id.0),
+            Some(asset) => format!("{asset} {} ({:?})", instance.id.0, object.origin),
             None => format!("{:?} {}", object.kind, instance.id.0),
         },
         None => instance.class.row().name.to_owned(),

@@ -10,6 +10,8 @@ use crate::surroundings::KerbPoint;
 
 /// Things drawn on the road are moved to a kerb within this, metres.
 const KERB_REACH_M: f64 = 15.0;
+/// What is drawn nearer than this to the road stands half on its kerb, and is moved behind it, metres.
+const EDGE_M: f64 = 0.3;
 /// Things drawn beside the road look at a kerb within this, metres.
 const LOOK_REACH_M: f64 = 25.0;
 
@@ -47,9 +49,13 @@ fn stand(thing: &Furniture, kind: Kind, tags: &[&str], yard: &mut Yard<'_, '_, '
     let at_kerb = kerbs.iter().find(fits).copied();
     let look = |k: Option<KerbPoint>| thing.heading_rad.or(k.map(|k| facing(kind, &k))).unwrap_or(0.0);
     let wish = |position, yaw_rad| Wish { kind, tags, position, yaw_rad, source: Source::Mapped };
-    if around.stand.surfaces.footing(p) == Footing::Carriageway {
-        let Some(kerb) = at_kerb else { return false };
-        return yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report);
+    let is_on_road = around.stand.surfaces.footing(p) == Footing::Carriageway;
+    if is_on_road || yard.clearance.road_distance_m(p) < EDGE_M {
+        match at_kerb {
+            Some(kerb) => return yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report),
+            None if is_on_road => return false,
+            None => {}
+        }
     }
     let as_drawn = wish(p, look(kerbs.first().copied()));
     yard.place(&as_drawn, report)

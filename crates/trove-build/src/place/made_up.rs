@@ -27,6 +27,9 @@ const LOOKED_AT_M: [f64; 3] = [-1.0, 1.2, 3.4];
 /// A view has no wall so near to points farther ahead, metres.
 const IN_VIEW_M: f64 = 1.0;
 const AHEAD_M: [f64; 6] = [5.0, 7.0, 9.0, 12.0, 15.0, 18.0];
+/// And a street on whose line, within this, it looks; no view looks off the end of a road, metres.
+const STREET_M: f64 = 5.0;
+const ALONG_M: f64 = 12.0;
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
 const STEP_NS: i64 = 60_000_000_000;
 
@@ -52,10 +55,8 @@ pub struct PlacePlan<'a> {
 pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &Report) -> Result<Drive, BuildError> {
     let PlacePlan { name: place, projection, size_m, driving_side, time_ns } = *plan;
     let inner = Bounds::square(DVec2::ZERO, size_m * (1.0 - 2.0 * BORDER));
-    let mut candidates: Vec<Pose<World, Ego>> = map
-        .roads
-        .iter()
-        .filter(|r| r.kind.is_for_cars() && !r.tunnel && !r.bridge && r.layer == 0)
+    let roads = || map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel && !r.bridge && r.layer == 0);
+    let mut candidates: Vec<Pose<World, Ego>> = roads()
         .flat_map(|road| standpoints(road, driving_side))
         .filter(|pose| inner.contains(pose.translation.truncate()))
         .collect();
@@ -70,6 +71,13 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
     while !candidates.is_empty() {
         drawn.push(candidates.swap_remove(random.index(candidates.len())));
     }
+    let streets = SegmentIndex::new(roads().map(|road| road.centreline.as_slice()));
+    let leads_on = |pose: &Pose<World, Ego>| {
+        let ahead = pose.point(DVec3::X * ALONG_M).truncate();
+        streets.nearest(ahead, STREET_M).is_some()
+    };
+    let (drawn, off_ends): (Vec<_>, Vec<_>) = drawn.into_iter().partition(leads_on);
+    let drawn = if drawn.is_empty() { off_ends } else { drawn };
     let (with_room, without): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|pose| walls.leave_room(pose));
     let (with_view, narrow): (Vec<_>, Vec<_>) = with_room.into_iter().partition(|pose| walls.leave_view(pose));
     let has_room = !(with_view.is_empty() && narrow.is_empty());
@@ -264,6 +272,19 @@ mod tests {
         assert!(beside.len() >= 8 && beside.iter().all(|p| p.y.abs() > 14.0 || p.y < 0.0), "{beside:?}");
         assert!(beside.iter().any(|p| (p.y + LANE_OFFSET_M).abs() < 0.01));
         assert!(!stands(house([-300.0, -300.0], [300.0, 300.0])).is_empty());
+    }
+
+    #[test]
+    fn no_view_looks_off_the_end_of_a_road() {
+        let road = crate::testing::road(1, RoadKind::Tertiary, &[[-300.0, 0.0], [60.0, 0.0]]);
+        let map = StreetMap { roads: vec![road], ..StreetMap::default() };
+        for seed in 0..20 {
+            let drive = place_drive(&map, &plan(DrivingSide::Right), Seed(seed), &Report::default()).unwrap();
+            for keyframe in &drive.keyframes {
+                let pose = keyframe.world_from_ego;
+                assert!(pose.vector(DVec3::X).x < 0.0 || pose.translation.x < 60.0 - ALONG_M + STREET_M, "{pose:?}");
+            }
+        }
     }
 
     #[test]
