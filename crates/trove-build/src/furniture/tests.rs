@@ -323,6 +323,11 @@ fn scaffolding_stands_before_houses_that_are_built_as_high_as_they_are() {
 fn litter_lies_on_sidewalks_only() {
     let mut library = library();
     library.assets.push(testing::asset("litter", Kind::StreetFurniture, [0.1, 0.1, 0.05]).tagged(["litter"]));
+    // Without it litter would stand in for what else stands on sidewalks.
+    let other = testing::asset("other", Kind::StreetFurniture, [0.3, 0.3, 1.0]);
+    for small in &testing::locale(GERMANY).street.small {
+        library.assets.push(Asset { id: format!("other {:?}", small.tags), ..other.clone() }.tagged(&small.tags));
+    }
     let found = furnished_from(&library, GERMANY, &shopping_street());
     let litter: Vec<&DVec3> = found.scenery.iter().filter(|(id, ..)| id == "litter").map(|(_, at, _)| at).collect();
     assert!(litter.len() > 4 && litter.iter().all(|at| (3.5..9.5).contains(&at.y.abs())), "{litter:?}");

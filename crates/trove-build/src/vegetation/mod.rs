@@ -35,9 +35,8 @@ const LAWN_CELL_M: f64 = 0.5;
 const CORNER_OFF_WALLS_M: f64 = 0.3;
 /// Distances to roads and walls are known to this, metres.
 const UNSURE_M: f64 = 0.25;
-/// Feet are sunk into a slope by at most this, metres, and pieces of hedges, which are long and leafy to the ground, by this.
-const MOST_SUNK_M: f64 = 0.025;
-const ROW_SUNK_M: f64 = 0.1;
+/// Feet are sunk into a slope by at most this, metres.
+const MOST_SUNK_M: f64 = 0.029;
 
 /// Plants the place. Wishes are taken in the order: seen by the LiDAR, mapped, along walls, along streets, on
 /// open land.
@@ -104,14 +103,14 @@ pub(crate) fn vegetation<'a>(around: &Surroundings<'a>, clearance: &mut Clearanc
 
 /// Height of the ground where a plant comes out of it: on a slope a bush that is wide stands in the lower ground.
 fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
-    let (reach_m, most_m) = match (wish.kind, wish.form) {
-        (Kind::Tree, _) => (0.25, MOST_SUNK_M),
-        (_, Form::Row { length_m, .. }) => (length_m * 0.5, ROW_SUNK_M),
-        _ => (0.4, MOST_SUNK_M),
+    let reach_m = match (wish.kind, wish.form) {
+        (Kind::Tree, _) => 0.25,
+        (_, Form::Row { length_m, .. }) => length_m * 0.5,
+        _ => 0.4,
     };
     let middle_m = around.stand.surface_m(wish.position);
     let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
     let h = |offset: DVec2| around.stand.ground.height_m(wish.position + offset);
     let drop_m = corners.iter().map(|&c| h(DVec2::ZERO) - h(c * reach_m)).fold(0.0, f64::max);
-    middle_m - drop_m.min(most_m)
+    middle_m - drop_m.min(MOST_SUNK_M)
 }
