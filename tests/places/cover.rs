@@ -67,7 +67,7 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
     // For each building its rays, those that do not see one there, and of these those that see a road.
     let mut of_each = vec![[0u32; 3]; within.len()];
     for ray in drawing.rays() {
-        let p = drawing.position(ray[0].pixel);
+        let p = drawing.position(ray[0].pixel).truncate();
         if !area.contains(p) {
             continue;
         }
@@ -168,7 +168,7 @@ fn iou(
     let drawing = Drawing::new(&built, area, DVec3::NEG_Z, STEP_M);
     let (mut both, mut either) = (0u64, 0u64);
     for ray in drawing.rays() {
-        let p = drawing.position(ray[0].pixel);
+        let p = drawing.position(ray[0].pixel).truncate();
         if !area.contains(p) {
             continue;
         }

@@ -65,11 +65,15 @@ pub(crate) struct Drawing {
 
 /// So far beyond an area things are drawn, metres.
 pub(crate) const BEYOND_M: f64 = 50.0;
+/// Rows of rays from above run so far from east to north.
+const TURN_RAD: f64 = 0.231;
 
 impl Drawing {
     /// Draws what lies in `area` along the unit vector `towards`, one ray a cell.
     pub(crate) fn new(triangles: &[Triangle], area: Bounds, towards: DVec3, cell_m: f64) -> Self {
-        let right = if towards.z.abs() > 0.9 { DVec3::X } else { towards.cross(DVec3::Z).normalize() };
+        // From above aslant: streets, and outlines that come from a raster, run along the axes or half way between them.
+        let from_above = DVec3::new(TURN_RAD.cos(), TURN_RAD.sin(), 0.0);
+        let right = if towards.z.abs() > 0.9 { from_above } else { towards.cross(DVec3::Z).normalize() };
         let up = right.cross(towards);
         // Rays off every round coordinate, so that none runs along an edge.
         let plane = |p: DVec3| DVec2::new(p.dot(right), p.dot(up)) / cell_m + DVec2::new(0.3717, 0.6113);
@@ -116,16 +120,15 @@ impl Drawing {
         self.hits.chunk_by(|a, b| a.pixel == b.pixel)
     }
 
-    /// Where a ray runs: its distances along the two axes of the drawing from World's origin; east and north for one
-    /// from above.
-    pub(crate) fn position(&self, pixel: u32) -> DVec2 {
+    /// A point on a ray, in the plane through World's origin across all of them.
+    pub(crate) fn position(&self, pixel: u32) -> DVec3 {
         let cell = DVec2::new(f64::from(pixel % self.width), f64::from(pixel / self.width)) + self.origin;
-        (cell - DVec2::new(0.3717, 0.6113)) * self.cell_m
+        let p = (cell - DVec2::new(0.3717, 0.6113)) * self.cell_m;
+        self.axes[0] * p.x + self.axes[1] * p.y
     }
 
     /// The point of a hit in World.
     pub(crate) fn point(&self, hit: &Hit, towards: DVec3) -> DVec3 {
-        let p = self.position(hit.pixel);
-        self.axes[0] * p.x + self.axes[1] * p.y + towards * hit.depth_m
+        self.position(hit.pixel) + towards * hit.depth_m
     }
 }

@@ -1,5 +1,7 @@
 //! Furniture that the map has, moved out of the carriageway.
 
+use std::f64::consts::FRAC_PI_4;
+
 use glam::DVec2;
 use trove_model::{Furniture, FurnitureKind, Kind, LampMount, MappedSign, Outcome, Report};
 
@@ -11,7 +13,7 @@ use crate::surroundings::KerbPoint;
 /// Things drawn on the road are moved to a kerb within this, metres.
 const KERB_REACH_M: f64 = 15.0;
 /// What is drawn nearer than this to the road stands half on its kerb, and is moved behind it, metres.
-const EDGE_M: f64 = 0.3;
+const EDGE_M: f64 = 0.6;
 /// Things drawn beside the road look at a kerb within this, metres.
 const LOOK_REACH_M: f64 = 25.0;
 
@@ -54,12 +56,19 @@ fn stand(thing: &Furniture, kind: Kind, tags: &[&str], yard: &mut Yard<'_, '_, '
         match at_kerb {
             Some(kerb) => return yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report),
             None if is_on_road => return false,
-            None => {}
+            None => return yard.place(&wish(off_edge(p, yard), look(None)), report),
         }
     }
     let as_drawn = wish(p, look(kerbs.first().copied()));
     yard.place(&as_drawn, report)
         || at_kerb.is_some_and(|kerb| yard.place_at_kerb(kind, tags, &kerb, Source::Mapped, report))
+}
+
+/// The place beside one at the edge of a road that is farthest from the road.
+fn off_edge(p: DVec2, yard: &Yard<'_, '_, '_>) -> DVec2 {
+    let beside = (0..8).map(|i| p + DVec2::from_angle(f64::from(i) * FRAC_PI_4) * EDGE_M);
+    let road_m = |p: &DVec2| yard.clearance.road_distance_m(*p);
+    beside.max_by(|a, b| road_m(a).total_cmp(&road_m(b))).unwrap_or(p)
 }
 
 /// What stands for a thing; a bus stop is a sign and, where there is room, a shelter.

@@ -110,7 +110,7 @@ fn foot_m(around: &Surroundings, wish: &Wish) -> f64 {
     };
     let middle_m = around.stand.surface_m(wish.position);
     let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
-    let h = |offset: DVec2| around.stand.ground.height_m(wish.position + offset);
-    let drop_m = corners.iter().map(|&c| h(DVec2::ZERO) - h(c * reach_m)).fold(0.0, f64::max);
+    let drop_m = corners.map(|c| middle_m - around.stand.surface_m(wish.position + c * reach_m));
+    let drop_m = drop_m.into_iter().fold(0.0, f64::max);
     middle_m - drop_m.min(MOST_SUNK_M)
 }
