@@ -28,6 +28,8 @@ const STANDS_M: f64 = 0.03;
 const LET_IN_M: f64 = 0.05;
 /// People who were recorded at least this high above the ground stood on something.
 const PLATFORM_M: f64 = 0.5;
+/// Rows of rays from above run so far from east to north.
+const ASLANT_RAD: f64 = 0.231;
 /// Directions in which a place is looked at from its sides.
 const AZIMUTHS: usize = 6;
 
@@ -77,7 +79,9 @@ fn look(
     wrong: &mut Vec<String>,
     open: &mut Vec<(f64, String)>,
 ) {
-    let drawing = Drawing::new(all, area, towards, cell_m);
+    // Outlines that come from a raster run along the axes or half way between them.
+    let aslant = DVec3::new(ASLANT_RAD.cos(), ASLANT_RAD.sin(), 0.0);
+    let drawing = Drawing::new(all, area, (towards, aslant), cell_m);
     let normals: Vec<DVec3> = all.iter().map(Triangle::normal).collect();
     let name_of = |triangle: u32| {
         let triangle = all[triangle as usize];

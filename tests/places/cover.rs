@@ -62,7 +62,7 @@ pub(crate) fn buildings(scene: &Scene, area: Bounds, mapped: &[Footprint], bar: 
         return vec!["no mapped building lies in the place".into()];
     }
     let built = triangles(scene, |i| is_built(scene, i));
-    let drawing = Drawing::new(&built, area, DVec3::NEG_Z, STEP_M);
+    let drawing = Drawing::new(&built, area, (DVec3::NEG_Z, DVec3::X), STEP_M);
     let (mut both, mut either, mut over, mut rays) = (0u64, 0u64, 0u64, 0u64);
     // For each building its rays, those that do not see one there, and of these those that see a road.
     let mut of_each = vec![[0u32; 3]; within.len()];
@@ -165,7 +165,7 @@ fn iou(
 ) -> f64 {
     let area = trove_build::area(drive).unwrap();
     let built = triangles(scene, |i| is_built(scene, i));
-    let drawing = Drawing::new(&built, area, DVec3::NEG_Z, STEP_M);
+    let drawing = Drawing::new(&built, area, (DVec3::NEG_Z, DVec3::X), STEP_M);
     let (mut both, mut either) = (0u64, 0u64);
     for ray in drawing.rays() {
         let p = drawing.position(ray[0].pixel).truncate();

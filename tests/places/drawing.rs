@@ -65,15 +65,12 @@ pub(crate) struct Drawing {
 
 /// So far beyond an area things are drawn, metres.
 pub(crate) const BEYOND_M: f64 = 50.0;
-/// Rows of rays from above run so far from east to north.
-const TURN_RAD: f64 = 0.231;
 
 impl Drawing {
-    /// Draws what lies in `area` along the unit vector `towards`, one ray a cell.
-    pub(crate) fn new(triangles: &[Triangle], area: Bounds, towards: DVec3, cell_m: f64) -> Self {
-        // From above aslant: streets, and outlines that come from a raster, run along the axes or half way between them.
-        let from_above = DVec3::new(TURN_RAD.cos(), TURN_RAD.sin(), 0.0);
-        let right = if towards.z.abs() > 0.9 { from_above } else { towards.cross(DVec3::Z).normalize() };
+    /// Draws what lies in `area` along the unit vector `towards`, one ray a cell; rows of rays from above run along
+    /// `row`, a unit vector.
+    pub(crate) fn new(triangles: &[Triangle], area: Bounds, (towards, row): (DVec3, DVec3), cell_m: f64) -> Self {
+        let right = if towards.z.abs() > 0.9 { row } else { towards.cross(DVec3::Z).normalize() };
         let up = right.cross(towards);
         // Rays off every round coordinate, so that none runs along an edge.
         let plane = |p: DVec3| DVec2::new(p.dot(right), p.dot(up)) / cell_m + DVec2::new(0.3717, 0.6113);
