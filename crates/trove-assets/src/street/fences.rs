@@ -196,7 +196,7 @@ fn panels() -> Asset {
     fence(model, "panel")
 }
 
-/// Corrugated sheets around a building site, every other piece of a length with posters pasted over it.
+/// Corrugated sheets around a building site, bare or with two posters pasted on each.
 fn hoarding(pasted: bool) -> Asset {
     let mut model = Model::default();
     let white = vec3(0.5, 0.5, 0.48);

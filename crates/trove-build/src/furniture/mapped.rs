@@ -12,7 +12,8 @@ use crate::surroundings::KerbPoint;
 
 /// Things drawn on the road are moved to a kerb within this, metres.
 const KERB_REACH_M: f64 = 15.0;
-/// What is drawn nearer than this to the road stands half on its kerb, and is moved behind it, metres.
+/// What is drawn nearer than this to the road, a distance that is known to 0.35, may stand half on its kerb, and is moved
+/// behind it, metres.
 const EDGE_M: f64 = 0.6;
 /// Things drawn beside the road look at a kerb within this, metres.
 const LOOK_REACH_M: f64 = 25.0;

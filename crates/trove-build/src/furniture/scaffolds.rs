@@ -16,7 +16,7 @@ const OFF_WALL_M: f64 = 0.8;
 const PIECE_M: f64 = 4.7;
 const LIFT_M: f64 = 2.0;
 const LIFTS: [usize; 2] = [2, 6];
-/// Storeys where the map has no height, metres.
+/// A storey, where the map counts them, metres.
 const STOREY_M: f64 = 3.0;
 /// Cameras stay as far from it as from what is so wide to each side, metres.
 const WIDE_M: f64 = 2.4;

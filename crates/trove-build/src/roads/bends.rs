@@ -23,7 +23,7 @@ struct Spot {
 }
 
 /// The map with the corners of its roads for cars rounded, within ways and where two ways follow one another. What else
-/// begins or ends at such a corner follows it, a road's ends and sharp corners stay. A drive through a place and what is
+/// begins or ends at such a corner follows it; free ends and sharp corners stay. A drive through a place and what is
 /// built there want the same map.
 pub fn with_bends(mut map: StreetMap) -> StreetMap {
     round(&mut map.roads);
