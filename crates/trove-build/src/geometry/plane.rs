@@ -6,7 +6,7 @@
 use geo::algorithm::buffer::{BufferStyle, LineCap, LineJoin};
 use geo::algorithm::unary_union;
 use geo::bool_ops::FillRule;
-use geo::{BooleanOps, Buffer, TriangulateEarcut};
+use geo::{BooleanOps, Buffer, Simplify, TriangulateEarcut};
 use glam::DVec2;
 use trove_model::{Bounds, Polygon};
 
@@ -18,6 +18,8 @@ const GRID_M: f64 = 1.0 / 1024.0;
 const SPECK_M2: f64 = 1e-3;
 /// Chords of round corners, radians.
 const ARC_RAD: f64 = 0.35;
+/// Edges that are moved keep their course to this, metres: each move would double the vertices of bends.
+const COURSE_M: f64 = 2.0 * GRID_M;
 
 /// Everything that lies in any of the polygons, which may overlap, cross themselves and run either way.
 pub(crate) fn union(polygons: &[Polygon]) -> Vec<Polygon> {
@@ -56,7 +58,7 @@ fn reach(area: &[Polygon]) -> Option<Bounds> {
 /// Everything within `distance_m` of an area, with round corners; negative: everything further than that inside it.
 pub(crate) fn grown(area: &[Polygon], distance_m: f64) -> Vec<Polygon> {
     let style = BufferStyle::new(distance_m).line_join(LineJoin::Round(ARC_RAD));
-    from_geo(to_geo(area).buffer_with_style(style))
+    from_geo(to_geo(area).buffer_with_style(style).simplify(COURSE_M))
 }
 
 /// With gaps narrower than twice `radius_m` closed and corners inside it as round.

@@ -1,5 +1,7 @@
 //! A place without recorded traffic, seen from its own streets.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
     Bounds, Camera, Distortion, Drive, DriveOrigin, DrivingSide, Ego, EgoBody, Exposure, Keyframe, Lens, MapProjection,
@@ -8,6 +10,7 @@ use trove_model::{
 
 use crate::error::BuildError;
 use crate::geometry::segments::SegmentIndex;
+use crate::roads::Path;
 
 /// At most so many views' positions.
 const MAX_VIEWS: usize = 20;
@@ -30,6 +33,8 @@ const AHEAD_M: [f64; 6] = [5.0, 7.0, 9.0, 12.0, 15.0, 18.0];
 /// And a street on whose line, within this, it looks; no view looks off the end of a road, metres.
 const STREET_M: f64 = 5.0;
 const ALONG_M: f64 = 12.0;
+/// The road that leads up to a bridge rises on this many metres at most.
+const RAMP_M: f64 = 95.0;
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
 const STEP_NS: i64 = 60_000_000_000;
 
@@ -72,12 +77,13 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         drawn.push(candidates.swap_remove(random.index(candidates.len())));
     }
     let streets = SegmentIndex::new(roads().map(|road| road.centreline.as_slice()));
-    let leads_on = |pose: &Pose<World, Ego>| {
+    let ramps = ramps(map);
+    let is_on_street = |pose: &Pose<World, Ego>| {
         let ahead = pose.point(DVec3::X * ALONG_M).truncate();
-        streets.nearest(ahead, STREET_M).is_some()
+        streets.nearest(ahead, STREET_M).is_some() && ramps.nearest(pose.translation.truncate(), STREET_M).is_none()
     };
-    let (drawn, off_ends): (Vec<_>, Vec<_>) = drawn.into_iter().partition(leads_on);
-    let drawn = if drawn.is_empty() { off_ends } else { drawn };
+    let (drawn, off_street): (Vec<_>, Vec<_>) = drawn.into_iter().partition(is_on_street);
+    let drawn = if drawn.is_empty() { off_street } else { drawn };
     let (with_room, without): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|pose| walls.leave_room(pose));
     let (with_view, narrow): (Vec<_>, Vec<_>) = with_room.into_iter().partition(|pose| walls.leave_view(pose));
     let has_room = !(with_view.is_empty() && narrow.is_empty());
@@ -129,6 +135,28 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         lane_map: None,
         licence: String::new(),
     })
+}
+
+/// Roads, as far as they may rise to a bridge: no other road on the ground meets them where it begins.
+fn ramps(map: &StreetMap) -> SegmentIndex {
+    let (raised, level): (Vec<&Road>, Vec<&Road>) =
+        map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel).partition(|r| r.bridge || r.layer > 0);
+    let key = |p: &DVec2| p.to_array().map(f64::to_bits);
+    let begins: BTreeSet<[u64; 2]> = raised.iter().flat_map(|r| &r.centreline).map(key).collect();
+    let mut met: BTreeMap<[u64; 2], usize> = BTreeMap::new();
+    for p in level.iter().flat_map(|r| &r.centreline).map(key) {
+        *met.entry(p).or_default() += 1;
+    }
+    let rises = |p: &DVec2| begins.contains(&key(p)) && met[&key(p)] == 1;
+    let of_road = |road: &&Road| {
+        let path = Path::new(&road.centreline);
+        let length_m = path.length_m();
+        let first = road.centreline.first().filter(|p| rises(p)).map(|_| path.part(0.0, RAMP_M, 0.0));
+        let last = road.centreline.last().filter(|p| rises(p)).map(|_| path.part(length_m - RAMP_M, length_m, 0.0));
+        [first, last].into_iter().flatten()
+    };
+    let lines: Vec<Vec<DVec2>> = level.iter().flat_map(of_road).collect();
+    SegmentIndex::new(lines.iter().map(Vec::as_slice))
 }
 
 /// Houses that a vehicle may not stand in, nor at.
@@ -284,6 +312,25 @@ mod tests {
                 let pose = keyframe.world_from_ego;
                 assert!(pose.vector(DVec3::X).x < 0.0 || pose.translation.x < 60.0 - ALONG_M + STREET_M, "{pose:?}");
             }
+        }
+    }
+
+    #[test]
+    fn no_view_stands_where_a_road_rises_to_a_bridge() {
+        let road = |id, ends: [f64; 2]| crate::testing::road(id, RoadKind::Tertiary, &ends.map(|x| [x, 0.0]));
+        let bridge = Road { bridge: true, layer: 1, ..road(2, [60.0, 200.0]) };
+        let beyond_m = 60.0 - RAMP_M;
+        for crossed in [false, true] {
+            let mut map = StreetMap { roads: vec![road(1, [-300.0, 60.0]), bridge.clone()], ..StreetMap::default() };
+            if crossed {
+                map.roads.push(crate::testing::road(3, RoadKind::Tertiary, &[[60.0, 0.0], [60.0, -300.0]]));
+            }
+            let places = (0..20).flat_map(|seed| {
+                let drive = place_drive(&map, &plan(DrivingSide::Right), Seed(seed), &Report::default()).unwrap();
+                drive.keyframes.iter().map(|k| k.world_from_ego.translation).collect::<Vec<_>>()
+            });
+            let on_ramp = places.filter(|p| p.y.abs() < 5.0 && (beyond_m..50.0).contains(&p.x)).count();
+            assert_eq!(on_ramp > 0, crossed, "what meets a junction does not rise");
         }
     }
 

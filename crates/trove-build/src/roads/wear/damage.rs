@@ -15,8 +15,11 @@ const ERASED_EVERY_M: f64 = 140.0;
 const DRIP_EVERY_M: f64 = 7.0;
 /// A skid mark darkens in so many steps.
 const SKID_STEPS: usize = 6;
-/// Points of a crack are this far apart.
+/// Points of a crack and of a patch's edge are this far apart; saws and shovels leave an edge by so much.
 const STEP_M: f64 = 0.35;
+const FRAY_M: f64 = 0.012;
+/// Of patches that are larger than this fewer are new.
+const WIDE_M2: f64 = 10.0;
 /// Bitumen and rubber, and a line's ground-off place, as factors on aged asphalt.
 const BITUMEN_TONE: f64 = 0.3;
 const RUBBER_TONE: f64 = 0.72;
@@ -64,7 +67,7 @@ pub(super) fn damage(region: &Region, bus_stops: &[DVec2]) -> Damage {
         }
     }
     for _ in 0..count(length_m / PATCH_EVERY_M * age, &mut random) {
-        let outline = patch(region, &path, &mut random);
+        let outline = frayed(&patch(region, &path, &mut random), &mut random);
         let Some(bounds) = Bounds::around(outline.iter().flat_map(|p| p.exterior.iter().copied())) else { continue };
         if taken.iter().any(|b| b.overlaps(&bounds.grown(0.2))) {
             continue;
@@ -73,8 +76,9 @@ pub(super) fn damage(region: &Region, bus_stops: &[DVec2]) -> Damage {
         if random.chance(0.45) {
             seals.extend(difference(&grown(&outline, 0.03), &grown(&outline, -0.025)));
         }
-        let (look, tone) = if random.chance(0.6) {
-            (Look::Fresh, random.range(0.85, 1.35))
+        let is_wide = outline.iter().map(Polygon::area_m2).sum::<f64>() > WIDE_M2;
+        let (look, tone) = if random.chance(if is_wide { 0.3 } else { 0.6 }) {
+            (Look::Fresh, random.range(0.95, 1.6))
         } else {
             (Look::Aged, region.tone * random.range(0.78, 1.12))
         };
@@ -136,6 +140,19 @@ fn patch(region: &Region, path: &Path<'_>, random: &mut Random) -> Vec<Polygon> 
             strip(&path.part(s_m, s_m + long_m, within(region, half_m, random)), half_m)
         }
     }
+}
+
+/// With edges that no ruler drew.
+fn frayed(outline: &[Polygon], random: &mut Random) -> Vec<Polygon> {
+    let frayed = |polygon: &Polygon| {
+        let outer = Polygon::simple(polygon.exterior.clone());
+        let points = outer.edges().flat_map(|(from, to)| {
+            let steps = (from.distance(to) / STEP_M).ceil().max(1.0);
+            (0..steps as usize).map(move |i| from.lerp(to, i as f64 / steps))
+        });
+        Polygon::simple(points.map(|p| p + DVec2::new(random.normal(), random.normal()) * FRAY_M).collect())
+    };
+    outline.iter().map(frayed).collect()
 }
 
 /// The concrete on which buses stand, for a stop beside a lane.
