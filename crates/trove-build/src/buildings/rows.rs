@@ -13,10 +13,11 @@ use super::lidar::{LEAST_M2, guess, kept_free};
 use super::volumes::{FIRST_UNMAPPED_ID, STOREY_M};
 use crate::agreement::has_houses;
 use crate::geometry::near::Near;
+use crate::geometry::path::Path;
 use crate::geometry::plane::{difference, grown};
 use crate::geometry::plane_raster::bucket;
 use crate::place::Place;
-use crate::roads::{Footing, Path, RoadSurfaces};
+use crate::roads::{Footing, RoadSurfaces};
 
 /// Between the carriageway and the houses there is a sidewalk of about this width, metres.
 const SIDEWALK_M: [f64; 2] = [2.8, 4.2];

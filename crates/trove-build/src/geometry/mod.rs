@@ -2,6 +2,7 @@
 
 pub(crate) mod distance_field;
 pub(crate) mod near;
+pub(crate) mod path;
 pub(crate) mod plane;
 pub(crate) mod plane_raster;
 pub(crate) mod rings;

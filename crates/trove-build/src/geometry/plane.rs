@@ -148,6 +148,15 @@ mod tests {
     }
 
     #[test]
+    fn bends_that_are_moved_there_and_back_keep_few_vertices() {
+        let corner = |i: i32| DVec2::from_angle(f64::from(i).to_radians() * 4.0) * 20.0;
+        let round = vec![Polygon::simple((0..90).map(corner).collect())];
+        let moved = (0..3).fold(round.clone(), |area, _| closed(&area, 0.4));
+        assert!((area_m2(&moved) - area_m2(&round)).abs() < 0.3, "{}", area_m2(&moved) - area_m2(&round));
+        assert!(moved[0].exterior.len() <= 100, "{}", moved[0].exterior.len());
+    }
+
+    #[test]
     fn areas_add_up() {
         let (a, b) = ([square(0.0, 0.0, 10.0)], [square(4.0, 4.0, 2.0)]);
         assert_eq!(area_m2(&union(&[a[0].clone(), b[0].clone(), square(8.0, 0.0, 4.0)])), 100.0 + 8.0);

@@ -9,8 +9,8 @@ use trove_model::{
 };
 
 use crate::error::BuildError;
+use crate::geometry::path::Path;
 use crate::geometry::segments::SegmentIndex;
-use crate::roads::Path;
 
 /// At most so many views' positions.
 const MAX_VIEWS: usize = 20;

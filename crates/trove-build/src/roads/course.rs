@@ -6,7 +6,7 @@ use trove_model::{Drive, ParkingOrientation, Polygon};
 use super::corners::Node;
 use super::cross_section::{Band, Use};
 use super::network::Stretch;
-use super::path::shifted;
+use crate::geometry::path::shifted;
 use crate::geometry::plane::strip;
 
 /// Nothing is parked this near to a crossing.

@@ -4,8 +4,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 use trove_model::{Bounds, BuildingKind, Polygon, RoadKind, StreetMap};
 
-use super::path::Path;
 use crate::geometry::distance_field::DistanceField;
+use crate::geometry::path::Path;
 use crate::geometry::plane::{difference, grown, strip, union};
 use crate::geometry::segments::SegmentIndex;
 

@@ -14,8 +14,8 @@ use super::evidence::{self, Trace};
 use super::houses::Houses;
 use super::kerb;
 use super::network::{self, BESIDE_M, NEAR, RECORDED, Stretch, resampled};
-use super::path::shifted;
 use crate::geometry::distance_field::DistanceField;
+use crate::geometry::path::shifted;
 use crate::geometry::plane::{closed, difference, grown, intersection, rectangle, strip, union};
 use crate::geometry::plane_raster::PlaneRaster;
 

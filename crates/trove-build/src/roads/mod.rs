@@ -13,7 +13,6 @@ mod land;
 mod layout;
 mod markings;
 mod network;
-mod path;
 mod plan;
 mod seed_name;
 #[cfg(test)]
@@ -27,7 +26,6 @@ pub use bends::with_bends;
 pub(crate) use course::{Lane, LaneUse};
 pub(crate) use footings::Footing;
 pub(crate) use houses::HEADROOM_M;
-pub(crate) use path::Path;
 
 use footings::Footings;
 use seed_name::seed_name;

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use trove_model::{Kind, Random};
 
-use crate::roads::Path;
+use crate::geometry::path::Path;
 
 /// Where the axles of a vehicle are, as shares of its length from its middle: its heading is theirs.
 const AXLES: f64 = 0.3;

@@ -5,8 +5,9 @@ use trove_model::{Cycleway, KerbParking, Parking, ParkingOrientation, Random, Ro
 
 use super::motion::Motion;
 use super::shares::{Doing, Shares};
+use crate::geometry::path::Path;
 use crate::geometry::segments::{Nearest, SegmentIndex};
-use crate::roads::{Footing, Lane, LaneUse, Path};
+use crate::roads::{Footing, Lane, LaneUse};
 use crate::surroundings::{KERB_STEP_M, KerbPoint, Surroundings};
 
 /// Vehicles are put so near to a standpoint, metres.

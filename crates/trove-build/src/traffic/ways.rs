@@ -9,8 +9,9 @@ use super::motion::{Motion, On, Place};
 use super::parking::in_row;
 use super::shares::{Doing, Shares};
 use crate::geometry::near::Near;
+use crate::geometry::path::Path;
 use crate::geometry::segments::SegmentIndex;
-use crate::roads::{Lane, LaneUse, Path};
+use crate::roads::{Lane, LaneUse};
 use crate::surroundings::KerbPoint;
 use crate::surroundings::Surroundings;
 

@@ -4,10 +4,10 @@ use trove_model::{ParkingOrientation, Polygon, Seed};
 
 use super::legs::Leg;
 use super::symbols::{bicycle, laid};
+use crate::geometry::path::Path;
 use crate::geometry::plane::strip;
 use crate::roads::course::Course;
 use crate::roads::cross_section::{Band, Use};
-use crate::roads::path::Path;
 
 /// Width of a bay's lines.
 const LINE_M: f64 = 0.1;

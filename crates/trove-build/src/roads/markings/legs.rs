@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use trove_model::{Road, RoadKind, StreetMap, Turns};
 
+use crate::geometry::path::Path;
 use crate::roads::cross_section::{Use, cross_section};
 use crate::roads::network::Stretch;
-use crate::roads::path::Path;
 
 /// Corners of a junction are cut off by this much more than the other roads' width.
 const CORNER_M: f64 = 2.0;

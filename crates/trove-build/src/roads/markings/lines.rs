@@ -4,11 +4,11 @@ use glam::DVec2;
 use trove_model::{CentreLine, Dash, LinePattern, MarkingCustoms, Paint, Polygon, RoadKind};
 
 use super::legs::Leg;
+use crate::geometry::path::shifted;
 use crate::geometry::plane::strip;
 use crate::geometry::plane_raster::PlaneRaster;
 use crate::roads::cross_section::{Band, Use};
 use crate::roads::network::resampled;
-use crate::roads::path::shifted;
 
 /// Distance between the middles of a double line's lines, in widths of a line.
 const DOUBLE: f64 = 2.2;

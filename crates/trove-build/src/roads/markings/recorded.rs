@@ -6,8 +6,8 @@ use trove_model::{Drive, Lane, MarkingCustoms, Polygon, Turns};
 use super::approaches::{Control, shared_out};
 use super::crossings::Crossing;
 use super::symbols::{arrow, laid};
+use crate::geometry::path::Path;
 use crate::geometry::plane::{intersection, strip};
-use crate::roads::path::Path;
 
 /// A lane that starts this near to another one's end, and not behind it, can follow it; datasets may leave out the
 /// lanes within junctions.

@@ -4,8 +4,8 @@ use glam::DVec2;
 use trove_model::{Bounds, Polygon, Random};
 
 use super::stretches::{Look, Region};
+use crate::geometry::path::Path;
 use crate::geometry::plane::{difference, grown, intersection, strip, union};
-use crate::roads::path::Path;
 
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
 const PATCH_EVERY_M: f64 = 24.0;

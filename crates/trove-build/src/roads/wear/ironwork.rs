@@ -4,9 +4,9 @@ use glam::{DVec2, Vec2};
 use trove_model::{FurnitureKind, Mesh, Polygon, Random, StreetMap};
 
 use super::stretches::Region;
+use crate::geometry::path::Path;
 use crate::geometry::plane::rectangle;
 use crate::ground::Drape;
-use crate::roads::path::Path;
 
 /// Metres of road for one cover, and of kerb for one grating.
 const COVER_EVERY_M: f64 = 32.0;

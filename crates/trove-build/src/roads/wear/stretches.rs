@@ -4,14 +4,14 @@ use glam::DVec2;
 use trove_model::{Bounds, Drive, Polygon, RoadSurface, Seed, SurfaceKind};
 
 use super::tone::Tone;
+use crate::geometry::path::Path;
+use crate::geometry::path::shifted;
 use crate::geometry::plane::{difference, intersection, strip, union};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::cross_section::Use;
 use crate::roads::layout::Layout;
 use crate::roads::markings::long_axis;
 use crate::roads::network::{Stretch, resampled};
-use crate::roads::path::Path;
-use crate::roads::path::shifted;
 
 /// Wheels run this far beside a lane's middle; their track reaches this much to both sides.
 const WHEEL_M: f64 = 0.85;

@@ -25,7 +25,7 @@ impl<'a> Path<'a> {
     }
 
     /// Length up to a vertex.
-    pub(super) fn vertex_m(&self, i: usize) -> f64 {
+    pub(crate) fn vertex_m(&self, i: usize) -> f64 {
         self.along_m[i]
     }
 
@@ -44,7 +44,7 @@ impl<'a> Path<'a> {
     }
 
     /// The point `offset_m` to the left at a length.
-    pub(super) fn beside(&self, s_m: f64, offset_m: f64) -> DVec2 {
+    pub(crate) fn beside(&self, s_m: f64, offset_m: f64) -> DVec2 {
         let (at, along) = self.at(s_m);
         at + along.perp() * offset_m
     }
@@ -64,7 +64,7 @@ impl<'a> Path<'a> {
 }
 
 /// The line moved to its left by `distance_m`.
-pub(super) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
+pub(crate) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
     let direction = |i: usize| (line[i + 1] - line[i]).normalize_or_zero();
     (0..line.len())
         .map(|i| {
