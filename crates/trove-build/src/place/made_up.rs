@@ -1,6 +1,6 @@
 //! A place without recorded traffic, seen from its own streets.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use trove_model::{
@@ -30,9 +30,11 @@ const LOOKED_AT_M: [f64; 3] = [-1.0, 1.2, 3.4];
 /// A view has no wall so near to points farther ahead, metres.
 const IN_VIEW_M: f64 = 1.0;
 const AHEAD_M: [f64; 6] = [5.0, 7.0, 9.0, 12.0, 15.0, 18.0];
-/// And a street on whose line, within this, it looks; no view looks off the end of a road, metres.
+/// And a street on whose line, within this, it looks; no view looks off the end of a road, nor at a dead end so far ahead,
+/// metres.
 const STREET_M: f64 = 5.0;
 const ALONG_M: f64 = 12.0;
+const DEAD_END_M: f64 = 25.0;
 /// The road that leads up to a bridge rises on this many metres at most.
 const RAMP_M: f64 = 95.0;
 /// Positions are unrelated, so their times lie too far apart for motion between them, nanoseconds.
@@ -77,10 +79,16 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
         drawn.push(candidates.swap_remove(random.index(candidates.len())));
     }
     let streets = SegmentIndex::new(roads().map(|road| road.centreline.as_slice()));
-    let ramps = ramps(map);
+    let (ramps, dead_ends) = (ramps(map), dead_ends(map));
     let is_on_street = |pose: &Pose<World, Ego>| {
         let ahead = pose.point(DVec3::X * ALONG_M).truncate();
-        streets.nearest(ahead, STREET_M).is_some() && ramps.nearest(pose.translation.truncate(), STREET_M).is_none()
+        let looks_at = |end: &DVec2| {
+            let seen = pose.inverse().point(end.extend(pose.translation.z));
+            (0.0..DEAD_END_M).contains(&seen.x) && seen.y.abs() < STREET_M
+        };
+        streets.nearest(ahead, STREET_M).is_some()
+            && ramps.nearest(pose.translation.truncate(), STREET_M).is_none()
+            && !dead_ends.iter().any(looks_at)
     };
     let (drawn, off_street): (Vec<_>, Vec<_>) = drawn.into_iter().partition(is_on_street);
     let drawn = if drawn.is_empty() { off_street } else { drawn };
@@ -139,15 +147,10 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
 
 /// Roads, as far as they may rise to a bridge: no other road on the ground meets them where it begins.
 fn ramps(map: &StreetMap) -> SegmentIndex {
-    let (raised, level): (Vec<&Road>, Vec<&Road>) =
-        map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel).partition(|r| r.bridge || r.layer > 0);
-    let key = |p: &DVec2| p.to_array().map(f64::to_bits);
-    let begins: BTreeSet<[u64; 2]> = raised.iter().flat_map(|r| &r.centreline).map(key).collect();
-    let mut met: BTreeMap<[u64; 2], usize> = BTreeMap::new();
-    for p in level.iter().flat_map(|r| &r.centreline).map(key) {
-        *met.entry(p).or_default() += 1;
-    }
-    let rises = |p: &DVec2| begins.contains(&key(p)) && met[&key(p)] == 1;
+    let cars = map.roads.iter().filter(|r| r.kind.is_for_cars() && !r.tunnel);
+    let (raised, level): (Vec<&Road>, Vec<&Road>) = cars.partition(|r| r.bridge || r.layer > 0);
+    let (begins, met) = (meetings(&raised), meetings(&level));
+    let rises = |p: &DVec2| begins.contains_key(&key(p)) && met[&key(p)] == 1;
     let of_road = |road: &&Road| {
         let path = Path::new(&road.centreline);
         let length_m = path.length_m();
@@ -157,6 +160,27 @@ fn ramps(map: &StreetMap) -> SegmentIndex {
     };
     let lines: Vec<Vec<DVec2>> = level.iter().flat_map(of_road).collect();
     SegmentIndex::new(lines.iter().map(Vec::as_slice))
+}
+
+/// Where roads for cars end without another.
+fn dead_ends(map: &StreetMap) -> Vec<DVec2> {
+    let cars: Vec<&Road> = map.roads.iter().filter(|r| r.kind.is_for_cars()).collect();
+    let met = meetings(&cars);
+    let ends = cars.iter().flat_map(|road| [road.centreline.first(), road.centreline.last()]).flatten();
+    ends.filter(|p| met[&key(p)] == 1).copied().collect()
+}
+
+/// How many vertices of roads lie at each place.
+fn meetings(roads: &[&Road]) -> BTreeMap<[u64; 2], usize> {
+    let mut met = BTreeMap::new();
+    for p in roads.iter().flat_map(|road| &road.centreline) {
+        *met.entry(key(p)).or_default() += 1;
+    }
+    met
+}
+
+fn key(p: &DVec2) -> [u64; 2] {
+    p.to_array().map(f64::to_bits)
 }
 
 /// Houses that a vehicle may not stand in, nor at.
@@ -310,7 +334,7 @@ mod tests {
             let drive = place_drive(&map, &plan(DrivingSide::Right), Seed(seed), &Report::default()).unwrap();
             for keyframe in &drive.keyframes {
                 let pose = keyframe.world_from_ego;
-                assert!(pose.vector(DVec3::X).x < 0.0 || pose.translation.x < 60.0 - ALONG_M + STREET_M, "{pose:?}");
+                assert!(pose.vector(DVec3::X).x < 0.0 || pose.translation.x <= 60.0 - DEAD_END_M, "{pose:?}");
             }
         }
     }

@@ -17,7 +17,7 @@ const DRIP_EVERY_M: f64 = 7.0;
 const SKID_STEPS: usize = 6;
 /// Points of a crack and of a patch's edge are this far apart; saws and shovels leave an edge by so much.
 const STEP_M: f64 = 0.35;
-const FRAY_M: f64 = 0.012;
+const FRAY_M: f64 = 0.005;
 /// Of patches that are larger than this fewer are new.
 const WIDE_M2: f64 = 10.0;
 /// Bitumen and rubber, and a line's ground-off place, as factors on aged asphalt.
