@@ -8,6 +8,7 @@ use trove_model::{Bounds, Drive, DrivingSide, Keyframe, Polygon, Road, StreetMap
 
 use super::correction::Correction;
 use super::walls::{WallPiece, wall_pieces};
+use crate::geometry::path::closed;
 use crate::geometry::segments::SegmentIndex;
 
 /// Distance of places on a road, metres.
@@ -94,11 +95,6 @@ impl<'a> Movable<'a> {
             outlines: SegmentIndex::new(rings.iter().map(Vec::as_slice)),
         }
     }
-}
-
-/// A ring with its first place again at its end.
-fn closed(ring: &[DVec2]) -> Vec<DVec2> {
-    ring.iter().chain(ring.first()).copied().collect()
 }
 
 impl Evidence {

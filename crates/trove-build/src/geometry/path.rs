@@ -74,3 +74,18 @@ pub(crate) fn shifted(line: &[DVec2], distance_m: f64) -> Vec<DVec2> {
         })
         .collect()
 }
+
+/// A ring with its first place again at its end.
+pub(crate) fn closed(ring: &[DVec2]) -> Vec<DVec2> {
+    ring.iter().chain(ring.first()).copied().collect()
+}
+
+/// The line with a point at least every `step_m`; its own vertices stay.
+pub(crate) fn resampled(line: &[DVec2], step_m: f64) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = line.first().copied().into_iter().collect();
+    for pair in line.windows(2) {
+        let steps = (pair[0].distance(pair[1]) / step_m).ceil().max(1.0);
+        points.extend((1..=steps as usize).map(|i| pair[0].lerp(pair[1], i as f64 / steps)));
+    }
+    points
+}

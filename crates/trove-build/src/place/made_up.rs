@@ -9,7 +9,7 @@ use trove_model::{
 };
 
 use crate::error::BuildError;
-use crate::geometry::path::Path;
+use crate::geometry::path::{Path, closed};
 use crate::geometry::segments::SegmentIndex;
 
 /// At most so many views' positions.
@@ -82,8 +82,9 @@ pub fn place_drive(map: &StreetMap, plan: &PlacePlan<'_>, seed: Seed, report: &R
     let (ramps, dead_ends) = (ramps(map), dead_ends(map));
     let is_on_street = |pose: &Pose<World, Ego>| {
         let ahead = pose.point(DVec3::X * ALONG_M).truncate();
+        let ego_from_world = pose.inverse();
         let looks_at = |end: &DVec2| {
-            let seen = pose.inverse().point(end.extend(pose.translation.z));
+            let seen = ego_from_world.point(end.extend(pose.translation.z));
             (0.0..DEAD_END_M).contains(&seen.x) && seen.y.abs() < STREET_M
         };
         streets.nearest(ahead, STREET_M).is_some()
@@ -154,9 +155,11 @@ fn ramps(map: &StreetMap) -> SegmentIndex {
     let of_road = |road: &&Road| {
         let path = Path::new(&road.centreline);
         let length_m = path.length_m();
-        let first = road.centreline.first().filter(|p| rises(p)).map(|_| path.part(0.0, RAMP_M, 0.0));
-        let last = road.centreline.last().filter(|p| rises(p)).map(|_| path.part(length_m - RAMP_M, length_m, 0.0));
-        [first, last].into_iter().flatten()
+        let ends = [(road.centreline.first(), [0.0, RAMP_M]), (road.centreline.last(), [length_m - RAMP_M, length_m])];
+        ends.into_iter()
+            .filter(|(end, _)| end.is_some_and(rises))
+            .map(|(_, [from_m, to_m])| path.part(from_m, to_m, 0.0))
+            .collect::<Vec<_>>()
     };
     let lines: Vec<Vec<DVec2>> = level.iter().flat_map(of_road).collect();
     SegmentIndex::new(lines.iter().map(Vec::as_slice))
@@ -194,8 +197,7 @@ impl<'a> Walls<'a> {
         let area = area.grown(SPACING_M);
         let with_bounds = map.buildings.iter().filter_map(|b| Some((&b.footprint, b.footprint.bounds()?)));
         let footprints: Vec<_> = with_bounds.filter(|(_, bounds)| bounds.overlaps(&area)).collect();
-        let closed = |ring: &Vec<DVec2>| [&ring[..], &ring[..1.min(ring.len())]].concat();
-        let rings: Vec<Vec<DVec2>> = footprints.iter().flat_map(|(p, _)| p.rings()).map(closed).collect();
+        let rings: Vec<Vec<DVec2>> = footprints.iter().flat_map(|(p, _)| p.rings()).map(|ring| closed(ring)).collect();
         Self { footprints, index: SegmentIndex::new(rings.iter().map(Vec::as_slice)) }
     }
 

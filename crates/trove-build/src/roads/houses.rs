@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use trove_model::{Bounds, BuildingKind, Polygon, RoadKind, StreetMap};
 
 use crate::geometry::distance_field::DistanceField;
-use crate::geometry::path::Path;
+use crate::geometry::path::{Path, closed};
 use crate::geometry::plane::{difference, grown, strip, union};
 use crate::geometry::segments::SegmentIndex;
 
@@ -95,10 +95,6 @@ impl<'a> Houses<'a> {
     fn holds(&self, p: DVec2) -> bool {
         self.footprints.iter().any(|(polygon, bounds)| bounds.contains(p) && polygon.contains(p))
     }
-}
-
-fn closed(ring: &[DVec2]) -> Vec<DVec2> {
-    [ring, &ring[..1.min(ring.len())]].concat()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use trove_model::{Outcome, Report, Road};
 
 use super::cross_section::{CrossSection, cross_section};
 use super::houses::Houses;
+use crate::geometry::path;
 use crate::geometry::plane_raster::PlaneRaster;
 
 /// Roads are looked at every so many metres.
@@ -73,12 +74,7 @@ pub(super) fn stretches<'a>(
 
 /// The line with points every [`STEP_M`]; its own vertices stay.
 pub(super) fn resampled(line: &[DVec2]) -> Vec<DVec2> {
-    let mut points: Vec<DVec2> = line.first().copied().into_iter().collect();
-    for pair in line.windows(2) {
-        let steps = (pair[0].distance(pair[1]) / STEP_M).ceil().max(1.0);
-        points.extend((1..=steps as usize).map(|i| pair[0].lerp(pair[1], i as f64 / steps)));
-    }
-    points
+    path::resampled(line, STEP_M)
 }
 
 /// The median width of the recorded area along a road, across junctions left out; `None` where they share too little.

@@ -8,6 +8,7 @@ use super::layout::Layout;
 use super::markings::Markings;
 use super::network::resampled;
 use super::wear::PAINT_M;
+use crate::geometry::path::closed;
 use crate::geometry::segments::SegmentIndex;
 use crate::ground::Drape;
 
@@ -46,8 +47,7 @@ pub(super) fn plan(layout: &Layout<'_>, markings: &Markings, lanes: &[Lane], dra
 
 /// The parts of the carriageway's outlines that run along kerbs.
 fn kerbs(layout: &Layout<'_>) -> Vec<Vec<DVec2>> {
-    let closed = |ring: &Vec<DVec2>| [&ring[..], &ring[..1]].concat();
-    let stones: Vec<Vec<DVec2>> = layout.kerb.iter().flat_map(Polygon::rings).map(closed).collect();
+    let stones: Vec<Vec<DVec2>> = layout.kerb.iter().flat_map(Polygon::rings).map(|ring| closed(ring)).collect();
     let stones = SegmentIndex::new(stones.iter().map(Vec::as_slice));
     let at_foot = |p: DVec2| stones.nearest(p, FOOT_M).is_some();
     let mut kerbs = Vec::new();

@@ -4,7 +4,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Polygon, Random};
 
 use super::stretches::{Look, Region};
-use crate::geometry::path::Path;
+use crate::geometry::path::{Path, closed, resampled};
 use crate::geometry::plane::{difference, grown, intersection, strip, union};
 
 /// Metres of road for one patch, one sealed crack, one pair of skid marks, one erased line, one drip.
@@ -145,12 +145,10 @@ fn patch(region: &Region, path: &Path<'_>, random: &mut Random) -> Vec<Polygon> 
 /// With edges that no ruler drew.
 fn frayed(outline: &[Polygon], random: &mut Random) -> Vec<Polygon> {
     let frayed = |polygon: &Polygon| {
-        let outer = Polygon::simple(polygon.exterior.clone());
-        let points = outer.edges().flat_map(|(from, to)| {
-            let steps = (from.distance(to) / STEP_M).ceil().max(1.0);
-            (0..steps as usize).map(move |i| from.lerp(to, i as f64 / steps))
-        });
-        Polygon::simple(points.map(|p| p + DVec2::new(random.normal(), random.normal()) * FRAY_M).collect())
+        let mut points = resampled(&closed(&polygon.exterior), STEP_M);
+        points.pop();
+        let moved = points.iter().map(|p| p + DVec2::new(random.normal(), random.normal()) * FRAY_M);
+        Polygon::simple(moved.collect())
     };
     outline.iter().map(frayed).collect()
 }

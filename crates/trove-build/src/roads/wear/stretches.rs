@@ -4,8 +4,7 @@ use glam::DVec2;
 use trove_model::{Bounds, Drive, Polygon, RoadSurface, Seed, SurfaceKind};
 
 use super::tone::Tone;
-use crate::geometry::path::Path;
-use crate::geometry::path::shifted;
+use crate::geometry::path::{Path, shifted};
 use crate::geometry::plane::{difference, intersection, strip, union};
 use crate::geometry::segments::SegmentIndex;
 use crate::roads::cross_section::Use;
