@@ -81,7 +81,7 @@ impl Actor {
         self.class
     }
 
-    /// Changes its paint by a factor.
+    /// Changes its paint, or its largest garment, by a factor.
     pub(crate) fn repaint(&mut self, factor: Vec3, stock: &mut Stock) {
         let Some(slot) = self.painted else { return };
         for materials in [Some(&mut self.materials), self.braking.as_mut()].into_iter().flatten() {

@@ -35,7 +35,7 @@ const MOST_STOPS: f64 = 1.0;
 
 /// The least exposure at which the developed picture's mean brightness is [`SHOWN_MEAN`] and its brightest parts are shown at
 /// [`SHOWN_BRIGHTEST`]. White clips, so that a bright sky counts for no more than it covers. 0 for a black picture.
-pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
+pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>, contrast: f32) -> f64 {
     let mut histogram = vec![0u64; (SPAN_STOPS * STEPS_PER_STOP) as usize];
     for &rgb in &radiance.data {
         let stops = f64::from(luminance(rgb)).log2() + SPAN_STOPS / 2.0;
@@ -55,7 +55,8 @@ pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>) -> f64 {
     }
     let is_too_dark = |ev: f64| {
         let shown = |bin: usize| {
-            f64::from(tone::shown(((bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev).exp2() as f32))
+            let stops = (bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev;
+            f64::from(tone::shown(stops.exp2() as f32, contrast))
         };
         let sum: f64 = (1..histogram.len()).map(|bin| histogram[bin] as f64 * shown(bin)).sum();
         sum < SHOWN_MEAN * pixels || shown(bright) < SHOWN_BRIGHTEST
@@ -103,6 +104,9 @@ pub(super) fn white_balance(radiance: &Raster<[f32; 3]>) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trove_model::Film;
+
+    const CONTRAST: f32 = Film::CONTRAST as f32;
 
     fn street(light: [f32; 3]) -> Raster<[f32; 3]> {
         Raster::from_fn(60, 30, |x, y| {
@@ -119,8 +123,9 @@ mod tests {
     #[test]
     fn a_street_is_exposed_by_its_mean_and_what_has_no_contrast_by_its_brightest_part() {
         let shown = |picture: &Raster<[f32; 3]>| {
-            let gain = exposure_ev(picture).exp2() as f32;
-            let mut shown: Vec<f32> = picture.data.iter().map(|&rgb| tone::shown(luminance(rgb) * gain)).collect();
+            let gain = exposure_ev(picture, CONTRAST).exp2() as f32;
+            let mut shown: Vec<f32> =
+                picture.data.iter().map(|&rgb| tone::shown(luminance(rgb) * gain, CONTRAST)).collect();
             shown.sort_by(f32::total_cmp);
             (shown.iter().sum::<f32>() / shown.len() as f32, shown[shown.len() * 99 / 100])
         };
@@ -141,7 +146,7 @@ mod tests {
     #[test]
     fn a_night_in_which_hardly_anything_shines_is_exposed_by_the_most_that_a_camera_does() {
         let lamp = Raster::from_fn(60, 30, |x, y| [if (x, y) == (7, 3) { 1.0 } else { 0.0 }; 3]);
-        assert!((exposure_ev(&lamp) - MOST_EV).abs() < 1e-6, "{}", exposure_ev(&lamp));
+        assert!((exposure_ev(&lamp, CONTRAST) - MOST_EV).abs() < 1e-6, "{}", exposure_ev(&lamp, CONTRAST));
     }
 
     #[test]

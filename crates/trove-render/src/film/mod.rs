@@ -18,9 +18,10 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
         Some(model) => sensor::optics(&radiance, model),
         None => radiance,
     };
+    let contrast = film.contrast as f32;
     let ev = match film.exposure {
         ExposureRule::Fixed { ev } => ev,
-        ExposureRule::Auto { compensation_ev } => meter::exposure_ev(&radiance) + compensation_ev,
+        ExposureRule::Auto { compensation_ev } => meter::exposure_ev(&radiance, contrast) + compensation_ev,
     };
     let balance = match film.white_balance {
         WhiteBalance::Daylight => [1.0; 3],
@@ -30,7 +31,7 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
     let pixel = |(i, rgb): (usize, &[f32; 3])| {
         let exposed = rgb.map(|c| c * gain);
         let counted = film.sensor.as_ref().map_or(exposed, |model| sensor::counted(exposed, ev, model, seed, i));
-        tone::srgb([0, 1, 2].map(|c| counted[c] * balance[c]))
+        tone::srgb([0, 1, 2].map(|c| counted[c] * balance[c]), contrast)
     };
     let data = radiance.data.par_iter().enumerate().map(pixel).collect();
     (Raster { width: radiance.width, height: radiance.height, data }, ev)
@@ -52,7 +53,7 @@ mod tests {
             distortion: Distortion::None,
         };
         Shot {
-            film: Film { exposure, white_balance: WhiteBalance::Auto, sensor },
+            film: Film { exposure, sensor, ..Film::default() },
             seed: Seed(1),
             ..Shot::new("test", lens, Pose::IDENTITY)
         }

@@ -1,35 +1,30 @@
 //! The camera's response: from exposed light to encoded brightness.
 //!
-//! Fitted to photographs of four datasets, each counted alike: nuScenes, KITTI, CamVid and IDD-Lite. Their darkest fiftieth
-//! is shown below 0.03 to 0.12 of white, a quarter of them below 0.15 to 0.28, the brightest tenth above 0.72 to 0.90;
-//! nuScenes' have the least contrast. Their colours are paler than the things that they show.
+//! Colours of photographs are paler than the things that they show.
 
 /// Exposed radiance of a grey card, and that which just becomes white, three stops above.
 const GREY: f32 = 0.18;
 pub(super) const WHITE: f32 = 1.5;
 
-/// How much steeper than the light itself the response runs around a grey card; it flattens to both ends.
-const CONTRAST: f32 = 1.4;
-
 /// Share of brightness that is mixed into every channel: a camera's colour filters overlap.
 const FADE: f32 = 0.15;
 
 /// 8-bit sRGB of an exposed colour.
-pub(super) fn srgb(exposed: [f32; 3]) -> [u8; 3] {
+pub(super) fn srgb(exposed: [f32; 3], contrast: f32) -> [u8; 3] {
     let faded = FADE * luminance(exposed);
-    exposed.map(|c| (shown((1.0 - FADE) * c + faded) * 255.0 + 0.5) as u8)
+    exposed.map(|c| (shown((1.0 - FADE) * c + faded, contrast) * 255.0 + 0.5) as u8)
 }
 
 /// Encoded brightness of an exposed one, 0 to 1 for white.
-pub(super) fn shown(exposed: f32) -> f32 {
-    encoded(steepened(held_back(exposed).min(1.0)))
+pub(super) fn shown(exposed: f32, contrast: f32) -> f32 {
+    encoded(steepened(held_back(exposed).min(1.0), contrast))
 }
 
 /// A sigmoid that leaves black, a grey card and white where they are: odds to a power.
-fn steepened(shown: f32) -> f32 {
+fn steepened(shown: f32, contrast: f32) -> f32 {
     let odds = |share: f32| share / (1.0 - share);
     let grey = odds(held_back(GREY));
-    let steep = grey * (odds(shown) / grey).powf(CONTRAST);
+    let steep = grey * (odds(shown) / grey).powf(contrast);
     if steep.is_finite() { steep / (1.0 + steep) } else { 1.0 }
 }
 
@@ -51,24 +46,39 @@ pub(super) fn luminance(rgb: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trove_model::Film;
+
+    const CONTRAST: f32 = Film::CONTRAST as f32;
 
     #[test]
     fn a_grey_card_becomes_middle_grey_and_white_is_white() {
-        let shown = |value: f32| srgb([value; 3])[0];
-        assert_eq!(shown(0.0), 0);
-        assert!(shown(GREY).abs_diff(113) < 3, "{}", shown(GREY));
-        assert_eq!((shown(WHITE), shown(f32::MAX)), (255, 255));
-        // Steeper than sRGB's encoding of the light that is held back.
-        let stop = |side: f32| f32::from(shown(GREY * side));
-        assert!(stop(2.0) / stop(0.5) > 2.1, "{}", stop(2.0) / stop(0.5));
-        let shades: Vec<u8> = (0..40).map(|i| shown((i as f32 * 0.3 - 9.0).exp2())).collect();
-        assert!(shades.is_sorted(), "{shades:?}");
+        for contrast in [0.6, CONTRAST, 3.0] {
+            let shown = |value: f32| srgb([value; 3], contrast)[0];
+            assert_eq!(shown(0.0), 0);
+            assert!(shown(GREY).abs_diff(113) < 3, "{}", shown(GREY));
+            assert_eq!((shown(WHITE), shown(f32::MAX)), (255, 255));
+            let shades: Vec<u8> = (0..40).map(|i| shown((i as f32 * 0.3 - 9.0).exp2())).collect();
+            assert!(shades.is_sorted(), "{shades:?}");
+        }
+    }
+
+    #[test]
+    fn contrast_is_the_slope_of_brightness_around_a_grey_card() {
+        // Of the light that is held back, without the encoding for display.
+        let odds = |exposed: f32, contrast| {
+            let shown = steepened(held_back(exposed), contrast);
+            (shown / (1.0 - shown)).ln()
+        };
+        for contrast in [0.6, 1.0, CONTRAST] {
+            let [slope, plain] = [contrast, 1.0].map(|c| odds(2.0 * GREY, c) - odds(0.5 * GREY, c));
+            assert!((slope / plain - contrast).abs() < 1e-3, "{slope} {plain}");
+        }
     }
 
     #[test]
     fn bright_colours_fade_towards_white() {
         let mixed = |gain: f32| {
-            let [r, _, b] = srgb([0.4 * gain, 0.05 * gain, 0.02 * gain]);
+            let [r, _, b] = srgb([0.4 * gain, 0.05 * gain, 0.02 * gain], CONTRAST);
             f32::from(b) / f32::from(r)
         };
         assert!(mixed(16.0) > 1.5 * mixed(1.0), "{} {}", mixed(16.0), mixed(1.0));

@@ -20,6 +20,8 @@ pub struct CameraSection {
     pub compensation_ev: f64,
     /// Which light becomes white.
     pub white_balance: Balance,
+    /// How steeply brightness runs around a grey card.
+    pub contrast: f64,
     /// Time for which a row of the sensor is exposed; 0 is an instant.
     pub exposure_s: f64,
     /// From the first row's exposure to the last one's; 0 is a global shutter.
@@ -100,6 +102,7 @@ impl Default for CameraSection {
             exposure_ev: Exposure::Metered(Metered::Auto),
             compensation_ev: 0.0,
             white_balance: Balance::Auto,
+            contrast: Film::CONTRAST,
             exposure_s: 0.0,
             readout_s: 0.0,
             drops: 0.0,
@@ -131,6 +134,7 @@ impl CameraSection {
             stops("camera.exposure_ev", ev)?;
         }
         stops("camera.compensation_ev", self.compensation_ev)?;
+        check("camera.contrast", self.contrast, (0.2..=5.0).contains(&self.contrast), "0.2 to 5")?;
         for (key, seconds) in [("camera.exposure_s", self.exposure_s), ("camera.readout_s", self.readout_s)] {
             check(key, seconds, (0.0..=0.1).contains(&seconds), "0 to 0.1")?;
         }
@@ -176,7 +180,7 @@ impl CameraSection {
             Balance::Auto => WhiteBalance::Auto,
             Balance::Daylight => WhiteBalance::Daylight,
         };
-        Film { exposure, white_balance, sensor: self.sensor.map(SensorModel::from) }
+        Film { exposure, white_balance, contrast: self.contrast, sensor: self.sensor.map(SensorModel::from) }
     }
 }
 
@@ -224,6 +228,7 @@ mod tests {
         let fixed = camera("[camera]\nexposure_ev = 1\nwhite_balance = \"daylight\"\n").unwrap().film();
         assert_eq!(fixed.exposure, ExposureRule::Fixed { ev: 1.0 });
         assert_eq!(fixed.white_balance, WhiteBalance::Daylight);
+        assert_eq!(camera("[camera]\ncontrast = 0.9\n").unwrap().film().contrast, 0.9);
     }
 
     #[test]
@@ -250,6 +255,7 @@ mod tests {
         for (text, expect) in [
             ("[camera]\nexposure_s = 2\n", "camera.exposure_s: expected 0 to 0.1"),
             ("[camera]\nexposure_s = 0.06\nreadout_s = 0.06\n", "expected at most 0.1"),
+            ("[camera]\ncontrast = 0\n", "camera.contrast: expected 0.2 to 5, found 0"),
             ("[camera]\ndrops = 0.6\n", "camera.drops: expected 0 to 0.5"),
             ("[camera.sensor]\nvignetting = 1.0\n", "camera.sensor.vignetting"),
             (
