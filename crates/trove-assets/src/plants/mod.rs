@@ -103,11 +103,7 @@ mod tests {
             let plant = asset.plant.as_ref().unwrap();
             let bare = plant.seasons.iter().find(|f| f.season == Season::Winter);
             for (slot, material) in asset.slots.iter().map(|s| (s, &s.material)).filter(|(_, m)| m.translucency > 0.0) {
-                let picture = material.base_color_map.as_ref().unwrap();
-                let above = |cutoff: f32| {
-                    let there = picture.rgba.iter().filter(|t| f32::from(t[3]) > cutoff * 255.0).count();
-                    there as f32 / picture.rgba.len() as f32
-                };
+                let above = |cutoff: f32| covered(&Material { alpha_cutoff: cutoff, ..material.clone() });
                 assert!((0.12..0.85).contains(&above(0.5)), "{} covers {}", material.name, above(0.5));
                 if material.name.ends_with("heads") {
                     continue;
@@ -119,6 +115,39 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Leaf area over what a plant covers of the ground, or of a wall where it is slender: trees of streets have 2 to 8
+    /// (McPherson and others 2016), palms less and clipped hedges more.
+    #[test]
+    fn plants_have_as_many_leaves_as_those_of_streets() {
+        for asset in &*PLANTS {
+            let mesh = &asset.mesh;
+            let covered: Vec<f32> = asset.slots.iter().map(|s| covered(&s.material)).collect();
+            let corners = |t: usize| mesh.triangles[t].map(|i| mesh.positions[i as usize]);
+            let of_leaves: Vec<usize> =
+                (0..mesh.triangles.len()).filter(|&t| covered[usize::from(mesh.slot(t))] > 0.0).collect();
+            let area = |t: usize| {
+                let [a, b, c] = corners(t);
+                (b - a).cross(c - a).length() / 2.0 * covered[usize::from(mesh.slot(t))]
+            };
+            let leaves: f32 = of_leaves.iter().map(|&t| area(t)).sum();
+            let all = || of_leaves.iter().flat_map(|&t| corners(t));
+            let low = all().fold(glam::Vec3::INFINITY, glam::Vec3::min);
+            let size = all().fold(glam::Vec3::NEG_INFINITY, glam::Vec3::max) - low;
+            let covers = std::f32::consts::FRAC_PI_4 * size.x * size.y.max(size.z);
+            let most = if asset.kind == Kind::Tree { 8.0 } else { 11.0 };
+            assert!((1.0..most).contains(&(leaves / covers)), "{}: {leaves} m² over {covers} m²", asset.id);
+        }
+    }
+
+    /// Share of a picture of leaves that they cover; 0 of anything else.
+    fn covered(material: &Material) -> f32 {
+        let Some(picture) = material.base_color_map.as_ref().filter(|_| material.translucency > 0.0) else {
+            return 0.0;
+        };
+        let there = picture.rgba.iter().filter(|t| f32::from(t[3]) > material.alpha_cutoff * 255.0).count();
+        there as f32 / picture.rgba.len() as f32
     }
 
     #[test]

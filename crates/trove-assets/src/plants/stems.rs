@@ -75,7 +75,7 @@ fn spruce(id: &str, [height_m, reach_m]: [f32; 2], wood: Material, leaves: Mater
                     let along = fan + Vec3::Z * tilt + direction(&mut random) * 0.25;
                     let face = Vec3::Z * 0.8 + out * 0.4 + direction(&mut random) * 0.45;
                     let outward = (out + Vec3::Z * 0.55).normalize_or(Vec3::Z);
-                    let size_m = (0.3 + 0.11 * reach) * random.range(0.8, 1.2) as f32;
+                    let size_m = (0.24 + 0.13 * reach) * random.range(0.8, 1.2) as f32;
                     let tint = varied(&mut random, 0.16) * (0.78 + 0.3 * t);
                     cards.push(Card { foot: at(t), along, face, size_m, outward, tint });
                 }
