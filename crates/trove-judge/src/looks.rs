@@ -52,8 +52,8 @@ const MOST_EV: f64 = 2.0;
 const ROUNDS: usize = 12;
 
 /// What would make renders look like photographs: the contrast, each camera's exposure, and then the colours of vehicles,
-/// people, buildings and of the other classes. All are medians over what they are seen in, so that a photograph that shows something
-/// else at a place has little say.
+/// people, buildings and of the other classes. All are medians over what they are seen in, so that a photograph that
+/// shows something else at a place has little say.
 pub fn looks(pairs: &[Pair]) -> Looks {
     let spreads = pairs.iter().map(|pair| [pair.photograph, pair.render].map(Spread::of));
     let spreads: Vec<[Spread; 2]> = spreads.collect();

@@ -83,7 +83,7 @@ pub(super) fn material(name: &str, sprig: Sprig, size_px: u32, seed: u64) -> Mat
         base_color_map: Some(canvas.color(name)),
         alpha_cutoff: FULL,
         translucency: TRANSLUCENCY,
-        // Waxy, but each is bent: what gleams is spread widely (PROSPECT's index of refraction is 1.4 to 1.5 for visible light).
+        // Waxy (PROSPECT's index of refraction is 1.4 to 1.5 for visible light), but bent: gleams are spread widely.
         ior: 1.45,
         ..Material::plain(name, Vec3::ONE, 0.6)
     }
