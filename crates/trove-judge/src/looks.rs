@@ -15,8 +15,6 @@ pub struct Pair<'a> {
     pub photograph: &'a Raster<[u8; 3]>,
     /// 8-bit sRGB.
     pub render: &'a Raster<[u8; 3]>,
-    /// Of the film on which the render is ([`trove_model::Film::contrast`]).
-    pub contrast: f64,
     /// What the render shows.
     pub labels: &'a Labels,
 }
@@ -34,12 +32,8 @@ enum Thing {
 const LEAST_PX: usize = 40;
 /// Of what a photograph shows where something is in the render so much at either end is likely something else.
 const TRIMMED: f64 = 0.15;
-/// What is shown darker or brighter than these, linear, has lost how dark or bright it is.
-const SHOWN: [f32; 2] = [0.004, 0.98];
-/// Shares of a picture's pixels between which its contrast is measured.
-const CONTRAST_BETWEEN: [f64; 2] = [0.1, 0.9];
-/// A contrast changes by at most so much at once.
-const MOST_CONTRAST: f32 = 2.0;
+/// Below this light is the camera's own, linear.
+const DARK: f32 = 0.004;
 /// Lightness changes by at most so much, as a logarithm: that of surfaces by 2.7, that of paint and clothes, of which there
 /// are any, by more.
 const SURFACE: f32 = 1.0;
@@ -51,22 +45,16 @@ const MOST_EV: f64 = 2.0;
 /// Rounds of turns between exposures and colours.
 const ROUNDS: usize = 12;
 
-/// What would make renders look like photographs: the contrast, each camera's exposure, and then the colours of vehicles,
-/// people, buildings and of the other classes. All are medians over what they are seen in, so that a photograph that
-/// shows something else at a place has little say.
+/// What would make renders look like photographs: each camera's exposure, and then the colours of vehicles, people,
+/// buildings and of the other classes. All are medians over what they are seen in, so that a photograph that shows something else at a
+/// place has little say.
 pub fn looks(pairs: &[Pair]) -> Looks {
-    let spreads = pairs.iter().map(|pair| [pair.photograph, pair.render].map(Spread::of));
-    let spreads: Vec<[Spread; 2]> = spreads.collect();
-    let steeper = spreads.iter().map(|[photograph, render]| (photograph.width / render.width, 1.0));
-    let steeper = median(steeper.filter(|(ratio, _)| ratio.is_finite() && *ratio > 0.0).collect());
-    let steeper = if steeper > 0.0 { steeper.clamp(1.0 / MOST_CONTRAST, MOST_CONTRAST) } else { 1.0 };
-    // By camera and thing: how much lighter it has to be for the photograph, as a logarithm, and the weight of that.
+    // By camera and thing: how much lighter the photograph is, as a logarithm, and the weight of that.
     let mut seen: BTreeMap<(&str, Thing), Vec<(Vec3, f64)>> = BTreeMap::new();
-    for (pair, [_, of_render]) in pairs.iter().zip(&spreads) {
+    for pair in pairs {
         for (thing, pixels) in things(pair) {
-            let [photograph, render] = [pair.photograph, pair.render].map(|picture| mean(picture, &pixels).map(odds));
-            let render = of_render.middle + steeper * (render - of_render.middle);
-            let lighter = (photograph - render) / (steeper * pair.contrast as f32);
+            let [photograph, render] = [pair.photograph, pair.render].map(|picture| mean(picture, &pixels));
+            let lighter = ((photograph + DARK) / (render + DARK)).map(f32::ln);
             seen.entry((pair.camera, thing)).or_default().push((lighter, (pixels.len() as f64).sqrt()));
         }
     }
@@ -94,7 +82,7 @@ pub fn looks(pairs: &[Pair]) -> Looks {
             *colour = lighter + (found - luminance(found)).clamp(Vec3::splat(-hue), Vec3::splat(hue));
         }
     }
-    let mut looks = Looks { contrast: f64::from(steeper), ..Looks::default() };
+    let mut looks = Looks::default();
     for (thing, colour) in colours {
         match thing {
             Thing::Class(class) => drop(looks.classes.insert(class, colour.map(f32::exp))),
@@ -193,28 +181,6 @@ fn mean(picture: &Raster<[u8; 3]>, pixels: &[usize]) -> Vec3 {
     sum / pixels.len().max(1) as f32
 }
 
-/// Logarithm of the odds of a brightness. Those of film are its light to the power of its contrast, but for the brightest.
-fn odds(shown: f32) -> f32 {
-    let shown = shown.clamp(SHOWN[0], SHOWN[1]);
-    (shown / (1.0 - shown)).ln()
-}
-
-/// How far a picture's brightnesses lie apart, as logarithms of odds.
-struct Spread {
-    middle: f32,
-    width: f32,
-}
-
-impl Spread {
-    fn of(picture: &Raster<[u8; 3]>) -> Self {
-        let mut odds: Vec<f32> = picture.data.iter().map(|&rgb| odds(luminance(Vec3::from(linear(rgb))))).collect();
-        odds.sort_by(f32::total_cmp);
-        let at = |share: f64| odds.get((share * odds.len() as f64) as usize).copied().unwrap_or_default();
-        let [low, high] = CONTRAST_BETWEEN.map(at);
-        Self { middle: at(0.5), width: high - low }
-    }
-}
-
 fn luminance(rgb: Vec3) -> f32 {
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
@@ -235,30 +201,20 @@ fn median(mut values: Vec<(f32, f64)>) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use std::f32::consts::SQRT_2;
-
     use super::*;
     use trove_model::Labels;
 
     const SIZE: u32 = 40;
 
-    /// Sky above, road to the left, to the right a car whose id is 3, and something dark below.
-    fn classes() -> Raster<Class> {
-        Raster::from_fn(SIZE, SIZE, |x, y| match (y, x) {
-            (..10, _) => Class::Sky,
-            (30.., _) => Class::Void,
-            (_, ..20) => Class::Road,
-            _ => Class::Car,
-        })
-    }
-
+    /// The left half road, the right half a car whose id is 3.
     fn labels() -> Labels {
+        let is_car = |x: u32| x >= SIZE / 2;
         let grey = |v: f32| Raster::from_fn(SIZE, SIZE, |_, _| v);
         let none = || Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 2]);
         let seen = || Raster::from_fn(SIZE, SIZE, |_, _| trove_model::Occlusion::Seen);
         Labels {
-            class: classes(),
-            instance: classes().map(|class| if *class == Class::Car { 3 } else { 0 }),
+            class: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { Class::Car } else { Class::Road }),
+            instance: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { 3 } else { 0 }),
             depth_m: grey(1.0),
             normal: Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 3]),
             flow_forward: none(),
@@ -270,23 +226,10 @@ mod tests {
         }
     }
 
-    /// A picture by the light of road and car, exposed by a factor, on film of a contrast.
-    fn on_film(road: [f32; 3], car: [f32; 3], gain: f32, contrast: f32) -> Raster<[u8; 3]> {
-        let code = |light: f32| {
-            let odds = (gain * light).powf(contrast);
-            let shown = odds / (1.0 + odds);
-            ((1.055 * shown.powf(1.0 / 2.4) - 0.055) * 255.0).round() as u8
-        };
-        classes().map(|class| match class {
-            Class::Sky => [6.0; 3].map(code),
-            Class::Void => [0.03; 3].map(code),
-            Class::Road => road.map(code),
-            _ => car.map(code),
-        })
-    }
-
+    /// A picture of what is road and car in linear light.
     fn picture(road: [f32; 3], car: [f32; 3]) -> Raster<[u8; 3]> {
-        on_film(road, car, 1.0, 1.0)
+        let code = |v: f32| ((1.055 * v.powf(1.0 / 2.4) - 0.055) * 255.0).round() as u8;
+        Raster::from_fn(SIZE, SIZE, |x, _| if x >= SIZE / 2 { car.map(code) } else { road.map(code) })
     }
 
     fn near(found: Vec3, expected: [f32; 3]) -> bool {
@@ -298,8 +241,8 @@ mod tests {
         let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
         // The second camera exposes a stop more; the car is red in both.
         let dim = picture([0.2; 3], [0.4, 0.05, 0.05]);
-        let bright = on_film([0.2; 3], [0.4, 0.05, 0.05], 2.0, 1.0);
-        let pair = |camera, photograph| Pair { camera, photograph, render: &render, contrast: 1.0, labels: &labels };
+        let bright = picture([0.4; 3], [0.8, 0.1, 0.1]);
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
         let pairs = [pair("a", &dim), pair("b", &bright)];
         let found = looks(&pairs);
         let apart = found.exposure_ev["b"] - found.exposure_ev["a"];
@@ -318,34 +261,11 @@ mod tests {
     fn what_one_photograph_alone_shows_changes_no_surface_and_a_surface_keeps_its_hue() {
         let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
         let [alike, other] = [picture([0.2; 3], [0.3; 3]), picture([0.02, 0.3, 0.02], [0.3; 3])];
-        let pair = |camera, photograph| Pair { camera, photograph, render: &render, contrast: 1.0, labels: &labels };
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
         let pairs = [pair("a", &alike), pair("b", &alike), pair("c", &other)];
         assert!(near(looks(&pairs).classes[&Class::Road], [1.0; 3]), "{:?}", looks(&pairs));
         let only = looks(&[pair("c", &other)]);
         let [red, green] = [only.classes[&Class::Road].x, only.classes[&Class::Road].y];
         assert!(green / red < 1.3, "{only:?}");
-    }
-
-    #[test]
-    fn contrast_is_the_film_s_and_changes_no_colours() {
-        let labels = labels();
-        let found = |photograph: &_, render: &_, contrast| {
-            looks(&[Pair { camera: "a", photograph, render, contrast, labels: &labels }])
-        };
-        let (road, car) = ([0.1; 3], [0.4; 3]);
-        let [steep, flat] = [1.4, 0.9].map(|contrast| on_film(road, car, 1.0, contrast));
-        for (found, contrast) in [(found(&flat, &steep, 1.4), 0.9 / 1.4), (found(&steep, &flat, 0.9), 1.4 / 0.9)] {
-            assert!((found.contrast / contrast - 1.0).abs() < 0.03, "{found:?}");
-        }
-        // Light on the same film: the whole street half a stop brighter.
-        for contrast in [0.7, 1.4] {
-            let [render, photograph] = [1.0, SQRT_2].map(|gain| on_film(road, car, gain, contrast as f32));
-            let seen = found(&photograph, &render, contrast);
-            let lighter = seen.exposure_ev["a"].exp2() as f32 * seen.classes[&Class::Road];
-            assert!(near(lighter, [SQRT_2; 3]), "{seen:?}");
-        }
-        let even = Raster::from_fn(SIZE, SIZE, |_, _| [90; 3]);
-        assert_eq!(found(&even, &even, 1.0).contrast, 1.0);
-        assert_eq!(looks(&[]), Looks::default());
     }
 }

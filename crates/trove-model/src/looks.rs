@@ -7,7 +7,7 @@ use glam::Vec3;
 use crate::{Class, InstanceId};
 
 /// How a place looks in photographs against how it was built.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Looks {
     /// Factors on the linear colour of vehicles' paint, of people's largest garment and of buildings, by their ids.
     pub things: BTreeMap<InstanceId, Vec3>,
@@ -15,13 +15,4 @@ pub struct Looks {
     pub classes: BTreeMap<Class, Vec3>,
     /// Stops that are added to the exposure of each camera, by its name.
     pub exposure_ev: BTreeMap<String, f64>,
-    /// Factor on the contrast of all cameras.
-    pub contrast: f64,
-}
-
-impl Default for Looks {
-    /// Everything stays as it is.
-    fn default() -> Self {
-        Self { things: BTreeMap::new(), classes: BTreeMap::new(), exposure_ev: BTreeMap::new(), contrast: 1.0 }
-    }
 }

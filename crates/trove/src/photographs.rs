@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use trove_judge::looks::{Pair, distances, looks};
 use trove_judge::thumbnail;
-use trove_model::{Capture, Drive, Film, Outcome, Raster, Report, Shot, Viewpoint};
+use trove_model::{Capture, Drive, Outcome, Raster, Report, Shot, Viewpoint};
 use trove_render::Renderer;
 
 use crate::sources::Sources;
@@ -19,7 +19,7 @@ const SPP: u32 = 8;
 /// Those of at most so many keyframes, spread over the drive.
 const KEYFRAMES: usize = 4;
 /// What was found is rendered and looked at again: highlights and reflections answer less than in proportion.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// A photograph with the shot that repeats it.
 struct Photograph {
@@ -28,8 +28,7 @@ struct Photograph {
     shot: Shot,
 }
 
-/// Exposes the scene's cameras, gives them contrast and colours its vehicles, people, buildings and surfaces as its recorded
-/// photographs have them.
+/// Exposes the scene's cameras and colours its vehicles, people, buildings and surfaces as its recorded photographs have them.
 pub(crate) fn match_photographs(
     built: &mut VirtualScene<'_>,
     sources: &Sources,
@@ -42,19 +41,18 @@ pub(crate) fn match_photographs(
         return Ok(());
     }
     for round in 0..=ROUNDS {
-        let mut rendered: Vec<(&Photograph, Film, Capture)> = Vec::new();
+        let mut rendered: Vec<(&Photograph, Capture)> = Vec::new();
         for (moment, photographs) in &keyframes {
             let prepared = renderer.prepare(&built.at(*moment))?;
             let exposed = built.shots(*moment, &Report::default());
             for photograph in photographs {
                 let Some(now) = exposed.iter().find(|s| s.view == photograph.shot.view) else { continue };
                 let shot = Shot { film: now.film, ..photograph.shot.clone() };
-                let capture = renderer.render(&prepared, &shot, true, &|_| false);
-                rendered.extend(capture.map(|capture| (photograph, now.film, capture)));
+                rendered
+                    .extend(renderer.render(&prepared, &shot, true, &|_| false).map(|capture| (photograph, capture)));
             }
         }
-        let pairs: Vec<Pair> =
-            rendered.iter().filter_map(|(photograph, film, capture)| pair(photograph, film, capture)).collect();
+        let pairs: Vec<Pair> = rendered.iter().filter_map(|(photograph, capture)| pair(photograph, capture)).collect();
         let distances: Vec<f64> = distances(&pairs).into_values().collect();
         let mean = distances.iter().sum::<f64>() / distances.len().max(1) as f64;
         if round == 0 {
@@ -63,7 +61,6 @@ pub(crate) fn match_photographs(
         }
         if round == ROUNDS {
             report.measure("photographs.distance", mean);
-            report.measure("photographs.contrast", pairs.first().map_or(Film::CONTRAST, |pair| pair.contrast));
         } else {
             built.look_like(&looks(&pairs));
         }
@@ -117,13 +114,7 @@ fn photograph(
     Some(Photograph { camera: drive.rig.get(camera)?.name.clone(), picture, shot })
 }
 
-fn pair<'a>(photograph: &'a Photograph, film: &Film, capture: &'a Capture) -> Option<Pair<'a>> {
+fn pair<'a>(photograph: &'a Photograph, capture: &'a Capture) -> Option<Pair<'a>> {
     let render = &capture.color.as_ref()?.srgb;
-    Some(Pair {
-        camera: &photograph.camera,
-        photograph: &photograph.picture,
-        render,
-        contrast: film.contrast,
-        labels: &capture.labels,
-    })
+    Some(Pair { camera: &photograph.camera, photograph: &photograph.picture, render, labels: &capture.labels })
 }
