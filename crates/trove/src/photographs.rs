@@ -28,7 +28,8 @@ struct Photograph {
     shot: Shot,
 }
 
-/// Exposes the scene's cameras and colours its vehicles, people, buildings and surfaces as its recorded photographs have them.
+/// Exposes the scene's cameras and colours its vehicles, people, buildings and surfaces as its recorded photographs have
+/// them.
 pub(crate) fn match_photographs(
     built: &mut VirtualScene<'_>,
     sources: &Sources,

@@ -164,10 +164,10 @@ impl Crown {
         let tip_m = nodes.iter().map(|n| n.radius_m).fold(f32::INFINITY, f32::min);
         let thin = tip_m * 6f32.powf(1.0 / PIPE_EXPONENT);
         let leafy: Vec<&Node> = nodes.iter().skip(1).filter(|n| n.radius_m < thin && n.at.z > self.clear_m).collect();
-        // The share of the crown's cards that a joint bears, whole ones by chance.
         let card_m = plan.card_m * individual.size.powf(0.4);
         // As many leaves over a square metre of ground as its species has.
         let wanted = plan.cards as f32 * (individual.size * individual.slim * plan.card_m / card_m).powi(2);
+        // The share of the crown's cards that a joint bears, whole ones by chance.
         let each = wanted / leafy.iter().map(|n| if n.tip { 1.6 } else { 1.0 }).sum::<f32>().max(1.0);
         let mut cards = Vec::new();
         for node in leafy {

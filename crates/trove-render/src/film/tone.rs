@@ -73,6 +73,9 @@ mod tests {
             let [slope, plain] = [contrast, 1.0].map(|c| odds(2.0 * GREY, c) - odds(0.5 * GREY, c));
             assert!((slope / plain - contrast).abs() < 1e-3, "{slope} {plain}");
         }
+        // By default steeper than sRGB's encoding of the light that is held back.
+        let stop = |side: f32| f32::from(srgb([GREY * side; 3], CONTRAST)[0]);
+        assert!(stop(2.0) / stop(0.5) > 2.1, "{}", stop(2.0) / stop(0.5));
     }
 
     #[test]
