@@ -29,7 +29,7 @@ def brightness(out):
 
 @pytest.fixture(scope="module")
 def photographed(recipe, tmp_path_factory):
-    """A copy of the demo's dataset and a recipe; another paint, and a dimmer exposure, are what was photographed."""
+    """A copy of the demo's dataset and a recipe; other paint, less light and less contrast are what was photographed."""
     folder = tmp_path_factory.mktemp("photographs")
     source = Path(recipe.read_text().split('root = "')[1].split('"')[0])
     root = folder / "nuscenes"
@@ -42,7 +42,7 @@ def photographed(recipe, tmp_path_factory):
     other = folder / "other.toml"
     other.write_text(
         text.replace("seed = 3", "seed = 3\n[variations]\nfirst_as_recorded = false\ncount = 2")
-        + "[camera]\ncompensation_ev = -0.7\n"
+        + "[camera]\ncompensation_ev = -0.7\ncontrast = 1.0\n"
     )
     done = trove("generate", other, "--out", folder / "other")
     assert done.returncode == 0, done.stderr
@@ -66,6 +66,7 @@ def test_a_place_comes_to_look_like_its_photographs(photographed):
     found, _ = measured(out)
     assert found["photographs.matched"] == 2
     assert found["photographs.distance"] < 0.7 * found["photographs.distance_before"], found
+    assert abs(found["photographs.contrast"] - 1.0) < 0.1, found
 
     plain = folder / "plain.toml"
     plain.write_text(matched.read_text().replace("match_photographs = true\n", ""))

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
-use trove_model::{Class, InstanceId, Labels, Looks, Raster};
+use trove_model::{Class, InstanceId, Labels, Looks, Raster, ToneCurve, luminance};
 
 use crate::recolor::{Space, linear};
 
@@ -15,6 +15,8 @@ pub struct Pair<'a> {
     pub photograph: &'a Raster<[u8; 3]>,
     /// 8-bit sRGB.
     pub render: &'a Raster<[u8; 3]>,
+    /// Of the film on which the render is ([`trove_model::Film::contrast`]).
+    pub contrast: f64,
     /// What the render shows.
     pub labels: &'a Labels,
 }
@@ -32,8 +34,14 @@ enum Thing {
 const LEAST_PX: usize = 40;
 /// Of what a photograph shows where something is in the render so much at either end is likely something else.
 const TRIMMED: f64 = 0.15;
-/// Below this light is the camera's own, linear.
+/// Below this light is the camera's own, exposed.
 const DARK: f32 = 0.004;
+/// Shares of the pixels of surfaces between which contrast is measured.
+const CONTRAST_BETWEEN: [f64; 2] = [0.1, 0.9];
+/// Pictures in which these are less apart, stops, tell no contrast.
+const LEAST_STOPS: f64 = 1.0;
+/// Contrasts that films have.
+const CONTRASTS: [f64; 2] = [0.5, 3.0];
 /// Lightness changes by at most so much, as a logarithm: that of surfaces by 2.7, that of paint and clothes, of which there
 /// are any, by more.
 const SURFACE: f32 = 1.0;
@@ -45,15 +53,17 @@ const MOST_EV: f64 = 2.0;
 /// Rounds of turns between exposures and colours.
 const ROUNDS: usize = 12;
 
-/// What would make renders look like photographs: each camera's exposure, and then the colours of vehicles, people,
-/// buildings and of the other classes. All are medians over what they are seen in, so that a photograph that shows something else at a
-/// place has little say.
+/// What would make renders look like photographs: the film's contrast, each camera's exposure, and then the colours of
+/// vehicles, people, buildings and of the other classes. All are medians over what they are seen in, so that a photograph
+/// that shows something else at a place has little say.
 pub fn looks(pairs: &[Pair]) -> Looks {
-    // By camera and thing: how much lighter the photograph is, as a logarithm, and the weight of that.
+    let contrast = contrast(pairs);
+    // By camera and thing: to how much more light the photograph was exposed, as a logarithm, and the weight of that.
     let mut seen: BTreeMap<(&str, Thing), Vec<(Vec3, f64)>> = BTreeMap::new();
     for pair in pairs {
         for (thing, pixels) in things(pair) {
-            let [photograph, render] = [pair.photograph, pair.render].map(|picture| mean(picture, &pixels));
+            let film = [(pair.photograph, contrast.unwrap_or(pair.contrast)), (pair.render, pair.contrast)];
+            let [photograph, render] = film.map(|(picture, contrast)| exposed(picture, contrast, &pixels));
             let lighter = ((photograph + DARK) / (render + DARK)).map(f32::ln);
             seen.entry((pair.camera, thing)).or_default().push((lighter, (pixels.len() as f64).sqrt()));
         }
@@ -82,7 +92,7 @@ pub fn looks(pairs: &[Pair]) -> Looks {
             *colour = lighter + (found - luminance(found)).clamp(Vec3::splat(-hue), Vec3::splat(hue));
         }
     }
-    let mut looks = Looks::default();
+    let mut looks = Looks { contrast, ..Looks::default() };
     for (thing, colour) in colours {
         match thing {
             Thing::Class(class) => drop(looks.classes.insert(class, colour.map(f32::exp))),
@@ -176,13 +186,52 @@ fn trimmed(photograph: &Raster<[u8; 3]>, mut pixels: Vec<usize>) -> Vec<usize> {
     pixels[away..pixels.len() - away].to_vec()
 }
 
-fn mean(picture: &Raster<[u8; 3]>, pixels: &[usize]) -> Vec3 {
-    let sum: Vec3 = pixels.iter().map(|&i| Vec3::from(linear(picture.data[i]))).sum();
+/// Mean light to which a picture was exposed.
+fn exposed(picture: &Raster<[u8; 3]>, contrast: f64, pixels: &[usize]) -> Vec3 {
+    let film = ToneCurve::new(contrast);
+    let sum: Vec3 = pixels.iter().map(|&i| Vec3::from(film.exposed_rgb(picture.data[i]))).sum();
     sum / pixels.len().max(1) as f32
 }
 
-fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+/// Brightness of 8-bit sRGB, linear.
+fn brightness(srgb: [u8; 3]) -> f32 {
+    luminance(linear(srgb).into())
+}
+
+/// The contrast of film at which the light of the photographs' surfaces lies as far apart as that of the renders'. What a
+/// single street has that its twin has not widens or narrows it; over all photographs that evens out.
+fn contrast(pairs: &[Pair]) -> Option<f64> {
+    let shown: Vec<[[[u8; 3]; 2]; 2]> = pairs
+        .iter()
+        .map(|pair| [pair.photograph, pair.render].map(|picture| dark_and_bright(picture, &pair.labels.class)))
+        .collect();
+    let stops = |shown: [[u8; 3]; 2], contrast: f64| {
+        let film = ToneCurve::new(contrast);
+        let [dark, bright] = shown.map(|rgb| f64::from(luminance(film.exposed_rgb(rgb).into()).max(DARK)));
+        (bright / dark).log2()
+    };
+    let renders: f64 = pairs.iter().zip(&shown).map(|(pair, [_, render])| stops(*render, pair.contrast)).sum();
+    // The steeper the film, the less light makes the same picture.
+    let is_wider =
+        |contrast: f64| shown.iter().map(|[photograph, _]| stops(*photograph, contrast)).sum::<f64>() > renders;
+    let [mut low, mut high] = CONTRASTS;
+    if renders < LEAST_STOPS * pairs.len() as f64 || !is_wider(low) || is_wider(high) {
+        return None;
+    }
+    while high - low > 1e-4 {
+        let middle = (low + high) / 2.0;
+        *if is_wider(middle) { &mut low } else { &mut high } = middle;
+    }
+    Some(low)
+}
+
+/// A dark pixel and a bright one of the surfaces that a picture shows.
+fn dark_and_bright(picture: &Raster<[u8; 3]>, class: &Raster<Class>) -> [[u8; 3]; 2] {
+    let is_surface = |class: Class| !matches!(class, Class::Void | Class::Sky) && !is_thing(class);
+    let surfaces = picture.data.iter().zip(&class.data).filter(|(_, class)| is_surface(**class));
+    let mut surfaces: Vec<[u8; 3]> = surfaces.map(|(rgb, _)| *rgb).collect();
+    surfaces.sort_by(|a, b| brightness(*a).total_cmp(&brightness(*b)));
+    CONTRAST_BETWEEN.map(|share| surfaces.get((share * surfaces.len() as f64) as usize).copied().unwrap_or_default())
 }
 
 /// The weighted median; 0 of nothing.
@@ -206,15 +255,22 @@ mod tests {
 
     const SIZE: u32 = 40;
 
-    /// The left half road, the right half a car whose id is 3.
+    /// Road to the left, to the right a car whose id is 3, and grass in the lowest quarter.
+    fn classes() -> Raster<Class> {
+        Raster::from_fn(SIZE, SIZE, |x, y| match (x, y) {
+            (_, 30..) => Class::Ground,
+            (..20, _) => Class::Road,
+            _ => Class::Car,
+        })
+    }
+
     fn labels() -> Labels {
-        let is_car = |x: u32| x >= SIZE / 2;
         let grey = |v: f32| Raster::from_fn(SIZE, SIZE, |_, _| v);
         let none = || Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 2]);
         let seen = || Raster::from_fn(SIZE, SIZE, |_, _| trove_model::Occlusion::Seen);
         Labels {
-            class: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { Class::Car } else { Class::Road }),
-            instance: Raster::from_fn(SIZE, SIZE, |x, _| if is_car(x) { 3 } else { 0 }),
+            class: classes(),
+            instance: classes().map(|class| if *class == Class::Car { 3 } else { 0 }),
             depth_m: grey(1.0),
             normal: Raster::from_fn(SIZE, SIZE, |_, _| [0.0; 3]),
             flow_forward: none(),
@@ -226,10 +282,20 @@ mod tests {
         }
     }
 
-    /// A picture of what is road and car in linear light.
+    /// A picture by the light of road and car, exposed by a factor, on film of a contrast.
+    fn on_film(road: [f32; 3], car: [f32; 3], gain: f32, contrast: f64) -> Raster<[u8; 3]> {
+        classes().map(|class| {
+            let light = match class {
+                Class::Ground => [0.02; 3],
+                Class::Road => road,
+                _ => car,
+            };
+            ToneCurve::new(contrast).srgb(light.map(|c| gain * c))
+        })
+    }
+
     fn picture(road: [f32; 3], car: [f32; 3]) -> Raster<[u8; 3]> {
-        let code = |v: f32| ((1.055 * v.powf(1.0 / 2.4) - 0.055) * 255.0).round() as u8;
-        Raster::from_fn(SIZE, SIZE, |x, _| if x >= SIZE / 2 { car.map(code) } else { road.map(code) })
+        on_film(road, car, 1.0, 1.0)
     }
 
     fn near(found: Vec3, expected: [f32; 3]) -> bool {
@@ -241,8 +307,8 @@ mod tests {
         let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
         // The second camera exposes a stop more; the car is red in both.
         let dim = picture([0.2; 3], [0.4, 0.05, 0.05]);
-        let bright = picture([0.4; 3], [0.8, 0.1, 0.1]);
-        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
+        let bright = on_film([0.2; 3], [0.4, 0.05, 0.05], 2.0, 1.0);
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, contrast: 1.0, labels: &labels };
         let pairs = [pair("a", &dim), pair("b", &bright)];
         let found = looks(&pairs);
         let apart = found.exposure_ev["b"] - found.exposure_ev["a"];
@@ -261,11 +327,32 @@ mod tests {
     fn what_one_photograph_alone_shows_changes_no_surface_and_a_surface_keeps_its_hue() {
         let (labels, render) = (labels(), picture([0.2; 3], [0.3; 3]));
         let [alike, other] = [picture([0.2; 3], [0.3; 3]), picture([0.02, 0.3, 0.02], [0.3; 3])];
-        let pair = |camera, photograph| Pair { camera, photograph, render: &render, labels: &labels };
+        let pair = |camera, photograph| Pair { camera, photograph, render: &render, contrast: 1.0, labels: &labels };
         let pairs = [pair("a", &alike), pair("b", &alike), pair("c", &other)];
         assert!(near(looks(&pairs).classes[&Class::Road], [1.0; 3]), "{:?}", looks(&pairs));
         let only = looks(&[pair("c", &other)]);
         let [red, green] = [only.classes[&Class::Road].x, only.classes[&Class::Road].y];
         assert!(green / red < 1.3, "{only:?}");
+    }
+    #[test]
+    fn contrast_is_the_film_s_and_changes_no_colour() {
+        let labels = labels();
+        let found = |photograph: &_, render: &_, contrast| {
+            looks(&[Pair { camera: "a", photograph, render, contrast, labels: &labels }])
+        };
+        let (road, car) = ([0.2; 3], [0.4, 0.1, 0.1]);
+        // The photograph is exposed by half a stop more.
+        let brighter = std::f32::consts::SQRT_2;
+        for (of_render, of_photograph) in [(1.4, 0.9), (0.9, 1.4), (1.4, 1.4)] {
+            let render = on_film(road, car, 1.0, of_render);
+            let found = found(&on_film(road, car, brighter, of_photograph), &render, of_render);
+            assert!((found.contrast.unwrap() / of_photograph - 1.0).abs() < 0.05, "{found:?}");
+            let gain = found.exposure_ev["a"].exp2() as f32;
+            for colour in [found.classes[&Class::Road], found.things[&InstanceId(3)]] {
+                assert!(near(gain * colour, [brighter; 3]), "{found:?}");
+            }
+        }
+        let even = Raster::filled(SIZE, SIZE, [90; 3]);
+        assert_eq!((found(&even, &even, 1.0).contrast, looks(&[]).contrast), (None, None));
     }
 }

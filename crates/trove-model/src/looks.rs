@@ -13,6 +13,8 @@ pub struct Looks {
     pub things: BTreeMap<InstanceId, Vec3>,
     /// The same on everything of a class that has none of its own.
     pub classes: BTreeMap<Class, Vec3>,
+    /// Contrast of the photographs' film ([`crate::Film::contrast`]); `None` where they do not tell.
+    pub contrast: Option<f64>,
     /// Stops that are added to the exposure of each camera, by its name.
     pub exposure_ev: BTreeMap<String, f64>,
 }

@@ -2,8 +2,8 @@
 
 use glam::{Mat3, Vec3};
 
-use crate::Beam;
 use crate::ies::{IesFault, candelas};
+use crate::{Beam, luminance};
 
 /// From the nadir to the horizon.
 const ELEVATIONS_DEG: [f32; 10] = [-90.0, -80.0, -70.0, -60.0, -50.0, -40.0, -30.0, -20.0, -10.0, 0.0];
@@ -63,7 +63,7 @@ impl Luminaire {
             Vec3::new(-0.498_611, 0.041_555, 1.056_972),
         );
         let rgb = (rgb_from_xyz * Vec3::new(x / y, 1.0, (1.0 - x - y) / y)).max(Vec3::ZERO);
-        rgb / rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+        rgb / luminance(rgb)
     }
 }
 
@@ -75,7 +75,7 @@ mod tests {
     fn colours_run_from_sodium_to_daylight_at_one_luminance() {
         let color = |kelvin: f32| Luminaire { kelvin, ..Luminaire::default() }.color();
         for kelvin in [1000.0, 2000.0, 2222.0, 2700.0, 4000.0, 6504.0, 40_000.0] {
-            let luminance = color(kelvin).dot(Vec3::new(0.2126, 0.7152, 0.0722));
+            let luminance = luminance(color(kelvin));
             assert!((luminance - 1.0).abs() < 1e-5, "{kelvin} K: {luminance}");
         }
         // The black body of D65's temperature lies a little towards magenta from it.

@@ -1,16 +1,12 @@
 //! What a sensor's rays bring back: the first surface of each.
 
-use glam::Vec3;
 use rayon::prelude::*;
-use trove_model::{Points, Return, Sensor, SensorRay};
+use trove_model::{Points, Return, Sensor, SensorRay, luminance};
 
 use crate::PreparedScene;
 use crate::accel::PACKET;
 use crate::prepare::Carrier;
 use crate::sight::{self, Seen};
-
-/// Rec. 709.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// Computed with the current thread pool; every return depends on its ray and its packet alone.
 pub(crate) fn scan(scene: &PreparedScene, sensor: &dyn Sensor) -> Points {
@@ -34,6 +30,6 @@ fn told(scene: &PreparedScene, seen: &Seen) -> Return {
         class: scene.instances[seen.hit.instance as usize].class,
         instance: scene.placed(seen.hit.instance).id,
         normal: seen.normal,
-        base_color_luminance: material.base_color(&surface).dot(LUMINANCE),
+        base_color_luminance: luminance(material.base_color(&surface)),
     }
 }

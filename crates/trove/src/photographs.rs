@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use trove_judge::looks::{Pair, distances, looks};
 use trove_judge::thumbnail;
-use trove_model::{Capture, Drive, Outcome, Raster, Report, Shot, Viewpoint};
+use trove_model::{Capture, Drive, Film, Outcome, Raster, Report, Shot, Viewpoint};
 use trove_render::Renderer;
 
 use crate::sources::Sources;
@@ -28,8 +28,8 @@ struct Photograph {
     shot: Shot,
 }
 
-/// Exposes the scene's cameras and colours its vehicles, people, buildings and surfaces as its recorded photographs have
-/// them.
+/// Exposes the scene's cameras, gives their film contrast and colours its vehicles, people, buildings and surfaces as its
+/// recorded photographs have them.
 pub(crate) fn match_photographs(
     built: &mut VirtualScene<'_>,
     sources: &Sources,
@@ -42,18 +42,19 @@ pub(crate) fn match_photographs(
         return Ok(());
     }
     for round in 0..=ROUNDS {
-        let mut rendered: Vec<(&Photograph, Capture)> = Vec::new();
+        let mut rendered: Vec<(&Photograph, Film, Capture)> = Vec::new();
         for (moment, photographs) in &keyframes {
             let prepared = renderer.prepare(&built.at(*moment))?;
             let exposed = built.shots(*moment, &Report::default());
             for photograph in photographs {
                 let Some(now) = exposed.iter().find(|s| s.view == photograph.shot.view) else { continue };
                 let shot = Shot { film: now.film, ..photograph.shot.clone() };
-                rendered
-                    .extend(renderer.render(&prepared, &shot, true, &|_| false).map(|capture| (photograph, capture)));
+                let capture = renderer.render(&prepared, &shot, true, &|_| false);
+                rendered.extend(capture.map(|capture| (photograph, shot.film, capture)));
             }
         }
-        let pairs: Vec<Pair> = rendered.iter().filter_map(|(photograph, capture)| pair(photograph, capture)).collect();
+        let pairs: Vec<Pair> =
+            rendered.iter().filter_map(|(photograph, film, capture)| pair(photograph, film, capture)).collect();
         let distances: Vec<f64> = distances(&pairs).into_values().collect();
         let mean = distances.iter().sum::<f64>() / distances.len().max(1) as f64;
         if round == 0 {
@@ -62,6 +63,9 @@ pub(crate) fn match_photographs(
         }
         if round == ROUNDS {
             report.measure("photographs.distance", mean);
+            if let Some(pair) = pairs.first() {
+                report.measure("photographs.contrast", pair.contrast);
+            }
         } else {
             built.look_like(&looks(&pairs));
         }
@@ -115,7 +119,8 @@ fn photograph(
     Some(Photograph { camera: drive.rig.get(camera)?.name.clone(), picture, shot })
 }
 
-fn pair<'a>(photograph: &'a Photograph, capture: &'a Capture) -> Option<Pair<'a>> {
+fn pair<'a>(photograph: &'a Photograph, film: &Film, capture: &'a Capture) -> Option<Pair<'a>> {
     let render = &capture.color.as_ref()?.srgb;
-    Some(Pair { camera: &photograph.camera, photograph: &photograph.picture, render, labels: &capture.labels })
+    let (camera, contrast) = (&photograph.camera, film.contrast);
+    Some(Pair { camera, photograph: &photograph.picture, render, contrast, labels: &capture.labels })
 }

@@ -31,6 +31,8 @@ pub(crate) struct VirtualScene<'a> {
     seeds: Seeds,
     /// Stops on the exposure of recorded cameras, by their names.
     exposure_ev: BTreeMap<String, f64>,
+    /// Contrast of recorded cameras, where photographs told it.
+    contrast: Option<f64>,
 }
 
 impl<'a> VirtualScene<'a> {
@@ -54,8 +56,8 @@ impl<'a> VirtualScene<'a> {
         let (lidars, radars) = (lidars(recipe, drive, report)?, radars(recipe, drive, report)?);
         let grids = grids(recipe, drive, report)?;
         let (locale, seeds) = (settings.locale, settings.seeds);
-        let exposure_ev = BTreeMap::new();
-        Ok(Self { moments, site, factors, locale, views, lidars, radars, grids, seeds, exposure_ev })
+        let (exposure_ev, contrast) = (BTreeMap::new(), None);
+        Ok(Self { moments, site, factors, locale, views, lidars, radars, grids, seeds, exposure_ev, contrast })
     }
 
     /// The scene at a moment.
@@ -68,6 +70,7 @@ impl<'a> VirtualScene<'a> {
         let mut shots = self.views.shots(self.moments.drive, &self.site, moment, report);
         for shot in &mut shots {
             let Viewpoint::Recording { camera } = shot.viewpoint else { continue };
+            shot.film.contrast = self.contrast.unwrap_or(shot.film.contrast);
             let name = self.moments.drive.rig.get(camera).map(|camera| &camera.name);
             if let Some(more) = name.and_then(|name| self.exposure_ev.get(name)) {
                 shot.film.exposure.brighten(*more);
@@ -79,6 +82,7 @@ impl<'a> VirtualScene<'a> {
     /// Colours and exposes it otherwise.
     pub(crate) fn look_like(&mut self, looks: &Looks) {
         self.site.tint(looks);
+        self.contrast = looks.contrast.or(self.contrast);
         for (camera, more) in &looks.exposure_ev {
             *self.exposure_ev.entry(camera.clone()).or_default() += more;
         }

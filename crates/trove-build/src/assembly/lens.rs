@@ -110,6 +110,7 @@ mod tests {
     use trove_model::{Kind, Slot};
 
     use super::*;
+    use trove_model::luminance;
 
     /// A square that looks down from a height, and one of twice its side above it, which is no lens.
     fn lamp(side_m: f32, luminaire: Option<Luminaire>) -> Asset {
@@ -144,7 +145,7 @@ mod tests {
     /// Candelas that a flat lens gives into an angle from the nadir and one from +x, by its emission.
     fn candelas(side_m: f32, (emission, beam): &(Vec3, Beam), gamma: f32, azimuth: f32) -> f32 {
         let toward = Vec3::new(azimuth.cos() * gamma.sin(), azimuth.sin() * gamma.sin(), -gamma.cos());
-        let luminance_cd_m2 = emission.dot(Vec3::new(0.2126, 0.7152, 0.0722)) * UNIT_CD_M2;
+        let luminance_cd_m2 = luminance(*emission) * UNIT_CD_M2;
         luminance_cd_m2 * beam.share(toward) * side_m * side_m * gamma.cos()
     }
 

@@ -1,8 +1,6 @@
 //! What a camera's automatics find in a picture: how bright it is and which light is in it.
 
-use trove_model::Raster;
-
-use super::tone::{self, luminance};
+use trove_model::{Raster, ToneCurve, luminance};
 
 /// Steps of the metering histogram in a stop, and the stops that it spans around 1.
 const STEPS_PER_STOP: f64 = 32.0;
@@ -35,10 +33,10 @@ const MOST_STOPS: f64 = 1.0;
 
 /// The least exposure at which the developed picture's mean brightness is [`SHOWN_MEAN`] and its brightest parts are shown at
 /// [`SHOWN_BRIGHTEST`]. White clips, so that a bright sky counts for no more than it covers. 0 for a black picture.
-pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>, contrast: f32) -> f64 {
+pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>, curve: ToneCurve) -> f64 {
     let mut histogram = vec![0u64; (SPAN_STOPS * STEPS_PER_STOP) as usize];
     for &rgb in &radiance.data {
-        let stops = f64::from(luminance(rgb)).log2() + SPAN_STOPS / 2.0;
+        let stops = f64::from(luminance(rgb.into())).log2() + SPAN_STOPS / 2.0;
         let bin = (stops * STEPS_PER_STOP).max(0.0) as usize;
         histogram[bin.min(SPAN_STOPS as usize * STEPS_PER_STOP as usize - 1)] += 1;
     }
@@ -56,7 +54,7 @@ pub(super) fn exposure_ev(radiance: &Raster<[f32; 3]>, contrast: f32) -> f64 {
     let is_too_dark = |ev: f64| {
         let shown = |bin: usize| {
             let stops = (bin as f64 + 0.5) / STEPS_PER_STOP - SPAN_STOPS / 2.0 + ev;
-            f64::from(tone::shown(stops.exp2() as f32, contrast))
+            f64::from(curve.shown(stops.exp2() as f32))
         };
         let sum: f64 = (1..histogram.len()).map(|bin| histogram[bin] as f64 * shown(bin)).sum();
         sum < SHOWN_MEAN * pixels || shown(bright) < SHOWN_BRIGHTEST
@@ -98,7 +96,7 @@ pub(super) fn white_balance(radiance: &Raster<[f32; 3]>) -> [f32; 3] {
     }
     let [red, blue] = light.map(|stops| (-CORRECTED * stops).clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32);
     let gains = [red, 1.0, blue];
-    gains.map(|gain| gain / luminance(gains))
+    gains.map(|gain| gain / luminance(gains.into()))
 }
 
 #[cfg(test)]
@@ -106,7 +104,9 @@ mod tests {
     use super::*;
     use trove_model::Film;
 
-    const CONTRAST: f32 = Film::CONTRAST as f32;
+    fn curve() -> ToneCurve {
+        Film::default().tone_curve()
+    }
 
     fn street(light: [f32; 3]) -> Raster<[f32; 3]> {
         Raster::from_fn(60, 30, |x, y| {
@@ -123,9 +123,9 @@ mod tests {
     #[test]
     fn a_street_is_exposed_by_its_mean_and_what_has_no_contrast_by_its_brightest_part() {
         let shown = |picture: &Raster<[f32; 3]>| {
-            let gain = exposure_ev(picture, CONTRAST).exp2() as f32;
+            let gain = exposure_ev(picture, curve()).exp2() as f32;
             let mut shown: Vec<f32> =
-                picture.data.iter().map(|&rgb| tone::shown(luminance(rgb) * gain, CONTRAST)).collect();
+                picture.data.iter().map(|&rgb| curve().shown(luminance(rgb.into()) * gain)).collect();
             shown.sort_by(f32::total_cmp);
             (shown.iter().sum::<f32>() / shown.len() as f32, shown[shown.len() * 99 / 100])
         };
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn a_night_in_which_hardly_anything_shines_is_exposed_by_the_most_that_a_camera_does() {
         let lamp = Raster::from_fn(60, 30, |x, y| [if (x, y) == (7, 3) { 1.0 } else { 0.0 }; 3]);
-        assert!((exposure_ev(&lamp, CONTRAST) - MOST_EV).abs() < 1e-6, "{}", exposure_ev(&lamp, CONTRAST));
+        assert!((exposure_ev(&lamp, curve()) - MOST_EV).abs() < 1e-6, "{}", exposure_ev(&lamp, curve()));
     }
 
     #[test]
@@ -164,7 +164,7 @@ mod tests {
         let [r, g, b] = [0, 1, 2].map(|c| gains[c] * light[c]);
         assert!(((r / g).log2() - 1.0 / 6.0).abs() < 0.02, "{}", r / g);
         assert!(((b / g).log2() + 1.0 / 6.0).abs() < 0.02, "{}", b / g);
-        assert!((luminance(gains) - 1.0).abs() < 1e-5);
+        assert!((luminance(gains.into()) - 1.0).abs() < 1e-5);
     }
 
     #[test]

@@ -5,7 +5,6 @@
 
 mod meter;
 mod sensor;
-mod tone;
 
 use rayon::prelude::*;
 use trove_model::{ExposureRule, Raster, Shot, WhiteBalance};
@@ -18,10 +17,10 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
         Some(model) => sensor::optics(&radiance, model),
         None => radiance,
     };
-    let contrast = film.contrast as f32;
+    let curve = film.tone_curve();
     let ev = match film.exposure {
         ExposureRule::Fixed { ev } => ev,
-        ExposureRule::Auto { compensation_ev } => meter::exposure_ev(&radiance, contrast) + compensation_ev,
+        ExposureRule::Auto { compensation_ev } => meter::exposure_ev(&radiance, curve) + compensation_ev,
     };
     let balance = match film.white_balance {
         WhiteBalance::Daylight => [1.0; 3],
@@ -31,7 +30,7 @@ pub(crate) fn develop(radiance: &Raster<[f32; 3]>, shot: &Shot) -> (Raster<[u8; 
     let pixel = |(i, rgb): (usize, &[f32; 3])| {
         let exposed = rgb.map(|c| c * gain);
         let counted = film.sensor.as_ref().map_or(exposed, |model| sensor::counted(exposed, ev, model, seed, i));
-        tone::srgb([0, 1, 2].map(|c| counted[c] * balance[c]), contrast)
+        curve.srgb([0, 1, 2].map(|c| counted[c] * balance[c]))
     };
     let data = radiance.data.par_iter().enumerate().map(pixel).collect();
     (Raster { width: radiance.width, height: radiance.height, data }, ev)

@@ -1,9 +1,8 @@
 //! The faults of a real camera: what the lens does to the light, and the noise of counting it.
 
 use rayon::prelude::*;
-use trove_model::{Raster, Seed, SensorModel};
+use trove_model::{Raster, Seed, SensorModel, ToneCurve};
 
-use super::tone::WHITE;
 use crate::sampling::poisson;
 
 /// Light behind the lens: darker and with fringes of colour in the corners, slightly blurred.
@@ -122,7 +121,7 @@ pub(super) fn counted(exposed: [f32; 3], ev: f64, sensor: &SensorModel, seed: Se
     let white_e = sensor.full_well_e / gain;
     // Amplified before it is read.
     let read_noise_e = sensor.read_noise_e / gain.sqrt();
-    let per_unit = white_e / f64::from(WHITE);
+    let per_unit = white_e / f64::from(ToneCurve::WHITE);
     exposed.map(|light| {
         let counted = poisson(f64::from(light) * per_unit, &mut random).min(white_e);
         ((counted + read_noise_e * random.normal()) / per_unit).max(0.0) as f32
@@ -156,13 +155,13 @@ mod tests {
                 (0..n).map(|i| f64::from(counted([light as f32; 3], 0.0, &sensor, Seed(3), i)[1])).collect();
             let mean = draws.iter().sum::<f64>() / n as f64;
             let variance = draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n as f64;
-            let per_unit = sensor.full_well_e / f64::from(WHITE);
+            let per_unit = sensor.full_well_e / f64::from(ToneCurve::WHITE);
             let expected = (light * per_unit + sensor.read_noise_e.powi(2)) / (per_unit * per_unit);
             assert!((mean / light - 1.0).abs() < 0.01, "{mean} instead of {light}");
             assert!((variance / expected - 1.0).abs() < 0.04, "{variance} instead of {expected} at {light}");
         }
         assert_eq!(counted([0.0; 3], 0.0, &PLAIN, Seed(1), 0), [0.0; 3]);
-        assert!(counted([50.0; 3], 0.0, &PLAIN, Seed(1), 0).iter().all(|&c| (c - WHITE).abs() < 1e-5));
+        assert!(counted([50.0; 3], 0.0, &PLAIN, Seed(1), 0).iter().all(|&c| (c - ToneCurve::WHITE).abs() < 1e-5));
     }
 
     #[test]

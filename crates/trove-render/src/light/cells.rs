@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
+use trove_model::luminance;
 
 use super::cdf::Cdf;
-use super::luminance::luminance;
 use super::patches::{ACROSS, BELOW, Patch, Patches};
 
 /// Mean radiance by direction, with directions drawn in proportion to what comes from them to a surface, roughly: first a

@@ -7,9 +7,8 @@
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
-use trove_model::{PhysicalSky, Seed};
+use trove_model::{PhysicalSky, Seed, luminance};
 
-use super::luminance::luminance;
 use super::noise::{Plane, Puffs};
 
 /// Height of the clouds' flat bases above the ground.

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
-use trove_model::Scene;
+use trove_model::{Scene, luminance};
 
-use super::luminance::luminance;
 use super::tree::{Aim, Cut, LEAST_SHARE, Tree, TreeEntry};
 use crate::ray::Ray;
 use crate::sampling::{Basis, cosine_hemisphere};

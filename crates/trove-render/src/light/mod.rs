@@ -9,7 +9,6 @@ mod clouds;
 mod dome;
 mod emitters;
 mod haze;
-mod luminance;
 mod noise;
 mod patches;
 mod sky;
@@ -22,7 +21,7 @@ use std::f32::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
-use trove_model::{Environment, Scene};
+use trove_model::{Environment, Scene, luminance};
 
 pub(crate) use noise::Plane;
 
@@ -30,7 +29,6 @@ use dome::{Dome, LookUp};
 pub(crate) use emitters::{Emission, GetsAway, PROBES};
 use emitters::{EmitterPoint, Emitters, Near};
 use haze::Haze;
-use luminance::luminance;
 pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
 use sun::Sun;

@@ -5,10 +5,9 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use rayon::prelude::*;
-use trove_model::{EnvironmentMap, PhysicalSky};
+use trove_model::{EnvironmentMap, PhysicalSky, luminance};
 
 use super::clouds::Clouds;
-use super::luminance::luminance;
 use super::{dome, sun};
 
 /// Columns of the picture, and twice its rows.

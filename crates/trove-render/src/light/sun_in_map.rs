@@ -3,10 +3,9 @@
 use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
-use trove_model::EnvironmentMap;
+use trove_model::{EnvironmentMap, luminance};
 
 use super::dome::direction_of;
-use super::luminance::luminance;
 
 /// A photograph's sun with the glare around it lies within this angle of its middle.
 const REACH_RAD: f32 = 1.0 * PI / 180.0;
