@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
+.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clay bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -184,6 +184,12 @@ bench-lidar: $(VENV)/.test-installed
 # Against Blender's Cycles; CYCLES holds further options, such as CYCLES=--quick.
 bench-cycles: $(VENV)/.test-installed .venv-cycles/.installed
 	.venv-cycles/bin/python benches/cycles/bench.py --trove $(BIN)/trove $(CYCLES)
+
+# A street of grey clay, on which both have to agree.
+bench-clay: install .venv-cycles/.installed
+	cargo build --locked --release -p trove --example clay
+	TROVE_EMBREE="$$($(CURDIR)/$(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')" \
+	.venv-cycles/bin/python benches/cycles/clay.py "$${CARGO_TARGET_DIR:-target}/release/examples/clay" $(CLAY)
 
 .venv-cycles/.installed: benches/cycles/requirements.txt
 	$(PYTHON_OF_BLENDER) -c '' || { echo "$(PYTHON_OF_BLENDER): expected Python 3.11, for which Blender's bpy is made; install it or set PYTHON_OF_BLENDER" >&2; exit 1; }

@@ -10,7 +10,7 @@ import metrics
 import numpy as np
 import scenes
 from PIL import Image
-from scenes import KEYFRAME, VIEW, Scene, digest, radiance
+from scenes import KEYFRAME, Scene, digest, radiance
 
 IN_CYCLES = Path(__file__).resolve().parent / "in_cycles.py"
 
@@ -37,7 +37,7 @@ def cycles(scene, pictures):
     job = {
         "glb": str(scene.glb),
         "environment": str(scene.sky),
-        "view": VIEW,
+        "view": scene.view,
         "threads": scene.args.threads,
         "folder": str(folder),
         "pictures": pictures,
@@ -102,7 +102,7 @@ def measure(scene, args):
     ours_reference, cycles_reference = reference["picture"] * gain, cycles_reference * gain
     height, width = ours_reference.shape[:2]
     warm = times["pictures"]["warm"]
-    print(f"{scene.name}, {VIEW} of keyframe {KEYFRAME}, {width}×{height}, {args.threads} threads")
+    print(f"{scene.name}, {scene.view} of keyframe {KEYFRAME}, {width}×{height}, {args.threads} threads")
     agreement(ours_reference, cycles_reference, reference["classes"], reference["names"])
     side_by_side(scene.folder / "references.png", ours_reference, cycles_reference)
 

@@ -3,7 +3,7 @@
 import metrics
 import numpy as np
 import scenes
-from scenes import KEYFRAME, VIEW, Scene
+from scenes import KEYFRAME, Scene
 
 BAR_FLIP = 0.05
 # The bar's reference of 4,096 samples a pixel would take an hour at full size: it is made of a smaller picture, in which a
@@ -36,9 +36,10 @@ def main():
     args = arguments()
     slowest = 0.0
     for name in args.scenes:
+        scene = Scene(name, FULL, args)
         small = flips(Scene(name, SMALL, args), args.reference_small, args.spp)
-        full = flips(Scene(name, FULL, args), args.reference_full, args.spp)
-        print(f"{name}, {VIEW} of keyframe {KEYFRAME}, denoised, {args.threads} threads; seconds with all labels")
+        full = flips(scene, args.reference_full, args.spp)
+        print(f"{name}, {scene.view} of keyframe {KEYFRAME}, denoised, {args.threads} threads; seconds with all labels")
         for spp in args.spp:
             print(
                 f"  {spp:4} spp: FLIP {small[spp][0]:.4f} at 640×360 against {args.reference_small} spp, "

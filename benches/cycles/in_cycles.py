@@ -1,7 +1,7 @@
 """Renders a scene of `trove build` in Blender's Cycles: `in_cycles.py JOB.json`.
 
 The job names the .glb, the sky, the view, the threads, and the pictures to take; each becomes NAME.exr in the job's
-folder, and times.json there says how long everything took.
+folder, and times.json there says how long everything took. With "unbiased" indirect light is not clamped.
 """
 
 import json
@@ -15,6 +15,7 @@ import bpy
 import OpenEXR
 
 THIN_PANE_FACES = 2  # a pane reflects at both of its faces
+TINT = "tint"
 
 
 def glb_json(data):
@@ -117,6 +118,9 @@ class Surface:
         f0 += transmission * (THIN_PANE_FACES * f0 / (1.0 + f0) - f0)
 
         color = self.scaled(base.outputs["Color"] if base else [1.0] * 3, factor)
+        tint = self.nodes.new("ShaderNodeAttribute")
+        tint.attribute_name = TINT
+        color = self.scaled(color, tint.outputs["Color"])
         roughness, metalness = pbr.get("roughnessFactor", 1.0), pbr.get("metallicFactor", 1.0)
         if orm:
             channels = self.node("ShaderNodeSeparateColor", _0=orm.outputs["Color"]).outputs
@@ -167,11 +171,22 @@ def import_scene(job):
     root = with_unique_names(job["glb"], copy)
     bpy.ops.import_scene.gltf(filepath=str(copy), import_shading="NORMALS", merge_vertices=False)
     copy.unlink()
+    for mesh in bpy.data.meshes:
+        tint_vertices(mesh)
     for i, row in enumerate(root["materials"]):
         material = bpy.data.materials.get(f"materials {i}")
         if material is not None:  # a material that no triangle has is not imported
             Surface(material, row, root).build()
     return root
+
+
+def tint_vertices(mesh):
+    """Gives a mesh the attribute that base colours are multiplied by: the file's colours of vertices, or white."""
+    if mesh.color_attributes:
+        mesh.color_attributes[0].name = TINT
+    else:
+        white = mesh.color_attributes.new(TINT, "FLOAT_COLOR", "POINT")
+        white.data.foreach_set("color", [1.0] * 4 * len(white.data))
 
 
 def place_camera(job, root):
@@ -210,14 +225,18 @@ def light(job, root):
 
 
 def set_up(job):
-    """Cycles as the original toolkit has it: CPU, three bounces; the rest is Blender's default."""
+    """Cycles as the original toolkit has it: CPU, three bounces (the job may say another number); the rest is Blender's
+    default."""
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
     render.engine, cycles.device = "CYCLES", "CPU"
     render.threads_mode, render.threads = "FIXED", job["threads"]
     render.use_persistent_data = True
     render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
     render.use_compositing = render.use_sequencer = False
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 3
+    bounces = job.get("bounces", 3)
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
+    if job.get("unbiased"):
+        cycles.sample_clamp_indirect = 0.0
     cycles.transparent_max_bounces = 16
     cycles.adaptive_threshold = 0.01
     cycles.denoiser = "OPENIMAGEDENOISE"

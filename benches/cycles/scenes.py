@@ -1,4 +1,4 @@
-"""Keyframes of the real data (TROVE_TEST_DATA), rendered by TRoVE."""
+"""Keyframes of the real data (TROVE_TEST_DATA), and a view of a place on its maps, rendered by TRoVE."""
 
 import argparse
 import hashlib
@@ -12,8 +12,11 @@ import numpy as np
 import OpenEXR
 from PIL import Image
 
-PLACES = {"scene-0103": "boston-seaport", "scene-0061": "singapore-onenorth"}
-VIEW, KEYFRAME = "ego.CAM_FRONT", 1
+KEYFRAME = 1
+RECORDED = {"scene-0103": "boston-seaport.osm", "scene-0061": "singapore-onenorth.osm"}
+# Latitude and longitude of the middle, and the map.
+PLACES = {"monaco": (43.7396, 7.4275, "monaco-latest.osm.pbf")}
+SCENES = [*RECORDED, *PLACES]
 
 
 def parser(description):
@@ -21,7 +24,7 @@ def parser(description):
     made = argparse.ArgumentParser(description=description)
     made.add_argument("--trove", default="trove", help="the program to measure")
     made.add_argument("--threads", type=int, default=2)
-    made.add_argument("--scenes", nargs="+", default=list(PLACES), choices=list(PLACES))
+    made.add_argument("--scenes", nargs="+", default=SCENES, choices=SCENES)
     default = Path(__file__).resolve().parent / ".cache"
     made.add_argument("--cache", type=Path, default=default, help="folder for references and pictures")
     return made
@@ -39,31 +42,51 @@ class Scene:
 
     def __init__(self, name, scale, args, weather="", tables=""):
         self.name, self.scale, self.args, self.tables = name, scale, args, tables
+        self.view = "ego.CAM_FRONT" if name in RECORDED else "ego.front"
         self.folder = (args.cache / f"{name}{weather}-{scale:g}").resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def recipe(self, spp, denoise):
         path = self.folder / "recipe.toml"
+        if self.name in RECORDED:
+            osm = RECORDED[self.name]
+            source = f'[drive]\ndataset = "nuscenes"\nroot = "{data() / "nuscenes"}"\nscenes = ["{self.name}"]\n'
+        else:
+            lat_deg, lon_deg, osm = PLACES[self.name]
+            source = f"[place]\nlat_deg = {lat_deg}\nlon_deg = {lon_deg}\nsize_m = 300\n"
+        rig = self.view.removeprefix("ego.") if self.name in RECORDED else "dashcam"
         path.write_text(
-            f'seed = 7\n[drive]\ndataset = "nuscenes"\nroot = "{data() / "nuscenes"}"\nscenes = ["{self.name}"]\n'
-            f'keyframes = [{KEYFRAME}]\n[map]\nosm = "{data() / "osm" / PLACES[self.name]}.osm"\n'
-            f'[views]\nrig = "{VIEW.removeprefix("ego.")}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
+            f'seed = 7\n{source}[map]\nosm = "{data() / "osm" / osm}"\n'
+            f'[views]\nrig = "{rig}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
             f"denoise = {str(denoise).lower()}\nradiance = true\nthreads = {self.args.threads}\n{self.tables}"
         )
         return path
+
+    def frames(self, variations):
+        """The file that says which frames are rendered."""
+        path = self.folder / "frames.json"
+        scene = self.name if self.name in RECORDED else "place"
+        frames = [f"{scene}/v{v:02}/k{KEYFRAME:03}/{self.view}" for v in range(variations)]
+        path.write_text(json.dumps({"train": frames, "val": []}))
+        return path
+
+    def generate(self, recipe, out, variations=1):
+        """The run's report."""
+        shutil.rmtree(out, ignore_errors=True)
+        frames = self.frames(variations)
+        return json.loads(trove(self.args, "generate", recipe, "--out", out, "--frames", frames, "--json"))
 
     def build(self):
         """The scene as files for others."""
         self.glb, self.sky = self.folder / "scene.glb", self.folder / "sky.exr"
         recipe = self.recipe(1, False)
-        trove(self.args, "build", recipe, "--out", self.glb, "--environment", self.sky)
+        trove(self.args, "build", recipe, "--out", self.glb, "--keyframe", KEYFRAME, "--environment", self.sky)
         self.digest = digest([recipe, self.glb, self.sky])
 
     def ours(self, spp, denoise):
         """Radiance, seconds of rendering with all labels, seconds of preparing."""
         out = self.folder / "ours"
-        shutil.rmtree(out, ignore_errors=True)
-        report = json.loads(trove(self.args, "generate", self.recipe(spp, denoise), "--out", out, "--json"))
+        report = self.generate(self.recipe(spp, denoise), out)
         (timing,) = report["timings"]
         frame = out / timing["path"]
         table = json.loads((frame / "frame.json").read_text())
@@ -79,10 +102,9 @@ class Scene:
         kept = self.folder / f"halves-{spp}-{self.digest}-{program}.npz"
         if not kept.exists():
             out = self.folder / "halves"
-            shutil.rmtree(out, ignore_errors=True)
             recipe = self.recipe(spp, False)
             recipe.write_text(recipe.read_text() + "[variations]\ncount = 2\nfactors = []\n")
-            report = json.loads(trove(self.args, "generate", recipe, "--out", out, "--json"))
+            report = self.generate(recipe, out, 2)
             frames = [out / timing["path"] for timing in report["timings"]]
             exposure_ev = json.loads((frames[0] / "frame.json").read_text())["exposure_ev"]
             first, second = (radiance(frame / "radiance.exr") for frame in frames)

@@ -4,10 +4,14 @@ import curves
 import metrics
 import numpy as np
 import scenes
-from scenes import KEYFRAME, VIEW, Scene
+from scenes import KEYFRAME, Scene
 
-# Of scene-0103's evening in Boston and scene-0061's in Singapore; both are recorded by day.
-NIGHT = {"scene-0103": "2018-08-01T22:30:00-04:00", "scene-0061": "2018-07-24T22:30:00+08:00"}
+# Evenings; all three are seen by day otherwise.
+NIGHT = {
+    "scene-0103": "2018-08-01T22:30:00-04:00",
+    "scene-0061": "2018-07-24T22:30:00+08:00",
+    "monaco": "2018-07-24T22:30:00+02:00",
+}
 WEATHER = {
     "day": "",
     "haze": "[weather]\nvisibility_m = 2000\n",
@@ -62,7 +66,7 @@ def main():
         f"same weather, undenoised and exposed as the camera does. relMSE: ε = {metrics.RELATIVE_EPSILON}."
     )
     for name in args.scenes:
-        print(f"{name}, {VIEW} of keyframe {KEYFRAME}, {args.scale:g} of 1600×900, {args.threads} threads")
+        print(f"{name}, keyframe {KEYFRAME}, {args.scale:g} of 1600×900, {args.threads} threads")
         day = None
         for weather in dict.fromkeys(["day", *args.weather]):
             print(f"  {weather}\n    {'spp':>4} {'':9} {'seconds':>8} {'relMSE':>9} {'FLIP':>7}")

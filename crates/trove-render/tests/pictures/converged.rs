@@ -88,7 +88,8 @@ fn asking_for_less_noise_gives_what_was_asked_for_and_leaves_the_sky_alone() {
     let brightness = |rgb: &[f32; 3]| rgb.iter().sum::<f32>() / 3.0;
     let pairs = || one.data.iter().map(brightness).zip(reference.data.iter().map(brightness));
     let error = pairs().map(|(a, b)| (a - b).abs()).sum::<f32>() / pairs().map(|(_, b)| b).sum::<f32>();
-    assert!((0.02..0.05).contains(&error), "{error} instead of 0.04");
+    // Stratified samples are up to twice as good as what two halves of them tell.
+    assert!((0.018..0.05).contains(&error), "{error} instead of 0.04");
 
     let renderer = renderer(KernelChoice::Obvhs, 2);
     let prepared = renderer.prepare(&scene).unwrap();

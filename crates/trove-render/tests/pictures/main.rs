@@ -173,8 +173,8 @@ fn a_glowing_room_is_as_bright_as_its_bounces_add_up() {
         let mut scene = empty(uniform(1.0));
         put(&mut scene, inside_out(cube()), glow, around_camera);
         let picture = look(&renderer(KernelChoice::Obvhs, 2), &scene, 64, 0.8);
-        // e / (1 − a) without what comes over more than 6 bounces.
-        let expected = emission / (1.0 - albedo) * (1.0 - albedo.powi(7));
+        // e / (1 − a) without what comes over more than 7 surfaces.
+        let expected = emission / (1.0 - albedo) * (1.0 - albedo.powi(8));
         assert!((mean(&picture) / expected - 1.0).abs() < 0.01, "{} instead of {expected}", mean(&picture));
     }
 }
