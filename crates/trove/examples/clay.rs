@@ -53,8 +53,11 @@ fn main() -> Result<()> {
 fn of_clay(mut scene: Scene, shots: &[Shot], out: &Path) -> Result<Scene> {
     let grey = Material { base_color: Vec3::splat(ALBEDO), roughness: 0.0, ior: 1.0, ..Material::default() };
     scene.materials.fill(grey);
-    // Smooth normals that lean away from their triangle are a matter of taste.
-    scene.meshes.iter_mut().for_each(|mesh| Arc::make_mut(mesh).normals.clear());
+    for mesh in scene.meshes.iter_mut().map(Arc::make_mut) {
+        // Smooth normals that lean away from their triangle are a matter of taste, and files know no tint above 1.
+        mesh.normals.clear();
+        mesh.tints.iter_mut().for_each(|tint| *tint = tint.min(Vec3::ONE));
+    }
     let Environment::Sky(sky) = &scene.light.environment else { anyhow::bail!("expected a computed sky") };
     let sky = bake_sky(sky);
     let mut map = sky.map.clone();

@@ -19,7 +19,7 @@ const MAX_PASSAGES: u32 = 16;
 /// Droplets that a path may meet.
 const MAX_DROPLETS: u32 = 64;
 /// Paths that carry less than one over this end by chance, the likelier the less they carry. On streets 3 instead of 2 takes a
-/// seventh more time for a sixth less square error, and for a twelfth less after denoising.
+/// tenth to a seventh more time for a sixth less square error, and for a twentieth to a tenth less after denoising.
 const ROULETTE: f32 = 3.0;
 /// The same at droplets.
 const ROULETTE_IN_AIR: f32 = 2.0;
