@@ -34,15 +34,13 @@ def cycles(scene, pictures):
     """Renders pictures, by name, and returns times.json."""
     folder = scene.folder / "cycles"
     folder.mkdir(exist_ok=True)
-    job = {
-        "glb": str(scene.glb),
-        "environment": str(scene.sky),
-        "view": scene.view,
-        "threads": scene.args.threads,
-        "folder": str(folder),
-        "pictures": pictures,
-    }
-    (folder / "job.json").write_text(json.dumps(job))
+    job = {"glb": str(scene.glb), "environment": str(scene.sky), "view": scene.view, "threads": scene.args.threads}
+    return run_job(folder, {**job, "pictures": pictures})
+
+
+def run_job(folder, job):
+    """Has Cycles take a job's pictures (`in_cycles.py`) in a folder, and returns times.json."""
+    (folder / "job.json").write_text(json.dumps({**job, "folder": str(folder)}))
     with (folder / "log.txt").open("w") as log:
         command = [sys.executable, IN_CYCLES, folder / "job.json"]
         subprocess.run(command, stdout=log, stderr=log, check=True)

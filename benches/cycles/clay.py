@@ -1,13 +1,11 @@
 """Whether TRoVE and Cycles agree where they should: a street of grey clay under one sun and sky: `clay.py --help`."""
 
 import argparse
-import json
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
-from bench import IN_CYCLES, side_by_side
+from bench import run_job, side_by_side
 from scenes import radiance
 
 BOUNCES = 6  # as TRoVE's paths have
@@ -40,10 +38,7 @@ def main():
     subprocess.run([args.example, out, str(args.scale), str(args.spp)], check=True)
     pictures = [{"name": str(i), "spp": args.spp, "adaptive": False, "denoise": False, "seed": i} for i in (1, 2)]
     job = {"glb": str(out / "scene.glb"), "environment": str(out / "sky.exr"), "view": "ego.CAM_FRONT"}
-    job |= {"threads": args.threads, "folder": str(out), "pictures": pictures, "bounces": BOUNCES, "unbiased": True}
-    (out / "job.json").write_text(json.dumps(job))
-    with (out / "log.txt").open("w") as log:
-        subprocess.run([sys.executable, IN_CYCLES, out / "job.json"], stdout=log, stderr=log, check=True)
+    run_job(out, {**job, "threads": args.threads, "pictures": pictures, "bounces": BOUNCES, "unbiased": True})
     theirs = [radiance(out / f"{i}.exr") for i in (1, 2)]
     ours = [np.fromfile(out / f"{i}.f32", np.float32).reshape(theirs[0].shape) for i in (1, 2)]
     mean_ours, mean_theirs = (sum(pair) / 2 for pair in (ours, theirs))

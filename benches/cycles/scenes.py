@@ -7,16 +7,40 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import OpenEXR
 from PIL import Image
 
 KEYFRAME = 1
-RECORDED = {"scene-0103": "boston-seaport.osm", "scene-0061": "singapore-onenorth.osm"}
-# Latitude and longitude of the middle, and the map.
-PLACES = {"monaco": (43.7396, 7.4275, "monaco-latest.osm.pbf")}
-SCENES = [*RECORDED, *PLACES]
+
+
+class Source(NamedTuple):
+    """What a scene is made of: the recipe's first tables, with the folder of data to be put in, and what is seen of it."""
+
+    tables: str
+    osm: str
+    rig: str
+    view: str
+    folder: str
+
+
+def recorded(name, osm):
+    tables = f'[drive]\ndataset = "nuscenes"\nroot = "{{data}}/nuscenes"\nscenes = ["{name}"]\n'
+    return Source(tables, osm, "CAM_FRONT", "ego.CAM_FRONT", name)
+
+
+def place(lat_deg, lon_deg, osm):
+    tables = f"[place]\nlat_deg = {lat_deg}\nlon_deg = {lon_deg}\nsize_m = 300\n"
+    return Source(tables, osm, "dashcam", "ego.front", "place")
+
+
+SCENES = {
+    "scene-0103": recorded("scene-0103", "boston-seaport.osm"),
+    "scene-0061": recorded("scene-0061", "singapore-onenorth.osm"),
+    "monaco": place(43.7396, 7.4275, "monaco-latest.osm.pbf"),
+}
 
 
 def parser(description):
@@ -24,7 +48,7 @@ def parser(description):
     made = argparse.ArgumentParser(description=description)
     made.add_argument("--trove", default="trove", help="the program to measure")
     made.add_argument("--threads", type=int, default=2)
-    made.add_argument("--scenes", nargs="+", default=SCENES, choices=SCENES)
+    made.add_argument("--scenes", nargs="+", default=list(SCENES), choices=list(SCENES))
     default = Path(__file__).resolve().parent / ".cache"
     made.add_argument("--cache", type=Path, default=default, help="folder for references and pictures")
     return made
@@ -42,22 +66,17 @@ class Scene:
 
     def __init__(self, name, scale, args, weather="", tables=""):
         self.name, self.scale, self.args, self.tables = name, scale, args, tables
-        self.view = "ego.CAM_FRONT" if name in RECORDED else "ego.front"
+        self.source = SCENES[name]
+        self.view = self.source.view
         self.folder = (args.cache / f"{name}{weather}-{scale:g}").resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def recipe(self, spp, denoise):
         path = self.folder / "recipe.toml"
-        if self.name in RECORDED:
-            osm = RECORDED[self.name]
-            source = f'[drive]\ndataset = "nuscenes"\nroot = "{data() / "nuscenes"}"\nscenes = ["{self.name}"]\n'
-        else:
-            lat_deg, lon_deg, osm = PLACES[self.name]
-            source = f"[place]\nlat_deg = {lat_deg}\nlon_deg = {lon_deg}\nsize_m = 300\n"
-        rig = self.view.removeprefix("ego.") if self.name in RECORDED else "dashcam"
+        source = self.source
         path.write_text(
-            f'seed = 7\n{source}[map]\nosm = "{data() / "osm" / osm}"\n'
-            f'[views]\nrig = "{rig}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
+            f'seed = 7\n{source.tables.format(data=data())}[map]\nosm = "{data() / "osm" / source.osm}"\n'
+            f'[views]\nrig = "{source.rig}"\n[render]\nscale = {self.scale}\nspp = {spp}\n'
             f"denoise = {str(denoise).lower()}\nradiance = true\nthreads = {self.args.threads}\n{self.tables}"
         )
         return path
@@ -65,8 +84,7 @@ class Scene:
     def frames(self, variations):
         """The file that says which frames are rendered."""
         path = self.folder / "frames.json"
-        scene = self.name if self.name in RECORDED else "place"
-        frames = [f"{scene}/v{v:02}/k{KEYFRAME:03}/{self.view}" for v in range(variations)]
+        frames = [f"{self.source.folder}/v{v:02}/k{KEYFRAME:03}/{self.view}" for v in range(variations)]
         path.write_text(json.dumps({"train": frames, "val": []}))
         return path
 

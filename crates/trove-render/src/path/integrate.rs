@@ -19,7 +19,7 @@ const MAX_PASSAGES: u32 = 16;
 /// Droplets that a path may meet.
 const MAX_DROPLETS: u32 = 64;
 /// Paths that carry less than one over this end by chance, the likelier the less they carry. On streets 3 instead of 2 takes a
-/// tenth to a seventh more time for a sixth less square error, and for a twentieth to a tenth less after denoising.
+/// tenth to a seventh more time for a sixth less square error, and for 2 to 10 % less after denoising.
 const ROULETTE: f32 = 3.0;
 /// The same at droplets.
 const ROULETTE_IN_AIR: f32 = 2.0;
@@ -440,7 +440,8 @@ impl Vertex<'_> {
         })
     }
 
-    /// The ray that asks for light at a point of which so much is sent on, which would go on so often in the direction of the light.
+    /// The ray that asks for light at a point of which so much is sent on; `pdf` is the density with which the path itself goes
+    /// on in that direction.
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
         let ray = Ray { t_max: light.reach(), ..path.ray.then(origin, light.wi) };
         let weight = power_heuristic(light.pdf, pdf) / light.pdf;
