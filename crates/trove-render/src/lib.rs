@@ -71,6 +71,7 @@
 mod accel;
 mod cache;
 mod card;
+mod convolution;
 mod denoise;
 mod drops;
 mod error;

@@ -10,7 +10,7 @@ use trove_model::{
 
 use crate::accel::{self, Kernel, KernelChoice};
 use crate::card::{self, Card, CardRate};
-use crate::denoise::{Denoiser, Denoising};
+use crate::denoise::{Denoiser, Denoising, blended};
 use crate::light::LastSurroundings;
 use crate::texture::Textures;
 use crate::{PreparedScene, RayTimes, RenderError, drops, film, labels, lidar, path, radar, scan, voxels};
@@ -197,11 +197,12 @@ impl Renderer {
         stats.rays = buffers.rays;
         stats.spp = buffers.spp;
         let clean = match &self.denoiser {
-            Ok(denoiser) => denoiser.denoise(&buffers.radiance, &buffers.albedo, &buffers.normal, buffers.spp),
+            Ok(denoiser) => denoiser.denoise(&buffers.own, &buffers.albedo, &buffers.normal, buffers.spp),
             Err(_) => None,
         };
         stats.denoised = clean.is_some();
-        Some(clean.unwrap_or(buffers.radiance))
+        let blended = clean.map(|clean| blended(&clean, &buffers.radiance, &buffers.variance));
+        Some(blended.unwrap_or(buffers.radiance))
     }
 }
 

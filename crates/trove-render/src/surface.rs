@@ -149,8 +149,12 @@ impl Surface {
 
     /// Where a ray in direction `wi` starts so that it does not meet its own surface again.
     pub(crate) fn leave(&self, wi: Vec3) -> Vec3 {
-        // Single precision near `point`, with room for the two transforms that it went through.
-        let gap = 2e-5 + self.point.abs().max_element() * 1e-6;
-        self.point + self.geometric * if wi.dot(self.geometric) >= 0.0 { gap } else { -gap }
+        let gap_m = gap_m(self.point);
+        self.point + self.geometric * if wi.dot(self.geometric) >= 0.0 { gap_m } else { -gap_m }
     }
+}
+
+/// How far off surfaces may be near a point: single precision, with room for the two transforms that they went through.
+pub(crate) fn gap_m(point: Vec3) -> f32 {
+    2e-5 + point.abs().max_element() * 1e-6
 }

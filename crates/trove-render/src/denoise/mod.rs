@@ -1,6 +1,7 @@
 //! Removes the noise that few samples leave, where a denoiser is installed.
 
 mod api;
+mod blend;
 
 use std::ffi::{CStr, c_int};
 use std::path::PathBuf;
@@ -11,6 +12,7 @@ use trove_model::Raster;
 
 use crate::RenderError;
 use api::{Api, Handle};
+pub(crate) use blend::blended;
 
 /// Samples a pixel from which on albedo and normals are so clean that the filter may trust them to the pixel. Below, the
 /// filter that expects noise in them is as good, and takes two fifths of the time.

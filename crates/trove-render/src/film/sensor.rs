@@ -1,5 +1,6 @@
 //! The faults of a real camera: what the lens does to the light, and the noise of counting it.
 
+use crate::convolution::{convolved, gaussian};
 use rayon::prelude::*;
 use trove_model::{Raster, Seed, SensorModel, ToneCurve};
 
@@ -30,7 +31,7 @@ pub(super) fn optics(radiance: &Raster<[f32; 3]>, sensor: &SensorModel) -> Raste
     let data = rows.flatten_iter().collect();
     let seen = Raster { width: radiance.width, height: radiance.height, data };
     let seen = if sensor.glare > 0.0 { glaring(&seen, sensor.glare) } else { seen };
-    if sensor.blur_px > 0.0 { blurred(&seen, sensor.blur_px) } else { seen }
+    if sensor.blur_px > 0.0 { convolved(&seen, &gaussian(sensor.blur_px)) } else { seen }
 }
 
 /// Standard deviations of what the lens scatters, as shares of the picture's diagonal, with equal light in each: together it
@@ -45,7 +46,7 @@ fn glaring(picture: &Raster<[f32; 3]>, share: f64) -> Raster<[f32; 3]> {
     let halos = GLARE.map(|part| {
         let sigma_px = part * diagonal;
         let factor = (sigma_px / REDUCED_PX).floor().max(1.0) as u32;
-        (factor, blurred(&reduced(picture, factor), sigma_px / f64::from(factor)))
+        (factor, convolved(&reduced(picture, factor), &gaussian(sigma_px / f64::from(factor))))
     });
     let of_each = (share / halos.len() as f64) as f32;
     let pixel = |i: u32| {
@@ -85,28 +86,6 @@ fn between(picture: &Raster<[f32; 3]>, x: f64, y: f64, channel: usize) -> f32 {
     let at = |x: f64, y: f64| picture.at(column(x), row(y))[channel];
     let along = |y: f64| at(left, y) * (1.0 - u) + at(left + 1.0, y) * u;
     along(top) * (1.0 - v) + along(top + 1.0) * v
-}
-
-/// Convolved with a Gaussian, first along rows, then along columns.
-fn blurred(picture: &Raster<[f32; 3]>, sigma_px: f64) -> Raster<[f32; 3]> {
-    let reach = (3.0 * sigma_px).ceil() as i64;
-    let weights: Vec<f64> = (-reach..=reach).map(|i| (-0.5 * (i as f64 / sigma_px).powi(2)).exp()).collect();
-    let whole: f64 = weights.iter().sum();
-    let along = |from: &Raster<[f32; 3]>, step: [i64; 2]| {
-        let last = [i64::from(from.width) - 1, i64::from(from.height) - 1];
-        let pixel = |x: u32, y: u32| {
-            let mut sum = [0.0f32; 3];
-            for (i, weight) in (-reach..=reach).zip(&weights) {
-                let at = |p: u32, axis: usize| (i64::from(p) + i * step[axis]).clamp(0, last[axis]) as u32;
-                let colour = from.at(at(x, 0), at(y, 1));
-                (0..3).for_each(|c| sum[c] += (weight / whole) as f32 * colour[c]);
-            }
-            sum
-        };
-        let rows = (0..from.height).into_par_iter().map(|y| (0..from.width).map(|x| pixel(x, y)).collect::<Vec<_>>());
-        Raster { width: from.width, height: from.height, data: rows.flatten_iter().collect() }
-    };
-    along(&along(picture, [1, 0]), [0, 1])
 }
 
 /// Stops by which a camera exposes longer than in the midday sun before it amplifies: a pixel of 4.5 µm behind f/1.8 is full

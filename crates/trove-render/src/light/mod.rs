@@ -34,6 +34,8 @@ pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
 use sun::Sun;
 use sun_in_map::take_sun;
 
+use crate::surface::gap_m;
+
 /// Cells on a side of a hemisphere's square: fine enough for clouds, and for the windows and lamps of a photograph.
 const SKY_CELLS: usize = 64;
 const MAP_CELLS: usize = 256;
@@ -65,9 +67,10 @@ pub(crate) struct LightSample {
 }
 
 impl LightSample {
-    /// How far a ray goes towards it that must not meet the light itself, metres.
-    pub(crate) fn reach(&self) -> f32 {
-        self.distance * (1.0 - 1e-4)
+    /// How far a ray from a place goes towards it that must not meet the light itself, metres: both the ray's start and the
+    /// light may be off.
+    pub(crate) fn reach(&self, from: Vec3) -> f32 {
+        (self.distance * (1.0 - 1e-4) - 2.0 * gap_m(from)).max(0.0)
     }
 }
 

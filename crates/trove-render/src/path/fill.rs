@@ -132,7 +132,7 @@ fn from_lamps(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32
         let drawn = scene.lights.rest(from, Vec3::ZERO).draw(u);
         if let Some(lamp) = drawn.filter(|light| light.distance.is_finite()) {
             let clear = scene.clear(from, lamp.wi, lamp.distance, Scattering::broad());
-            rays.push(Ray { t_max: lamp.reach(), ..Ray::new(from, lamp.wi) });
+            rays.push(Ray { t_max: lamp.reach(from), ..Ray::new(from, lamp.wi) });
             light.push(lamp.radiance * (clear / (lamp.pdf * TO_LAMPS as f32)));
         }
     }

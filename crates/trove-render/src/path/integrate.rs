@@ -443,7 +443,7 @@ impl Vertex<'_> {
     /// The ray that asks for light at a point of which so much is sent on; `pdf` is the density with which the path itself goes
     /// on in that direction.
     fn shadow(&self, path: &Path, origin: Vec3, f: Vec3, pdf: f32, light: &LightSample) -> Shadow {
-        let ray = Ray { t_max: light.reach(), ..path.ray.then(origin, light.wi) };
+        let ray = Ray { t_max: light.reach(origin), ..path.ray.then(origin, light.wi) };
         let weight = power_heuristic(light.pdf, pdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
         Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }

@@ -6,6 +6,7 @@ mod fill;
 mod integrate;
 mod rates;
 mod splash;
+mod splat;
 pub(crate) mod streak;
 mod tile;
 mod wave;
@@ -24,8 +25,13 @@ use wave::Wave;
 
 /// A picture and the denoiser's guides.
 pub(crate) struct Buffers {
-    /// Linear radiance.
+    /// Linear radiance, of samples that pixels share.
     pub(crate) radiance: Raster<[f32; 3]>,
+    /// Radiance of each pixel's own samples alone, those in its square: its noise is independent of its neighbours', as denoisers
+    /// expect.
+    pub(crate) own: Raster<[f32; 3]>,
+    /// Variance of the radiance's brightness, estimated from each pixel's own samples.
+    pub(crate) variance: Raster<f32>,
     /// What the first surface that is no mirror reflects of white light; 1 for the sky.
     pub(crate) albedo: Raster<[f32; 3]>,
     /// That surface's shading normal, World; 0 for the sky.
@@ -63,16 +69,32 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     pass(&mut tiles, &|tile, wave| tile.refine(&eye, wave, middle))?;
 
     let black = || Raster::filled(width, height, [0.0; 3]);
-    let mut buffers =
-        Buffers { radiance: black(), albedo: black(), normal: black(), rays: rays.into_inner(), spp: 0.0 };
+    let mut buffers = Buffers {
+        radiance: black(),
+        own: black(),
+        variance: Raster::filled(width, height, 0.0),
+        albedo: black(),
+        normal: black(),
+        rays: rays.into_inner(),
+        spp: 0.0,
+    };
+    let mut film = Raster::filled(width, height, [0.0; 4]);
     let mut samples = 0;
-    for pixel in tiles.iter().flat_map(|tile| &tile.pixels) {
-        let mean = pixel.mean();
-        *buffers.radiance.at_mut(pixel.x, pixel.y) = mean.radiance.to_array();
-        *buffers.albedo.at_mut(pixel.x, pixel.y) = mean.albedo.to_array();
-        *buffers.normal.at_mut(pixel.x, pixel.y) = mean.normal.to_array();
-        samples += u64::from(pixel.count());
+    for block in tiles.iter().flat_map(|tile| &tile.blocks) {
+        block.splats.develop(block.corner, block.count, &mut film);
+        for pixel in 0..block.pixels.len() {
+            let [x, y] = block.place(pixel).map(|p| p.wrapping_sub(tile::MARGIN_PX));
+            if x < width && y < height {
+                let mean = block.mean(pixel);
+                *buffers.own.at_mut(x, y) = mean.radiance.to_array();
+                *buffers.variance.at_mut(x, y) = splat::SHARED * block.brightness(pixel).1.powi(2);
+                *buffers.albedo.at_mut(x, y) = mean.albedo.to_array();
+                *buffers.normal.at_mut(x, y) = mean.normal.to_array();
+                samples += u64::from(block.count);
+            }
+        }
     }
+    buffers.radiance = film.map(|&[r, g, b, weight]| [r, g, b].map(|c| c / weight.max(f32::MIN_POSITIVE)));
     buffers.spp = samples as f64 / (f64::from(width) * f64::from(height)).max(1.0);
     Some(buffers)
 }

@@ -2,20 +2,24 @@
 
 use std::ops::Range;
 
-use glam::DVec2;
+use glam::{DVec2, Vec3};
 use trove_model::Shot;
 
 use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
+use super::splat::{SHARED, Splats};
 use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::prepare::Carrier;
-use crate::sampling::{Sampler, tent};
+use crate::sampling::Sampler;
 
 /// Side of the squares that threads work on, and of the blocks in them whose pixels get the same number of samples, pixels.
 const TILE_PX: u32 = 16;
-const BLOCK_PX: u32 = 4;
+pub(super) const BLOCK_PX: u32 = 4;
+
+/// Pixels around the picture that are sampled too, since pixels at its border are seen through filters that reach beyond it.
+pub(super) const MARGIN_PX: u32 = 1;
 
 /// Samples that every pixel gets before any is judged, and those that are added before it is judged again.
 const FIRST: u32 = 8;
@@ -32,26 +36,42 @@ pub(super) struct Eye<'a> {
     pub(super) field: Option<&'a LightField>,
 }
 
-/// A square of the picture.
+/// A square of the picture with its margin.
 pub(super) struct Tile {
-    /// Block by block, so that neighbours start alike.
-    pub(super) pixels: Vec<Pixel>,
-    blocks: Vec<Range<usize>>,
+    pub(super) blocks: Vec<Block>,
     samples: u32,
 }
 
-/// A pixel with the sum of its samples.
+/// Pixels that get the same number of samples.
+pub(super) struct Block {
+    /// The first pixel in the picture with its margin.
+    pub(super) corner: [u32; 2],
+    columns: u32,
+    /// Row by row.
+    pub(super) pixels: Vec<Pixel>,
+    pub(super) splats: Splats,
+    pub(super) count: u32,
+}
+
+/// The sum of a pixel's own samples.
+#[derive(Clone, Default)]
 pub(super) struct Pixel {
-    pub(super) x: u32,
-    pub(super) y: u32,
-    count: u32,
     sum: Sample,
     /// Brightness of every other sample.
     odd: f32,
 }
 
-/// Squares that cover a picture.
+/// Where a path's sample belongs.
+pub(super) struct Place {
+    block: usize,
+    pixel: usize,
+    /// In the block, pixels.
+    position: [f32; 2],
+}
+
+/// Squares that cover a picture and its margin.
 pub(super) fn tiles(width: u32, height: u32) -> Vec<Tile> {
+    let [width, height] = [width, height].map(|size| if size > 0 { size + 2 * MARGIN_PX } else { 0 });
     let corners = (0..height).step_by(TILE_PX as usize);
     let corners = corners.flat_map(|y| (0..width).step_by(TILE_PX as usize).map(move |x| (x, y)));
     corners.map(|(x, y)| Tile::new(x..(x + TILE_PX).min(width), y..(y + TILE_PX).min(height))).collect()
@@ -59,22 +79,16 @@ pub(super) fn tiles(width: u32, height: u32) -> Vec<Tile> {
 
 impl Tile {
     fn new(columns: Range<u32>, rows: Range<u32>) -> Self {
-        let pixel = |x, y| Pixel { x, y, count: 0, sum: Sample::default(), odd: 0.0 };
-        let mut pixels: Vec<Pixel> = rows.flat_map(|y| columns.clone().map(move |x| pixel(x, y))).collect();
-        let block = |p: &Pixel| (p.y / BLOCK_PX, p.x / BLOCK_PX);
-        pixels.sort_by_key(block);
-        let mut blocks = Vec::new();
-        for members in pixels.chunk_by(|a, b| block(a) == block(b)) {
-            let from = blocks.last().map_or(0, |last: &Range<usize>| last.end);
-            blocks.push(from..from + members.len());
-        }
-        Self { pixels, blocks, samples: 0 }
+        let corners = rows.clone().step_by(BLOCK_PX as usize);
+        let corners = corners.flat_map(|y| columns.clone().step_by(BLOCK_PX as usize).map(move |x| [x, y]));
+        let size = |[x, y]: [u32; 2]| [(columns.end - x).min(BLOCK_PX), (rows.end - y).min(BLOCK_PX)];
+        Self { blocks: corners.map(|corner| Block::new(corner, size(corner))).collect(), samples: 0 }
     }
 
     /// The first samples of every pixel: all of them where errors are not judged.
     pub(super) fn begin(&mut self, eye: &Eye<'_>, wave: &mut Wave) {
         let first = if eye.shot.noise > 0.0 { FIRST.min(eye.shot.spp) } else { eye.shot.spp };
-        let blocks = self.blocks.clone();
+        let blocks = self.all();
         (0..first.max(1)).for_each(|_| self.sample(eye, wave, &blocks));
     }
 
@@ -83,9 +97,9 @@ impl Tile {
         if eye.shot.noise <= 0.0 {
             return;
         }
-        let mut blocks = self.blocks.clone();
+        let mut blocks = self.all();
         loop {
-            blocks.retain(|block| error(&self.pixels[block.clone()], middle) > eye.shot.noise);
+            blocks.retain(|&block| self.blocks[block].error(middle) > eye.shot.noise);
             if blocks.is_empty() {
                 return;
             }
@@ -99,82 +113,102 @@ impl Tile {
     }
 
     /// One more sample for the pixels of some blocks, which so far have had all that any has.
-    fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
+    fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[usize]) {
         self.start_blocks(eye, wave, blocks);
         wave.run(eye.scene, eye.field);
-        for (path, &place) in wave.paths.iter().zip(&wave.places) {
-            let (pixel, sample) = (&mut self.pixels[place], path.sample());
+        for (path, place) in wave.paths.iter().zip(&wave.places) {
+            let (block, sample) = (&mut self.blocks[place.block], path.sample());
+            let pixel = &mut block.pixels[place.pixel];
             if self.samples % 2 == 1 {
                 pixel.odd += sample.radiance.element_sum();
             }
             pixel.sum.add(&sample);
+            block.splats.add(place.position, sample.radiance);
         }
         self.samples += 1;
     }
 
     /// The paths of one sample of every pixel.
     pub(super) fn start(&mut self, eye: &Eye<'_>, wave: &mut Wave) {
-        let blocks = self.blocks.clone();
-        self.start_blocks(eye, wave, &blocks);
+        self.start_blocks(eye, wave, &self.all());
     }
 
-    fn start_blocks(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[Range<usize>]) {
+    /// The places of all blocks.
+    fn all(&self) -> Vec<usize> {
+        (0..self.blocks.len()).collect()
+    }
+
+    fn start_blocks(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[usize]) {
         let shot = eye.shot;
         let log2_count = shot.spp.max(1).next_power_of_two().ilog2();
-        let places = blocks.iter().flat_map(Clone::clone);
         wave.paths.clear();
         wave.places.clear();
-        for place in places {
-            let Pixel { x, y, count, .. } = &mut self.pixels[place];
-            *count += 1;
-            let mut sampler = Sampler::new(shot.seed, [*x, *y], self.samples, log2_count);
-            let [u, v] = sampler.next2();
-            let [within, _] = sampler.next2();
-            // The reconstruction filter is drawn, not splatted: no pixel writes into another.
-            let centre = DVec2::new(f64::from(*x) + 0.5, f64::from(*y) + 0.5);
-            let position = centre + DVec2::new(f64::from(tent(u)), f64::from(tent(v)));
-            // Where the lens shows nothing the picture is black.
-            if let Some((ray, cone)) = camera_ray(shot, position, within) {
-                wave.paths.push(Path::new(eye.carrier.past(ray), cone, sampler));
-                wave.places.push(place);
+        for &index in blocks {
+            let block = &mut self.blocks[index];
+            block.count += 1;
+            for pixel in 0..block.pixels.len() {
+                let [x, y] = block.place(pixel);
+                let mut sampler = Sampler::new(shot.seed, [x, y], self.samples, log2_count);
+                let [u, v] = sampler.next2();
+                let [within, _] = sampler.next2();
+                let position = [(x - block.corner[0]) as f32 + u, (y - block.corner[1]) as f32 + v];
+                let corner = DVec2::from(block.corner.map(f64::from)) - f64::from(MARGIN_PX);
+                let at = corner + DVec2::from(position.map(f64::from));
+                if let Some((ray, cone)) = camera_ray(shot, at, within) {
+                    wave.paths.push(Path::new(eye.carrier.past(ray), cone, sampler));
+                    wave.places.push(Place { block: index, pixel, position });
+                } else {
+                    // Where the lens shows nothing the picture is black.
+                    block.splats.add(position, Vec3::ZERO);
+                }
             }
         }
     }
 }
 
-impl Pixel {
-    /// The mean of its samples.
-    pub(super) fn mean(&self) -> Sample {
-        self.sum.divided(self.count.max(1) as f32)
+impl Block {
+    fn new(corner: [u32; 2], [columns, rows]: [u32; 2]) -> Self {
+        let pixels = vec![Pixel::default(); (columns * rows) as usize];
+        Self { corner, columns, pixels, splats: Splats::none(), count: 0 }
     }
 
-    pub(super) fn count(&self) -> u32 {
-        self.count
+    /// A pixel's place in the picture with its margin.
+    pub(super) fn place(&self, pixel: usize) -> [u32; 2] {
+        let [x, y] = self.corner;
+        [x + pixel as u32 % self.columns, y + pixel as u32 / self.columns]
     }
 
-    /// Brightness: its mean, and how far the mean of every other sample is from it.
-    fn brightness(&self) -> (f32, f32) {
-        let mean = self.sum.radiance.element_sum() / self.count.max(1) as f32;
-        let odd = self.odd / (self.count / 2).max(1) as f32;
+    /// The mean of a pixel's own samples.
+    pub(super) fn mean(&self, pixel: usize) -> Sample {
+        self.pixels[pixel].sum.divided(self.count.max(1) as f32)
+    }
+
+    /// Brightness of a pixel: the mean of its own samples, and how far the mean of every other one is from it.
+    pub(super) fn brightness(&self, pixel: usize) -> (f32, f32) {
+        let Pixel { sum, odd } = &self.pixels[pixel];
+        let mean = sum.radiance.element_sum() / self.count.max(1) as f32;
+        let odd = odd / (self.count / 2).max(1) as f32;
         (mean / 3.0, (odd - mean).abs() / 3.0)
     }
-}
 
-/// The mean error of a block's pixels as a share of their brightness, estimated from two halves of their samples (as
-/// Dammertz et al. 2010).
-fn error(pixels: &[Pixel], middle: f32) -> f32 {
-    let (mut error, mut brightness) = (0.0, 0.0);
-    for pixel in pixels {
-        let (mean, difference) = pixel.brightness();
-        brightness += mean;
-        error += difference;
+    /// The mean error of the picture's pixels here as a share of their brightness, estimated from two halves of the samples
+    /// (as Dammertz et al. 2010).
+    fn error(&self, middle: f32) -> f32 {
+        let (mut error, mut brightness) = (0.0, 0.0);
+        for pixel in 0..self.pixels.len() {
+            let (mean, difference) = self.brightness(pixel);
+            brightness += mean;
+            error += difference * SHARED.sqrt();
+        }
+        error / (brightness + DARK * middle * self.pixels.len() as f32).max(f32::MIN_POSITIVE)
     }
-    error / (brightness + DARK * middle * pixels.len() as f32).max(f32::MIN_POSITIVE)
 }
 
 /// The geometric mean of the pixels' brightness; those that are black are left out.
 pub(super) fn middle_brightness(tiles: &[Tile]) -> f32 {
-    let logs = tiles.iter().flat_map(|tile| &tile.pixels).map(|p| f64::from(p.brightness().0).ln());
+    let blocks = tiles.iter().flat_map(|tile| &tile.blocks);
+    let brightness = blocks.flat_map(|block| (0..block.pixels.len()).map(|pixel| block.brightness(pixel).0));
+    let logs = brightness.map(|brightness| f64::from(brightness).ln());
     let (sum, n) = logs.filter(|log| log.is_finite()).fold((0.0, 0u32), |(sum, n), log| (sum + log, n + 1));
     (sum / f64::from(n.max(1))).exp() as f32
 }

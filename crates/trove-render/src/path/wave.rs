@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::integrate::{Path, Shadows, Vertex};
+use super::tile::Place;
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::field::LightField;
@@ -13,8 +14,8 @@ use crate::ray::{Hit, Ray};
 pub(super) struct Wave {
     /// In an order in which [`PACKET`] successive ones start alike.
     pub(super) paths: Vec<Path>,
-    /// Where in its tile each path's pixel is.
-    pub(super) places: Vec<usize>,
+    /// Where in its tile each path's sample belongs.
+    pub(super) places: Vec<Place>,
     active: Vec<u32>,
     going: Vec<u32>,
     shadows: Shadows,

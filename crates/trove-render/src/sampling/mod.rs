@@ -12,11 +12,6 @@ pub(crate) use sampler::Sampler;
 /// Mean count from which on it is drawn from a normal distribution, which is near enough then.
 const MANY: f64 = 40.0;
 
-/// A position drawn with the tent filter of radius 1 (Pharr et al. 2023, A.4.1), from −1 to 1.
-pub(crate) fn tent(u: f32) -> f32 {
-    if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 * (1.0 - u)).sqrt() }
-}
-
 /// A direction about +z with density cos θ / π.
 pub(crate) fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     let [x, y] = disk(u);
