@@ -20,6 +20,7 @@ use crate::PreparedScene;
 use crate::prepare::Carrier;
 pub use rates::{RaySeconds, RayTimes};
 pub(crate) use rates::{ray_sorts, ray_times};
+use splat::Splat;
 use tile::{Eye, Tile};
 use wave::Wave;
 
@@ -30,7 +31,7 @@ pub(crate) struct Buffers {
     /// Radiance of each pixel's own samples alone, those in its square: its noise is independent of its neighbours', as denoisers
     /// expect.
     pub(crate) own: Raster<[f32; 3]>,
-    /// Variance of the radiance's brightness, estimated from each pixel's own samples.
+    /// Variance of the radiance's brightness, estimated from two halves of the samples.
     pub(crate) variance: Raster<f32>,
     /// What the first surface that is no mirror reflects of white light; 1 for the sky.
     pub(crate) albedo: Raster<[f32; 3]>,
@@ -78,7 +79,7 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
         rays: rays.into_inner(),
         spp: 0.0,
     };
-    let mut film = Raster::filled(width, height, [0.0; 4]);
+    let mut film = Raster::filled(width, height, Splat::default());
     let mut samples = 0;
     for block in tiles.iter().flat_map(|tile| &tile.blocks) {
         block.splats.develop(block.corner, block.count, &mut film);
@@ -87,14 +88,14 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
             if x < width && y < height {
                 let mean = block.mean(pixel);
                 *buffers.own.at_mut(x, y) = mean.radiance.to_array();
-                *buffers.variance.at_mut(x, y) = splat::SHARED * block.brightness(pixel).1.powi(2);
                 *buffers.albedo.at_mut(x, y) = mean.albedo.to_array();
                 *buffers.normal.at_mut(x, y) = mean.normal.to_array();
                 samples += u64::from(block.count);
             }
         }
     }
-    buffers.radiance = film.map(|&[r, g, b, weight]| [r, g, b].map(|c| c / weight.max(f32::MIN_POSITIVE)));
     buffers.spp = samples as f64 / (f64::from(width) * f64::from(height)).max(1.0);
+    buffers.radiance = film.map(|splat| splat.mean().to_array());
+    buffers.variance = film.map(Splat::variance);
     Some(buffers)
 }

@@ -7,7 +7,7 @@ use trove_model::Shot;
 
 use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
-use super::splat::{SHARED, Splats};
+use super::splat::Splats;
 use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
@@ -47,18 +47,10 @@ pub(super) struct Block {
     /// The first pixel in the picture with its margin.
     pub(super) corner: [u32; 2],
     columns: u32,
-    /// Row by row.
-    pub(super) pixels: Vec<Pixel>,
+    /// Sums of the samples in each pixel, row by row.
+    pub(super) pixels: Vec<Sample>,
     pub(super) splats: Splats,
     pub(super) count: u32,
-}
-
-/// The sum of a pixel's own samples.
-#[derive(Clone, Default)]
-pub(super) struct Pixel {
-    sum: Sample,
-    /// Brightness of every other sample.
-    odd: f32,
 }
 
 /// Where a path's sample belongs.
@@ -118,12 +110,8 @@ impl Tile {
         wave.run(eye.scene, eye.field);
         for (path, place) in wave.paths.iter().zip(&wave.places) {
             let (block, sample) = (&mut self.blocks[place.block], path.sample());
-            let pixel = &mut block.pixels[place.pixel];
-            if self.samples % 2 == 1 {
-                pixel.odd += sample.radiance.element_sum();
-            }
-            pixel.sum.add(&sample);
-            block.splats.add(place.position, sample.radiance);
+            block.pixels[place.pixel].add(&sample);
+            block.splats.add(place.position, sample.radiance, self.samples % 2 == 1);
         }
         self.samples += 1;
     }
@@ -159,7 +147,7 @@ impl Tile {
                     wave.places.push(Place { block: index, pixel, position });
                 } else {
                     // Where the lens shows nothing the picture is black.
-                    block.splats.add(position, Vec3::ZERO);
+                    block.splats.add(position, Vec3::ZERO, self.samples % 2 == 1);
                 }
             }
         }
@@ -168,7 +156,7 @@ impl Tile {
 
 impl Block {
     fn new(corner: [u32; 2], [columns, rows]: [u32; 2]) -> Self {
-        let pixels = vec![Pixel::default(); (columns * rows) as usize];
+        let pixels = vec![Sample::default(); (columns * rows) as usize];
         Self { corner, columns, pixels, splats: Splats::none(), count: 0 }
     }
 
@@ -180,25 +168,17 @@ impl Block {
 
     /// The mean of a pixel's own samples.
     pub(super) fn mean(&self, pixel: usize) -> Sample {
-        self.pixels[pixel].sum.divided(self.count.max(1) as f32)
+        self.pixels[pixel].divided(self.count.max(1) as f32)
     }
 
-    /// Brightness of a pixel: the mean of its own samples, and how far the mean of every other one is from it.
-    pub(super) fn brightness(&self, pixel: usize) -> (f32, f32) {
-        let Pixel { sum, odd } = &self.pixels[pixel];
-        let mean = sum.radiance.element_sum() / self.count.max(1) as f32;
-        let odd = odd / (self.count / 2).max(1) as f32;
-        (mean / 3.0, (odd - mean).abs() / 3.0)
-    }
-
-    /// The mean error of the picture's pixels here as a share of their brightness, estimated from two halves of the samples
-    /// (as Dammertz et al. 2010).
+    /// The mean error of the pixels here as a share of their brightness, estimated from two halves of the samples (as
+    /// Dammertz et al. 2010).
     fn error(&self, middle: f32) -> f32 {
         let (mut error, mut brightness) = (0.0, 0.0);
-        for pixel in 0..self.pixels.len() {
-            let (mean, difference) = self.brightness(pixel);
-            brightness += mean;
-            error += difference * SHARED.sqrt();
+        for pixel in 0..self.pixels.len() as u32 {
+            let splat = self.splats.at([pixel % self.columns, pixel / self.columns]);
+            brightness += splat.mean().element_sum() / 3.0;
+            error += splat.variance().sqrt();
         }
         error / (brightness + DARK * middle * self.pixels.len() as f32).max(f32::MIN_POSITIVE)
     }
@@ -207,8 +187,9 @@ impl Block {
 /// The geometric mean of the pixels' brightness; those that are black are left out.
 pub(super) fn middle_brightness(tiles: &[Tile]) -> f32 {
     let blocks = tiles.iter().flat_map(|tile| &tile.blocks);
-    let brightness = blocks.flat_map(|block| (0..block.pixels.len()).map(|pixel| block.brightness(pixel).0));
-    let logs = brightness.map(|brightness| f64::from(brightness).ln());
+    let brightness = |block: &Block, pixel| block.mean(pixel).radiance.element_sum() / 3.0;
+    let logs =
+        blocks.flat_map(|block| (0..block.pixels.len()).map(move |pixel| f64::from(brightness(block, pixel)).ln()));
     let (sum, n) = logs.filter(|log| log.is_finite()).fold((0.0, 0u32), |(sum, n), log| (sum + log, n + 1));
     (sum / f64::from(n.max(1))).exp() as f32
 }
