@@ -54,7 +54,7 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     let mut tiles = tile::tiles(width, height);
     let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));
 
-    // Every pixel depends on the seed and its own tile alone, so the threads may take the tiles in any order.
+    // What a tile brings depends on the seed and on itself alone, so the threads may take the tiles in any order.
     let pass = |tiles: &mut [Tile], work: &(dyn Fn(&mut Tile, &mut Wave) + Sync)| {
         tiles.par_iter_mut().try_for_each_init(Wave::default, |wave, tile| {
             if stop(done.fetch_add(1, Ordering::Relaxed) as f32 / steps as f32) {
@@ -69,16 +69,9 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     let middle = tile::middle_brightness(&tiles);
     pass(&mut tiles, &|tile, wave| tile.refine(&eye, wave, middle))?;
 
+    // Put together in their own order, since sums of floats depend on it.
     let black = || Raster::filled(width, height, [0.0; 3]);
-    let mut buffers = Buffers {
-        radiance: black(),
-        own: black(),
-        variance: Raster::filled(width, height, 0.0),
-        albedo: black(),
-        normal: black(),
-        rays: rays.into_inner(),
-        spp: 0.0,
-    };
+    let (mut own, mut albedo, mut normal) = (black(), black(), black());
     let mut film = Raster::filled(width, height, Splat::default());
     let mut samples = 0;
     for block in tiles.iter().flat_map(|tile| &tile.blocks) {
@@ -87,15 +80,14 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
             let [x, y] = block.place(pixel).map(|p| p.wrapping_sub(tile::MARGIN_PX));
             if x < width && y < height {
                 let mean = block.mean(pixel);
-                *buffers.own.at_mut(x, y) = mean.radiance.to_array();
-                *buffers.albedo.at_mut(x, y) = mean.albedo.to_array();
-                *buffers.normal.at_mut(x, y) = mean.normal.to_array();
+                *own.at_mut(x, y) = mean.radiance.to_array();
+                *albedo.at_mut(x, y) = mean.albedo.to_array();
+                *normal.at_mut(x, y) = mean.normal.to_array();
                 samples += u64::from(block.count);
             }
         }
     }
-    buffers.spp = samples as f64 / (f64::from(width) * f64::from(height)).max(1.0);
-    buffers.radiance = film.map(|splat| splat.mean().to_array());
-    buffers.variance = film.map(Splat::variance);
-    Some(buffers)
+    let spp = samples as f64 / (f64::from(width) * f64::from(height)).max(1.0);
+    let (radiance, variance) = (film.map(|splat| splat.mean().to_array()), film.map(Splat::variance));
+    Some(Buffers { radiance, own, variance, albedo, normal, rays: rays.into_inner(), spp })
 }
