@@ -32,6 +32,12 @@ def blocks(picture):
     return grey.reshape(height // BLOCK_PX, BLOCK_PX, width // BLOCK_PX, BLOCK_PX).mean(axis=(1, 3))
 
 
+def sharpness(pair, least, most):
+    """Mean product of two pictures' differences of neighbouring pixels, between two levels: noise is in one alone."""
+    grey = [np.log(np.clip(picture.mean(axis=-1, dtype=np.float64), least, most)) for picture in pair]
+    return sum(np.prod([np.diff(picture, axis=axis) for picture in grey], axis=0).mean() for axis in (0, 1))
+
+
 def main():
     args = arguments()
     out = args.out.resolve()
@@ -56,6 +62,9 @@ def main():
     for low, high in ((0, 0.1), (0.1, 0.3), (0.3, 0.6), (0.6, 1.0)):
         of = (b >= np.quantile(b, low)) & (b <= np.quantile(b, high))
         print(f"    {low:.0%} to {high:.0%} by brightness: {a[of].mean() / b[of].mean():.4f}")
+    middle = np.median(mean_theirs)
+    sharper = sharpness(ours, 0.05 * middle, 4 * middle) / sharpness(theirs, 0.05 * middle, 4 * middle)
+    print(f"squared differences of neighbouring pixels {sharper:.3f}")
     if abs(whole - 1.0) > WHOLE or near.mean() < NEAR_SHARE:
         raise SystemExit(f"expected the whole within {WHOLE:.1%} and {NEAR_SHARE:.0%} of blocks within {NEAR:.0%}")
 
