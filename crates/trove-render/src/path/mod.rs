@@ -20,7 +20,7 @@ use crate::PreparedScene;
 use crate::prepare::Carrier;
 pub use rates::{RaySeconds, RayTimes};
 pub(crate) use rates::{ray_sorts, ray_times};
-use splat::Splat;
+use splat::{MARGIN_PX, Splat};
 use tile::{Eye, Tile};
 use wave::Wave;
 
@@ -77,7 +77,7 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     for block in tiles.iter().flat_map(|tile| &tile.blocks) {
         block.splats.develop(block.corner, block.count, &mut film);
         for pixel in 0..block.pixels.len() {
-            let [x, y] = block.place(pixel).map(|p| p.wrapping_sub(tile::MARGIN_PX));
+            let [x, y] = block.place(pixel).map(|p| p.wrapping_sub(MARGIN_PX));
             if x < width && y < height {
                 let mean = block.mean(pixel);
                 *own.at_mut(x, y) = mean.radiance.to_array();

@@ -3,7 +3,10 @@
 use glam::Vec3;
 use trove_model::Raster;
 
-use super::tile::{BLOCK_PX, MARGIN_PX};
+/// Side of the blocks of pixels that get the same number of samples, pixels.
+pub(super) const BLOCK_PX: u32 = 4;
+/// Pixels around the picture that are sampled too, since pixels at its border are seen through filters that reach beyond it.
+pub(super) const MARGIN_PX: u32 = 1;
 
 /// A block with the pixels around it, to which its samples reach.
 const SIDE: usize = BLOCK_PX as usize + 2;
@@ -11,6 +14,16 @@ const SIDE: usize = BLOCK_PX as usize + 2;
 /// Halves of stratified samples are less well spread than all together, and tell too much variance: on two streets 1.6 to 1.75
 /// times at 4 samples, 1.9 to 2.0 at 16 and 2.0 to 2.3 at 64.
 const OF_HALVES: f32 = 0.5;
+
+/// Where a path's sample belongs.
+pub(super) struct Place {
+    /// In its tile.
+    pub(super) block: usize,
+    /// In the block.
+    pub(super) pixel: usize,
+    /// In the block, pixels.
+    pub(super) position: [f32; 2],
+}
 
 /// Sums over samples, weighted by a pixel's tent of radius 1.
 #[derive(Clone, Copy, Default)]

@@ -7,19 +7,15 @@ use trove_model::Shot;
 
 use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
-use super::splat::Splats;
+use super::splat::{BLOCK_PX, MARGIN_PX, Place, Splats};
 use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::prepare::Carrier;
 use crate::sampling::Sampler;
 
-/// Side of the squares that threads work on, and of the blocks in them whose pixels get the same number of samples, pixels.
+/// Side of the squares that threads work on, whole blocks, pixels.
 const TILE_PX: u32 = 16;
-pub(super) const BLOCK_PX: u32 = 4;
-
-/// Pixels around the picture that are sampled too, since pixels at its border are seen through filters that reach beyond it.
-pub(super) const MARGIN_PX: u32 = 1;
 
 /// Samples that every pixel gets before any is judged, and those that are added before it is judged again.
 const FIRST: u32 = 8;
@@ -51,14 +47,6 @@ pub(super) struct Block {
     pub(super) pixels: Vec<Sample>,
     pub(super) splats: Splats,
     pub(super) count: u32,
-}
-
-/// Where a path's sample belongs.
-pub(super) struct Place {
-    block: usize,
-    pixel: usize,
-    /// In the block, pixels.
-    position: [f32; 2],
 }
 
 /// Squares that cover a picture and its margin.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::integrate::{Path, Shadows, Vertex};
-use super::tile::Place;
+use super::splat::Place;
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::field::LightField;
