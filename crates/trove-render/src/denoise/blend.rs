@@ -20,11 +20,11 @@ const CLEAN: f32 = 0.003;
 pub(crate) fn blended(clean: &Raster<[f32; 3]>, noisy: &Raster<[f32; 3]>, variance: &Raster<f32>) -> Raster<[f32; 3]> {
     let mut picture = convolved(clean, &TENT);
     let pixels = picture.data.iter().zip(&variance.data);
-    let data = pixels.map(|(rgb, &variance)| [(rgb.iter().sum::<f32>() / 3.0).powi(2), variance, 0.0]).collect();
+    let data = pixels.map(|(rgb, &variance)| [(rgb.iter().sum::<f32>() / 3.0).powi(2), variance]).collect();
     let squares = Raster { width: picture.width, height: picture.height, data };
     let squares = convolved(&squares, &gaussian(SIGMA_PX));
     let pixels = picture.data.par_iter_mut().zip(&noisy.data).zip(&squares.data);
-    pixels.for_each(|((to, noisy), [brightness, variance, _])| {
+    pixels.for_each(|((to, noisy), [brightness, variance])| {
         let error = CLEAN * brightness;
         let share = error / (error + variance).max(f32::MIN_POSITIVE);
         (0..3).for_each(|c| to[c] += share * (noisy[c] - to[c]));

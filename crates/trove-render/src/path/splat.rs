@@ -15,6 +15,11 @@ const SIDE: usize = BLOCK_PX as usize + 2;
 /// times at 4 samples, 1.9 to 2.0 at 16 and 2.0 to 2.3 at 64.
 const OF_HALVES: f32 = 0.5;
 
+/// Mean of the three colours.
+pub(super) fn brightness(radiance: Vec3) -> f32 {
+    radiance.element_sum() / 3.0
+}
+
 /// Where a path's sample belongs.
 pub(super) struct Place {
     /// In its tile.
@@ -43,7 +48,7 @@ impl Splat {
     /// Variance of the brightness, by how far that of every other sample is from it.
     pub(super) fn variance(&self) -> f32 {
         let [odd, weight] = self.odd;
-        let apart = odd / weight.max(f32::MIN_POSITIVE) - self.mean().element_sum() / 3.0;
+        let apart = odd / weight.max(f32::MIN_POSITIVE) - brightness(self.mean());
         OF_HALVES * apart * apart
     }
 
@@ -68,7 +73,7 @@ impl Splats {
         let [x, y] = position.map(|p| p + 0.5);
         let (column, row) = (x as usize, y as usize);
         let (u, v) = (x - column as f32, y - row as f32);
-        let odd = if is_odd { [radiance.element_sum() / 3.0, 1.0] } else { [0.0; 2] };
+        let odd = if is_odd { [brightness(radiance), 1.0] } else { [0.0; 2] };
         let sample = Splat { radiance, weight: 1.0, odd };
         self.0[row * SIDE + column].add(&sample, (1.0 - u) * (1.0 - v));
         self.0[row * SIDE + column + 1].add(&sample, u * (1.0 - v));

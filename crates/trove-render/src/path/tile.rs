@@ -7,7 +7,7 @@ use trove_model::Shot;
 
 use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
-use super::splat::{BLOCK_PX, MARGIN_PX, Place, Splats};
+use super::splat::{BLOCK_PX, MARGIN_PX, Place, Splats, brightness};
 use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
@@ -123,11 +123,10 @@ impl Tile {
             let block = &mut self.blocks[index];
             block.count += 1;
             for pixel in 0..block.pixels.len() {
-                let [x, y] = block.place(pixel);
-                let mut sampler = Sampler::new(shot.seed, [x, y], self.samples, log2_count);
-                let [u, v] = sampler.next2();
+                let mut sampler = Sampler::new(shot.seed, block.place(pixel), self.samples, log2_count);
+                let ([x, y], [u, v]) = (block.offset(pixel), sampler.next2());
                 let [within, _] = sampler.next2();
-                let position = [(x - block.corner[0]) as f32 + u, (y - block.corner[1]) as f32 + v];
+                let position = [x as f32 + u, y as f32 + v];
                 let corner = DVec2::from(block.corner.map(f64::from)) - f64::from(MARGIN_PX);
                 let at = corner + DVec2::from(position.map(f64::from));
                 if let Some((ray, cone)) = camera_ray(shot, at, within) {
@@ -150,8 +149,13 @@ impl Block {
 
     /// A pixel's place in the picture with its margin.
     pub(super) fn place(&self, pixel: usize) -> [u32; 2] {
-        let [x, y] = self.corner;
-        [x + pixel as u32 % self.columns, y + pixel as u32 / self.columns]
+        let ([x, y], [dx, dy]) = (self.corner, self.offset(pixel));
+        [x + dx, y + dy]
+    }
+
+    /// A pixel's place in the block.
+    fn offset(&self, pixel: usize) -> [u32; 2] {
+        [pixel as u32 % self.columns, pixel as u32 / self.columns]
     }
 
     /// The mean of a pixel's own samples.
@@ -162,22 +166,21 @@ impl Block {
     /// The mean error of the pixels here as a share of their brightness, estimated from two halves of the samples (as
     /// Dammertz et al. 2010).
     fn error(&self, middle: f32) -> f32 {
-        let (mut error, mut brightness) = (0.0, 0.0);
-        for pixel in 0..self.pixels.len() as u32 {
-            let splat = self.splats.at([pixel % self.columns, pixel / self.columns]);
-            brightness += splat.mean().element_sum() / 3.0;
+        let (mut error, mut bright) = (0.0, 0.0);
+        for pixel in 0..self.pixels.len() {
+            let splat = self.splats.at(self.offset(pixel));
+            bright += brightness(splat.mean());
             error += splat.variance().sqrt();
         }
-        error / (brightness + DARK * middle * self.pixels.len() as f32).max(f32::MIN_POSITIVE)
+        error / (bright + DARK * middle * self.pixels.len() as f32).max(f32::MIN_POSITIVE)
     }
 }
 
 /// The geometric mean of the pixels' brightness; those that are black are left out.
 pub(super) fn middle_brightness(tiles: &[Tile]) -> f32 {
     let blocks = tiles.iter().flat_map(|tile| &tile.blocks);
-    let brightness = |block: &Block, pixel| block.mean(pixel).radiance.element_sum() / 3.0;
-    let logs =
-        blocks.flat_map(|block| (0..block.pixels.len()).map(move |pixel| f64::from(brightness(block, pixel)).ln()));
+    let bright = |block: &Block, pixel| f64::from(brightness(block.mean(pixel).radiance));
+    let logs = blocks.flat_map(|block| (0..block.pixels.len()).map(move |pixel| bright(block, pixel).ln()));
     let (sum, n) = logs.filter(|log| log.is_finite()).fold((0.0, 0u32), |(sum, n), log| (sum + log, n + 1));
     (sum / f64::from(n.max(1))).exp() as f32
 }
