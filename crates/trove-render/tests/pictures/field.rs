@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use trove_model::{Environment, Fog, Material, Mesh, PhysicalSky, Scene, Seed, Shot};
 use trove_render::KernelChoice;
 
-use crate::sets::quad;
+use crate::sets::{self, quad};
 use crate::studio::{empty, mean, put, renderer, shot, take, uniform};
 
 /// Level ground in fog under a clear sky; two rows of walls leave a street between them where they are asked for.
@@ -75,4 +75,13 @@ fn light_that_is_read_has_less_noise_and_is_the_same_for_any_number_of_threads()
     let (followed, read) = (spread(false), spread(true));
     assert!(2.0 * read < followed, "{read} and {followed}");
     assert_eq!(picture(true, 1).data, picture(true, 2).data);
+}
+
+#[test]
+fn in_clear_air_nothing_is_read() {
+    let renderer = renderer(KernelChoice::Obvhs, 2);
+    for set in sets::all() {
+        let picture = |cache| take(&renderer, &set.scene, &Shot { cache, spp: 4, ..set.shot.clone() });
+        assert_eq!(picture(true).data, picture(false).data, "{}", set.name);
+    }
 }
