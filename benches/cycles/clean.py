@@ -1,7 +1,5 @@
 """How long a frame takes that passes as clean (FLIP ≤ 0.05 against the reference), with all labels: `clean.py --help`."""
 
-import time
-
 import metrics
 import numpy as np
 import scenes
@@ -9,7 +7,7 @@ from scenes import KEYFRAME, Scene
 
 BAR_FLIP = 0.05
 # The bar's reference of 4,096 samples a pixel would take hours at full size: it is made of a smaller picture, in which a pixel
-# sees more detail than in the large one and is noisier. 2,048 samples that pixels share have less noise than so many of
+# sees more detail than in the large one and is noisier. 2,048 samples that pixels share have less noise than 4,096 of
 # their own. At full size the reference is coarser, and its own noise counts against the picture.
 SMALL, FULL = 0.4, 1.0
 
@@ -29,10 +27,8 @@ def flips(scene, reference_spp, spps):
     gain = np.float32(2.0 ** reference["exposure_ev"])
     found = {}
     for spp in spps:
-        started = time.monotonic()
         picture, render_s, _ = scene.ours(spp, True)
-        whole_s = time.monotonic() - started
-        found[spp] = metrics.flip(picture * gain, reference["picture"] * gain), render_s, whole_s
+        found[spp] = metrics.flip(picture * gain, reference["picture"] * gain), render_s, scene.seconds
     return found
 
 

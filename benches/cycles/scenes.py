@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -89,10 +90,13 @@ class Scene:
         return path
 
     def generate(self, recipe, out, variations=1):
-        """The run's report."""
+        """The run's report; `seconds` are then those that the whole program took."""
         shutil.rmtree(out, ignore_errors=True)
         frames = self.frames(variations)
-        return json.loads(trove(self.args, "generate", recipe, "--out", out, "--frames", frames, "--json"))
+        started = time.monotonic()
+        report = trove(self.args, "generate", recipe, "--out", out, "--frames", frames, "--json")
+        self.seconds = time.monotonic() - started
+        return json.loads(report)
 
     def build(self):
         """The scene as files for others."""
