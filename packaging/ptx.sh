@@ -29,7 +29,7 @@ RUSTFLAGS="-Clinker=true -Ctarget-cpu=sm_75 -Cpanic=immediate-abort -Zunstable-o
     echo "// crates/trove-trace for graphics cards, written by \`make ptx\`."
     echo "// rustc $compiler"
     echo "// glam $(grep -A1 '^name = "glam"' Cargo.lock | sed -n 's/^version = "\(.*\)"/\1/p')"
-    echo "// sources $(cat crates/trove-trace/Cargo.toml crates/trove-trace/src/*.rs | sha256sum | cut -c1-16)"
+    echo "// sources $(find crates/trove-trace -name Cargo.toml -o -name "*.rs" ! -name tests.rs | LC_ALL=C sort | xargs cat | sha256sum | cut -c1-16)"
     sed 's/[[:space:]]*$//' "$out/trace.s" | cat -s
 } > "$out/trace.ptx"
 if [ "${1:-}" = --check ]; then

@@ -13,8 +13,7 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 use trove_model::Light;
-
-use crate::sampling::Basis;
+use trove_trace::Basis;
 
 /// Mean cosine of scattering by water droplets of fog, 5 to 20 µm (Deirmendjian 1969: 0.84 to 0.87).
 const ASYMMETRY: f32 = 0.85;

@@ -101,11 +101,17 @@ impl Renderer {
         self.pool.install(|| path::ray_times(scene, shot))
     }
 
-    /// Measures how fast a card traces the rays of one sample a pixel, and compares what it finds.
+    /// Measures how fast a card traces the rays of one sample a pixel and scatters light where they arrive, and compares
+    /// its answers; and how many bytes the scene takes there.
     ///
     /// # Errors
     /// What the card refuses: most likely it is full.
-    pub fn card_rates(&self, scene: &PreparedScene, shot: &Shot, card: &Card) -> Result<Vec<CardRate>, String> {
+    pub fn card_rates(
+        &self,
+        scene: &PreparedScene,
+        shot: &Shot,
+        card: &Card,
+    ) -> Result<(Vec<CardRate>, usize), String> {
         card::card_rates(scene, shot, card)
     }
 

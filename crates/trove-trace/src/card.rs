@@ -1,7 +1,8 @@
-//! What a card runs: one thread a ray.
+//! What a card runs: one thread a ray, or a vertex.
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x, trap};
 
+use crate::bsdf::{Lobes, Scattered, Vertex};
 use crate::flat::{Asked, FlatScene, NONE};
 use crate::ray::Hit;
 
@@ -11,7 +12,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     unsafe { trap() }
 }
 
-/// This thread's ray.
+/// This thread's ray or vertex.
 #[inline(always)]
 fn place() -> usize {
     // SAFETY: these read registers.
@@ -48,5 +49,26 @@ unsafe extern "ptx-kernel" fn blocked(scene: *const FlatScene, asked: *const Ask
     // SAFETY: the caller vouches for it.
     unsafe {
         *blocked.add(i) = u32::from((*scene).is_blocked(&*asked.add(i)));
+    }
+}
+
+/// How light scatters at each vertex.
+///
+/// # Safety
+/// There are `count` vertices and room for as many answers.
+#[unsafe(no_mangle)]
+unsafe extern "ptx-kernel" fn scatter(
+    lobes: *const Lobes,
+    vertices: *const Vertex,
+    scattered: *mut Scattered,
+    count: u32,
+) {
+    let i = place();
+    if i >= count as usize {
+        return;
+    }
+    // SAFETY: the caller vouches for it.
+    unsafe {
+        *scattered.add(i) = (*vertices.add(i)).scatter(&*lobes);
     }
 }

@@ -33,26 +33,37 @@
 //! ```
 
 #![no_std]
-#![cfg_attr(target_arch = "nvptx64", feature(abi_ptx, stdarch_nvptx))]
+#![cfg_attr(target_arch = "nvptx64", feature(abi_ptx, core_float_math, stdarch_nvptx))]
+
+// For roots, and for tests.
+#[cfg(not(target_arch = "nvptx64"))]
+extern crate std;
 
 mod beam;
+mod bsdf;
 #[cfg(target_arch = "nvptx64")]
 mod card;
 mod flat;
 mod mask;
+mod math;
 mod motion;
 mod pair;
 mod ray;
+mod sampler;
+mod sampling;
 mod sheared;
 mod stack;
 mod tables;
 mod trace;
 
+pub use bsdf::{Bsdf, BsdfSample, Coat, Lobes, Parameters, Scattered, Vertex, ggx, reflected};
 pub use flat::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, NONE, Placement, Table};
 pub use mask::Mask;
 pub use motion::Motion;
 pub use pair::{LEAF_MOST, Pair, inner, leaf};
 pub use ray::{Hit, Ray};
+pub use sampler::Sampler;
+pub use sampling::{Basis, cosine_hemisphere, cosine_pdf, disk, power_heuristic};
 pub use sheared::Corners;
 pub use stack::DEPTH;
 pub use tables::{Mesh, Tables};

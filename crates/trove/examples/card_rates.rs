@@ -1,4 +1,4 @@
-//! How fast a graphics card traces the renderer's rays, and whether it finds what the processor finds: `make bench-card`.
+//! How fast a graphics card traces the renderer's rays and scatters light, and whether it answers what the processor does: `make bench-card`.
 //!
 //! CAM_FRONT of a keyframe of scene-0103, one sample a pixel; the folder of real data is `TROVE_TEST_DATA`. An argument
 //! other than 1 scales the picture.
@@ -27,24 +27,23 @@ fn main() -> Result<()> {
     let renderer = Renderer::new(&RendererOptions { kernel, denoise, threads: 0, search: Vec::new() })?;
     let prepared = renderer.prepare(&scene)?;
     let started = Instant::now();
-    let rates = renderer.card_rates(&prepared, &shots[0], &card).map_err(anyhow::Error::msg)?;
-    println!("built, sent, traced and compared in {:.1} s", started.elapsed().as_secs_f64());
+    let (rates, scene_bytes) = renderer.card_rates(&prepared, &shots[0], &card).map_err(anyhow::Error::msg)?;
+    let (seconds, scene_mb) = (started.elapsed().as_secs_f64(), scene_bytes as f64 * 1e-6);
+    println!("built, sent, asked and compared in {seconds:.1} s; scene {scene_mb:.0} MB");
     for rate in rates {
-        let millions = |seconds: f64| rate.rays as f64 / seconds * 1e-6;
+        let millions = |seconds: f64| rate.asked as f64 / seconds * 1e-6;
         println!(
-            "{}: {} rays, {} meet something; {:.0} million a second on the card, {:.2} on one thread; {} answers differ, {} \
-             elsewhere; {} registers, {} bytes, {} threads at once; scene {:.0} MB",
+            "{}: {}, of which {} meet something or go on; {:.0} million a second on the card, {:.2} on one thread; {} \
+             answers differ; {} registers, {} bytes, {} threads at once",
             rate.sort,
-            rate.rays,
+            rate.asked,
             rate.met,
             millions(rate.card_s),
             millions(rate.processor_s),
             rate.differ,
-            rate.elsewhere,
             rate.takes[0],
             rate.takes[1],
-            rate.at_once,
-            rate.scene_bytes as f64 * 1e-6
+            rate.at_once
         );
     }
     Ok(())

@@ -92,10 +92,18 @@ mod tests {
     #[test]
     fn the_ptx_is_of_these_sources() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let of_trace = root.join("crates/trove-trace");
-        let mut files: Vec<_> = std::fs::read_dir(of_trace.join("src")).unwrap().map(|e| e.unwrap().path()).collect();
-        files.sort();
-        files.insert(0, of_trace.join("Cargo.toml"));
+        let (mut folders, mut files) = (vec![root.join("crates/trove-trace")], Vec::new());
+        while let Some(folder) = folders.pop() {
+            for path in std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()) {
+                let name = path.file_name().unwrap().to_string_lossy();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if name == "Cargo.toml" || (name.ends_with(".rs") && name != "tests.rs") {
+                    files.push(path);
+                }
+            }
+        }
+        files.sort_by_key(|path| path.to_str().unwrap().to_owned());
         let mut hasher = Sha256::new();
         files.iter().for_each(|file| hasher.update(std::fs::read(file).unwrap()));
         let sources: String = hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect();

@@ -4,7 +4,7 @@ use crate::convolution::{convolved, gaussian};
 use rayon::prelude::*;
 use trove_model::{Raster, Seed, SensorModel, ToneCurve};
 
-use crate::sampling::poisson;
+use crate::poisson::poisson;
 
 /// Light behind the lens: darker and with fringes of colour in the corners, slightly blurred.
 pub(super) fn optics(radiance: &Raster<[f32; 3]>, sensor: &SensorModel) -> Raster<[f32; 3]> {

@@ -6,7 +6,7 @@ use trove_model::{Class, InstanceId, Scanner, Seed, SensorRay};
 
 use super::echo::{Echo, Part};
 use crate::PreparedScene;
-use crate::sampling::poisson;
+use crate::poisson::poisson;
 
 /// Extinction for backscatter of water droplets at 905 nm, steradians (O'Connor, Illingworth, Hogan 2004: 18.8).
 const LIDAR_RATIO_SR: f64 = 18.8;

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use trove_model::{Scene, luminance};
+use trove_trace::{Basis, cosine_hemisphere};
 
 use super::tree::{Aim, Cut, LEAST_SHARE, Tree, TreeEntry};
 use crate::ray::Ray;
-use crate::sampling::{Basis, cosine_hemisphere};
 use crate::texture::Glow;
 
 /// Which rays that start on an instance do not end on it.

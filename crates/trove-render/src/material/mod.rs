@@ -1,32 +1,26 @@
 //! How light leaves a surface.
 
-mod albedo;
-mod bsdf;
-mod diffuse;
 mod field;
-pub(crate) mod ggx;
 mod opacity;
 mod parallax;
-mod sheen;
 mod snow;
 mod texturing;
 mod water;
 mod weather;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{Vec2, Vec3};
 use trove_model::{Beam, Mapping, Material};
+use trove_trace::{Bsdf, Coat, Lobes, Parameters, Vertex, ggx};
 
 use crate::surface::Surface;
 use crate::texture::{Glow, MipMap, Textures};
-use bsdf::{Coat, Parameters};
 use opacity::Pane;
 use parallax::Heights;
 use texturing::{Spot, Texturing};
 use weather::Weather;
 
-pub(crate) use bsdf::Bsdf;
 pub(crate) use opacity::Opacity;
 pub(crate) use snow::holds as holds_snow;
 
@@ -40,6 +34,9 @@ const FLAKE_M: f32 = 0.0005;
 const FLAKE_SLOPE: f32 = 0.17;
 /// How metallic paint full of flakes is: pigment lies between them.
 const FLAKES_METALNESS: f32 = 0.6;
+
+/// What lobes reflect in all.
+pub(crate) static LOBES: LazyLock<Lobes> = LazyLock::new(Lobes::new);
 
 /// A material with its textures filtered.
 pub(crate) struct PreparedMaterial {
@@ -186,7 +183,13 @@ impl PreparedMaterial {
     /// `dither` a random number in [0, 1).
     pub(crate) fn shade(&self, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
         let (p, normal) = self.parameters(surface, width_m, dither);
-        Bsdf::new(surface, normal, &p)
+        Bsdf::new(&LOBES, surface.wo, surface.geometric, normal, &p)
+    }
+
+    /// The same as plain numbers, with what a path asks there.
+    pub(crate) fn vertex(&self, surface: &Surface, width_m: f32, to_light: Vec3, u: [f32; 3]) -> Vertex {
+        let (parameters, normal) = self.parameters(surface, width_m, 0.5);
+        Vertex { wo: surface.wo, geometric: surface.geometric, normal, to_light, u, parameters }
     }
 
     /// The share of light that it scatters diffusely, and its perceptual roughness, at a point: as sharp as its textures

@@ -4,8 +4,8 @@
 use std::f32::consts::FRAC_PI_3;
 
 use glam::{Vec2, Vec3, vec2};
+use trove_trace::{Coat, Parameters};
 
-use super::bsdf::{Coat, Parameters};
 use super::field::{TOO_WIDE_M, field, step};
 use super::weather::{WATER_F0, soak};
 use crate::surface::Surface;
@@ -171,8 +171,8 @@ fn below(share: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::bsdf::Coat;
     use crate::surface::Exposure;
+    use trove_trace::Coat;
 
     fn asphalt() -> Parameters {
         Parameters {

@@ -2,8 +2,8 @@
 //! nowhere.
 
 use glam::{Vec2, Vec3, vec2};
+use trove_trace::{Coat, Parameters};
 
-use super::bsdf::{Coat, Parameters};
 use super::field::{TOO_WIDE_M, field, step};
 use super::water;
 use crate::surface::Surface;

@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3, IVec3, Vec3};
 use rayon::prelude::*;
 use trove_model::{Form, Precipitation, Raster, Seed, Shot};
+use trove_trace::{Basis, Sampler, disk};
 
 use super::integrate::{Cone, Path};
 use super::splash;
@@ -16,7 +17,6 @@ use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::motion::MIDDLE;
 use crate::ray::Ray;
-use crate::sampling::{Basis, Sampler, disk};
 
 /// Smaller ones are too many and cover too little.
 const SMALLEST_M: f64 = 0.5e-3;
@@ -140,7 +140,7 @@ fn light(scene: &PreparedScene, shot: &Shot, form: Form, depth_m: &Raster<f32>) 
         let origin = shot.world_from_camera.translation.as_vec3() + towards * TYPICAL_M.min(0.8 * free_m);
         let mut wave = Wave::default();
         for k in 0..PATHS {
-            let mut sampler = Sampler::new(seed, [x, y], k, PATHS.ilog2());
+            let mut sampler = Sampler::new(seed.0, [x, y], k, PATHS.ilog2());
             let (onwards, which) = (sampler.next2(), sampler.next2());
             let from = match form {
                 Form::Rain => through_drop(towards, onwards, which[0]),

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 use rayon::prelude::*;
+use trove_trace::{Basis, disk};
 
 use super::wave;
 use crate::PreparedScene;
@@ -14,7 +15,6 @@ use crate::field::directions::{self, ByDirection, Kernel, PART_SR, PARTS};
 use crate::field::{LightField, Node, Site};
 use crate::fog::Scattering;
 use crate::ray::{Hit, Ray};
-use crate::sampling::{Basis, disk};
 use crate::surface::Surface;
 
 /// Rays to the sun and to lamps that a node asks with.

@@ -19,7 +19,7 @@ use trove_model::{Raster, Shot};
 use crate::PreparedScene;
 use crate::prepare::Carrier;
 pub use rates::{RaySeconds, RayTimes};
-pub(crate) use rates::{ray_sorts, ray_times};
+pub(crate) use rates::{ray_sorts, ray_times, vertices};
 use splat::{MARGIN_PX, Splat};
 use tile::{Eye, Tile};
 use wave::Wave;

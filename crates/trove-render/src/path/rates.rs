@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use glam::Vec3;
 use trove_model::Shot;
+use trove_trace::Sampler;
 
 use super::integrate::{Path, Shadow, Shadows, Vertex};
 use super::tile::{Eye, tiles};
@@ -104,6 +105,21 @@ pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, V
         ("to the sun", asked(shadows.to_sun), true),
         ("to sky and lamps", asked(shadows.to_rest), true),
     ]
+}
+
+/// Where the rays of one sample a pixel arrive first, with light asked for from straight above.
+pub(crate) fn vertices(scene: &PreparedScene, shot: &Shot) -> Vec<trove_trace::Vertex> {
+    let [(_, camera, _), ..] = ray_sorts(scene, shot);
+    let mut hits = vec![None; camera.len()];
+    scene.closest(&camera, Coherence::Incoherent, &mut hits);
+    let mut sampler = Sampler::new(shot.seed.0, [0, 0], 0, 0);
+    let vertex = |(ray, hit): (&Ray, Option<Hit>)| {
+        let hit = hit?;
+        let (surface, material) = scene.surface(&hit, ray);
+        let ([lobe, _], [u0, u1]) = (sampler.next2(), sampler.next2());
+        Some(material.vertex(&surface, 0.0, Vec3::Z, [lobe, u0, u1]))
+    };
+    camera.iter().zip(hits).filter_map(vertex).collect()
 }
 
 /// What the paths' rays meet, both ways.

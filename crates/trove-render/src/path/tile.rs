@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, Vec3};
 use trove_model::Shot;
+use trove_trace::Sampler;
 
 use super::camera::camera_ray;
 use super::integrate::{Path, Sample};
@@ -12,7 +13,6 @@ use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::prepare::Carrier;
-use crate::sampling::Sampler;
 
 /// Side of the squares that threads work on, whole blocks, pixels.
 const TILE_PX: u32 = 16;
@@ -123,7 +123,7 @@ impl Tile {
             let block = &mut self.blocks[index];
             block.count += 1;
             for pixel in 0..block.pixels.len() {
-                let mut sampler = Sampler::new(shot.seed, block.place(pixel), self.samples, log2_count);
+                let mut sampler = Sampler::new(shot.seed.0, block.place(pixel), self.samples, log2_count);
                 let ([x, y], [u, v]) = (block.offset(pixel), sampler.next2());
                 let [within, _] = sampler.next2();
                 let position = [x as f32 + u, y as f32 + v];

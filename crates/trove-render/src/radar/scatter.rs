@@ -8,8 +8,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
 use trove_model::RadarSurface;
-
-use crate::material::ggx;
+use trove_trace::ggx;
 
 /// A point on a surface, with unit vectors in World.
 pub(super) struct Scatterer<'a> {

@@ -1,7 +1,7 @@
 //! Light that enters a surface and comes out again on the same side: a rough layer of grains, a deep cloudy body, or a
 //! mixture of both.
 
-use std::f32::consts::PI;
+use core::f32::consts::PI;
 
 use glam::Vec3;
 

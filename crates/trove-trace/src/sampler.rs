@@ -1,28 +1,28 @@
 //! The numbers of a sample: Owen-scrambled Sobol points in blue-noise order.
 
-use trove_model::Seed;
-
 /// Draws pairs of numbers for one sample of one pixel.
 ///
 /// All samples of all pixels are points of one sequence, along a Z-curve over the picture that is shuffled within its
 /// squares (Ahmed, Wonka 2020): those of a pixel are stratified, and so are those of neighbouring pixels together,
 /// which makes the error blue noise. Every pair is a sequence of its own, shuffled and scrambled by a hash (Burley 2020).
-pub(crate) struct Sampler {
+pub struct Sampler {
     index: u32,
     seed: u32,
 }
 
 impl Sampler {
     /// For the `index`-th of up to 2 to the power of `log2_count` samples of pixel (x, y).
-    pub(crate) fn new(seed: Seed, [x, y]: [u32; 2], index: u32, log2_count: u32) -> Self {
+    #[inline]
+    pub fn new(seed: u64, [x, y]: [u32; 2], index: u32, log2_count: u32) -> Self {
         // Bits that find no room let the order repeat after hundreds of pixels at least.
         let pixel = (spread_bits(y) << 1) | spread_bits(x);
         let index = pixel.checked_shl(log2_count).unwrap_or(0).wrapping_add(index);
-        Self { index, seed: (seed.0 ^ (seed.0 >> 32)) as u32 }
+        Self { index, seed: (seed ^ (seed >> 32)) as u32 }
     }
 
     /// The next pair in [0, 1)².
-    pub(crate) fn next2(&mut self) -> [f32; 2] {
+    #[inline]
+    pub fn next2(&mut self) -> [f32; 2] {
         self.seed = mixed(self.seed.wrapping_add(0x9e37_79b9));
         let index = scrambled(self.index.reverse_bits(), self.seed).reverse_bits();
         // Sobol's first two dimensions, last binary digit first: the index itself, and Pascal's triangle times it.
@@ -36,6 +36,7 @@ impl Sampler {
 
 /// Owen scrambling of a number whose last binary digit comes first: every digit is flipped or not by a hash of those
 /// before it (Laine, Karras 2011, with Burley's constants).
+#[inline(always)]
 fn scrambled(mut digits: u32, seed: u32) -> u32 {
     digits = digits.wrapping_add(seed);
     for factor in [0x6c50_b47c, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6u32] {
@@ -45,6 +46,7 @@ fn scrambled(mut digits: u32, seed: u32) -> u32 {
 }
 
 /// A hash of all digits (Wellons' `lowbias32`).
+#[inline(always)]
 fn mixed(mut x: u32) -> u32 {
     x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
     x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
@@ -52,6 +54,7 @@ fn mixed(mut x: u32) -> u32 {
 }
 
 /// The lower 16 bits with zeros between them.
+#[inline(always)]
 fn spread_bits(x: u32) -> u32 {
     [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555u32)]
         .into_iter()
@@ -60,6 +63,8 @@ fn spread_bits(x: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use std::{vec, vec::Vec};
+
     use super::*;
 
     /// How often each cell of a `columns × rows` grid is hit by the second pair of each sample.
@@ -77,7 +82,7 @@ mod tests {
     fn samples_of_a_pixel_fall_one_into_each_cell() {
         for grid in [[4, 4], [16, 1], [1, 16], [2, 8]] {
             for first in [0, 16, 48] {
-                let samples = (first..first + 16).map(|i| Sampler::new(Seed(3), [117, 45], i, 6));
+                let samples = (first..first + 16).map(|i| Sampler::new(3, [117, 45], i, 6));
                 assert_eq!(counts(samples, grid), vec![1; 16], "{grid:?} from {first}");
             }
         }
@@ -86,7 +91,7 @@ mod tests {
     #[test]
     fn samples_of_a_square_of_pixels_fall_one_into_each_cell() {
         let square = || (0..16).map(|i| [40 + i % 4, 80 + i / 4]);
-        let samples = square().flat_map(|pixel| (0..4).map(move |i| Sampler::new(Seed(3), pixel, i, 2)));
+        let samples = square().flat_map(|pixel| (0..4).map(move |i| Sampler::new(3, pixel, i, 2)));
         assert_eq!(counts(samples, [8, 8]), vec![1; 64]);
     }
 
@@ -94,7 +99,7 @@ mod tests {
     fn pairs_of_a_sample_do_not_know_each_other() {
         let (n, mut sum) = (4096, 0.0);
         for i in 0..n {
-            let mut sampler = Sampler::new(Seed(1), [5, 9], i, 12);
+            let mut sampler = Sampler::new(1, [5, 9], i, 12);
             let ([a, _], [b, _]) = (sampler.next2(), sampler.next2());
             sum += (a - 0.5) * (b - 0.5);
         }

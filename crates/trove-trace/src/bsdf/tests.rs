@@ -1,8 +1,11 @@
-use glam::Vec2;
+use std::sync::LazyLock;
+use std::{vec, vec::Vec};
+
 use trove_model::{Random, Seed};
 
 use super::*;
-use crate::surface::Exposure;
+
+static LOBES: LazyLock<Lobes> = LazyLock::new(Lobes::new);
 
 /// A surface that faces up, seen from an angle with cosine `cos`.
 fn bsdf(cos: f32, p: &Parameters) -> Bsdf {
@@ -10,20 +13,7 @@ fn bsdf(cos: f32, p: &Parameters) -> Bsdf {
 }
 
 fn seen_from(wo: Vec3, p: &Parameters) -> Bsdf {
-    let surface = Surface {
-        point: Vec3::ZERO,
-        point_mesh: Vec3::ZERO,
-        above_foot_m: 0.0,
-        wo,
-        geometric: Vec3::Z,
-        shading: Vec3::Z,
-        is_front: true,
-        uv: Vec2::ZERO,
-        uv_axes: None,
-        tint: Vec3::ONE,
-        exposure: Exposure::BARE,
-    };
-    Bsdf::new(&surface, Vec3::Z, p)
+    Bsdf::new(&LOBES, wo, Vec3::Z, Vec3::Z, p)
 }
 
 fn white(alpha: f32) -> Parameters {

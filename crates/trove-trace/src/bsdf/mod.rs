@@ -4,54 +4,71 @@
 //! Every layer gets what those above leave of the light, by their reflectance for the outgoing direction alone: energy
 //! is kept to within some percent, and the sum is not quite reciprocal though each lobe is.
 
-use std::f32::consts::PI;
+mod diffuse;
+pub mod ggx;
+mod lobes;
+mod sheen;
+mod vertex;
+
+use core::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::diffuse::Diffuse;
-use super::ggx::Facet;
-use super::{albedo, ggx, sheen};
+use crate::math::{unit, unit_or};
 use crate::sampling::{Basis, cosine_hemisphere, cosine_pdf};
-use crate::surface::Surface;
+use diffuse::Diffuse;
+use ggx::Facet;
+
+pub use lobes::{Lobes, reflected};
+pub use vertex::{Scattered, Vertex};
 
 /// Facets from this GGX α on are matt.
 const MATT_ALPHA: f32 = 0.3;
 
 /// A smooth layer on top of everything.
-#[derive(Clone, Copy)]
-pub(crate) struct Coat {
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Coat {
     /// Shading normal on the side of the eye; what is below may be rougher.
-    pub(crate) normal: Vec3,
+    pub normal: Vec3,
     /// Share of the surface that has it.
-    pub(crate) share: f32,
+    pub share: f32,
     /// GGX α.
-    pub(crate) alpha: f32,
+    pub alpha: f32,
     /// Normal reflectance.
-    pub(crate) f0: f32,
+    pub f0: f32,
 }
 
-/// A material at a point.
-pub(crate) struct Parameters {
-    pub(crate) base_color: Vec3,
+/// A material at a point; shares are from 0 to 1.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Parameters {
+    /// Reflectance of metal, and of what scatters in the body.
+    pub base_color: Vec3,
     /// GGX α.
-    pub(crate) alpha: f32,
+    pub alpha: f32,
     /// Of the diffuse lobe, 0 (Lambert) to 1.
-    pub(crate) diffuse_roughness: f32,
-    pub(crate) metalness: f32,
+    pub diffuse_roughness: f32,
+    /// Share of the surface that is bare metal.
+    pub metalness: f32,
     /// Normal reflectance of the dielectric.
-    pub(crate) f0: f32,
-    pub(crate) coat: Coat,
+    pub f0: f32,
+    /// What lies on top.
+    pub coat: Coat,
     /// Colour of the fibres, black for none.
-    pub(crate) sheen: Vec3,
-    pub(crate) subsurface: f32,
-    pub(crate) translucency: f32,
-    pub(crate) transmission: f32,
+    pub sheen: Vec3,
+    /// Share of what scatters that does so deep inside.
+    pub subsurface: f32,
+    /// Share of it that comes out on the other side.
+    pub translucency: f32,
+    /// Share of what enters that goes straight through.
+    pub transmission: f32,
     /// Colour of what goes straight through.
-    pub(crate) tint: Vec3,
+    pub tint: Vec3,
 }
 
 /// How light scatters at a point, for one outgoing direction.
-pub(crate) struct Bsdf {
+pub struct Bsdf {
     normal: Vec3,
     geometric: Vec3,
     wo: Vec3,
@@ -71,28 +88,30 @@ pub(crate) struct Bsdf {
     /// Chances of the lobes: coat, facets, fibres and diffuse; the rest is straight through.
     chances: [f32; 3],
     /// For the denoiser: all that it reflects of white light.
-    pub(crate) albedo: Vec3,
+    pub albedo: Vec3,
     /// Whether what is seen in it, rather than itself, is what the eye sees.
-    pub(crate) is_mirror: bool,
+    pub is_mirror: bool,
     /// Whether directions that lie [`MATT_ALPHA`] apart are much the same to it.
-    pub(crate) is_matt: bool,
+    pub is_matt: bool,
 }
 
 /// A direction drawn.
-pub(crate) struct BsdfSample {
+pub struct BsdfSample {
     /// Unit, World.
-    pub(crate) wi: Vec3,
+    pub wi: Vec3,
     /// BSDF · cos / density.
-    pub(crate) weight: Vec3,
+    pub weight: Vec3,
     /// Density over solid angle; `None`: straight through.
-    pub(crate) pdf: Option<f32>,
+    pub pdf: Option<f32>,
     /// The cone of directions it stands for, radians.
-    pub(crate) spread_rad: f32,
+    pub spread_rad: f32,
 }
 
 impl Bsdf {
-    /// `normal` is the shading normal on the side of `surface.wo`.
-    pub(crate) fn new(surface: &Surface, normal: Vec3, p: &Parameters) -> Self {
+    /// Seen along `wo` from the side of the unit vector `geometric`, which stands upright on the surface; `normal` is the
+    /// shading normal on that side.
+    #[inline]
+    pub fn new(lobes: &Lobes, wo: Vec3, geometric: Vec3, normal: Vec3, p: &Parameters) -> Self {
         // Taken apart whole: a new layer does not compile until it has its share of the light.
         let Parameters {
             base_color,
@@ -107,34 +126,33 @@ impl Bsdf {
             transmission,
             tint,
         } = p;
-        let wo = surface.wo;
-        let normal = upright(normal, surface.geometric, wo);
+        let normal = upright(normal, geometric, wo);
         let cos_o = wo.dot(normal).max(1e-4);
 
         let (mut coat, mut coat_cos_o, mut coated) = (*coat, cos_o, 0.0);
         if coat.share > 0.0 {
-            coat.normal = upright(coat.normal, surface.geometric, wo);
+            coat.normal = upright(coat.normal, geometric, wo);
             coat_cos_o = wo.dot(coat.normal).max(1e-4);
-            let split = albedo::split(coat_cos_o, coat.alpha);
-            coated = coat.share * albedo::reflected(Vec3::splat(coat.f0), split).x;
+            let split = lobes.split(coat_cos_o, coat.alpha);
+            coated = coat.share * reflected(Vec3::splat(coat.f0), split).x;
         }
         let mut left = 1.0 - coated;
 
         let (mut sheen, mut fuzzed) = (Vec3::ZERO, Vec3::ZERO);
         if *fibres != Vec3::ZERO {
             sheen = *fibres * left;
-            fuzzed = sheen * sheen::albedo(cos_o);
+            fuzzed = sheen * lobes.of_fibres(cos_o);
             left -= fuzzed.max_element();
         }
 
         let f0 = Vec3::splat(*dielectric_f0).lerp(*base_color, *metalness);
-        let split = albedo::split(cos_o, *alpha);
+        let split = lobes.split(cos_o, *alpha);
         let single = split.x + split.y;
         let lost = (1.0 - single) / single.max(1e-3);
-        let whole = |f0: Vec3| albedo::reflected(f0, split) * (Vec3::ONE + f0 * lost);
+        let whole = |f0: Vec3| reflected(f0, split) * (Vec3::ONE + f0 * lost);
         let dielectric = whole(Vec3::splat(*dielectric_f0)).min(Vec3::ONE);
         let facets = dielectric.lerp(whole(*base_color).min(Vec3::ONE), *metalness);
-        let gain = facets / albedo::reflected(f0, split).max(Vec3::splat(1e-6));
+        let gain = facets / reflected(f0, split).max(Vec3::splat(1e-6));
 
         // Only the share that is no metal lets light in, and only past its own facets.
         let inside = (1.0 - dielectric.x) * (1.0 - metalness) * left;
@@ -147,7 +165,7 @@ impl Bsdf {
         let sum: f32 = weights.iter().sum::<f32>().max(1e-6);
         Self {
             normal,
-            geometric: surface.geometric,
+            geometric,
             wo,
             cos_o,
             alpha: *alpha,
@@ -168,7 +186,8 @@ impl Bsdf {
     }
 
     /// BSDF · cos θi and the density with which [`Self::sample`] draws `wi`.
-    pub(crate) fn eval(&self, wi: Vec3) -> (Vec3, f32) {
+    #[inline]
+    pub fn eval(&self, wi: Vec3) -> (Vec3, f32) {
         let cos_i = wi.dot(self.normal);
         let outside = wi.dot(self.geometric) > 0.0;
         let [p_coat, p_facets, p_diffuse] = self.chances;
@@ -181,7 +200,7 @@ impl Bsdf {
                 (Vec3::ZERO, 0.0)
             };
         }
-        let h = (wi + self.wo).normalize_or(self.normal);
+        let h = unit_or(wi + self.wo, self.normal);
         let cos_h = wi.dot(h);
         let (mut f, mut pdf) = (Vec3::ZERO, 0.0);
         if cos_i > 0.0 {
@@ -210,7 +229,8 @@ impl Bsdf {
     }
 
     /// Draws a direction: the lobe with the first number, the direction with the others.
-    pub(crate) fn sample(&self, u: [f32; 3]) -> Option<BsdfSample> {
+    #[inline]
+    pub fn sample(&self, u: [f32; 3]) -> Option<BsdfSample> {
         let [p_coat, p_facets, p_diffuse] = self.chances;
         let [choice, u0, u1] = u;
         let scattered = p_coat + p_facets + p_diffuse;
@@ -238,7 +258,7 @@ impl Bsdf {
             let share = (choice - p_coat - p_facets) / p_diffuse;
             (if share < self.translucency { -wi } else { wi }, 0.5)
         };
-        let wi = wi.normalize();
+        let wi = unit(wi);
         // A facet may mirror light into the surface, where it is lost; it never comes out behind.
         if !is_diffuse && wi.dot(self.geometric) <= 0.0 {
             return None;
@@ -261,8 +281,8 @@ fn upright(normal: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
     if height >= LEAST && normal.dot(wo) > LEAST {
         return normal;
     }
-    let lifted = (mirrored + geometric * (LEAST - height).max(0.0)).normalize_or(geometric);
-    (wo + lifted).normalize_or(geometric)
+    let lifted = unit_or(mirrored + geometric * (LEAST - height).max(0.0), geometric);
+    unit_or(wo + lifted, geometric)
 }
 
 #[cfg(test)]
