@@ -2,9 +2,9 @@
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x, trap};
 
-use crate::bsdf::{Lobes, Scattered, Vertex};
 use crate::flat::{Asked, FlatScene, NONE};
 use crate::ray::Hit;
+use crate::vertex::{FlatMaterials, Scattered, Vertex};
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -55,10 +55,10 @@ unsafe extern "ptx-kernel" fn blocked(scene: *const FlatScene, asked: *const Ask
 /// How light scatters at each vertex.
 ///
 /// # Safety
-/// There are `count` vertices and room for as many answers.
+/// There are `count` vertices and room for as many answers, and materials are as `FlatMaterials::scatter` wants them.
 #[unsafe(no_mangle)]
 unsafe extern "ptx-kernel" fn scatter(
-    lobes: *const Lobes,
+    materials: *const FlatMaterials,
     vertices: *const Vertex,
     scattered: *mut Scattered,
     count: u32,
@@ -69,6 +69,6 @@ unsafe extern "ptx-kernel" fn scatter(
     }
     // SAFETY: the caller vouches for it.
     unsafe {
-        *scattered.add(i) = (*vertices.add(i)).scatter(&*lobes);
+        *scattered.add(i) = (*materials).scatter(&*vertices.add(i));
     }
 }

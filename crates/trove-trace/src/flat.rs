@@ -37,7 +37,7 @@ impl<T> Table<T> {
     /// # Safety
     /// The values have to be there and stay as they are.
     #[inline(always)]
-    unsafe fn values<'a>(&self) -> &'a [T] {
+    pub(crate) unsafe fn values<'a>(&self) -> &'a [T] {
         if self.count == 0 {
             return &[];
         }

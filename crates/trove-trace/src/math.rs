@@ -1,8 +1,8 @@
-//! Roots and turns that a processor and a card answer alike, to the last bit.
+//! Roots, turns and powers that a processor and a card answer alike, to the last bit.
 
-use core::f32::consts::FRAC_PI_2;
+use core::f32::consts::{FRAC_PI_2, LN_2, LOG2_E, SQRT_2};
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// Rounded as IEEE 754 asks.
 #[inline(always)]
@@ -50,6 +50,61 @@ pub(crate) fn eighth(angle: f32) -> (f32, f32) {
     (sin, cos)
 }
 
+/// The whole number below; for numbers that 32 bits hold.
+#[inline(always)]
+pub(crate) fn floor(x: f32) -> f32 {
+    let whole = x as i32 as f32;
+    if whole > x { whole - 1.0 } else { whole }
+}
+
+/// The same of both coordinates.
+#[inline(always)]
+pub(crate) fn floor2(v: Vec2) -> Vec2 {
+    Vec2::new(floor(v.x), floor(v.y))
+}
+
+/// e to the power of `x`; 0 or far too much where that is beyond single precision's normal numbers.
+#[inline(always)]
+pub(crate) fn exp(x: f32) -> f32 {
+    let twos = (x * LOG2_E).clamp(-126.0, 127.0);
+    let whole = floor(twos + 0.5);
+    let r = (twos - whole) * LN_2;
+    // Taylor's polynomial, up to half of ln 2 to either side.
+    let r2 = r * r;
+    let low = 1.0 + r + r2 * (1.0 / 2.0 + r * (1.0 / 6.0));
+    let high = r2 * r2 * (1.0 / 24.0 + r * (1.0 / 120.0) + r2 * (1.0 / 720.0));
+    let power = (low + high) * f32::from_bits(((whole as i32 + 127) as u32) << 23);
+    if x < -87.0 { 0.0 } else { power }
+}
+
+/// The binary logarithm of a positive normal number.
+#[inline(always)]
+pub(crate) fn log2(x: f32) -> f32 {
+    let bits = x.to_bits();
+    let mut whole = (bits >> 23) as i32 - 127;
+    let mut m = f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000);
+    if m > SQRT_2 {
+        (m, whole) = (0.5 * m, whole + 1);
+    }
+    // The series of the inverse hyperbolic tangent.
+    let s = (m - 1.0) / (m + 1.0);
+    let s2 = s * s;
+    whole as f32 + 2.0 * LOG2_E * s * (1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0))))
+}
+
+/// How long a vector is.
+#[inline(always)]
+pub(crate) fn length(v: Vec2) -> f32 {
+    sqrt(v.length_squared())
+}
+
+/// A vector made as long as 1; zero where it is too short for that.
+#[inline(always)]
+pub(crate) fn unit2(v: Vec2) -> Vec2 {
+    let scale = 1.0 / length(v);
+    if scale.is_finite() && scale > 0.0 { v * scale } else { Vec2::ZERO }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +120,19 @@ mod tests {
                 "{share}: {sin}, {cos}"
             );
         }
+    }
+
+    #[test]
+    fn powers_and_logarithms_are_those_of_the_standard_library() {
+        for i in -100_000..=100_000 {
+            let x = i as f32 * 8e-4;
+            let (e, near) = (f64::from(x).exp(), f64::from(exp(x)));
+            assert!((near / e - 1.0).abs() < 6e-7 * f64::from(x.abs().max(1.0)), "{x}: {near}");
+            let twos = f64::from(log2(e as f32));
+            assert!((twos - f64::from(e as f32).log2()).abs() < 4e-7 * twos.abs().max(1.0), "{e}: {twos}");
+            assert_eq!(floor(x), x.floor());
+        }
+        assert_eq!((exp(-1000.0), exp(0.0), log2(1024.0), log2(1.0)), (0.0, 1.0, 10.0, 0.0));
     }
 
     #[test]

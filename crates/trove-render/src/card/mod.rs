@@ -5,10 +5,11 @@ mod rates;
 
 use std::ffi::CStr;
 
-use trove_trace::{FlatScene, Table};
+use trove_trace::{FlatMaterials, FlatScene, Table};
 
 use self::driver::{Buffer, Device};
 use crate::accel::{Flat, Hold};
+use crate::material::{PreparedMaterial, flat};
 
 pub use rates::CardRate;
 pub(crate) use rates::card_rates;
@@ -42,23 +43,24 @@ impl Card {
     }
 
     /// Puts a scene into the card's memory.
-    fn upload(&self, flat: &Flat) -> Result<Uploaded<'_>, String> {
+    fn upload(&self, shapes: &Flat, materials: &[PreparedMaterial]) -> Result<Uploaded<'_>, String> {
         let mut memory = Memory { device: &self.device, held: Vec::new() };
-        let scene = flat.scene(&mut memory)?;
-        let scene = self.device.hold(&[scene])?;
-        Ok(Uploaded { scene, held: memory.held })
+        let (scene, materials) = (shapes.scene(&mut memory)?, flat(materials, &mut memory)?);
+        let (scene, materials) = (self.device.hold(&[scene])?, self.device.hold(&[materials])?);
+        Ok(Uploaded { scene, materials, held: memory.held })
     }
 }
 
 /// A scene in a card's memory.
 struct Uploaded<'a> {
     scene: Buffer<'a, FlatScene>,
+    materials: Buffer<'a, FlatMaterials>,
     held: Vec<Buffer<'a, u8>>,
 }
 
 impl Uploaded<'_> {
     fn bytes(&self) -> usize {
-        self.scene.bytes() + self.held.iter().map(Buffer::bytes).sum::<usize>()
+        self.scene.bytes() + self.materials.bytes() + self.held.iter().map(Buffer::bytes).sum::<usize>()
     }
 }
 

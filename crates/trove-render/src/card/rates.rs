@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use glam::Vec3;
 use trove_model::Shot;
-use trove_trace::{Asked, Hit, NONE, Scattered};
+use trove_trace::{Asked, Hit, NONE, Scattered, Vertex};
 
 use super::{BLOCK, Card};
 use crate::PreparedScene;
 use crate::accel::{Flat, Here, asked};
-use crate::material::LOBES;
+use crate::material::flat;
 use crate::path::{ray_sorts, vertices};
 
 /// The best of so many runs counts: the first ones warm the card up.
@@ -39,10 +39,10 @@ pub struct CardRate {
 
 /// Rates for the rays of one sample a pixel and what they meet, and bytes of the scene on the card.
 pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Result<(Vec<CardRate>, usize), String> {
-    let flat = Flat::new(&scene.shapes).ok_or("nothing is in the scene")?;
+    let shapes = Flat::new(&scene.shapes).ok_or("nothing is in the scene")?;
     let mut memory = Here::default();
-    let Ok(here) = flat.scene(&mut memory);
-    let uploaded = card.upload(&flat)?;
+    let (Ok(here), Ok(materials)) = (shapes.scene(&mut memory), flat(&scene.materials, &mut memory));
+    let uploaded = card.upload(&shapes, &scene.materials)?;
     let nothing = Hit { t: f32::INFINITY, instance: NONE, triangle: NONE, u: 0.0, v: 0.0 };
     // SAFETY: the tables are as `Flat` makes them, and the memory lives on.
     let closest = |ray: &Asked| unsafe { here.closest(ray) }.unwrap_or(nothing);
@@ -62,11 +62,13 @@ pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Res
             question.rate(card, Hit { instance: NONE - 1, ..nothing }, closest, |hit| hit.instance != NONE, bits)?
         });
     }
-    let lobes = card.device.hold(std::slice::from_ref(&*LOBES))?;
     let vertices = vertices(scene, shot);
-    let question = Question { sort: "vertices", function: c"scatter", among: lobes.address(), asked: &vertices };
-    let unwritten = Scattered { light_pdf: f32::NAN, ..vertices[0].scatter(&LOBES) };
-    rates.push(question.rate(card, unwritten, |vertex| vertex.scatter(&LOBES), |on| on.wi != Vec3::ZERO, bits_of)?);
+    let (sort, among) = ("vertices", uploaded.materials.address());
+    let question = Question { sort, function: c"scatter", among, asked: &vertices };
+    // SAFETY: the tables are as `flat` makes them, and the memory lives on.
+    let scatter = |vertex: &Vertex| unsafe { materials.scatter(vertex) };
+    let unwritten = Scattered { light_pdf: f32::NAN, ..Scattered::default() };
+    rates.push(question.rate(card, unwritten, scatter, |on| on.wi != Vec3::ZERO, bits_of)?);
     Ok((rates, uploaded.bytes()))
 }
 

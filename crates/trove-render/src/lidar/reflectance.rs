@@ -8,9 +8,9 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use trove_model::Class;
+use trove_trace::Surface;
 
 use crate::material::PreparedMaterial;
-use crate::surface::Surface;
 
 /// The brightest that a detector tells apart, of what a white matt surface sends back: new sheeting is far above it.
 pub(super) const MOST: f32 = 100.0;

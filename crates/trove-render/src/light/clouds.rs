@@ -9,7 +9,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 use trove_model::{PhysicalSky, Seed, luminance};
 
-use super::noise::{Plane, Puffs};
+use crate::noise::{Plane, Puffs};
 
 /// Height of the clouds' flat bases above the ground.
 const BASE_M: f32 = 1_300.0;

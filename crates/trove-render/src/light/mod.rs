@@ -9,7 +9,6 @@ mod clouds;
 mod dome;
 mod emitters;
 mod haze;
-mod noise;
 mod patches;
 mod sky;
 mod sun;
@@ -22,8 +21,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
 use trove_model::{Environment, Scene, luminance};
-
-pub(crate) use noise::Plane;
+use trove_trace::gap_m;
 
 use dome::{Dome, LookUp};
 pub(crate) use emitters::{Emission, GetsAway, PROBES};
@@ -33,8 +31,6 @@ pub use sky::{BakedSky, bake_sky};
 pub use sun::RADIUS_RAD as SUN_RADIUS_RAD;
 use sun::Sun;
 use sun_in_map::take_sun;
-
-use crate::surface::gap_m;
 
 /// Cells on a side of a hemisphere's square: fine enough for clouds, and for the windows and lamps of a photograph.
 const SKY_CELLS: usize = 64;

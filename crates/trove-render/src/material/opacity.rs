@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::LOBES;
+use crate::lookups::LOOKUPS;
 use crate::texture::OpacityMask;
 
 /// Where a material is not there, and what goes straight through where it is.
@@ -68,7 +68,7 @@ impl Opacity {
     /// The share of light that does, at an angle with cosine `cos` to the normal; 0 for what is no pane.
     pub(crate) fn straight_through(&self, cos: f32) -> Vec3 {
         let Some(pane) = &self.pane else { return Vec3::ZERO };
-        let split = LOBES.split(cos.abs(), pane.alpha);
+        let split = LOOKUPS.lobes.split(cos.abs(), pane.alpha);
         let reflected = trove_trace::reflected(Vec3::splat(pane.f0), split).x;
         pane.tint * ((1.0 - reflected) * pane.transmission * (1.0 - pane.metalness))
     }

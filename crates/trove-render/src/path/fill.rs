@@ -15,7 +15,7 @@ use crate::field::directions::{self, ByDirection, Kernel, PART_SR, PARTS};
 use crate::field::{LightField, Node, Site};
 use crate::fog::Scattering;
 use crate::ray::{Hit, Ray};
-use crate::surface::Surface;
+use crate::surface::surface;
 
 /// Rays to the sun and to lamps that a node asks with.
 const TO_SUN: usize = 8;
@@ -94,7 +94,7 @@ fn seen(scene: &PreparedScene, site: &Site) -> Seen {
     let from_within = |(hit, ray): (&Option<Hit>, &Ray)| {
         let Some(hit) = hit else { return false };
         let placed = scene.placed(hit.instance);
-        !Surface::new(placed, hit, ray).is_front && !scene.materials[placed.material(hit)].is_translucent()
+        !surface(placed, hit, ray).is_front && !scene.materials[placed.material(hit)].is_translucent()
     };
     let inside = hits.iter().zip(&rays).filter(|&of| from_within(of)).count();
     let (mut node, mut of_lamps) = (Node::default(), [Vec3::ZERO; PARTS]);

@@ -1,14 +1,13 @@
 //! One path and what happens at its vertices.
 
 use glam::Vec3;
-use trove_trace::{Bsdf, Sampler, power_heuristic};
+use trove_trace::{Bsdf, Sampler, Surface, power_heuristic};
 
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::fog::{MATT_EVENTS, Scattering};
 use crate::light::{LightSample, Rest};
 use crate::ray::{Hit, Ray};
-use crate::surface::Surface;
 
 /// Times that a path goes on from a surface that it meets, so that light comes over one surface more; straight passages
 /// through glass do not count.

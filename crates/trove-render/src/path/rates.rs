@@ -115,9 +115,11 @@ pub(crate) fn vertices(scene: &PreparedScene, shot: &Shot) -> Vec<trove_trace::V
     let mut sampler = Sampler::new(shot.seed.0, [0, 0], 0, 0);
     let vertex = |(ray, hit): (&Ray, Option<Hit>)| {
         let hit = hit?;
-        let (surface, material) = scene.surface(&hit, ray);
-        let ([lobe, _], [u0, u1]) = (sampler.next2(), sampler.next2());
-        Some(material.vertex(&surface, 0.0, Vec3::Z, [lobe, u0, u1]))
+        let (surface, _) = scene.surface(&hit, ray);
+        let material = scene.placed(hit.instance).material(&hit) as u32;
+        let ([lobe, dither], [u0, u1]) = (sampler.next2(), sampler.next2());
+        let (to_light, u) = (Vec3::Z, [lobe, u0, u1]);
+        Some(trove_trace::Vertex { surface, to_light, width_m: hit.t / shot.lens.fx_px as f32, u, dither, material })
     };
     camera.iter().zip(hits).filter_map(vertex).collect()
 }

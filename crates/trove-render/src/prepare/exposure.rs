@@ -2,11 +2,10 @@
 
 use glam::{Vec2, Vec3, vec2};
 use trove_model::{Class, Form, Instance, Light, Snow, SnowLeft, State};
+use trove_trace::{Exposure, Surface, holds_snow};
 
 use crate::accel::{Accel, Coherence};
-use crate::material::holds_snow;
 use crate::ray::Ray;
-use crate::surface::{Exposure, Surface};
 
 /// What is left of snow on vehicles that are on their way.
 const DRIVEN: f32 = 0.45;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, Vec3, bvec3};
 use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject};
+use trove_trace::Surface;
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -19,7 +20,7 @@ use crate::motion::Motion;
 use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
 use crate::spray::Spray;
-use crate::surface::Surface;
+use crate::surface::surface;
 use crate::texture::Textures;
 use exposure::{Bears, ComesDown, exposure};
 
@@ -214,7 +215,7 @@ impl PreparedScene {
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
         let placed = self.placed(hit.instance);
         let material = &self.materials[placed.material(hit)];
-        let mut surface = Surface::new(placed, hit, ray);
+        let mut surface = surface(placed, hit, ray);
         if self.comes_down.snow.is_some() || material.is_wet() {
             let bears = self.instances[hit.instance as usize].bears;
             surface.exposure = exposure(&*self.accel, &self.comes_down, bears, &surface, ray);

@@ -21,7 +21,7 @@ impl Glow {
 
     /// At a texture coordinate as sharp as the map is, so that light that is drawn and light that is met are the same.
     pub(crate) fn at(&self, uv: Vec2) -> Vec3 {
-        self.map.sample(uv * self.scale, Vec2::ZERO, 0.0).truncate()
+        self.map.at(uv * self.scale).truncate()
     }
 
     /// On average over the map.

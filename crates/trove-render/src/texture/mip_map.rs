@@ -1,33 +1,28 @@
-//! A texture and ever smaller copies of it, looked up bilinearly.
+//! A texture and ever smaller copies of it.
 
 use std::ops::Range;
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec4};
 use trove_model::{ColorSpace, Texture};
+use trove_trace::between;
+
+use crate::lookups::LOOKUPS;
 
 /// A texture and its smaller copies, 8 bits a channel as they came.
 pub(crate) struct MipMap {
-    pub(super) levels: Vec<Level>,
-    pub color_space: ColorSpace,
+    size: [u32; 2],
+    firsts: Vec<u32>,
+    texels: Vec<[u8; 4]>,
+    color_space: ColorSpace,
 }
 
+/// One of the copies.
 pub(super) struct Level {
-    pub width: u32,
-    pub height: u32,
-    pub texels: Vec<[u8; 4]>,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) texels: Vec<[u8; 4]>,
 }
-
-/// sRGB bytes to linear light.
-static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|i| {
-        let s = i as f32 / 255.0;
-        if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
-    })
-});
-
-/// Plain bytes to numbers.
-pub(super) static PLAIN: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| i as f32 / 255.0));
 
 impl MipMap {
     /// Averages 2×2 texels in linear light, down to one.
@@ -36,43 +31,49 @@ impl MipMap {
         while let Some(level) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
             levels.push(level.halved(texture.color_space));
         }
-        Self { levels, color_space: texture.color_space }
+        Self::of(&levels, texture.color_space)
     }
 
-    /// The colour at `uv` averaged over about `footprint` (in units of uv); alpha is the fourth.
-    ///
-    /// Between two sizes `dither`, uniform in [0, 1), chooses: the mean over many look-ups is their blend, at half the
-    /// cost.
-    pub(crate) fn sample(&self, uv: Vec2, footprint: Vec2, dither: f32) -> Vec4 {
-        let texels = footprint * self.size();
-        // Both directions alike: the geometric mean of the two sides.
-        let lod = 0.5 * (texels.x * texels.y).max(1.0).log2();
-        let level = ((lod + dither) as usize).min(self.levels.len() - 1);
-        self.levels[level].bilinear(uv, table(self.color_space))
+    /// Of copies, each half as large as the one before, rounded up.
+    pub(super) fn of(levels: &[Level], color_space: ColorSpace) -> Self {
+        let mut texels = Vec::with_capacity(levels.iter().map(|level| level.texels.len()).sum());
+        let append = |level: &Level| {
+            let first = texels.len() as u32;
+            texels.extend_from_slice(&level.texels);
+            first
+        };
+        let firsts = levels.iter().map(append).collect();
+        Self { size: [levels[0].width, levels[0].height], firsts, texels, color_space }
     }
 
-    /// Texels of the largest copy.
-    pub(crate) fn size(&self) -> Vec2 {
-        Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32)
+    /// As it is looked up.
+    pub(crate) fn texture(&self) -> trove_trace::Texture<'_> {
+        let is_srgb = self.color_space == ColorSpace::Srgb;
+        trove_trace::Texture { size: self.size, firsts: &self.firsts, texels: &self.texels, is_srgb }
+    }
+
+    /// The colour at `uv` as sharp as it is; alpha is the fourth.
+    pub(crate) fn at(&self, uv: Vec2) -> Vec4 {
+        self.texture().sample(&LOOKUPS, uv, Vec2::ZERO, 0.0)
     }
 
     /// The mean of all texels.
     pub(crate) fn mean(&self) -> Vec4 {
-        self.levels.last().map_or(Vec4::ZERO, |last| last.bilinear(Vec2::ZERO, table(self.color_space)))
+        self.texture().mean(&LOOKUPS)
     }
 
     /// Alpha at `uv` in full resolution.
     pub(super) fn alpha(&self, uv: Vec2) -> f32 {
-        self.levels[0].bilinear_alpha(uv)
+        self.texture().alpha(uv)
     }
 
     /// The least and the greatest alpha that can be at points from `low` to `high`.
     pub(super) fn alphas(&self, low: Vec2, high: Vec2) -> [f32; 2] {
-        let level = &self.levels[0];
-        let columns = texels([low.x, high.x], level.width);
-        let rows = texels([1.0 - high.y, 1.0 - low.y], level.height);
-        let of_row = |y: usize| columns.clone().map(move |x| (x % level.width as usize, y % level.height as usize));
-        let alphas = rows.flat_map(of_row).map(|(x, y)| level.texels[y * level.width as usize + x][3]);
+        let [width, height] = self.size;
+        let columns = texels([low.x, high.x], width);
+        let rows = texels([1.0 - high.y, 1.0 - low.y], height);
+        let of_row = |y: usize| columns.clone().map(move |x| (x % width as usize, y % height as usize));
+        let alphas = rows.flat_map(of_row).map(|(x, y)| self.texels[y * width as usize + x][3]);
         let [least, most] = alphas.fold([u8::MAX, 0], |[least, most], alpha| [least.min(alpha), most.max(alpha)]);
         [least, most].map(|alpha| f32::from(alpha) / 255.0)
     }
@@ -81,64 +82,19 @@ impl MipMap {
 /// The texels of `n` repeating ones that are looked at from one coordinate to another, counted on where they repeat.
 fn texels([from, to]: [f32; 2], n: u32) -> Range<usize> {
     let ((first, ..), (_, last, _)) = (between(from, n), between(to, n));
-    let n = n as usize;
     if (to - from) * n as f32 + 2.0 > n as f32 {
-        return 0..n;
+        return 0..n as usize;
     }
-    first..last + 1 + if last < first { n } else { 0 }
-}
-
-fn table(color_space: ColorSpace) -> &'static [f32; 256] {
-    match color_space {
-        ColorSpace::Srgb => &LINEAR,
-        ColorSpace::Linear => &PLAIN,
-    }
-}
-
-/// The two of `n` repeating texels around a coordinate whose period is 1, and the position between their centres.
-fn between(coordinate: f32, n: u32) -> (usize, usize, f32) {
-    // Divisions and calls to `floor` would cost more than the rest of a look-up.
-    let whole = coordinate as i32 as f32;
-    let fraction = coordinate - whole;
-    let fraction = if fraction < 0.0 { fraction + 1.0 } else { fraction };
-    let position = fraction * n as f32 + 0.5;
-    let above = position as usize;
-    let (last, next) = (n as usize - 1, above.min(n as usize));
-    (
-        if next == 0 { last } else { next - 1 },
-        if next > last { 0 } else { next },
-        (position - above as f32).clamp(0.0, 1.0),
-    )
+    first as usize..(last + 1 + if last < first { n } else { 0 }) as usize
 }
 
 impl Level {
-    /// The four texels around `uv` and the position between them; v runs up, rows run down.
-    pub(super) fn corners(&self, uv: Vec2) -> ([[u8; 4]; 4], f32, f32) {
-        let ((x0, x1, fx), (y0, y1, fy)) = (between(uv.x, self.width), between(1.0 - uv.y, self.height));
-        let (upper, lower) = (y0 * self.width as usize, y1 * self.width as usize);
-        let at = |i: usize| self.texels[i];
-        ([at(upper + x0), at(upper + x1), at(lower + x0), at(lower + x1)], fx, fy)
-    }
-
-    pub(super) fn bilinear(&self, uv: Vec2, table: &[f32; 256]) -> Vec4 {
-        let (corners, fx, fy) = self.corners(uv);
-        let [a, b, c, d] = corners.map(|t| decode(t, table));
-        a.lerp(b, fx).lerp(c.lerp(d, fx), fy)
-    }
-
-    pub(super) fn bilinear_alpha(&self, uv: Vec2) -> f32 {
-        let (corners, fx, fy) = self.corners(uv);
-        let [a, b, c, d] = corners.map(|t| f32::from(t[3]));
-        let (top, bottom) = (a + (b - a) * fx, c + (d - c) * fx);
-        (top + (bottom - top) * fy) / 255.0
-    }
-
-    pub(super) fn halved(&self, color_space: ColorSpace) -> Self {
+    fn halved(&self, color_space: ColorSpace) -> Self {
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
-        let table = table(color_space);
+        let is_srgb = color_space == ColorSpace::Srgb;
         let at = |x: u32, y: u32| {
             let (x, y) = (x.min(self.width - 1), y.min(self.height - 1));
-            decode(self.texels[y as usize * self.width as usize + x as usize], table)
+            LOOKUPS.decode(self.texels[y as usize * self.width as usize + x as usize], is_srgb)
         };
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         for y in 0..height {
@@ -153,11 +109,6 @@ impl Level {
         }
         Self { width, height, texels }
     }
-}
-
-pub(super) fn decode(t: [u8; 4], table: &[f32; 256]) -> Vec4 {
-    let [r, g, b, a] = t.map(usize::from);
-    Vec4::new(table[r], table[g], table[b], a as f32 / 255.0)
 }
 
 /// Linear light to sRGB bytes, in steps of which every byte has at least one.
@@ -205,16 +156,16 @@ mod tests {
     #[test]
     fn the_smallest_copy_is_the_mean_of_the_light() {
         let map = MipMap::new(&texture(8, 8, |x, y| [if (x + y) % 2 == 0 { 255 } else { 0 }; 4]));
-        let far = map.sample(Vec2::new(0.3, 0.7), Vec2::ONE, 0.5);
+        let far = map.texture().sample(&LOOKUPS, Vec2::new(0.3, 0.7), Vec2::ONE, 0.5);
         assert!((far.w - 0.5).abs() < 0.01, "{far}"); // alpha
         let opaque = MipMap::new(&texture(8, 8, |x, y| if (x + y) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
-        assert!((opaque.sample(Vec2::ZERO, Vec2::ONE, 0.5).x - 0.5).abs() < 0.01);
+        assert!((opaque.texture().sample(&LOOKUPS, Vec2::ZERO, Vec2::ONE, 0.5).x - 0.5).abs() < 0.01);
     }
 
     #[test]
     fn colours_survive_being_decoded_and_encoded() {
         for byte in 0..=255u8 {
-            assert_eq!(encode(decode([byte; 4], &LINEAR), ColorSpace::Srgb), [byte; 4]);
+            assert_eq!(encode(LOOKUPS.decode([byte; 4], true), ColorSpace::Srgb), [byte; 4]);
         }
     }
 }

@@ -6,11 +6,12 @@
 use glam::{Vec2, Vec3, Vec4, Vec4Swizzles};
 use trove_model::{ColorSpace, Texture};
 
-use super::mip_map::{Level, MipMap, PLAIN, decode, encode};
+use super::mip_map::{Level, MipMap, encode};
+use crate::lookups::LOOKUPS;
 
 /// The normals' directions, with √(1 − length of their mean) in alpha.
 pub(super) fn from_normals(texture: &Texture) -> MipMap {
-    let normals = texture.rgba.iter().map(|&t| (decode(t, &PLAIN).truncate() * 2.0 - 1.0).normalize_or(Vec3::Z));
+    let normals = texture.rgba.iter().map(|&t| (LOOKUPS.decode(t, false).truncate() * 2.0 - 1.0).normalize_or(Vec3::Z));
     mip_map(texture, normals.map(|normal| normal.extend(0.0)).collect(), |mean| {
         let mean = mean.truncate();
         let length = mean.length().min(1.0);
@@ -21,7 +22,7 @@ pub(super) fn from_normals(texture: &Texture) -> MipMap {
 /// Slopes by central differences of the first channel, the heights, and the root of the slopes' variance in alpha.
 pub(super) fn from_heights(texture: &Texture) -> MipMap {
     let (w, h) = (texture.width as usize, texture.height as usize);
-    let height = |x: usize, y: usize| PLAIN[usize::from(texture.rgba[y * w + x][0])];
+    let height = |x: usize, y: usize| LOOKUPS.decode(texture.rgba[y * w + x], false).x;
     let slope = |x: usize, y: usize| {
         let along_u = height((x + 1) % w, y) - height((x + w - 1) % w, y);
         let along_v = height(x, (y + h - 1) % h) - height(x, (y + 1) % h);
@@ -44,7 +45,7 @@ fn mip_map(texture: &Texture, mut texels: Vec<Vec4>, code: impl Fn(Vec4) -> Vec4
         let coded = texels.iter().map(|&t| encode(code(t), ColorSpace::Linear)).collect();
         levels.push(Level { width, height, texels: coded });
         if width == 1 && height == 1 {
-            return MipMap { levels, color_space: ColorSpace::Linear };
+            return MipMap::of(&levels, ColorSpace::Linear);
         }
         let at = |x: u32, y: u32| texels[(y.min(height - 1) * width + x.min(width - 1)) as usize];
         let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
@@ -69,19 +70,19 @@ mod tests {
         let tilted =
             |i: usize| Vec3::new(if i.is_multiple_of(2) { 0.3 } else { -0.3 }, 0.0, 1.0).normalize() * 0.5 + 0.5;
         let map = from_normals(&texture((0..256).map(|i| encode(tilted(i).extend(1.0), ColorSpace::Linear)).collect()));
-        let (near, far) = (map.sample(Vec2::splat(0.03), Vec2::ZERO, 0.0), map.sample(Vec2::ZERO, Vec2::ONE, 0.0));
+        let (near, far) = (map.at(Vec2::splat(0.03)), map.mean());
         assert!(near.w < 0.01 && (near.x - 0.5).abs() > 0.1, "{near}");
         let lost = 1.0 - 1.0 / 1.09f32.sqrt();
         assert!((far.w.powi(2) - lost).abs() < 2e-3 && (far.x - 0.5).abs() < 0.01, "{far}");
         let flat = from_normals(&texture(vec![[128, 128, 255, 255]; 64]));
-        assert!(flat.sample(Vec2::ZERO, Vec2::ONE, 0.0).w < 0.01);
+        assert!(flat.mean().w < 0.01);
     }
 
     #[test]
     fn a_ramp_has_one_slope_and_no_variance() {
         let ramp = |i: usize| [(8 * (i % 16)) as u8, 0, 0, 255];
         let map = from_heights(&texture((0..256).map(ramp).collect()));
-        let middle = map.sample(Vec2::splat(0.5), Vec2::ZERO, 0.0);
+        let middle = map.at(Vec2::splat(0.5));
         assert!((middle.x * 2.0 - 1.0 - 8.0 / 255.0).abs() < 0.005 && middle.w < 0.01, "{middle}");
         assert!((middle.z - 7.5 * 8.0 / 255.0).abs() < 0.005, "{middle}");
     }

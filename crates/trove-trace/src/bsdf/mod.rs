@@ -8,7 +8,6 @@ mod diffuse;
 pub mod ggx;
 mod lobes;
 mod sheen;
-mod vertex;
 
 use core::f32::consts::PI;
 
@@ -20,7 +19,6 @@ use diffuse::Diffuse;
 use ggx::Facet;
 
 pub use lobes::{Lobes, reflected};
-pub use vertex::{Scattered, Vertex};
 
 /// Facets from this GGX α on are matt.
 const MATT_ALPHA: f32 = 0.3;

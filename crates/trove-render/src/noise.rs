@@ -36,7 +36,7 @@ impl Plane {
     }
 
     /// The values that the given shares of the plane lie above.
-    pub(super) fn quantiles_from_above<const N: usize>(&self, shares: [f64; N]) -> [f32; N] {
+    pub(crate) fn quantiles_from_above<const N: usize>(&self, shares: [f64; N]) -> [f32; N] {
         // A sixteenth of the values says it well enough.
         let mut sorted: Vec<f32> = self.values.iter().step_by(17).copied().collect();
         sorted.sort_by(|a, b| b.total_cmp(a));
@@ -65,7 +65,7 @@ impl Plane {
 }
 
 /// Round puffs in space, each with smaller ones on it, that repeat with period 1; 0 in their middles, 1 between them.
-pub(super) struct Puffs {
+pub(crate) struct Puffs {
     values: Vec<f32>,
 }
 
@@ -73,7 +73,7 @@ impl Puffs {
     const SIDE: usize = 64;
 
     /// The same for all skies, which lay them elsewhere.
-    pub(super) fn shared() -> &'static Self {
+    pub(crate) fn shared() -> &'static Self {
         static SHARED: OnceLock<Puffs> = OnceLock::new();
         SHARED.get_or_init(|| Self::new(Seed(0x50ff)))
     }
@@ -112,7 +112,7 @@ impl Puffs {
     }
 
     /// The field at a point, linear between its values.
-    pub(super) fn at(&self, point: Vec3) -> f32 {
+    pub(crate) fn at(&self, point: Vec3) -> f32 {
         let cell = (point - point.floor()) * Self::SIDE as f32;
         let wrapped = |i: usize| i & (Self::SIDE - 1);
         let [x, y, z] = cell.to_array().map(|c| wrapped(c as usize));

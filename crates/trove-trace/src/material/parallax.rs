@@ -3,13 +3,14 @@
 //! The way of sight is followed into the relief in equal steps, and the last of them is cut where it meets the surface
 //! (Policarpo, Oliveira, Comba, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces", 2005, without their search).
 
-use std::sync::Arc;
+use glam::{Vec2, Vec3, vec2};
 
-use glam::{Vec2, vec2};
-
+use super::Material;
 use super::texturing::Spot;
+use crate::lookups::Lookups;
+use crate::math::unit_or;
 use crate::surface::Surface;
-use crate::texture::MipMap;
+use crate::texture::Texture;
 
 /// Steps from the top of a relief to its ground.
 const STEPS: usize = 16;
@@ -18,35 +19,30 @@ const LEAST_COS: f32 = 0.15;
 /// A relief of which a sample covers more than this many heights looks flat.
 const FLAT_FROM: f32 = 1.0;
 
-/// A height map, and the height of its white above its black in metres.
-pub(super) struct Heights {
-    pub(super) map: Arc<MipMap>,
-    pub(super) range_m: f32,
-    /// How far the mesh lies below white, as a share of the range.
-    mesh: f32,
-}
-
-impl Heights {
-    pub(super) fn new(map: Arc<MipMap>, range_m: f32) -> Self {
-        let mesh = 1.0 - map.mean().z;
-        Self { map, range_m, mesh }
-    }
-
+impl<T> Material<T> {
     /// By how much what is seen at a spot lies beside it, in texture coordinates; `width_m` is the width of what a sample
     /// covers there.
-    pub(super) fn shift(&self, surface: &Surface, spot: &Spot, width_m: f32) -> Vec2 {
+    #[inline(always)]
+    pub(super) fn shift(
+        &self,
+        lookups: &Lookups,
+        heights: Texture<'_>,
+        surface: &Surface,
+        spot: &Spot,
+        width_m: f32,
+    ) -> Vec2 {
         let Some([along_u, along_v]) = spot.axes else { return Vec2::ZERO };
         let normal = surface.shading;
         let cos = surface.wo.dot(normal);
-        if !surface.is_front || cos <= 0.0 || width_m > FLAT_FROM * self.range_m {
+        if !surface.is_front || cos <= 0.0 || width_m > FLAT_FROM * self.height_m {
             return Vec2::ZERO;
         }
         // For a metre of depth.
-        let along = vec2(surface.wo.dot(along_u.normalize_or_zero()), surface.wo.dot(along_v.normalize_or_zero()));
-        let way = -along / spot.metres * (self.range_m / cos.max(LEAST_COS));
+        let along = vec2(surface.wo.dot(unit_or(along_u, Vec3::ZERO)), surface.wo.dot(unit_or(along_v, Vec3::ZERO)));
+        let way = -along / spot.metres * (self.height_m / cos.max(LEAST_COS));
         // In shares of the range below its top.
-        let way_to = |depth: f32| way * (depth - self.mesh);
-        let relief_at = |depth: f32| 1.0 - self.map.sample(spot.uv + way_to(depth), spot.footprint, 0.0).z;
+        let way_to = |depth: f32| way * (depth - self.height_of_mesh);
+        let relief_at = |depth: f32| 1.0 - heights.sample(lookups, spot.uv + way_to(depth), spot.footprint, 0.0).z;
         let step = 1.0 / STEPS as f32;
         let mut above = relief_at(0.0);
         for i in 1..=STEPS {
@@ -63,36 +59,26 @@ impl Heights {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec3, vec3};
-    use trove_model::{ColorSpace, Texture};
+    use std::vec::Vec;
+
+    use glam::vec3;
 
     use super::*;
-    use crate::surface::Exposure;
-    use crate::texture::Textures;
+    use crate::testing::{LOOKUPS, plain};
 
     /// Where the eye, from the side of `wo`, sees a relief 0.1 m high instead of at `u` of a texture of a metre.
     fn seen(height: impl Fn(f32) -> f32, u: f32, wo: Vec3, width_m: f32) -> f32 {
         let side = 256;
-        let texel = |i: u32| [(height((i % side) as f32 / side as f32) * 255.0).round() as u8, 0, 0, 255];
-        let rgba = (0..side * side).map(texel).collect();
-        let map = Texture { name: "heights".into(), width: side, height: side, rgba, color_space: ColorSpace::Linear };
-        let heights = Heights::new(Textures::default().heights(&Arc::new(map)), 0.1);
-        let surface = Surface {
-            point: Vec3::ZERO,
-            point_mesh: Vec3::ZERO,
-            above_foot_m: 0.0,
-            wo: wo.normalize(),
-            geometric: Vec3::Z,
-            shading: Vec3::Z,
-            is_front: true,
-            uv: Vec2::ZERO,
-            uv_axes: Some([Vec3::X, Vec3::Y]),
-            tint: Vec3::ONE,
-            exposure: Exposure::BARE,
-        };
-        let axes = surface.uv_axes;
+        let row: Vec<f32> = (0..side).map(|i| height(i as f32 / side as f32)).collect();
+        let texels: Vec<_> =
+            (0..side * side).map(|i| [128, 128, (row[(i % side) as usize] * 255.0).round() as u8, 0]).collect();
+        let heights = Texture { size: [side; 2], firsts: &[0], texels: &texels, is_srgb: false };
+        let height_of_mesh = 1.0 - row.iter().sum::<f32>() / side as f32;
+        let surface = Surface { wo: wo.normalize(), ..Surface::plain(Vec3::ZERO, Vec3::Z) };
+        let axes = Some([Vec3::X, Vec3::Y]);
         let spot = Spot { uv: vec2(u, 0.3), footprint: Vec2::ZERO, axes, metres: Vec2::ONE, dither: 0.5 };
-        let shift = heights.shift(&surface, &spot, width_m);
+        let material = Material { height_m: 0.1, height_of_mesh, ..plain() };
+        let shift = material.shift(&LOOKUPS, heights, &surface, &spot, width_m);
         assert_eq!(shift.y, 0.0);
         shift.x
     }

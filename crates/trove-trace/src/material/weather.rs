@@ -2,11 +2,15 @@
 //! nowhere.
 
 use glam::{Vec2, Vec3, vec2};
-use trove_trace::{Coat, Parameters};
 
-use super::field::{TOO_WIDE_M, field, step};
-use super::water;
+use super::{step, water};
+use crate::bsdf::{Coat, Parameters};
+use crate::lookups::Lookups;
+use crate::math::{exp, length, unit_or};
 use crate::surface::Surface;
+
+/// Samples that cover more than this see the mean of what weather does, metres.
+pub(super) const TOO_WIDE_M: f32 = 3.0;
 
 /// Dust of roads.
 const DUST: Vec3 = Vec3::new(0.155, 0.14, 0.115);
@@ -19,43 +23,26 @@ pub(super) const WATER_F0: f32 = 0.02;
 const STILL: f32 = 0.004;
 const FILM: [f32; 2] = [0.35, 0.06];
 
-/// How much of it a material has.
-#[derive(Clone, Copy)]
-pub(super) struct Weather {
-    pub(super) dirt: f32,
-    pub(super) wetness: f32,
-}
-
-impl Weather {
-    /// Whether it does nothing.
-    pub(super) fn is_none(self) -> bool {
-        self.dirt <= 0.0 && self.wetness <= 0.0
+/// Streaks, stains and dust.
+#[inline(always)]
+pub(super) fn soil(lookups: &Lookups, surface: &Surface, dirt: f32, width_m: f32, p: &mut Parameters) {
+    if width_m >= TOO_WIDE_M {
+        return;
     }
-
-    /// Changes what a material is at a point; returns its normal, which water flattens.
-    pub(super) fn wear(self, surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
-        if self.dirt > 0.0 && width_m < TOO_WIDE_M {
-            // Windows are washed.
-            let dirt = self.dirt * step(0.01, 0.1, p.alpha);
-            if surface.shading.z.abs() > 0.7 {
-                stain(surface.point_mesh.truncate(), dirt, p);
-            } else {
-                streak(surface, dirt, p);
-            }
-            splash(surface, self.dirt, p);
-        }
-        // What is sheltered has dried.
-        if self.wetness > 0.0 && surface.exposure.is_open {
-            rain(surface, self.wetness, surface.outward_z(), width_m, normal, p)
-        } else {
-            normal
-        }
+    // Windows are washed.
+    let left = dirt * step(0.01, 0.1, p.alpha);
+    if surface.shading.z.abs() > 0.7 {
+        stain(lookups, surface.point_mesh.truncate(), left, p);
+    } else {
+        streak(lookups, surface, left, p);
     }
+    splash(lookups, surface, dirt, p);
 }
 
 /// Level ground: broad tones of wear and dust, blotches of oil.
-fn stain(at: Vec2, dirt: f32, p: &mut Parameters) {
-    let (broad, fine) = (field(at / 61.0), field(vec2(at.y, -at.x) / 9.0));
+#[inline(always)]
+fn stain(lookups: &Lookups, at: Vec2, dirt: f32, p: &mut Parameters) {
+    let (broad, fine) = (lookups.noise(at / 61.0), lookups.noise(vec2(at.y, -at.x) / 9.0));
     let tone = 0.45 * (broad - 0.5) + 0.3 * (fine - 0.5);
     let oil = step(0.84, 0.95, fine) * step(0.3, 0.7, broad);
     p.base_color *= (1.0 + dirt * tone) * (1.0 - 0.4 * dirt * oil);
@@ -63,24 +50,26 @@ fn stain(at: Vec2, dirt: f32, p: &mut Parameters) {
 }
 
 /// Walls: water runs down and takes dirt along.
-fn streak(surface: &Surface, dirt: f32, p: &mut Parameters) {
+#[inline(always)]
+fn streak(lookups: &Lookups, surface: &Surface, dirt: f32, p: &mut Parameters) {
     let at = surface.point_mesh;
     let n = surface.shading;
-    let along = (at.y * n.x - at.x * n.y) / n.truncate().length().max(1e-3);
-    let (runs, broad) = (field(vec2(along / 2.6, at.z / 37.0)), field(vec2(along / 31.0, at.z / 23.0)));
+    let along = (at.y * n.x - at.x * n.y) / length(n.truncate()).max(1e-3);
+    let (runs, broad) = (lookups.noise(vec2(along / 2.6, at.z / 37.0)), lookups.noise(vec2(along / 31.0, at.z / 23.0)));
     let dark = step(0.5, 1.0, runs) * (0.3 + 0.7 * broad) + 0.3 * (broad - 0.5);
     p.base_color *= 1.0 - 0.5 * dirt * dark;
 }
 
 /// Dust near the foot of everything.
-fn splash(surface: &Surface, dirt: f32, p: &mut Parameters) {
+#[inline(always)]
+fn splash(lookups: &Lookups, surface: &Surface, dirt: f32, p: &mut Parameters) {
     let height = surface.above_foot_m / SPLASH_M;
     if surface.shading.z.abs() > 0.7 || height > 2.0 {
         return;
     }
     let at = surface.point_mesh;
-    let ragged = field(vec2(at.x + at.y, at.z) / 3.0);
-    let share = 0.75 * dirt * (-height * height).exp() * (0.5 + ragged);
+    let ragged = lookups.noise(vec2(at.x + at.y, at.z) / 3.0);
+    let share = 0.75 * dirt * exp(-height * height) * (0.5 + ragged);
     p.base_color = p.base_color.lerp(DUST, share.min(1.0));
     p.coat.share *= 1.0 - share.min(1.0);
     p.alpha += (0.5 - p.alpha).max(0.0) * share.min(1.0);
@@ -88,7 +77,16 @@ fn splash(surface: &Surface, dirt: f32, p: &mut Parameters) {
 
 /// Rain darkens what is porous (Lagarde 2013, after Jensen et al. 1999), lies as a film on what is level, and stands
 /// in its low places.
-fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
+#[inline(always)]
+pub(super) fn rain(
+    lookups: &Lookups,
+    surface: &Surface,
+    wetness: f32,
+    width_m: f32,
+    normal: Vec3,
+    p: &mut Parameters,
+) -> Vec3 {
+    let outward = surface.outward_z();
     let level = step(0.7, 0.97, outward);
     // Walls get what the wind drives.
     let damp = wetness * (0.3 * step(-0.3, 0.2, outward) + 0.7 * level);
@@ -97,8 +95,8 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
         0.0
     } else if width_m < TOO_WIDE_M {
         let at = surface.point.truncate();
-        let low = 0.75 * field(at / 43.0) + 0.25 * field(vec2(at.y, -at.x) / 11.0);
-        step(1.0 - full, 1.08 - full, low + 0.1 * (field(at / 2.7) - 0.5))
+        let low = 0.75 * lookups.noise(at / 43.0) + 0.25 * lookups.noise(vec2(at.y, -at.x) / 11.0);
+        step(1.0 - full, 1.08 - full, low + 0.1 * (lookups.noise(at / 2.7) - 0.5))
     } else {
         full
     };
@@ -109,23 +107,24 @@ fn rain(surface: &Surface, wetness: f32, outward: f32, width_m: f32, normal: Vec
     if p.coat.share > 0.0 || p.transmission > 0.0 {
         // Off lacquer and glass it beads.
         let tilt = water::bead(surface, 0.4 * damp);
-        p.coat.normal = (p.coat.normal + tilt).normalize_or(p.coat.normal);
-        return if p.transmission > 0.0 { (normal + tilt).normalize_or(normal) } else { normal };
+        p.coat.normal = unit_or(p.coat.normal + tilt, p.coat.normal);
+        return if p.transmission > 0.0 { unit_or(normal + tilt, normal) } else { normal };
     }
     // Cloth soaks it up.
     if water > 0.0 && p.sheen == Vec3::ZERO {
-        let mut normal = normal.lerp(surface.shading, (0.4 + 0.5 * wetness).max(puddle)).normalize_or(normal);
+        let mut normal = unit_or(normal.lerp(surface.shading, (0.4 + 0.5 * wetness).max(puddle)), normal);
         if puddle > 0.0 {
-            normal = (normal + water::rings(surface) * puddle).normalize_or(normal);
+            normal = unit_or(normal + water::rings(surface) * puddle, normal);
         }
         let film = FILM[0] + (FILM[1] - FILM[0]) * wetness;
         let alpha = film + (STILL - film) * puddle;
         p.coat = Coat { normal, share: water, alpha, f0: WATER_F0 };
     }
-    normal.lerp(surface.shading, puddle).normalize_or(normal)
+    unit_or(normal.lerp(surface.shading, puddle), normal)
 }
 
 /// Water in pores; returns the share of it that found any.
+#[inline(always)]
 pub(super) fn soak(soaked: f32, p: &mut Parameters) -> f32 {
     let held = soaked * step(0.2, 0.6, p.alpha) * (1.0 - p.metalness);
     p.base_color *= Vec3::ONE.lerp(0.45 + 0.35 * p.base_color, held);
@@ -137,6 +136,7 @@ pub(super) fn soak(soaked: f32, p: &mut Parameters) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::LOOKUPS;
 
     fn asphalt() -> Parameters {
         Parameters {
@@ -162,7 +162,9 @@ mod tests {
             for i in 0..400 {
                 let mut p = asphalt();
                 let at = Vec3::new(i as f32 * 1.7, i as f32 * 0.9, 0.0);
-                Weather { dirt: 0.0, wetness }.wear(&Surface::plain(at, Vec3::Z), 0.01, Vec3::Z, &mut p);
+                if wetness > 0.0 {
+                    rain(&LOOKUPS, &Surface::plain(at, Vec3::Z), wetness, 0.01, Vec3::Z, &mut p);
+                }
                 reflectance += p.base_color.x / 400.0;
                 alpha += (p.alpha + (p.coat.alpha - p.alpha) * p.coat.share) / 400.0;
             }
@@ -175,17 +177,13 @@ mod tests {
     #[test]
     fn a_wall_has_no_puddles_and_is_dustier_at_its_foot() {
         let mut low = asphalt();
-        let weather = Weather { dirt: 1.0, wetness: 1.0 };
-        weather.wear(&Surface::plain(Vec3::new(3.0, 0.0, 0.1), Vec3::Y), 0.01, Vec3::Y, &mut low);
+        let wall = |z: f32| Surface::plain(Vec3::new(3.0, 0.0, z), Vec3::Y);
+        soil(&LOOKUPS, &wall(0.1), 1.0, 0.01, &mut low);
+        rain(&LOOKUPS, &wall(0.1), 1.0, 0.01, Vec3::Y, &mut low);
         assert_eq!(low.coat.share, 0.0);
         let dust = |z: f32| {
             let mut p = Parameters { base_color: Vec3::X, ..asphalt() };
-            Weather { dirt: 1.0, wetness: 0.0 }.wear(
-                &Surface::plain(Vec3::new(3.0, 0.0, z), Vec3::Y),
-                0.01,
-                Vec3::Y,
-                &mut p,
-            );
+            soil(&LOOKUPS, &wall(z), 1.0, 0.01, &mut p);
             p.base_color.y
         };
         assert!(dust(0.1) > 0.03 && dust(3.0) == 0.0);

@@ -1,13 +1,13 @@
 //! Snow on what faces up: white as it fell, grey and uneven where wheels and feet have been; where it ends it crumbles,
 //! thins out to slush and wets what it has left bare.
 
-use std::f32::consts::FRAC_PI_3;
-
 use glam::{Vec2, Vec3, vec2};
-use trove_trace::{Coat, Parameters};
 
-use super::field::{TOO_WIDE_M, field, step};
-use super::weather::{WATER_F0, soak};
+use super::step;
+use super::weather::{TOO_WIDE_M, WATER_F0, soak};
+use crate::bsdf::{Coat, Parameters};
+use crate::lookups::Lookups;
+use crate::math::{length, sqrt, unit_or, unit2};
 use crate::surface::Surface;
 
 /// Reflectance of snow a day old (Wiscombe and Warren 1980), and of slush full of grit.
@@ -47,12 +47,14 @@ const MELT_ALPHA: f32 = 0.15;
 const MELT: f32 = 0.7;
 
 /// Whether it may lie on a slope.
-pub(crate) fn holds(outward_z: f32) -> bool {
+#[inline]
+pub fn holds(outward_z: f32) -> bool {
     outward_z > HOLDS[0]
 }
 
 /// Lays snow on a point; returns its normal.
-pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
+#[inline(always)]
+pub(super) fn lie(lookups: &Lookups, surface: &Surface, width_m: f32, normal: Vec3, p: &mut Parameters) -> Vec3 {
     let exposure = surface.exposure;
     let holds = step(HOLDS[0], HOLDS[1], surface.outward_z());
     if holds <= 0.0 {
@@ -62,7 +64,7 @@ pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Paramet
     // What is pressed is spread, and hides the ground until little is left.
     let share = (exposure.snow * holds * exposure.left * (1.0 + 2.0 * used * exposure.left)).min(1.0);
     let at = if exposure.moves { surface.point_mesh } else { surface.point }.truncate();
-    let thick = Thickness::new(share, exposure.left_grows, width_m);
+    let thick = Thickness::new(lookups, share, exposure.left_grows, width_m);
     let crumb = thick.crumb(at);
     let depth = thick.depth(at, crumb);
     let far = step(0.5, TOO_WIDE_M, width_m);
@@ -77,8 +79,8 @@ pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Paramet
         return normal;
     }
     // Grit is where it was pressed, and in hollows between crumbs.
-    let uneven = 1.8 * step(0.1, 0.9, 0.5 * field(vec2(at.y, at.x) / 5.0) + 0.5 * crumb);
-    let grit = (used.sqrt() * uneven + thin * (3.0 * used).min(1.0)).min(1.0);
+    let uneven = 1.8 * step(0.1, 0.9, 0.5 * lookups.noise(vec2(at.y, at.x) / 5.0) + 0.5 * crumb);
+    let grit = (sqrt(used) * uneven + thin * (3.0 * used).min(1.0)).min(1.0);
     let keep = 1.0 - covered;
     p.base_color = p.base_color.lerp(FRESH.lerp(SLUSH, grit), covered);
     p.alpha += (ALPHA - p.alpha) * covered;
@@ -90,8 +92,8 @@ pub(super) fn lie(surface: &Surface, width_m: f32, normal: Vec3, p: &mut Paramet
     p.coat.share *= keep;
     let slope = if thick.crumbs > 0.0 { thick.slope(at, depth, used) } else { Vec2::ZERO };
     let side = if surface.is_front { 1.0 } else { -1.0 };
-    let lying = (surface.shading - side * slope.extend(0.0)).normalize_or(surface.shading);
-    normal.lerp(lying, covered).normalize_or(normal)
+    let lying = unit_or(surface.shading - side * slope.extend(0.0), surface.shading);
+    unit_or(normal.lerp(lying, covered), normal)
 }
 
 /// Wets the ground beside it.
@@ -103,7 +105,8 @@ fn melt(surface: &Surface, wet: f32, p: &mut Parameters) {
 }
 
 /// How thick it lies on a plane, as a sample sees it that covers so much.
-struct Thickness {
+struct Thickness<'a> {
+    lookups: &'a Lookups,
     /// What the fields are below where it lies.
     limit: f32,
     /// Share of the crumbs that are seen.
@@ -116,19 +119,19 @@ struct Thickness {
     thin: f32,
 }
 
-impl Thickness {
-    fn new(share: f32, left_grows: Vec2, width_m: f32) -> Self {
+impl<'a> Thickness<'a> {
+    fn new(lookups: &'a Lookups, share: f32, left_grows: Vec2, width_m: f32) -> Self {
         let crumbs = 1.0 - step(CRUMBS_WIDE_M[0], CRUMBS_WIDE_M[1], width_m);
         let ends = ENDS + (1.0 - crumbs) * 0.25;
         // All of it lies at 1, none at 0.
         let limit = (1.0 + 2.0 * ENDS) * below(share) - ENDS;
-        let along = (left_grows.length() > TRACK_PER_M).then(|| left_grows.perp().normalize());
-        Self { limit, crumbs, along, ends, thin: ends + THIN * (8.0 * (1.0 - share)).min(1.0) }
+        let along = (length(left_grows) > TRACK_PER_M).then(|| unit2(left_grows.perp()));
+        Self { lookups, limit, crumbs, along, ends, thin: ends + THIN * (8.0 * (1.0 - share)).min(1.0) }
     }
 
     /// Above 0 where it lies.
     fn depth(&self, at: Vec2, crumb: f32) -> f32 {
-        self.limit - 0.5 * field(at / PATCHES_M) - 0.5 * crumb
+        self.limit - 0.5 * self.lookups.noise(at / PATCHES_M) - 0.5 * crumb
     }
 
     /// Share of a sample that it lies on: as many crumbs as are above the depth, being spread evenly.
@@ -145,7 +148,8 @@ impl Thickness {
             let there = at + off * STEP_M;
             height_m(self.depth(there, self.crumb(there))) - here
         };
-        (vec2(rise_m(Vec2::X), rise_m(Vec2::Y)) * (self.crumbs / STEP_M)).clamp_length_max(STEEPEST)
+        let slope = vec2(rise_m(Vec2::X), rise_m(Vec2::Y)) * (self.crumbs / STEP_M);
+        slope * (STEEPEST / length(slope)).min(1.0)
     }
 
     /// The field of crumbs, as far as they are seen; where wheels roll along, it is drawn out.
@@ -153,8 +157,9 @@ impl Thickness {
         if self.crumbs <= 0.0 {
             return 0.5;
         }
-        // Turned, so that no grid is seen.
-        let crumb = |at: Vec2| 0.5 + self.crumbs * (field(Vec2::from_angle(FRAC_PI_3).rotate(at) / CRUMBS_M) - 0.5);
+        /// Of a turn, so that no grid is seen.
+        const SIXTH: Vec2 = vec2(0.5, 0.866_025_4);
+        let crumb = |at: Vec2| 0.5 + self.crumbs * (self.lookups.noise(SIXTH.rotate(at) / CRUMBS_M) - 0.5);
         let Some(along) = self.along else { return crumb(at) };
         let mean = STREAK_M.map(|off_m| crumb(at + along * off_m)).iter().sum::<f32>() / STREAK_M.len() as f32;
         // A mean differs less than what it is of.
@@ -164,15 +169,17 @@ impl Thickness {
 
 /// What the mean of both fields is below on this share of a plane, both being spread evenly.
 fn below(share: f32) -> f32 {
-    let near = |share: f32| (0.5 * share).sqrt();
+    let near = |share: f32| sqrt(0.5 * share);
     if share < 0.5 { near(share) } else { 1.0 - near(1.0 - share) }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::vec::Vec;
+
     use super::*;
     use crate::surface::Exposure;
-    use trove_trace::Coat;
+    use crate::testing::LOOKUPS;
 
     fn asphalt() -> Parameters {
         Parameters {
@@ -197,7 +204,7 @@ mod tests {
             let point = Vec3::new(i as f32 * 1.37, i as f32 * 0.61, 0.0);
             let surface = Surface { exposure, ..Surface::plain(point, normal) };
             let mut p = asphalt();
-            let shading = lie(&surface, 0.01, normal, &mut p);
+            let shading = lie(&LOOKUPS, &surface, 0.01, normal, &mut p);
             assert!(shading.is_normalized() && shading.dot(normal) > 0.5);
             p.base_color.y
         };
@@ -228,7 +235,7 @@ mod tests {
                 let plain = Surface::plain(on_roof, Vec3::Z);
                 let surface = Surface { point: on_roof + Vec3::X * moved_m, exposure, ..plain };
                 let mut p = asphalt();
-                lie(&surface, 0.01, Vec3::Z, &mut p);
+                lie(&LOOKUPS, &surface, 0.01, Vec3::Z, &mut p);
                 p.base_color.y
             };
             (0..20).map(color).collect()
@@ -245,13 +252,13 @@ mod tests {
             thick.lies(thick.depth(at, thick.crumb(at)))
         };
         for share in [0.2, 0.6, 0.9] {
-            let [near, far] = [0.005, 0.3].map(|width_m| Thickness::new(share, Vec2::ZERO, width_m));
+            let [near, far] = [0.005, 0.3].map(|width_m| Thickness::new(&LOOKUPS, share, Vec2::ZERO, width_m));
             let covered = |thick: &Thickness| (0..n).map(|i| covers(thick, i as f32 * 0.21)).sum::<f32>() / n as f32;
             assert!((covered(&near) - share).abs() < 0.03, "{} of {share}", covered(&near));
             assert!((covered(&far) - share).abs() < 0.03, "{} of {share} from afar", covered(&far));
         }
         // Metres on which it lies or does not without a break.
-        let thick = Thickness::new(0.6, Vec2::ZERO, 0.005);
+        let thick = Thickness::new(&LOOKUPS, 0.6, Vec2::ZERO, 0.005);
         let lies: Vec<bool> = (0..n).map(|i| covers(&thick, i as f32 * 0.004) > 0.5).collect();
         let runs: Vec<f32> = lies.chunk_by(|a, b| a == b).map(|run| run.len() as f32 * 0.0043).collect();
         let share = |is: &dyn Fn(f32) -> bool| runs.iter().filter(|&&run| is(run)).count() as f32 / runs.len() as f32;

@@ -1,10 +1,9 @@
 //! Water as it lies: beads on what sheds it, and rings where drops fall into puddles.
 
-use std::f32::consts::TAU;
-
 use glam::{IVec3, Vec2, Vec3, vec2};
 
 use super::texturing::random3;
+use crate::math::{exp, floor, floor2, length, turn, unit2};
 use crate::surface::Surface;
 
 /// Side of the squares with one bead each, and the radii of beads, metres.
@@ -17,6 +16,8 @@ const BEAD_SLOPE: f32 = 1.2;
 
 /// Layers of squares with one ring each, their side, and how far a ring gets, metres.
 const LAYERS: i32 = 5;
+/// A layer is turned by this share of a whole turn against the one before.
+const TURN: f32 = 0.175;
 const RING_CELL_M: f32 = 0.25;
 const RING_M: f32 = 0.1;
 /// Seconds that it takes: waves of capillarity and weight run at 0.23 m/s at least (Lamb, Hydrodynamics, § 267).
@@ -30,6 +31,7 @@ const STEEPEST: f32 = 0.3;
 const DENSE_MM_H: f32 = 6.0;
 
 /// How the normal is tilted by a bead at a point of something wet, of which beads cover so large a share; 0 between them.
+#[inline(always)]
 pub(super) fn bead(surface: &Surface, share: f32) -> Vec3 {
     let normal = surface.shading;
     let at = surface.point_mesh;
@@ -42,7 +44,7 @@ pub(super) fn bead(surface: &Surface, share: f32) -> Vec3 {
     } else {
         (vec2(at.x, at.z), [Vec3::X, Vec3::Z], 2)
     };
-    let cell = (at / BEAD_CELL_M).floor();
+    let cell = floor2(at / BEAD_CELL_M);
     let random = |salt: i32| random3(IVec3::new(cell.x as i32, cell.y as i32, side + salt));
     if random(3).x >= share / BEADS_COVER {
         return Vec3::ZERO;
@@ -58,18 +60,20 @@ pub(super) fn bead(surface: &Surface, share: f32) -> Vec3 {
 }
 
 /// How the normal of a puddle is tilted by the rings of drops.
+#[inline(always)]
 pub(super) fn rings(surface: &Surface) -> Vec3 {
     let exposure = surface.exposure;
-    let share = 1.0 - (-exposure.rain_mm_h / DENSE_MM_H).exp();
+    let share = 1.0 - exp(-exposure.rain_mm_h / DENSE_MM_H);
     if share <= 0.0 {
         return Vec3::ZERO;
     }
     let mut slope = Vec2::ZERO;
     for layer in 0..LAYERS {
         // Each layer is shifted and turned, so that no grid is seen.
-        let turn = Vec2::from_angle(1.1 * layer as f32);
-        let at = turn.rotate(surface.point.truncate()) / RING_CELL_M + 0.37 * layer as f32;
-        let cell = at.floor();
+        let (sin, cos) = turn(TURN * layer as f32);
+        let turned = vec2(cos, sin);
+        let at = turned.rotate(surface.point.truncate()) / RING_CELL_M + 0.37 * layer as f32;
+        let cell = floor2(at);
         let random = |salt: i32| random3(IVec3::new(cell.x as i32, cell.y as i32, salt));
         // One ring after another.
         let time = exposure.moment_s / RING_S + random(layer).z;
@@ -77,12 +81,13 @@ pub(super) fn rings(surface: &Surface) -> Vec3 {
         if drawn.z >= share {
             continue;
         }
-        let (age, room) = (time.fract(), 1.0 - 2.0 * (RING_M + FRONT_M) / RING_CELL_M);
+        let (age, room) = (time - floor(time), 1.0 - 2.0 * (RING_M + FRONT_M) / RING_CELL_M);
         let centre = Vec2::splat(0.5) + (drawn.truncate() - 0.5) * room;
         let away = (at - cell - centre) * RING_CELL_M;
-        let behind = away.length() - age * RING_M;
-        let steep = STEEPEST * (1.0 - age) * (-(behind / FRONT_M).powi(2)).exp() * (behind / WAVE_M * TAU).cos();
-        slope += (turn * vec2(1.0, -1.0)).rotate(away.normalize_or_zero()) * steep;
+        let behind = length(away) - age * RING_M;
+        let (fades, waves) = (behind / FRONT_M, behind / WAVE_M);
+        let steep = STEEPEST * (1.0 - age) * exp(-fades * fades) * turn(waves - floor(waves)).1;
+        slope += (turned * vec2(1.0, -1.0)).rotate(unit2(away)) * steep;
     }
     -slope.extend(0.0)
 }

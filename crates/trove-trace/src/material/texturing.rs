@@ -1,12 +1,15 @@
 //! Where on its textures a surface's point lies.
 
 use glam::{IVec2, IVec3, Vec2, Vec3, vec2};
-use trove_model::{Mapping, Tiling};
 
+use super::Material;
+use crate::math::{floor2, sqrt};
 use crate::surface::Surface;
 
 /// Nodes of the lattice of patches for each repetition of the texture: patches are about two thirds of it wide.
 const NODES: f32 = 1.5;
+
+const ROOT_3: f32 = 1.732_050_8;
 
 /// A place on textures, and the world around it.
 #[derive(Clone, Copy)]
@@ -23,32 +26,25 @@ pub(super) struct Spot {
     pub(super) dither: f32,
 }
 
-/// How a material finds its spot.
-#[derive(Clone, Copy)]
-pub(super) struct Texturing {
-    pub(super) scale: Vec2,
-    pub(super) mapping: Mapping,
-    pub(super) tiling: Tiling,
-}
-
-impl Texturing {
+impl<T> Material<T> {
     /// The spot of a point; `width_m` is the width of what a sample covers there.
     ///
     /// Where patches or directions are mixed `dither` chooses one of them: the mean over many samples is the mixture,
     /// and each takes one look-up.
-    pub(super) fn spot(&self, surface: &Surface, width_m: f32, dither: f32) -> Spot {
+    #[inline(always)]
+    pub(super) fn laid(&self, surface: &Surface, width_m: f32, dither: f32) -> Spot {
         let mut dither = dither;
-        let (uv, axes) = match self.mapping {
-            Mapping::Uv => (surface.uv, surface.uv_axes),
-            Mapping::Triplanar => triplanar(surface, &mut dither),
+        let (uv, axes) = if self.is_triplanar {
+            triplanar(surface, &mut dither)
+        } else {
+            (surface.uv, (surface.uv_axes != [Vec3::ZERO; 2]).then_some(surface.uv_axes))
         };
         let uv = uv * self.scale;
-        let uv = match self.tiling {
-            Tiling::Repeat => uv,
-            Tiling::Stochastic => uv + patch(uv * NODES, &mut dither),
-        };
+        let uv = if self.is_stochastic { uv + patch(uv * NODES, &mut dither) } else { uv };
         let scale = self.scale.abs().max(Vec2::splat(1e-9));
-        let metres = axes.map_or(Vec2::INFINITY, |[u, v]| vec2(u.length(), v.length()).max(Vec2::splat(1e-9)) / scale);
+        let metres = axes.map_or(Vec2::INFINITY, |[u, v]| {
+            vec2(sqrt(u.length_squared()), sqrt(v.length_squared())).max(Vec2::splat(1e-9)) / scale
+        });
         Spot { uv, footprint: width_m / metres, axes, metres, dither }
     }
 }
@@ -67,8 +63,8 @@ fn triplanar(surface: &Surface, dither: &mut f32) -> (Vec2, Option<[Vec3; 2]>) {
 /// How far the texture is shifted in the patch around one of the three nodes of a triangular lattice that `p` lies
 /// between, mostly the nearest.
 fn patch(p: Vec2, dither: &mut f32) -> Vec2 {
-    let skewed = vec2(p.x - p.y / 3f32.sqrt(), p.y * 2.0 / 3f32.sqrt());
-    let cell = skewed.floor();
+    let skewed = vec2(p.x - p.y / ROOT_3, p.y * 2.0 / ROOT_3);
+    let cell = floor2(skewed);
     let f = skewed - cell;
     let up = f.x + f.y < 1.0;
     let weights =
@@ -103,7 +99,7 @@ fn random(node: IVec2) -> Vec2 {
 }
 
 /// Three random numbers in [0, 1) of a lattice point.
-pub(super) fn random3(node: IVec3) -> Vec3 {
+pub(crate) fn random3(node: IVec3) -> Vec3 {
     let h = bits(node);
     Vec3::new((h & 0x3ff) as f32, (h >> 10 & 0x3ff) as f32, (h >> 20 & 0x3ff) as f32) / 1024.0
 }
@@ -119,23 +115,12 @@ fn bits(node: IVec3) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::Exposure;
+    use crate::testing::plain;
 
-    fn at(tiling: Tiling, mapping: Mapping, x: f32, y: f32, dither: f32) -> Spot {
-        let surface = Surface {
-            point: Vec3::new(x, y, 5.0),
-            point_mesh: Vec3::ZERO,
-            above_foot_m: 0.0,
-            wo: Vec3::Z,
-            geometric: Vec3::Z,
-            shading: Vec3::Z,
-            is_front: true,
-            uv: vec2(x, y),
-            uv_axes: Some([Vec3::X, Vec3::Y]),
-            tint: Vec3::ONE,
-            exposure: Exposure::BARE,
-        };
-        Texturing { scale: Vec2::splat(0.5), mapping, tiling }.spot(&surface, 0.1, dither)
+    fn at(is_stochastic: bool, is_triplanar: bool, x: f32, y: f32, dither: f32) -> Spot {
+        let up = Surface::plain(Vec3::new(x, y, 5.0), Vec3::Z);
+        let surface = Surface { uv: vec2(x, y), uv_axes: [Vec3::X, Vec3::Y], ..up };
+        Material { scale: Vec2::splat(0.5), is_stochastic, is_triplanar, ..plain() }.laid(&surface, 0.1, dither)
     }
 
     #[test]
@@ -145,17 +130,17 @@ mod tests {
             let cell = (spot.uv.rem_euclid(Vec2::ONE) * 64.0).as_ivec2();
             random(cell + IVec2::splat(1000)).x - 0.5
         };
-        let correlation = |tiling| {
+        let correlation = |is_stochastic| {
             let (mut sum, n) = (0.0, 20_000);
             for i in 0..n {
                 let p = random(IVec2::new(i, 7)) * 60.0;
                 let dither = random(IVec2::new(i, 8));
-                let here = value(at(tiling, Mapping::Uv, p.x, p.y, dither.x));
-                sum += here * value(at(tiling, Mapping::Uv, p.x + 2.0, p.y, dither.y)) * 12.0;
+                let here = value(at(is_stochastic, false, p.x, p.y, dither.x));
+                sum += here * value(at(is_stochastic, false, p.x + 2.0, p.y, dither.y)) * 12.0;
             }
             sum / n as f32
         };
-        let (repeated, stochastic) = (correlation(Tiling::Repeat), correlation(Tiling::Stochastic));
+        let (repeated, stochastic) = (correlation(false), correlation(true));
         assert!(repeated > 0.95 && stochastic < 0.1, "{repeated}, {stochastic}");
     }
 
@@ -165,7 +150,7 @@ mod tests {
         let n = 10_000;
         let apart = (0..n).filter(|&i| {
             let (p, dither) = (random(IVec2::new(i, 1)) * 50.0, random(IVec2::new(i, 2)).x);
-            let spot = |x| at(Tiling::Stochastic, Mapping::Uv, x, p.y, dither).uv;
+            let spot = |x| at(true, false, x, p.y, dither).uv;
             (spot(p.x + 0.02) - spot(p.x) - vec2(0.01, 0.0)).length() > 1e-3
         });
         let apart = apart.count();
@@ -174,7 +159,7 @@ mod tests {
 
     #[test]
     fn what_faces_up_is_seen_from_above_and_metres_are_metres() {
-        let spot = at(Tiling::Repeat, Mapping::Triplanar, 3.0, 4.0, 0.7);
+        let spot = at(false, true, 3.0, 4.0, 0.7);
         assert_eq!((spot.uv, spot.footprint, spot.metres), (vec2(1.5, 2.0), Vec2::splat(0.05), Vec2::splat(2.0)));
         assert!((0.0..1.0).contains(&spot.dither));
     }
