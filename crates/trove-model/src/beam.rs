@@ -76,6 +76,12 @@ impl Beam {
         Self::new(azimuths_deg.to_vec(), elevations_deg.to_vec(), rows.flatten().map(share).collect())
     }
 
+    /// Azimuths, elevations, degrees, and a row of shares for each elevation.
+    pub fn table(&self) -> [&[f32]; 3] {
+        let Table { azimuths_deg, elevations_deg, shares } = &self.table;
+        [azimuths_deg, elevations_deg, shares]
+    }
+
     /// Share into a direction of the mesh, of any length but 0.
     pub fn share(&self, direction: Vec3) -> f32 {
         self.table.share(direction)

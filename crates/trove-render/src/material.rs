@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 use trove_model::{Beam, Mapping, Material, Tiling};
-use trove_trace::{Bsdf, Map, Parameters, Surface, Texture, alpha};
+use trove_trace::{Bsdf, Parameters, Surface, alpha};
 
 use crate::lookups::LOOKUPS;
-use crate::texture::{Glow, MipMap, Textures};
+use crate::texture::{Glow, MapOf, Textures};
 use opacity::Pane;
 
 pub(crate) use flat::flat;
@@ -18,21 +18,12 @@ pub(crate) use opacity::Opacity;
 
 /// A material with its textures filtered.
 pub(crate) struct PreparedMaterial {
-    scatters: trove_trace::Material<MaybeMap>,
+    scatters: trove_trace::Material<MapOf>,
     retroreflection: f32,
     emission: Vec3,
     /// What it is multiplied by where.
     glow: Option<Glow>,
     beam: Option<Arc<Beam>>,
-}
-
-/// A texture that many materials may share, or none.
-struct MaybeMap(Option<Arc<MipMap>>);
-
-impl Map for MaybeMap {
-    fn texture(&self) -> Option<Texture<'_>> {
-        self.0.as_ref().map(|map| map.texture())
-    }
 }
 
 impl PreparedMaterial {
@@ -96,10 +87,10 @@ impl PreparedMaterial {
             height_m: *height_m,
             height_of_mesh: heights.as_ref().map_or(0.0, |map| 1.0 - map.mean().z),
             scale: *uv_scale,
-            base_color_map: MaybeMap(base_color_map.as_ref().map(|t| textures.map(t))),
-            orm_map: MaybeMap(orm_map.as_ref().map(|t| textures.map(t))),
-            normal_map: MaybeMap(normal_map.as_ref().map(|t| textures.normals(t))),
-            height_map: MaybeMap(heights),
+            base_color_map: MapOf(base_color_map.as_ref().map(|t| textures.map(t))),
+            orm_map: MapOf(orm_map.as_ref().map(|t| textures.map(t))),
+            normal_map: MapOf(normal_map.as_ref().map(|t| textures.normals(t))),
+            height_map: MapOf(heights),
             is_triplanar: *mapping == Mapping::Triplanar,
             is_stochastic: *tiling == Tiling::Stochastic,
         };

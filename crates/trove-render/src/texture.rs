@@ -8,12 +8,23 @@ mod relief;
 use std::sync::Arc;
 
 use trove_model::{Material, Texture};
+use trove_trace::Map;
 
 use crate::cache::Cache;
 
 pub(crate) use glow::Glow;
 pub(crate) use mip_map::MipMap;
 pub(crate) use opacity::OpacityMask;
+
+/// A texture that many may share, or none.
+#[derive(Clone)]
+pub(crate) struct MapOf(pub(crate) Option<Arc<MipMap>>);
+
+impl Map for MapOf {
+    fn texture(&self) -> Option<trove_trace::Texture<'_>> {
+        self.0.as_ref().map(|map| map.texture())
+    }
+}
 
 /// What was made of textures, for all scenes that share them.
 #[derive(Default)]

@@ -44,6 +44,7 @@ mod bsdf;
 #[cfg(target_arch = "nvptx64")]
 mod card;
 mod flat;
+pub mod light;
 mod lookups;
 mod mask;
 mod material;

@@ -1,6 +1,6 @@
 //! Roots, turns and powers that a processor and a card answer alike, to the last bit.
 
-use core::f32::consts::{FRAC_PI_2, LN_2, LOG2_E, SQRT_2};
+use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E, PI, SQRT_2};
 
 use glam::{Vec2, Vec3};
 
@@ -92,6 +92,26 @@ pub(crate) fn log2(x: f32) -> f32 {
     whole as f32 + 2.0 * LOG2_E * s * (1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0))))
 }
 
+/// The angle of a point about the origin from the first axis on, between half a turn to either side, radians; 0 at the origin
+/// (polynomial of Moshier's Cephes).
+#[inline(always)]
+pub(crate) fn atan2(y: f32, x: f32) -> f32 {
+    /// The tangent of a sixteenth of a turn.
+    const SIXTEENTH: f32 = 0.414_213_56;
+    let (rise, run) = (y.abs().min(x.abs()), y.abs().max(x.abs()));
+    if run == 0.0 {
+        return 0.0;
+    }
+    let t = rise / run;
+    let (t, more) = if t > SIXTEENTH { ((t - 1.0) / (t + 1.0), FRAC_PI_4) } else { (t, 0.0) };
+    let t2 = t * t;
+    let series = ((8.053_744_5e-2 * t2 - 1.387_768_6e-1) * t2 + 1.997_771_1e-1) * t2 - 3.333_295e-1;
+    let angle = more + t + t * t2 * series;
+    let angle = if y.abs() > x.abs() { FRAC_PI_2 - angle } else { angle };
+    let angle = if x < 0.0 { PI - angle } else { angle };
+    if y < 0.0 { -angle } else { angle }
+}
+
 /// How long a vector is.
 #[inline(always)]
 pub(crate) fn length(v: Vec2) -> f32 {
@@ -120,6 +140,17 @@ mod tests {
                 "{share}: {sin}, {cos}"
             );
         }
+    }
+
+    #[test]
+    fn angles_are_those_of_the_standard_library() {
+        for i in 0..100_000u32 {
+            let angle = f64::from(i) * 1e-4;
+            let (x, y) = ((angle.cos() * 3.0) as f32, (angle.sin() * 3.0) as f32);
+            let of_std = f64::from(y).atan2(f64::from(x));
+            assert!((f64::from(atan2(y, x)) - of_std).abs() < 4e-7, "{x}, {y}: {}", atan2(y, x));
+        }
+        assert_eq!((atan2(0.0, 0.0), atan2(0.0, 1.0), atan2(1.0, 0.0), atan2(0.0, -1.0)), (0.0, 0.0, FRAC_PI_2, PI));
     }
 
     #[test]

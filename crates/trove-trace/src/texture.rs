@@ -65,6 +65,12 @@ impl Texture<'_> {
         self.bilinear(lookups, ((lod + dither) as usize).min(self.firsts.len() - 1), uv)
     }
 
+    /// The colour at `uv` in full resolution.
+    #[inline]
+    pub fn sharp(&self, lookups: &Lookups, uv: Vec2) -> Vec4 {
+        self.bilinear(lookups, 0, uv)
+    }
+
     /// The mean of all texels.
     pub fn mean(&self, lookups: &Lookups) -> Vec4 {
         self.bilinear(lookups, self.firsts.len() - 1, Vec2::ZERO)

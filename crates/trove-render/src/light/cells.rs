@@ -1,40 +1,22 @@
-//! The sphere of directions in a few thousand cells: what wide cones see of it, and how directions are drawn from it.
+//! The cells of a sky, made ready.
 
 use glam::Vec3;
 use rayon::prelude::*;
 use trove_model::luminance;
+use trove_trace::light::{ACROSS, BELOW, Cell, Cells, Patch, Patches, Within, direction_at, solid_angle_of_area};
 
-use super::cdf::Cdf;
-use super::patches::{ACROSS, BELOW, Patch, Patches};
+use super::cdf::Lists;
 
-/// Mean radiance by direction, with directions drawn in proportion to what comes from them to a surface, roughly: first a
-/// patch by its light and the surface's normal, then one of the patch's cells by its brightness.
-///
-/// The upper and the lower hemisphere are squares of `side × side` cells, upper first: an octahedron's half flattened
-/// and turned by 45° (Praun and Hoppe 2003), which needs no function but a division.
-pub(super) struct Cells {
+/// What [`Cells`] looks up.
+pub(super) struct SkyCells {
     side: usize,
     cells: Vec<Cell>,
     patches: Patches,
     within: Vec<Within>,
+    lists: Lists,
 }
 
-#[derive(Clone, Copy)]
-struct Cell {
-    radiance: Vec3,
-    /// Density over the squares' area with which it is drawn from its patch.
-    density: f32,
-}
-
-/// How cells of a patch, which is a square of them, are drawn.
-struct Within {
-    row: usize,
-    column: usize,
-    rows: Cdf,
-    columns: Vec<Cdf>,
-}
-
-impl Cells {
+impl SkyCells {
     /// Means of `radiance` over cells, each by `across × across` directions; `side` is a multiple of [`ACROSS`], and
     /// `share_below` scales how often directions below the horizon are drawn, which the ground mostly hides.
     pub(super) fn new(side: usize, across: usize, share_below: f64, radiance: impl Fn(Vec3) -> Vec3 + Sync) -> Self {
@@ -58,34 +40,29 @@ impl Cells {
         };
         let weights: Vec<f64> = measured.iter().enumerate().map(weight).collect();
 
-        let block = side / ACROSS;
+        let (block, mut lists) = (side / ACROSS, Lists::default());
         let within: Vec<Within> = (0..=BELOW)
             .map(|patch| {
                 let (row, column, size) = match patch {
                     BELOW => (side, 0, side),
                     _ => (patch / ACROSS * block, patch % ACROSS * block, block),
                 };
+                let (guide, cumulative) = (lists.guide.len() as u32, lists.cumulative.len() as u32);
                 let row_of = |y: usize| &weights[(row + y) * side + column..][..size];
-                let rows = Cdf::new(&(0..size).map(|y| row_of(y).iter().sum()).collect::<Vec<f64>>());
-                Within { row, column, rows, columns: (0..size).map(|y| Cdf::new(row_of(y))).collect() }
+                lists.append(&(0..size).map(|y| row_of(y).iter().sum()).collect::<Vec<f64>>());
+                (0..size).for_each(|y| lists.append(row_of(y)));
+                Within { row: row as u32, column: column as u32, size: size as u32, guide, cumulative }
             })
             .collect();
-        let mut cells: Vec<Cell> = measured.iter().map(|&(radiance, _)| Cell { radiance, density: 0.0 }).collect();
-        for Within { row, column, rows, columns } in &within {
-            for (y, of_row) in columns.iter().enumerate() {
-                let cells = &mut cells[(row + y) * side + column..][..columns.len()];
-                for (x, cell) in cells.iter_mut().enumerate() {
-                    cell.density = rows.probability(y) * of_row.probability(x) * (side * side) as f32;
-                }
-            }
-        }
+        let cells = measured.iter().map(|&(radiance, _)| Cell { radiance, density: 0.0 }).collect();
 
         let centre = |i: usize| {
             let share = |i: usize| (i as f32 + 0.5) / side as f32;
             direction_at(false, share(i % side), share(i / side))
         };
         let patch = |Within { row, column, .. }: &Within| {
-            let places = || (0..block * block).map(|k| (row + k / block) * side + column + k % block);
+            let places =
+                || (0..block * block).map(|k| (*row as usize + k / block) * side + *column as usize + k % block);
             let light: f32 = places().map(|i| weights[i] as f32).sum();
             let middle = places().map(|i| centre(i) * weights[i] as f32).sum::<Vec3>() / light.max(f32::MIN_POSITIVE);
             let reach = places().map(|i| (centre(i) - middle).length()).fold(0.0, f32::max);
@@ -93,32 +70,33 @@ impl Cells {
         };
         let above = std::array::from_fn(|i| patch(&within[i]));
         let below = weights[side * side..].iter().sum::<f64>() as f32;
-        Self { side, cells, patches: Patches::new(&above, below), within }
+        let mut made = Self { side, cells, patches: Patches::new(&above, below), within, lists };
+        made.tell_densities();
+        made
     }
 
-    /// For a surface that is lit from the side of `normal` (from both sides if it is 0), a direction, its mean radiance,
-    /// and the density over solid angle with which it is drawn; `None` where all is dark.
-    pub(super) fn draw(&self, normal: Vec3, u: [f32; 2]) -> Option<(Vec3, Vec3, f32)> {
-        let (patch, probability, u) = self.patches.draw(normal, u)?;
-        let within = &self.within[patch];
-        let (row, along_row) = within.rows.draw(u[0]);
-        let (column, along_column) = within.columns[row].draw(u[1]);
-        let (row, column) = (within.row + row, within.column + column);
-        let cell = &self.cells[row * self.side + column];
-        let share = |cell: usize, along: f32| (cell as f32 + along) / self.side as f32;
-        let direction = direction_at(row >= self.side, share(column, along_column), share(row % self.side, along_row));
-        Some((direction, cell.radiance, probability * cell.density / solid_angle_of_area(direction)))
+    /// Over the squares' area, with which each cell is drawn from its patch.
+    fn tell_densities(&mut self) {
+        let area = (self.side * self.side) as f32;
+        let of_patch = |within: &Within| -> Vec<(usize, f32)> {
+            let (view, size) = (self.view(), within.size as usize);
+            let rows = view.cdf(within, 0);
+            let of_row = |y: usize| {
+                let (first, columns) =
+                    ((within.row as usize + y) * self.side + within.column as usize, view.cdf(within, 1 + y));
+                let probability = rows.probability(y);
+                (0..size).map(move |x| (first + x, probability * columns.probability(x) * area))
+            };
+            (0..size).flat_map(of_row).collect()
+        };
+        let densities: Vec<_> = self.within.iter().flat_map(of_patch).collect();
+        densities.into_iter().for_each(|(cell, density)| self.cells[cell].density = density);
     }
 
-    /// Mean radiance around a direction.
-    pub(super) fn radiance(&self, direction: Vec3) -> Vec3 {
-        self.cells[self.at(direction).0].radiance
-    }
-
-    /// Density over solid angle with which a direction is drawn for a surface.
-    pub(super) fn pdf(&self, normal: Vec3, direction: Vec3) -> f32 {
-        let (cell, patch) = self.at(direction);
-        self.patches.probability(normal, patch) * self.cells[cell].density / solid_angle_of_area(direction)
+    /// To be looked up.
+    pub(super) fn view(&self) -> Cells<'_> {
+        let Self { side, cells, patches, within, lists } = self;
+        Cells { side: *side, cells, patches, within, cumulative: &lists.cumulative, guide: &lists.guide }
     }
 
     /// Irradiance of a level surface that looks up.
@@ -130,34 +108,6 @@ impl Cells {
         };
         (0..self.side * self.side).map(part).sum::<Vec3>() / (self.side * self.side) as f32
     }
-
-    /// The cell and the patch of a direction.
-    fn at(&self, direction: Vec3) -> (usize, usize) {
-        let [x, y] = place_of(direction).map(|share| ((share * self.side as f32) as usize).min(self.side - 1));
-        if direction.z < 0.0 {
-            return ((self.side + y) * self.side + x, BELOW);
-        }
-        let block = self.side / ACROSS;
-        (y * self.side + x, y / block * ACROSS + x / block)
-    }
-}
-
-/// Where a direction lies in its hemisphere's square, 0 to 1.
-fn place_of(direction: Vec3) -> [f32; 2] {
-    let scale = 0.5 / direction.abs().element_sum();
-    [(direction.x + direction.y) * scale + 0.5, (direction.x - direction.y) * scale + 0.5]
-}
-
-/// The direction at a place in a hemisphere's square.
-fn direction_at(below: bool, u: f32, v: f32) -> Vec3 {
-    let (x, y) = (u + v - 1.0, u - v);
-    let z = (1.0 - x.abs() - y.abs()).max(0.0);
-    Vec3::new(x, y, if below { -z } else { z }).normalize()
-}
-
-/// Solid angle of a unit of a square's area around a direction.
-fn solid_angle_of_area(direction: Vec3) -> f32 {
-    2.0 * direction.abs().element_sum().powi(3)
 }
 
 #[cfg(test)]
@@ -166,12 +116,14 @@ mod tests {
 
     use trove_model::Seed;
 
+    use trove_trace::light::place_of;
+
     use super::*;
     use crate::light::dome::tests::even;
 
-    fn spotted() -> Cells {
+    fn spotted() -> SkyCells {
         let spot = Vec3::new(0.5, -0.7, 0.3).normalize();
-        Cells::new(24, 3, 0.3, |d| Vec3::splat(if d.dot(spot) > 0.98 { 50.0 } else { 1.0 + d.x + 0.5 * d.z }))
+        SkyCells::new(24, 3, 0.3, |d| Vec3::splat(if d.dot(spot) > 0.98 { 50.0 } else { 1.0 + d.x + 0.5 * d.z }))
     }
 
     /// A road, a wall, a slope, a ceiling, and a leaf that is lit from both sides.
@@ -195,11 +147,11 @@ mod tests {
             for i in 0..2 * n * n {
                 let (u, v) = ((i % n) as f32 + 0.5, (i / n % n) as f32 + 0.5);
                 let d = direction_at(i >= n * n, u / n as f32, v / n as f32);
-                sum += f64::from(cells.pdf(normal, d) * solid_angle_of_area(d)) / (n * n) as f64;
+                sum += f64::from(cells.view().pdf(normal, d) * solid_angle_of_area(d)) / (n * n) as f64;
             }
             assert!((sum - 1.0).abs() < 1e-3, "{normal}: {sum}");
             let (n, whole) = (400_000, 4.0 * std::f64::consts::PI);
-            let lattice = even(n).map(|d| f64::from(cells.pdf(normal, d))).sum::<f64>() * whole / f64::from(n);
+            let lattice = even(n).map(|d| f64::from(cells.view().pdf(normal, d))).sum::<f64>() * whole / f64::from(n);
             assert!((lattice - 1.0).abs() < 1e-3, "{normal}: {lattice}");
         }
     }
@@ -217,14 +169,16 @@ mod tests {
             let mut expected = [0.0; 128];
             for d in even(lattice) {
                 let share = 4.0 * std::f64::consts::PI / f64::from(lattice);
-                expected[bin(d)] += f64::from(cells.pdf(normal, d)) * share * f64::from(draws);
+                expected[bin(d)] += f64::from(cells.view().pdf(normal, d)) * share * f64::from(draws);
             }
             let mut drawn = [0.0; 128];
             for _ in 0..draws {
-                let (d, radiance, pdf) = cells.draw(normal, [random.unit() as f32, random.unit() as f32]).unwrap();
+                let (d, radiance, pdf) =
+                    cells.view().draw(normal, [random.unit() as f32, random.unit() as f32]).unwrap();
                 drawn[bin(d)] += 1.0;
                 // On a cell's edge rounding may find the neighbour.
-                let same = (cells.pdf(normal, d) / pdf - 1.0).abs() < 1e-3 && cells.radiance(d) == radiance;
+                let same =
+                    (cells.view().pdf(normal, d) / pdf - 1.0).abs() < 1e-3 && cells.view().radiance(d) == radiance;
                 let at_edge = place_of(d).iter().any(|x| (x * 24.0 - (x * 24.0).round()).abs() < 1e-4);
                 assert!(same || at_edge, "{d}");
             }
@@ -235,14 +189,14 @@ mod tests {
 
     #[test]
     fn a_surface_draws_what_lights_it() {
-        let sky = Cells::new(64, 2, 0.05, |d| Vec3::splat(if d.z < 0.0 { 0.2 } else { 1.5 - d.z }));
+        let sky = SkyCells::new(64, 2, 0.05, |d| Vec3::splat(if d.z < 0.0 { 0.2 } else { 1.5 - d.z }));
         for (normal, least) in [(Vec3::Z, 1.6), (Vec3::X, 5.0)] {
             // Variance relative to the square of the mean, for the surface and for one that is lit from both sides.
             let noise = |drawn_for: Vec3| {
                 let n = 300;
                 let part = |i: u32| {
                     let u = [((i % n) as f32 + 0.5) / n as f32, ((i / n) as f32 + 0.5) / n as f32];
-                    let (d, radiance, pdf) = sky.draw(drawn_for, u).unwrap();
+                    let (d, radiance, pdf) = sky.view().draw(drawn_for, u).unwrap();
                     // What lies below the horizon is hidden.
                     let cos = if d.z > 0.0 { d.dot(normal).max(0.0) } else { 0.0 };
                     f64::from(radiance.x * cos / pdf)
@@ -259,14 +213,14 @@ mod tests {
 
     #[test]
     fn nothing_is_drawn_from_darkness() {
-        let dark = Cells::new(8, 2, 0.3, |_| Vec3::ZERO);
-        assert!(dark.draw(Vec3::Z, [0.3, 0.7]).is_none() && dark.pdf(Vec3::Z, Vec3::X) == 0.0);
+        let dark = SkyCells::new(8, 2, 0.3, |_| Vec3::ZERO);
+        assert!(dark.view().draw(Vec3::Z, [0.3, 0.7]).is_none() && dark.view().pdf(Vec3::Z, Vec3::X) == 0.0);
     }
 
     #[test]
     fn a_uniform_sky_has_its_radiance_everywhere_and_pi_times_it_as_irradiance() {
-        let cells = Cells::new(32, 2, 1.0, |_| Vec3::splat(2.0));
-        assert!(even(500).all(|d| (cells.radiance(d) - 2.0).length() < 1e-4));
+        let cells = SkyCells::new(32, 2, 1.0, |_| Vec3::splat(2.0));
+        assert!(even(500).all(|d| (cells.view().radiance(d) - 2.0).length() < 1e-4));
         assert!((cells.irradiance().x / TAU - 1.0).abs() < 2e-3, "{}", cells.irradiance());
     }
 }

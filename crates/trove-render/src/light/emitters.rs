@@ -1,4 +1,4 @@
-//! Triangles that shine.
+//! Triangles that shine, made ready.
 
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -6,11 +6,13 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use trove_model::{Scene, luminance};
-use trove_trace::{Basis, cosine_hemisphere};
+use trove_trace::light::{self, Emitter, LEAST_SHARE, Pattern, barycentric};
+use trove_trace::{Basis, NONE, cosine_hemisphere};
 
-use super::tree::{Aim, Cut, LEAST_SHARE, Tree, TreeEntry};
+use super::tree::{Aim, Tree, TreeEntry};
+use crate::lookups::LOOKUPS;
 use crate::ray::Ray;
-use crate::texture::Glow;
+use crate::texture::{Glow, MapOf};
 
 /// Which rays that start on an instance do not end on it.
 pub(crate) type GetsAway<'a> = dyn Fn(u32, &[Ray; PROBES]) -> [bool; PROBES] + Sync + 'a;
@@ -26,66 +28,13 @@ const PROBE_FROM_M: f32 = 1e-3;
 /// How far light of the outermost emitters reaches, roughly.
 const MARGIN_M: f32 = 20.0;
 
-/// All shining triangles of a scene, drawn by what they give to the place that asks.
-///
-/// They are sampled on the side from which their corners run counter-clockwise, since lamps are closed bodies.
+/// What [`light::Emitters`] looks up.
 pub(super) struct Emitters {
     triangles: Vec<Emitter>,
+    patterns: Vec<Pattern<MapOf>>,
     tree: Tree,
-}
-
-struct Emitter {
-    /// Indices of instance and triangle; the list is sorted by it.
-    key: (u32, u32),
-    corner: Vec3,
-    edges: [Vec3; 2],
-    /// Twice the area, along the normal.
-    cross: Vec3,
-    /// On average over it.
-    radiance: Vec3,
-    /// What it is where, if not the same everywhere.
-    pattern: Option<Box<Pattern>>,
-    /// Share of its light that gets away from what it is part of: little of a room's does, through the windows.
-    away: f32,
-    /// Index of the beam by which the radiance differs between directions.
-    aim: Option<u32>,
-}
-
-/// How the radiance of a triangle differs over it.
-struct Pattern {
-    brightest: Vec3,
-    glow: Glow,
-    /// Texture coordinates of its corners.
-    uvs: [Vec2; 3],
-}
-
-impl Pattern {
-    /// Radiance at two barycentric coordinates.
-    fn at(&self, [b, c]: [f32; 2]) -> Vec3 {
-        let [first, second, third] = self.uvs;
-        self.brightest * self.glow.at(first + (second - first) * b + (third - first) * c)
-    }
-
-    /// The mean over points that are spread evenly.
-    fn mean(&self) -> Vec3 {
-        const SIDE: usize = 12;
-        let points = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE].map(|k| (k as f32 + 0.5) / SIDE as f32));
-        points.map(|u| self.at(barycentric(u))).sum::<Vec3>() / (SIDE * SIDE) as f32
-    }
-}
-
-/// Coordinates along both edges for two numbers in [0, 1), even over a triangle.
-fn barycentric(u: [f32; 2]) -> [f32; 2] {
-    let root = u[0].sqrt();
-    [root * (1.0 - u[1]), root * u[1]]
-}
-
-/// A point on a shining triangle.
-pub(super) struct EmitterPoint {
-    pub(super) point: Vec3,
-    pub(super) radiance: Vec3,
-    /// Density over solid angle with which it was drawn; infinite seen edge-on.
-    pub(super) pdf: f32,
+    /// Irradiance of a surface among them: all their light, spread over the ground that they stand on.
+    pub(super) typical_irradiance: f32,
 }
 
 impl Emitters {
@@ -93,7 +42,7 @@ impl Emitters {
     ///
     /// `emission` is that of each of the scene's materials.
     pub(super) fn new(scene: &Scene, emission: &Emission<'_>, gets_away: &GetsAway<'_>) -> Option<Self> {
-        let (mut triangles, mut aims) = (Vec::new(), Vec::new());
+        let (mut triangles, mut patterns, mut aims) = (Vec::new(), Vec::new(), Vec::new());
         for (i, instance) in scene.instances.iter().enumerate() {
             let first_aim = aims.len();
             if !instance.materials.iter().any(|&m| scene.materials[m].is_emitter()) {
@@ -113,18 +62,16 @@ impl Emitters {
                 let [a, b, c]: [DVec3; 3] = corners.map(at);
                 let cross = (b - a).cross(c - a).as_vec3() * side;
                 if cross.length() > 0.0 {
-                    let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
-                    let key = (i as u32, t as u32);
                     let (brightest, glow) = emission(index);
-                    let pattern = glow.filter(|_| !mesh.uvs.is_empty()).map(|glow| {
+                    let pattern = glow.filter(|_| !mesh.uvs.is_empty()).map(|Glow { map, scale }| {
                         let uvs = corners.map(|c| mesh.uvs[c as usize]);
-                        Box::new(Pattern { brightest, glow, uvs })
+                        Pattern { brightest, scale, uvs, map: MapOf(Some(map)) }
                     });
-                    let radiance = pattern.as_ref().map_or(brightest, |pattern| pattern.mean());
+                    let radiance = pattern.as_ref().map_or(brightest, mean);
                     if radiance == Vec3::ZERO {
                         continue;
                     }
-                    let aim = material.beam.as_ref().map(|beam| {
+                    let aim = material.beam.as_ref().map_or(NONE, |beam| {
                         let known = aims[first_aim..].iter().position(|aim: &Aim| Arc::ptr_eq(&aim.beam, beam));
                         let index = first_aim + known.unwrap_or(aims.len() - first_aim);
                         if index == aims.len() {
@@ -133,135 +80,91 @@ impl Emitters {
                         index as u32
                     });
                     triangles.push(Emitter {
-                        key,
+                        key: [i as u32, t as u32],
                         corner: a.as_vec3(),
-                        edges,
+                        edges: [(b - a).as_vec3(), (c - a).as_vec3()],
                         cross,
                         radiance,
-                        pattern,
-                        away: 1.0,
+                        brightness: luminance(radiance),
+                        pattern: pattern.as_ref().map_or(NONE, |_| patterns.len() as u32),
                         aim,
                     });
+                    patterns.extend(pattern);
                 }
             }
         }
-        triangles.par_iter_mut().for_each(|emitter| emitter.away = emitter.measured(gets_away));
-        let entries: Vec<TreeEntry> = triangles.iter().map(|emitter| emitter.entry(&aims)).collect();
-        (!triangles.is_empty()).then(|| Self { triangles, tree: Tree::new(&entries, aims) })
+        Self::of(triangles, patterns, &aims, |emitter| measured(emitter, gets_away))
     }
 
-    /// Irradiance of a surface among the emitters: all their light, spread over the ground that they stand on.
-    pub(super) fn typical_irradiance(&self) -> f32 {
-        let flux: f32 = self
-            .triangles
-            .iter()
-            .map(|e| PI * e.brightness() * e.aim.map_or(1.0, |aim| self.tree.aim(aim).flux_share(e.cross)))
-            .sum();
-        let corners = || self.triangles.iter().map(|e| e.corner.truncate());
+    /// Of triangles as bright as if all of their light got away, of which this share does.
+    fn of(
+        mut triangles: Vec<Emitter>,
+        patterns: Vec<Pattern<MapOf>>,
+        aims: &[Aim],
+        gets_away: impl Fn(&Emitter) -> f32 + Sync,
+    ) -> Option<Self> {
+        let aim = |emitter: &Emitter| aims.get(emitter.aim as usize);
+        let flux = |e: &Emitter| PI * power(e) * aim(e).map_or(1.0, |aim| aim.flux_share(e.cross));
+        let all: f32 = triangles.iter().map(flux).sum();
+        let corners = || triangles.iter().map(|e| e.corner.truncate());
         let (low, high) = (corners().fold(Vec2::INFINITY, Vec2::min), corners().fold(-Vec2::INFINITY, Vec2::max));
-        flux / (high - low + MARGIN_M).element_product()
+        let typical_irradiance = all / (high - low + MARGIN_M).element_product();
+        triangles.par_iter_mut().for_each(|emitter| emitter.brightness *= gets_away(emitter));
+        let entries: Vec<TreeEntry> = triangles.iter().map(|emitter| entry(emitter, aim(emitter))).collect();
+        (!triangles.is_empty()).then(|| Self {
+            tree: Tree::new(&entries, aims),
+            triangles,
+            patterns,
+            typical_irradiance,
+        })
     }
 
-    /// All triangles, to draw from for a surface at `from` that is lit from the side of `normal` (both if it is 0).
-    pub(super) fn near(&self, from: Vec3, normal: Vec3) -> Near<'_> {
-        Near { emitters: self, from, normal, cut: self.tree.cut(from, normal) }
-    }
-
-    /// Density over solid angle, seen from `from`, with which that point of a triangle is drawn; 0 where it never is.
-    pub(super) fn pdf(&self, key: (u32, u32), from: Vec3, normal: Vec3, point: Vec3) -> f32 {
-        let Ok(index) = self.triangles.binary_search_by_key(&key, |e| e.key) else { return 0.0 };
-        let weight = |index: u32| self.triangles[index as usize].weight(from);
-        let probability = self.tree.probability(index as u32, from, normal, weight);
-        if probability > 0.0 { probability * self.triangles[index].density(from, point) } else { 0.0 }
-    }
-}
-
-/// The triangles as they shine on a surface.
-pub(super) struct Near<'a> {
-    emitters: &'a Emitters,
-    from: Vec3,
-    normal: Vec3,
-    cut: Cut,
-}
-
-impl Near<'_> {
-    /// A point on some triangle; `None` where no triangle shines on the surface.
-    pub(super) fn draw(&self, u: [f32; 3]) -> Option<EmitterPoint> {
-        let Emitters { triangles, tree } = self.emitters;
-        let weight = |index: u32| triangles[index as usize].weight(self.from);
-        let (index, probability) = tree.draw(&self.cut, self.from, self.normal, u[0], weight)?;
-        let emitter = &triangles[index as usize];
-        let at = barycentric([u[1], u[2]]);
-        let point = emitter.point(at);
-        let radiance = emitter.pattern.as_ref().map_or(emitter.radiance, |pattern| pattern.at(at));
-        let share = emitter.aim.map_or(1.0, |aim| tree.aim(aim).share(self.from - point));
-        Some(EmitterPoint { point, radiance: radiance * share, pdf: probability * emitter.density(self.from, point) })
+    /// To be looked up.
+    pub(super) fn view(&self) -> light::Emitters<'_, MapOf> {
+        light::Emitters { triangles: &self.triangles, patterns: &self.patterns, tree: self.tree.view() }
     }
 }
 
-impl Emitter {
-    fn centre(&self) -> Vec3 {
-        self.corner + (self.edges[0] + self.edges[1]) / 3.0
-    }
+/// The mean over points that are spread evenly.
+fn mean(pattern: &Pattern<MapOf>) -> Vec3 {
+    const SIDE: usize = 12;
+    let points = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE].map(|k| (k as f32 + 0.5) / SIDE as f32));
+    points.map(|u| pattern.at(&LOOKUPS, barycentric(u))).sum::<Vec3>() / (SIDE * SIDE) as f32
+}
 
-    /// Area times luminance, in the brightest direction of its beam.
-    fn brightness(&self) -> f32 {
-        0.5 * self.cross.length() * luminance(self.radiance)
-    }
+/// Area times luminance, in the brightest direction of its beam.
+fn power(emitter: &Emitter) -> f32 {
+    0.5 * emitter.cross.length() * emitter.brightness
+}
 
-    /// The same of what gets away.
-    fn power(&self) -> f32 {
-        self.brightness() * self.away
-    }
+/// Share of a triangle's light that gets away, by rays of a fixed pattern. Never nothing: more rays might find a way.
+fn measured(emitter: &Emitter, gets_away: &GetsAway<'_>) -> f32 {
+    let normal = emitter.cross.normalize();
+    let basis = Basis::about(normal);
+    let side = PROBES.isqrt();
+    let rays = std::array::from_fn(|i| {
+        let [column, row] = [i % side, i / side].map(|k| (k as f32 + 0.5) / side as f32);
+        // Directions and places in another order, so that no direction always starts at the same edge.
+        let point = emitter.point(barycentric([row, (column + 0.5 * row).fract()]));
+        let direction = basis.to_world(cosine_hemisphere([column, (row + column * 0.5).fract()]));
+        Ray { through_glass: true, ..Ray::new(point + normal * PROBE_FROM_M, direction) }
+    });
+    let away = gets_away(emitter.key[0], &rays).iter().filter(|away| **away).count();
+    (away as f32 + 0.25) / (PROBES as f32 + 0.25)
+}
 
-    /// By rays of a fixed pattern. Never nothing: more rays might find a way.
-    fn measured(&self, gets_away: &GetsAway<'_>) -> f32 {
-        let normal = self.cross.normalize();
-        let basis = Basis::about(normal);
-        let side = PROBES.isqrt();
-        let rays = std::array::from_fn(|i| {
-            let [column, row] = [i % side, i / side].map(|k| (k as f32 + 0.5) / side as f32);
-            // Directions and places in another order, so that no direction always starts at the same edge.
-            let point = self.point(barycentric([row, (column + 0.5 * row).fract()]));
-            let direction = basis.to_world(cosine_hemisphere([column, (row + column * 0.5).fract()]));
-            Ray { through_glass: true, ..Ray::new(point + normal * PROBE_FROM_M, direction) }
-        });
-        let away = gets_away(self.key.0, &rays).iter().filter(|away| **away).count();
-        (away as f32 + 0.25) / (PROBES as f32 + 0.25)
-    }
-
-    fn point(&self, [b, c]: [f32; 2]) -> Vec3 {
-        self.corner + self.edges[0] * b + self.edges[1] * c
-    }
-
-    /// As the tree knows it: with a beam that leaves much of what is before it, as a light that shines evenly.
-    fn entry(&self, aims: &[Aim]) -> TreeEntry {
-        let aim = self.aim.map(|aim| &aims[aim as usize]);
-        let broad = aim.filter(|aim| aim.is_broad);
-        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
-        TreeEntry {
-            low: corners[0].min(corners[1]).min(corners[2]),
-            high: corners[0].max(corners[1]).max(corners[2]),
-            centre: self.centre(),
-            axis: self.cross.normalize(),
-            power: self.power() * broad.map_or(1.0, |aim| aim.flux_share(self.cross).max(LEAST_SHARE)),
-            aim: self.aim.filter(|_| broad.is_none()),
-        }
-    }
-
-    /// What it gives to a place beside others with its beam, roughly; 0 exactly where that is behind it.
-    fn weight(&self, from: Vec3) -> f32 {
-        let to_place = from - self.centre();
-        // Near a triangle its own size counts, not the distance to its middle.
-        let square = to_place.length_squared().max(0.25 * self.cross.length());
-        luminance(self.radiance) * self.away * self.cross.dot(to_place).max(0.0) / (square * square.sqrt())
-    }
-
-    /// Density over solid angle of a point that is drawn evenly from the triangle.
-    fn density(&self, from: Vec3, point: Vec3) -> f32 {
-        let to_light = point - from;
-        // d² / (area · |cos|), with area · cos = |cross · to_light| / 2d.
-        2.0 * to_light.length().powi(3) / self.cross.dot(to_light).abs()
+/// As the tree knows it: with a beam that leaves much of what is before it, as a light that shines evenly.
+fn entry(emitter: &Emitter, aim: Option<&Aim>) -> TreeEntry {
+    let broad = aim.filter(|aim| aim.is_broad);
+    let Emitter { corner, edges, cross, .. } = *emitter;
+    let corners = [corner, corner + edges[0], corner + edges[1]];
+    TreeEntry {
+        low: corners[0].min(corners[1]).min(corners[2]),
+        high: corners[0].max(corners[1]).max(corners[2]),
+        centre: emitter.centre(),
+        axis: cross.normalize(),
+        power: power(emitter) * broad.map_or(1.0, |aim| aim.flux_share(cross).max(LEAST_SHARE)),
+        aim: (emitter.aim != NONE && broad.is_none()).then_some(emitter.aim),
     }
 }
 
@@ -269,9 +172,10 @@ impl Emitter {
 mod tests {
     use glam::Mat3;
     use trove_model::{Beam, Seed};
+    use trove_trace::light::EmitterPoint;
 
     use super::*;
-    use crate::light::cdf::Cdf;
+    use crate::light::cdf::Lists;
 
     /// A box at a place that shines on all sides.
     fn lamp(number: u32, at: Vec3, radiance: f32, aim: Option<u32>) -> impl Iterator<Item = Emitter> {
@@ -281,16 +185,17 @@ mod tests {
             let (a, b) = if a.cross(b).dot(axis) > 0.0 { (a, b) } else { (b, a) };
             [1.0, -1.0].into_iter().enumerate().map(move |(half, sign)| {
                 let edges = [a * 0.3 * sign, b * 0.3 * sign];
-                let key = (number, 2 * side as u32 + half as u32);
+                let key = [number, 2 * side as u32 + half as u32];
                 let (corner, cross) = (at + axis * 0.15 - (a + b) * 0.15 * sign, edges[0].cross(edges[1]));
-                Emitter { key, corner, edges, cross, radiance: Vec3::splat(radiance), pattern: None, away: 1.0, aim }
+                let radiance = Vec3::splat(radiance);
+                let (brightness, aim) = (luminance(radiance), aim.unwrap_or(NONE));
+                Emitter { key, corner, edges, cross, radiance, brightness, pattern: NONE, aim }
             })
         })
     }
 
     fn emitters(triangles: Vec<Emitter>, aims: Vec<Aim>) -> Emitters {
-        let entries: Vec<TreeEntry> = triangles.iter().map(|emitter| emitter.entry(&aims)).collect();
-        Emitters { triangles, tree: Tree::new(&entries, aims) }
+        Emitters::of(triangles, Vec::new(), &aims, |_| 1.0).unwrap()
     }
 
     /// Lamps along a street, 300 of them on both sides, some a hundred times as bright.
@@ -356,13 +261,17 @@ mod tests {
     /// The noise of one sample relative to the light at each place, and of one that is drawn by power alone; fails where the
     /// mean is not the light.
     fn noise(street: &Emitters) -> Vec<[f64; 2]> {
-        let powers: Vec<f64> = street.triangles.iter().map(|e| f64::from(e.power())).collect();
-        let by_power = Cdf::new(&powers);
+        let powers: Vec<f64> = street.triangles.iter().map(|e| f64::from(power(e))).collect();
+        let mut lists = Lists::default();
+        lists.append(&powers);
+        let by_power = lists.one();
         let mut random = Seed(5).random();
         let mut unit = || random.unit() as f32;
         let on = |e: &Emitter, place: Vec3, u: [f32; 2], probability: f32| {
             let point = e.point(u);
-            let share = e.aim.map_or(1.0, |aim| street.tree.aim(aim).share(place - point));
+            let tree = street.tree.view();
+            let aim = tree.aims.get(e.aim as usize);
+            let share = aim.map_or(1.0, |aim| tree.beams.aimed(aim, place - point));
             let is_lit = e.cross.dot(place - point) > 0.0;
             let pdf = probability * e.density(place, point);
             is_lit.then_some(EmitterPoint { point, radiance: e.radiance * share, pdf })
@@ -379,10 +288,12 @@ mod tests {
             }
             let draws = 4000;
             let (mut sum, mut squares, mut squares_by_power) = (0.0, 0.0, 0.0);
-            let near = street.near(place.0, place.1);
+            let shining = street.view();
+            let cut = shining.tree.cut(place.0, place.1);
             for _ in 0..draws {
                 let u = [unit(), unit(), unit()];
-                let part = near.draw(u).map_or(0.0, |drawn| brought(&drawn, place));
+                let part =
+                    shining.draw(&LOOKUPS, &cut, place.0, place.1, u).map_or(0.0, |drawn| brought(&drawn, place));
                 sum += part;
                 squares += part * part;
                 let (index, _) = by_power.draw(u[0]);
@@ -423,24 +334,26 @@ mod tests {
             let corner = at - (Vec3::X + Vec3::Y) * 0.1 * sign;
             let cross = edges[0].cross(edges[1]);
             Emitter {
-                key: (0, number),
+                key: [0, number],
                 corner,
                 edges,
                 cross,
                 radiance: Vec3::ONE,
-                pattern: None,
-                away: 1.0,
-                aim: Some(0),
+                brightness: 1.0,
+                pattern: NONE,
+                aim: 0,
             }
         };
         let lamp = emitters(vec![half(0, 1.0), half(1, -1.0)], vec![aim]);
         let mut random = Seed(8).random();
         for gamma_deg in [0.0f32, 30.0, 50.0, 60.0, 70.0] {
             let place = (Vec3::new(8.0 * gamma_deg.to_radians().tan(), 0.0, 0.0), Vec3::Z);
-            let near = lamp.near(place.0, place.1);
+            let shining = lamp.view();
+            let cut = shining.tree.cut(place.0, place.1);
+            let draw = |u| shining.draw(&LOOKUPS, &cut, place.0, place.1, u).unwrap();
             let draws = 2000;
             let mut unit = || random.unit() as f32;
-            let sum: f64 = (0..draws).map(|_| brought(&near.draw([unit(), unit(), unit()]).unwrap(), place)).sum();
+            let sum: f64 = (0..draws).map(|_| brought(&draw([unit(), unit(), unit()]), place)).sum();
             let (found, cos) = (sum / f64::from(draws), f64::from(gamma_deg).to_radians().cos());
             let expected = f64::from(candelas((place.0 - at).normalize())) * cos.powi(3) / 64.0;
             assert!((found / expected - 1.0).abs() < 0.01, "{gamma_deg}°: {found} instead of {expected}");
@@ -453,7 +366,7 @@ mod tests {
         let lamp = emitters(lamp(3, Vec3::ZERO, 1.0, None).collect(), Vec::new());
         for e in &lamp.triangles {
             let normal = e.cross.normalize();
-            let share = |away: &(dyn Fn(&Ray) -> bool + Sync)| e.measured(&|_, rays| rays.each_ref().map(away));
+            let share = |away: &(dyn Fn(&Ray) -> bool + Sync)| measured(e, &|_, rays| rays.each_ref().map(away));
             assert_eq!(share(&|ray| ray.through_glass && ray.direction.dot(normal) > 0.0), 1.0);
             assert!((0.001..0.05).contains(&share(&|_| false)));
             // Cosine-weighted, half of all light is within 45° of the normal.
@@ -475,26 +388,29 @@ mod tests {
         let mut random = Seed(6).random();
         let place = places()[3];
         let draws = 100_000;
-        let mut drawn = vec![0.0; street.triangles.last().map_or(0, |e| e.key.0 as usize + 1)];
+        let shining = street.view();
+        let mut drawn = vec![0.0; street.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
         for _ in 0..draws {
             let u = [random.unit() as f32, random.unit() as f32, random.unit() as f32];
-            let Some(point) = street.near(place.0, place.1).draw(u) else { continue };
+            let Some(point) = shining.draw(&LOOKUPS, &shining.tree.cut(place.0, place.1), place.0, place.1, u) else {
+                continue;
+            };
             let near = |e: &&Emitter| {
                 let above = e.cross.normalize().dot(point.point - e.corner).abs();
                 above < 1e-4 && (point.point - e.centre()).length() < 0.3
             };
             let e = street.triangles.iter().filter(near).min_by(|a, b| {
-                let claimed = |e: &Emitter| (street.pdf(e.key, place.0, place.1, point.point) / point.pdf - 1.0).abs();
+                let claimed = |e: &Emitter| (shining.pdf(e.key, place.0, place.1, point.point) / point.pdf - 1.0).abs();
                 claimed(a).total_cmp(&claimed(b))
             });
             let e = e.unwrap();
-            assert!((street.pdf(e.key, place.0, place.1, point.point) / point.pdf - 1.0).abs() < 1e-3);
-            drawn[e.key.0 as usize] += 1.0;
+            assert!((shining.pdf(e.key, place.0, place.1, point.point) / point.pdf - 1.0).abs() < 1e-3);
+            drawn[e.key[0] as usize] += 1.0;
         }
-        let weight = |e: &Emitter| street.pdf(e.key, place.0, place.1, e.centre()) / e.density(place.0, e.centre());
-        let mut expected = vec![0.0; street.triangles.last().map_or(0, |e| e.key.0 as usize + 1)];
+        let weight = |e: &Emitter| shining.pdf(e.key, place.0, place.1, e.centre()) / e.density(place.0, e.centre());
+        let mut expected = vec![0.0; street.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
         for e in &street.triangles {
-            expected[e.key.0 as usize] += f64::from(weight(e)) * f64::from(draws);
+            expected[e.key[0] as usize] += f64::from(weight(e)) * f64::from(draws);
         }
         let total: f64 = expected.iter().sum();
         assert!((total / f64::from(draws) - 1.0).abs() < 1e-3, "{total}");

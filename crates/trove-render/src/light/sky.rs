@@ -6,6 +6,7 @@ use glam::Vec3;
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use rayon::prelude::*;
 use trove_model::{EnvironmentMap, PhysicalSky, luminance};
+use trove_trace::light::SUN_RADIUS_RAD;
 
 use super::clouds::Clouds;
 use super::{dome, sun};
@@ -160,8 +161,8 @@ impl Air {
     /// Radiance of a disk as large as the sun's that gives its light, without an edge that texels would miss.
     fn disk(&self, direction: Vec3) -> Vec3 {
         let from_middle = direction.angle_between(self.to_sun);
-        let share = ((sun::RADIUS_RAD - from_middle) / RIM_RAD + 0.5).clamp(0.0, 1.0);
-        self.sun_irradiance * share / (PI * sun::RADIUS_RAD * sun::RADIUS_RAD)
+        let share = ((SUN_RADIUS_RAD - from_middle) / RIM_RAD + 0.5).clamp(0.0, 1.0);
+        self.sun_irradiance * share / (PI * SUN_RADIUS_RAD * SUN_RADIUS_RAD)
     }
 
     /// Radiance of the ground far away, from the irradiance facing the sun and that from the sky.

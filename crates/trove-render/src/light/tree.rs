@@ -1,29 +1,17 @@
-//! Which of many lights shines on a place: a tree of lights (Conty Estevez and Kulla, "Importance Sampling of Many
-//! Lights with Adaptive Tree Splitting", 2018).
+//! A tree of lights, made ready (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+//! Splitting", 2018).
 
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
 use trove_model::Beam;
-
-/// Lights that are compared one by one.
-const LEAF: usize = 8;
-
-/// Groups that are compared one by one at most.
-const CUT: usize = 96;
-/// How many of its radii away a group is compared as it is: one that shines evenly, and one with a beam.
-const APART: f32 = 2.0;
-const APART_IN_BEAM: f32 = 12.0;
-/// Beams that at best give this share of all before them are not told apart.
-const FAINT: f32 = 0.02;
+use trove_trace::light::{self, BeamTable, Beams, Group, GroupAim, LEAF};
 
 /// A beam that fills more than this at its brightest is broad, as street lamps' are; low beams fill some hundredths.
 const BROAD_SR: f32 = 0.5;
-/// What a beam is taken to give at least: another part of the lamp may shine there.
-pub(super) const LEAST_SHARE: f32 = 1e-3;
 
-/// Places at which a node may be cut, along each axis.
+/// Places at which a group may be cut, along each axis.
 const BINS: usize = 12;
 
 /// What the tree knows of a light that shines from one side of a flat piece.
@@ -54,289 +42,92 @@ impl Aim {
         Self { beam, mesh_from_world, is_broad }
     }
 
-    /// Share of the radiance that leaves into a direction, World.
-    pub(super) fn share(&self, direction: Vec3) -> f32 {
-        self.beam.share(self.mesh_from_world * direction)
-    }
-
     /// What it leaves of the flux of a matt surface with a normal, World, of any length but 0.
     pub(super) fn flux_share(&self, normal: Vec3) -> f32 {
         self.beam.flux_share((self.mesh_from_world * normal).normalize_or_zero())
     }
 }
 
-/// Lights sorted into nested groups, each with its power, its place and the directions into which it shines.
+/// What [`light::Tree`] looks up.
 pub(super) struct Tree {
-    nodes: Vec<Node>,
-    aims: Vec<Aim>,
-    /// Lights in the order of the leaves.
+    groups: Vec<Group>,
     order: Vec<u32>,
-    /// The leaf of each light.
     leaf_of: Vec<u32>,
-}
-
-struct Node {
-    centre: Vec3,
-    radius: f32,
-    axis: Vec3,
-    cos_cone: f32,
-    power: f32,
-    aim: Shared,
-    parent: u32,
-    /// The first node behind it and all below it.
-    end: u32,
-    kind: NodeKind,
-}
-
-/// The beam of a group's lights.
-#[derive(Clone, Copy, PartialEq)]
-enum Shared {
-    /// They have none.
-    None,
-    /// All have this one.
-    One(u32),
-    Several,
-}
-
-#[derive(Clone, Copy)]
-enum NodeKind {
-    /// The first child follows its parent; this is the second.
-    Inner(u32),
-    /// Start and end in the order.
-    Leaf(u32, u32),
+    aims: Vec<light::Aim>,
+    tables: Vec<BeamTable>,
+    numbers: Vec<f32>,
 }
 
 impl Tree {
     /// From at least one light, and the beams that they have.
-    pub(super) fn new(entries: &[TreeEntry], aims: Vec<Aim>) -> Self {
+    pub(super) fn new(entries: &[TreeEntry], aims: &[Aim]) -> Self {
         let order = (0..entries.len() as u32).collect();
-        let mut tree = Self { nodes: Vec::new(), aims, order, leaf_of: vec![0; entries.len()] };
+        let (groups, leaf_of) = (Vec::new(), vec![0; entries.len()]);
+        let mut tree = Self { groups, order, leaf_of, aims: Vec::new(), tables: Vec::new(), numbers: Vec::new() };
         tree.grow(entries, 0, entries.len(), 0);
+        let mut beams: Vec<&Arc<Beam>> = Vec::new();
+        for Aim { beam, mesh_from_world, .. } in aims {
+            let known = beams.iter().position(|other| Arc::ptr_eq(other, beam));
+            let index = known.unwrap_or_else(|| {
+                beams.push(beam);
+                tree.list(beam);
+                beams.len() - 1
+            });
+            tree.aims.push(light::Aim { mesh_from_world: *mesh_from_world, beam: index as u32 });
+        }
         tree
     }
 
+    fn list(&mut self, beam: &Beam) {
+        let [azimuths, elevations, shares] = beam.table();
+        let first = self.numbers.len() as u32;
+        self.tables.push(BeamTable { first, azimuths: azimuths.len() as u32, elevations: elevations.len() as u32 });
+        [azimuths, elevations, shares].into_iter().for_each(|part| self.numbers.extend_from_slice(part));
+    }
+
+    /// To be looked up.
+    pub(super) fn view(&self) -> light::Tree<'_> {
+        let Self { groups, order, leaf_of, aims, tables, numbers } = self;
+        light::Tree { groups, order, leaf_of, aims, beams: Beams { tables, numbers } }
+    }
+
     fn grow(&mut self, entries: &[TreeEntry], start: usize, end: usize, parent: u32) {
-        let here = self.nodes.len() as u32;
+        let here = self.groups.len() as u32;
         let lights = &mut self.order[start..end];
-        let group = lights.iter().map(|&i| Group::of(&entries[i as usize])).reduce(Group::with).expect("not empty");
-        let is_leaf = lights.len() <= LEAF && group.aim != Shared::Several;
+        let set = lights.iter().map(|&i| Set::of(&entries[i as usize])).reduce(Set::with).expect("not empty");
+        let is_leaf = lights.len() <= LEAF && set.aim != GroupAim::Several;
         let middle = start + if is_leaf { 0 } else { split(entries, lights) };
-        self.nodes.push(group.node(parent, NodeKind::Leaf(start as u32, end as u32)));
+        self.groups.push(set.group(parent, start as u32, (end - start) as u32));
         if middle == start {
             for &light in &self.order[start..end] {
                 self.leaf_of[light as usize] = here;
             }
-            self.nodes[here as usize].end = here + 1;
+            self.groups[here as usize].end = here + 1;
             return;
         }
         self.grow(entries, start, middle, here);
-        self.nodes[here as usize].kind = NodeKind::Inner(self.nodes.len() as u32);
+        self.groups[here as usize].second = self.groups.len() as u32;
         self.grow(entries, middle, end, here);
-        self.nodes[here as usize].end = self.nodes.len() as u32;
+        self.groups[here as usize].end = self.groups.len() as u32;
     }
-
-    /// A light and the probability with which it is drawn for a surface at `from` that is lit from the side of `normal`
-    /// (both if it is 0), given its cut; `weight` says what single lights give there. `None` where none gives anything.
-    pub(super) fn draw(
-        &self,
-        cut: &Cut,
-        from: Vec3,
-        normal: Vec3,
-        u: f32,
-        weight: impl Fn(u32) -> f32,
-    ) -> Option<(u32, f32)> {
-        let (here, share, mut u) = pick(cut.groups().map(|&(node, importance)| (node, importance)), cut.total, u)?;
-        let (mut here, mut probability) = (here as usize, share);
-        loop {
-            match self.nodes[here].kind {
-                NodeKind::Inner(second) => {
-                    let first = self.first_share(here, second, from, normal)?;
-                    if u < first {
-                        (u, probability, here) = (u / first, probability * first, here + 1);
-                    } else {
-                        (u, probability) = ((u - first) / (1.0 - first), probability * (1.0 - first));
-                        here = second as usize;
-                    }
-                }
-                NodeKind::Leaf(start, end) => {
-                    let lights = &self.order[start as usize..end as usize];
-                    let mut weights = [0.0; LEAF];
-                    weights.iter_mut().zip(lights).for_each(|(w, &light)| *w = weight(light));
-                    let total = weights.iter().sum();
-                    let (light, share, _) = pick(lights.iter().copied().zip(weights), total, u)?;
-                    return Some((light, probability * share));
-                }
-            }
-        }
-    }
-
-    /// The probability with which a light is drawn.
-    pub(super) fn probability(&self, light: u32, from: Vec3, normal: Vec3, weight: impl Fn(u32) -> f32) -> f32 {
-        let own = weight(light);
-        if own <= 0.0 {
-            return 0.0;
-        }
-        let leaf = self.leaf_of[light as usize];
-        let NodeKind::Leaf(start, end) = self.nodes[leaf as usize].kind else { return 0.0 };
-        let total: f32 = self.order[start as usize..end as usize].iter().map(|&light| weight(light)).sum();
-        let cut = self.cut(from, normal);
-        let holds = |&&(node, _): &&(u32, f32)| node <= leaf && leaf < self.nodes[node as usize].end;
-        let Some(&(top, importance)) = cut.groups().find(holds) else { return 0.0 };
-        let mut probability = own / total * (importance / cut.total);
-        let mut here = leaf as usize;
-        while here != top as usize {
-            let parent = self.nodes[here].parent as usize;
-            let NodeKind::Inner(second) = self.nodes[parent].kind else { return 0.0 };
-            let Some(first) = self.first_share(parent, second, from, normal) else { return 0.0 };
-            probability *= if here == second as usize { 1.0 - first } else { first };
-            here = parent;
-        }
-        probability
-    }
-
-    /// The beam of this index.
-    pub(super) fn aim(&self, index: u32) -> &Aim {
-        &self.aims[index as usize]
-    }
-
-    /// Groups that together hold all lights that give something to a surface, each so small for its distance that its
-    /// bound tells what it gives.
-    pub(super) fn cut(&self, from: Vec3, normal: Vec3) -> Cut {
-        let mut cut = Cut { groups: [(0, 0.0); CUT], count: 0, total: 0.0 };
-        let mut waiting = [0u32; CUT];
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let here = waiting[count];
-            let node = &self.nodes[here as usize];
-            let has_room = cut.count + count + 2 <= CUT;
-            if let NodeKind::Inner(second) = node.kind
-                && has_room
-                && !node.is_apart(from)
-                && (node.aim != Shared::Several || node.bound(from, normal) > FAINT * cut.total)
-            {
-                (waiting[count], waiting[count + 1]) = (second, here + 1);
-                count += 2;
-                continue;
-            }
-            let importance = self.importance(here, from, normal);
-            if importance > 0.0 {
-                cut.groups[cut.count] = (here, importance);
-                cut.count += 1;
-                cut.total += importance;
-            }
-        }
-        cut
-    }
-
-    /// What a node's lights give to a surface, roughly and but for occlusion; 0 only where they give nothing.
-    fn importance(&self, node: u32, from: Vec3, normal: Vec3) -> f32 {
-        let node = &self.nodes[node as usize];
-        let bound = node.bound(from, normal);
-        match node.aim {
-            Shared::One(aim) if bound > 0.0 => bound * self.aim(aim).share(from - node.centre).max(LEAST_SHARE),
-            _ => bound,
-        }
-    }
-
-    /// Probability of a node's first child; `None` where neither gives anything.
-    fn first_share(&self, here: usize, second: u32, from: Vec3, normal: Vec3) -> Option<f32> {
-        let a = self.importance(here as u32 + 1, from, normal);
-        let b = self.importance(second, from, normal);
-        (a + b > 0.0).then(|| a / (a + b))
-    }
-}
-
-/// Groups that are compared one by one.
-pub(super) struct Cut {
-    /// Indices of nodes, and bounds on what they give.
-    groups: [(u32, f32); CUT],
-    count: usize,
-    total: f32,
-}
-
-impl Cut {
-    fn groups(&self) -> std::slice::Iter<'_, (u32, f32)> {
-        self.groups[..self.count].iter()
-    }
-}
-
-/// What a number in [0, 1) falls on among weights with this sum, its share of them, and where in it the number lies, again
-/// in [0, 1); `None` where none weighs anything.
-fn pick(weights: impl Iterator<Item = (u32, f32)>, total: f32, u: f32) -> Option<(u32, f32, f32)> {
-    let mut left = u * total;
-    let mut found = None;
-    for (i, weight) in weights.filter(|(_, weight)| *weight > 0.0) {
-        found = Some((i, weight / total, (left / weight).clamp(0.0, 1.0 - f32::EPSILON)));
-        if left < weight {
-            break;
-        }
-        left -= weight;
-    }
-    found
-}
-
-impl Node {
-    /// Whether its bound is near what it gives, seen from there.
-    fn is_apart(&self, from: Vec3) -> bool {
-        let apart = match self.aim {
-            Shared::None => APART,
-            Shared::One(_) => APART_IN_BEAM,
-            Shared::Several => return false,
-        };
-        (self.centre - from).length_squared() > (apart * self.radius).powi(2)
-    }
-
-    /// Bound on what the group gives to a surface, but for occlusion; 0 only where it gives nothing.
-    fn bound(&self, from: Vec3, normal: Vec3) -> f32 {
-        let to_group = self.centre - from;
-        let distance_squared = to_group.length_squared();
-        let radius_squared = self.radius * self.radius;
-        // Inside the group's sphere it may be in any direction.
-        if distance_squared <= radius_squared {
-            return self.power / radius_squared.max(f32::MIN_POSITIVE);
-        }
-        let to_group = to_group / distance_squared.sqrt();
-        let sin_spread = (radius_squared / distance_squared).sqrt();
-        let cos_spread = (1.0 - sin_spread * sin_spread).sqrt();
-        // The smallest angles that any light of the group may make with its normal and with the surface's.
-        let angle = nearer(-self.axis.dot(to_group), self.cos_cone);
-        let cos_light = nearer(angle, cos_spread);
-        let cos_surface = if normal == Vec3::ZERO { 1.0 } else { nearer(normal.dot(to_group), cos_spread) };
-        if cos_light <= 0.0 || cos_surface <= 0.0 {
-            return 0.0;
-        }
-        // Lights that face apart never all face a place: half of a hemisphere's shine there, a quarter of a sphere's.
-        let mean = 0.5 + self.cos_cone * (0.375 + 0.125 * self.cos_cone);
-        self.power * mean * cos_light * cos_surface / distance_squared
-    }
-}
-
-/// The cosine of max(a − b, 0) for angles a, b with these cosines.
-fn nearer(cos_a: f32, cos_b: f32) -> f32 {
-    if cos_a >= cos_b {
-        return 1.0;
-    }
-    let sines = ((1.0 - cos_a * cos_a).max(0.0) * (1.0 - cos_b * cos_b).max(0.0)).sqrt();
-    cos_a * cos_b + sines
 }
 
 /// A set of lights.
 #[derive(Clone, Copy)]
-struct Group {
+struct Set {
     low: Vec3,
     high: Vec3,
     axis: Vec3,
     /// Half the opening of the cone of all normals.
     cone_rad: f32,
     power: f32,
-    aim: Shared,
+    aim: GroupAim,
 }
 
-impl Group {
+impl Set {
     fn of(entry: &TreeEntry) -> Self {
         let TreeEntry { low, high, axis, power, aim, .. } = *entry;
-        Self { low, high, axis, cone_rad: 0.0, power, aim: aim.map_or(Shared::None, Shared::One) }
+        Self { low, high, axis, cone_rad: 0.0, power, aim: aim.map_or(GroupAim::None, GroupAim::One) }
     }
 
     fn with(self, other: Self) -> Self {
@@ -347,7 +138,7 @@ impl Group {
             axis,
             cone_rad,
             power: self.power + other.power,
-            aim: if self.aim == other.aim { self.aim } else { Shared::Several },
+            aim: if self.aim == other.aim { self.aim } else { GroupAim::Several },
         }
     }
 
@@ -361,10 +152,10 @@ impl Group {
         self.power * area * (2.0 * PI * (1.0 - cos) + FRAC_PI_2 * border)
     }
 
-    fn node(&self, parent: u32, kind: NodeKind) -> Node {
+    fn group(&self, parent: u32, start: u32, count: u32) -> Group {
         // Rounding must not leave a light outside.
         let cos_cone = if self.cone_rad >= PI { -1.0 } else { (self.cone_rad + 1e-3).cos() };
-        Node {
+        Group {
             centre: (self.low + self.high) * 0.5,
             radius: (self.high - self.low).length() * 0.5 * 1.0001,
             axis: self.axis,
@@ -373,13 +164,15 @@ impl Group {
             aim: self.aim,
             parent,
             end: 0,
-            kind,
+            second: 0,
+            start,
+            count,
         }
     }
 }
 
 /// The smallest cone that holds both groups' cones.
-fn cone_around(a: &Group, b: &Group) -> (Vec3, f32) {
+fn cone_around(a: &Set, b: &Set) -> (Vec3, f32) {
     let (a, b) = if a.cone_rad >= b.cone_rad { (a, b) } else { (b, a) };
     let between = a.axis.dot(b.axis).clamp(-1.0, 1.0).acos();
     if (between + b.cone_rad).min(PI) <= a.cone_rad {
@@ -412,13 +205,13 @@ fn split(entries: &[TreeEntry], lights: &mut [u32]) -> usize {
         |i: u32, axis: usize| ((((centre(i) - low)[axis] / extent[axis]) * BINS as f32) as usize).min(BINS - 1);
     let mut best: Option<(f32, usize, usize)> = None;
     for axis in (0..3).filter(|&axis| extent[axis] > 0.0) {
-        let mut bins: [Option<Group>; BINS] = [None; BINS];
+        let mut bins: [Option<Set>; BINS] = [None; BINS];
         for &i in lights.iter() {
             let bin = &mut bins[bin_of(i, axis)];
-            let light = Group::of(&entries[i as usize]);
+            let light = Set::of(&entries[i as usize]);
             *bin = Some(bin.map_or(light, |group| group.with(light)));
         }
-        let join = |parts: &[Option<Group>]| parts.iter().flatten().copied().reduce(Group::with);
+        let join = |parts: &[Option<Set>]| parts.iter().flatten().copied().reduce(Set::with);
         // Long thin nodes are worse than their surface says.
         let regular = extent.max_element() / extent[axis];
         for cut in 1..BINS {

@@ -5,15 +5,15 @@ use std::sync::Arc;
 
 use trove_trace::{FlatMaterials, FlatTexture, Table};
 
-use super::{MaybeMap, PreparedMaterial};
+use super::PreparedMaterial;
 use crate::accel::Hold;
 use crate::lookups::LOOKUPS;
-use crate::texture::MipMap;
+use crate::texture::{MapOf, MipMap};
 
 /// The materials of a scene in some memory, into which `hold` puts each table; a texture that many share is put there once.
 pub(crate) fn flat<E>(materials: &[PreparedMaterial], hold: &mut impl Hold<Error = E>) -> Result<FlatMaterials, E> {
     let mut held: BTreeMap<*const MipMap, FlatTexture> = BTreeMap::new();
-    let mut map = |map: &MaybeMap| {
+    let mut map = |map: &MapOf| {
         // SAFETY: there is nothing in it.
         let Some(map) = &map.0 else {
             return Ok(unsafe { FlatTexture::new([1; 2], Table::at(0, 0), Table::at(0, 0), false) });

@@ -114,10 +114,10 @@ fn near(site: &Site, unit: &mut impl FnMut() -> f32) -> Vec3 {
 }
 
 fn share_of_sun(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32) -> Vec3 {
-    let mut rays = Vec::with_capacity(TO_SUN);
+    let (mut rays, lights) = (Vec::with_capacity(TO_SUN), scene.lights.view());
     for _ in 0..TO_SUN {
         let (from, u) = (near(site, unit), [unit(), unit()]);
-        rays.extend(scene.lights.sample_sun(u).map(|sun| Ray::new(from, sun.wi)));
+        rays.extend(lights.sample_sun(u).map(|sun| Ray::new(from, sun.wi)));
     }
     let mut light = vec![Vec3::ONE; rays.len()];
     wave::light(scene, Coherence::Incoherent, &rays, &mut light);
@@ -127,9 +127,10 @@ fn share_of_sun(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f
 /// Radiance that comes straight from lamps.
 fn from_lamps(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32) -> ByDirection {
     let (mut rays, mut light) = (Vec::with_capacity(TO_LAMPS), Vec::with_capacity(TO_LAMPS));
+    let lights = scene.lights.view();
     for i in 0..TO_LAMPS {
         let (from, u) = (near(site, unit), [(i as f32 + unit()) / TO_LAMPS as f32, unit(), unit()]);
-        let drawn = scene.lights.rest(from, Vec3::ZERO).draw(u);
+        let drawn = lights.rest(from, Vec3::ZERO).draw(u);
         if let Some(lamp) = drawn.filter(|light| light.distance.is_finite()) {
             let clear = scene.clear(from, lamp.wi, lamp.distance, Scattering::broad());
             rays.push(Ray { t_max: lamp.reach(from), ..Ray::new(from, lamp.wi) });
@@ -149,7 +150,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
     if !seen.node.is_open {
         return Vec::new();
     }
-    let mut random = site.random(WAYS);
+    let (mut random, lights) = (site.random(WAYS), scene.lights.view());
     let mut unit = || random.unit() as f32;
     let (mut all, mut rays, mut light, mut whose) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (i, (ray, hit)) in seen.rays.iter().zip(&seen.hits).enumerate() {
@@ -162,7 +163,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
                 for _ in 0..AT_SKY {
                     let [x, y] = disk([unit(), unit()]).map(|c| c * SPREAD_RAD);
                     let way = basis.to_world(Vec3::new(x, y, 1.0)).normalize();
-                    met.fixed += scene.lights.sky_radiance(way, SPREAD_RAD) * (clear / AT_SKY as f32);
+                    met.fixed += lights.sky.radiance(way, SPREAD_RAD) * (clear / AT_SKY as f32);
                 }
             }
             Some(hit) if clear > HARDLY_SEEN => {
@@ -171,7 +172,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
                 let beside = surface.point + surface.shading * (0.25 * site.step_m).min(0.5 * hit.t);
                 let node = field.nearest(beside, unit()).one(unit());
                 met.surface = node.map(|node| (node, directions::part_of(surface.shading), sends));
-                let sun = scene.lights.sample_sun([unit(), unit()]);
+                let sun = lights.sample_sun([unit(), unit()]);
                 if let Some(sun) = sun.filter(|sun| surface.shading.dot(sun.wi) > 0.0) {
                     let clear = scene.clear(surface.point, sun.wi, f32::INFINITY, Scattering::broad());
                     rays.push(Ray::new(surface.leave(sun.wi), sun.wi));
@@ -199,7 +200,7 @@ fn in_air(
     clear: f32,
     unit: &mut impl FnMut() -> f32,
 ) -> Met {
-    let share = (1.0 - clear) / IN_AIR as f32;
+    let (share, lights) = ((1.0 - clear) / IN_AIR as f32, scene.lights.view());
     let mut met = Met { fixed: Vec3::ZERO, surface: None, air: [None; IN_AIR], share };
     let Some(fog) = scene.fog.map(|fog| fog.scattering(Scattering::broad())) else { return met };
     for (k, node) in met.air.iter_mut().enumerate() {
@@ -207,7 +208,7 @@ fn in_air(
         let point = ray.origin + ray.direction * t;
         let nearest = field.nearest(point, unit());
         *node = nearest.one(unit());
-        if let Some(sun) = scene.lights.sample_sun([unit(), unit()]) {
+        if let Some(sun) = lights.sample_sun([unit(), unit()]) {
             let clear = fog.transmittance(point, sun.wi, f32::INFINITY);
             let phase = Scattering::broad().phase(ray.direction.dot(sun.wi));
             met.fixed += field.sun(&nearest) * sun.radiance * (share * clear * phase / sun.pdf);

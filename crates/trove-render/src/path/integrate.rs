@@ -1,13 +1,15 @@
 //! One path and what happens at its vertices.
 
 use glam::Vec3;
+use trove_trace::light::{LightSample, Rest};
 use trove_trace::{Bsdf, Sampler, Surface, power_heuristic};
 
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::fog::{MATT_EVENTS, Scattering};
-use crate::light::{LightSample, Rest};
+use crate::light::LightsOf;
 use crate::ray::{Hit, Ray};
+use crate::texture::MapOf;
 
 /// Times that a path goes on from a surface that it meets, so that light comes over one surface more; straight passages
 /// through glass do not count.
@@ -164,6 +166,7 @@ pub(crate) struct Shadows {
 /// Where a path's ray has arrived.
 pub(crate) struct Vertex<'a> {
     pub(crate) scene: &'a PreparedScene,
+    pub(crate) lights: &'a LightsOf<'a>,
     /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
     pub(crate) field: Option<&'a LightField>,
     /// Index of the path.
@@ -174,7 +177,7 @@ pub(crate) struct Vertex<'a> {
 impl Vertex<'_> {
     /// Gathers light, asks for more behind shadow rays, and sends the path on; false when it has ended.
     pub(crate) fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
-        let lights = &self.scene.lights;
+        let lights = self.lights;
         if let Some(t) = self.droplet(path, hit) {
             return self.scatter(path, t, hit);
         }
@@ -191,8 +194,8 @@ impl Vertex<'_> {
                 others.map(|other| power_heuristic(s.pdf, other))
             });
             let sun = lights.sun_radiance(direction) * of_sun;
-            let sky = lights.sky_radiance(direction, path.cone.spread_rad) * of_sky;
-            path.gather(path.throughput * (sun + sky), path.bounce, lights.scale());
+            let sky = lights.sky.radiance(direction, path.cone.spread_rad) * of_sky;
+            path.gather(path.throughput * (sun + sky), path.bounce, lights.scale);
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
             return false;
         };
@@ -201,7 +204,7 @@ impl Vertex<'_> {
             && self.scene.fog.is_none()
             && let Some((passes, sent)) = lights.haze(path.ray.direction, hit.t)
         {
-            path.gather(path.throughput * sent, path.bounce, lights.scale());
+            path.gather(path.throughput * sent, path.bounce, lights.scale);
             path.throughput *= passes;
         }
         let (surface, material) = self.scene.surface(&hit, &path.ray);
@@ -210,10 +213,10 @@ impl Vertex<'_> {
         let emitted = if surface.is_front { self.scene.emitted(&hit, &surface, material) } else { Vec3::ZERO };
         if emitted != Vec3::ZERO {
             let weight = path.scattered.as_ref().map_or(1.0, |s| {
-                let other = lights.pdf_rest_emitter(hit.instance, hit.triangle, s.point, s.lit_side, surface.point);
+                let other = lights.pdf_rest_emitter([hit.instance, hit.triangle], s.point, s.lit_side, surface.point);
                 power_heuristic(s.pdf, other)
             });
-            path.gather(path.throughput * emitted * weight, path.bounce, lights.scale());
+            path.gather(path.throughput * emitted * weight, path.bounce, lights.scale);
         }
 
         let [u_light, dither] = path.sampler.next2();
@@ -282,7 +285,7 @@ impl Vertex<'_> {
 
     /// Sends the path on from a droplet `t` metres along it; what lies behind guides the denoiser all the same.
     fn scatter(&mut self, path: &mut Path, t: f32, hit: Option<Hit>) -> bool {
-        let (lights, direction) = (&self.scene.lights, path.ray.direction);
+        let (lights, direction) = (self.lights, path.ray.direction);
         if path.guide.is_none() {
             path.guide = Some(hit.map_or((path.guide_filter, Vec3::ZERO), |hit| {
                 let (surface, material) = self.scene.surface(&hit, &path.ray);
@@ -335,7 +338,7 @@ impl Vertex<'_> {
     /// Gathers what droplets send on along a path's ray as far as it is free, and leaves the path what comes through them;
     /// false where that is so little that it has ended.
     fn air(&self, path: &mut Path, field: &LightField, free: f32) -> bool {
-        let (lights, scattering) = (&self.scene.lights, Scattering::broad());
+        let (lights, scattering) = (self.lights, Scattering::broad());
         let Some(fog) = self.scene.fog.map(|fog| fog.scattering(scattering)) else { return true };
         let (origin, direction) = (path.ray.origin, path.ray.direction);
         let clear = fog.transmittance(origin, direction, free);
@@ -347,7 +350,7 @@ impl Vertex<'_> {
             if let Some(sun) = lights.sample_sun(on_sun).map(|sun| self.dimmed(sun, point, scattering)) {
                 light += field.sun(&nearest) * sun.radiance * (scattering.phase(direction.dot(sun.wi)) / sun.pdf);
             }
-            path.gather(path.throughput * (1.0 - clear) * light, path.bounce + 1, lights.scale());
+            path.gather(path.throughput * (1.0 - clear) * light, path.bounce + 1, lights.scale);
         }
         path.throughput *= clear;
         let carries = path.throughput.max_element();
@@ -370,12 +373,12 @@ impl Vertex<'_> {
     fn ask_rest(
         &self,
         path: &mut Path,
-        rest: &Rest<'_>,
+        rest: &Rest<'_, MapOf>,
         u: f32,
         air: Scattering,
         ask: impl Fn(&Path, LightSample) -> Option<Shadow>,
     ) -> Option<Shadow> {
-        let count = if path.bounce == 0 { self.scene.lights.candidates() } else { 1 };
+        let count = if path.bounce == 0 { self.lights.candidates() } else { 1 };
         let mut u_choice = if count > 1 { path.sampler.next2()[0] } else { 0.0 };
         let (mut chosen, mut total) = (None, 0.0);
         for i in 0..count {
@@ -401,7 +404,7 @@ impl Vertex<'_> {
     /// Has shadow rays traced; those that would bring little by chance, the likelier the more, and then for all of them.
     fn trace(&mut self, path: &mut Path, sun: Option<Shadow>, rest: Option<Shadow>, faint: f32) {
         let us = path.sampler.next2();
-        let faint = faint * self.scene.lights.scale();
+        let faint = faint * self.lights.scale;
         let worth = |shadow: Option<Shadow>, u: f32| {
             let shadow = shadow?;
             let chance = (shadow.light.max_element() / faint).min(1.0);
@@ -414,7 +417,7 @@ impl Vertex<'_> {
     /// The sun as it shines through the air on a surface, some of it from around its disk.
     fn sun(&self, path: &mut Path, point: Vec3, air: Scattering) -> Option<LightSample> {
         let u = path.sampler.next2();
-        let sun = self.dimmed(self.scene.lights.sample_sun(u)?, point, air);
+        let sun = self.dimmed(self.lights.sample_sun(u)?, point, air);
         let Some(fog) = &self.scene.fog else { return Some(sun) };
         let ([u0, u1], [u2, _]) = (path.sampler.next2(), path.sampler.next2());
         let wi = air.turn_together(sun.wi, fog.depth(point, sun.wi, f32::INFINITY), [u0, u1, u2]);

@@ -38,7 +38,7 @@ pub struct RayTimes {
 }
 
 pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
-    let carrier = Carrier::new(scene, shot.carrier);
+    let (carrier, lights) = (Carrier::new(scene, shot.carrier), &scene.lights.view());
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
     let (mut times, mut wave) = (RayTimes::default(), Wave::default());
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
@@ -48,7 +48,7 @@ pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
 
         let mut shadows = Shadows::default();
         let advance = |(index, (path, hit)): (u32, (&mut Path, Option<Hit>))| {
-            Vertex { scene, field: None, index, shadows: &mut shadows }.advance(path, hit)
+            Vertex { scene, lights, field: None, index, shadows: &mut shadows }.advance(path, hit)
         };
         let goes_on: Vec<bool> = (0..).zip(paths.iter_mut().zip(hits)).map(advance).collect();
         let lists = [(&shadows.to_sun, Coherence::Coherent), (&shadows.to_rest, Coherence::Incoherent)];
@@ -71,7 +71,7 @@ pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
 
 /// Rays of one sample a pixel by sort, and whether they only ask if anything is met.
 pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, Vec<Ray>, bool); 5] {
-    let carrier = Carrier::new(scene, shot.carrier);
+    let (carrier, lights) = (Carrier::new(scene, shot.carrier), &scene.lights.view());
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
     let mut wave = Wave::default();
     let (mut closest, mut shadows) = ([const { Vec::new() }; 3], Shadows::default());
@@ -91,7 +91,7 @@ pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, V
             let mut hits = (0..).zip(hits);
             paths.retain_mut(|path| {
                 let (index, hit) = hits.next().expect("one for each path");
-                Vertex { scene, field: None, index, shadows }.advance(path, hit)
+                Vertex { scene, lights, field: None, index, shadows }.advance(path, hit)
             });
         }
     }

@@ -26,6 +26,7 @@ pub(super) struct Wave {
 impl Wave {
     /// Follows all paths to their ends.
     pub(super) fn run(&mut self, scene: &PreparedScene, field: Option<&LightField>) {
+        let lights = &scene.lights.view();
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         let mut coherence = Coherence::Coherent;
@@ -37,20 +38,20 @@ impl Wave {
                 self.rays += group.len() as u64;
                 for (&index, hit) in group.iter().zip(hits) {
                     let path = &mut self.paths[index as usize];
-                    let mut vertex = Vertex { scene, field, index, shadows: &mut self.shadows };
+                    let mut vertex = Vertex { scene, lights, field, index, shadows: &mut self.shadows };
                     if vertex.advance(path, hit) {
                         self.going.push(index);
                     }
                 }
             }
-            self.light(scene, coherence);
+            self.light(scene, coherence, lights.scale);
             std::mem::swap(&mut self.active, &mut self.going);
             coherence = Coherence::Incoherent;
         }
     }
 
     /// Brings light to the paths from lamps, sky and sun where nothing is in the way.
-    fn light(&mut self, scene: &PreparedScene, to_sun: Coherence) {
+    fn light(&mut self, scene: &PreparedScene, to_sun: Coherence, scale: f32) {
         let lists = [(&mut self.shadows.to_rest, Coherence::Incoherent), (&mut self.shadows.to_sun, to_sun)];
         for (shadows, coherence) in lists {
             self.rays += shadows.len() as u64;
@@ -62,7 +63,7 @@ impl Wave {
                 }
                 self::light(scene, coherence, &rays[..group.len()], &mut light[..group.len()]);
                 for (shadow, light) in group.iter().zip(light) {
-                    self.paths[shadow.path as usize].gather(light, shadow.bounce, scene.lights.scale());
+                    self.paths[shadow.path as usize].gather(light, shadow.bounce, scale);
                 }
             }
             shadows.clear();

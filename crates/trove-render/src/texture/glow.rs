@@ -9,8 +9,9 @@ use super::mip_map::MipMap;
 /// What a material's emission is multiplied by where.
 #[derive(Clone)]
 pub(crate) struct Glow {
-    map: Arc<MipMap>,
-    scale: Vec2,
+    pub(crate) map: Arc<MipMap>,
+    /// What texture coordinates are multiplied by.
+    pub(crate) scale: Vec2,
 }
 
 impl Glow {

@@ -3,16 +3,18 @@
 use glam::Vec3;
 
 /// Patches along each side of the upper hemisphere's square.
-pub(super) const ACROSS: usize = 8;
+pub const ACROSS: usize = 8;
 
 /// The patch of all that lies below the horizon; those above it come first, row by row.
-pub(super) const BELOW: usize = ACROSS * ACROSS;
+pub const BELOW: usize = ACROSS * ACROSS;
 
 /// Added to the cosine: gloss and bumps send light on that comes along the surface or from behind its smooth normal.
 const FLOOR: f32 = 0.05;
 
 /// What patches there are, for any surface.
-pub(super) struct Patches {
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct Patches {
     columns: [Column; ACROSS],
     /// Light from below the horizon.
     below: f32,
@@ -20,17 +22,18 @@ pub(super) struct Patches {
 
 /// A patch above the horizon.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Patch {
+pub struct Patch {
     /// Brightness times solid angle.
-    pub(super) light: f32,
+    pub light: f32,
     /// Mean direction of that light, not of unit length: its cosine is the light's mean one.
-    pub(super) middle: Vec3,
+    pub middle: Vec3,
     /// How far directions of the patch are from there.
-    pub(super) reach: f32,
+    pub reach: f32,
 }
 
 /// Patches one below the other, each number of all of them in one place: they are weighed and added up side by side.
 #[derive(Clone, Copy, Default)]
+#[repr(C)]
 struct Column {
     light: [f32; ACROSS],
     /// Middles and reach, times the light.
@@ -53,7 +56,7 @@ struct Weights {
 
 impl Patches {
     /// From those above the horizon, row by row, and the light from below it.
-    pub(super) fn new(patches: &[Patch; BELOW], below: f32) -> Self {
+    pub fn new(patches: &[Patch; BELOW], below: f32) -> Self {
         let mut columns = [Column::default(); ACROSS];
         for (i, patch) in patches.iter().enumerate() {
             let (row, column) = (i / ACROSS, &mut columns[i % ACROSS]);
@@ -68,7 +71,8 @@ impl Patches {
 
     /// A patch for a surface that is lit from the side of `normal` (from both sides if it is 0), its probability, and two
     /// numbers to draw a direction of it with; `None` where all is dark.
-    pub(super) fn draw(&self, normal: Vec3, [u0, u1]: [f32; 2]) -> Option<(usize, f32, [f32; 2])> {
+    #[inline]
+    pub fn draw(&self, normal: Vec3, [u0, u1]: [f32; 2]) -> Option<(usize, f32, [f32; 2])> {
         let weights = self.weights(normal);
         let u = u0 * weights.total;
         if u < weights.below {
@@ -80,12 +84,14 @@ impl Patches {
     }
 
     /// Probability with which a patch is drawn for a surface.
-    pub(super) fn probability(&self, normal: Vec3, patch: usize) -> f32 {
+    #[inline]
+    pub fn probability(&self, normal: Vec3, patch: usize) -> f32 {
         let weights = self.weights(normal);
         let weight = if patch == BELOW { weights.below } else { weights.patches[patch % ACROSS][patch / ACROSS] };
         weight / weights.total.max(f32::MIN_POSITIVE)
     }
 
+    #[inline(always)]
     fn weights(&self, normal: Vec3) -> Weights {
         let even = if normal == Vec3::ZERO { 1.0 } else { FLOOR };
         let mut patches = [[0.0f32; ACROSS]; ACROSS];
@@ -108,6 +114,7 @@ impl Patches {
 }
 
 /// Which of some weights a number below their sum falls on, and where in it, in [0, 1); `None` where all are 0.
+#[inline(always)]
 fn pick(weights: &[f32; ACROSS], mut left: f32) -> Option<(usize, f32)> {
     for (i, &weight) in weights.iter().enumerate() {
         if left < weight {
