@@ -43,7 +43,9 @@ mod beam;
 mod bsdf;
 #[cfg(target_arch = "nvptx64")]
 mod card;
+pub mod field;
 mod flat;
+mod fog;
 pub mod light;
 mod lookups;
 mod mask;
@@ -66,6 +68,7 @@ mod vertex;
 
 pub use bsdf::{Bsdf, BsdfSample, Coat, Lobes, Parameters, ggx, reflected};
 pub use flat::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, NONE, Placement, Table};
+pub use fog::{Fog, MATT_EVENTS, Scattering};
 pub use lookups::{Lookups, NOISE_SIDE};
 pub use mask::Mask;
 pub use material::{Material, alpha, holds_snow};

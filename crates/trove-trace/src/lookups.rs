@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec4};
 
 use crate::bsdf::Lobes;
+use crate::fog::Scattering;
 use crate::math::floor2;
 
 /// Cells of the noise along each side.
@@ -14,6 +15,8 @@ pub const NOISE_SIDE: usize = 256;
 pub struct Lookups {
     /// What lobes reflect.
     pub lobes: Lobes,
+    /// As [`Scattering::broad`] gives it.
+    pub broad: Scattering,
     /// sRGB bytes as linear light.
     linear: [f32; 256],
     /// Plain bytes as numbers.
@@ -25,7 +28,7 @@ impl Lookups {
     /// With sRGB bytes as linear light, and with a repeating field, row by row, of bytes as evenly spread as can be.
     pub fn new(linear: [f32; 256], noise: [u8; NOISE_SIDE * NOISE_SIDE]) -> Self {
         let plain = core::array::from_fn(|i| i as f32 / 255.0);
-        Self { lobes: Lobes::new(), linear, plain, noise }
+        Self { lobes: Lobes::new(), broad: Scattering::broad(), linear, plain, noise }
     }
 
     /// A texel as light or as numbers; alpha is the fourth.

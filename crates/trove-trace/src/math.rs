@@ -92,6 +92,30 @@ pub(crate) fn log2(x: f32) -> f32 {
     whole as f32 + 2.0 * LOG2_E * s * (1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0))))
 }
 
+/// (1 − e^(−x)) / x.
+#[inline(always)]
+pub(crate) fn less_exp(x: f32) -> f32 {
+    // Near 0 the difference would be rounding.
+    if x.abs() < SMALL {
+        1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0))))
+    } else {
+        (1.0 - exp(-x)) / x
+    }
+}
+
+/// −ln(1 − x) / x for x below 1.
+#[inline(always)]
+pub(crate) fn log_less(x: f32) -> f32 {
+    if x.abs() < SMALL {
+        1.0 + x * (1.0 / 2.0 + x * (1.0 / 3.0 + x * (1.0 / 4.0 + x * (1.0 / 5.0 + x * (1.0 / 6.0)))))
+    } else {
+        -LN_2 * log2(1.0 - x) / x
+    }
+}
+
+/// Up to here series are exact.
+const SMALL: f32 = 0.06;
+
 /// The angle of a point about the origin from the first axis on, between half a turn to either side, radians; 0 at the origin
 /// (polynomial of Moshier's Cephes).
 #[inline(always)]
@@ -164,6 +188,22 @@ mod tests {
             assert_eq!(floor(x), x.floor());
         }
         assert_eq!((exp(-1000.0), exp(0.0), log2(1024.0), log2(1.0)), (0.0, 1.0, 10.0, 0.0));
+    }
+
+    #[test]
+    fn small_differences_keep_their_digits() {
+        for i in -200_000..200_000i32 {
+            let x = i as f32 * 1e-5;
+            if x == 0.0 {
+                continue;
+            }
+            let wide = f64::from(x);
+            assert!((f64::from(less_exp(x)) * wide / -(-wide).exp_m1() - 1.0).abs() < 3e-6, "{x}: {}", less_exp(x));
+            if x < 1.0 {
+                assert!((f64::from(log_less(x)) * wide / -(-wide).ln_1p() - 1.0).abs() < 3e-6, "{x}: {}", log_less(x));
+            }
+        }
+        assert_eq!((less_exp(0.0), log_less(0.0), less_exp(1e30)), (1.0, 1.0, 1e-30));
     }
 
     #[test]

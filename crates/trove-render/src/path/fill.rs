@@ -6,14 +6,14 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 use rayon::prelude::*;
+use trove_trace::field::{self, ByDirection, Node, PART_SR, PARTS, direction_in, part_of};
 use trove_trace::{Basis, disk};
 
 use super::wave;
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
-use crate::field::directions::{self, ByDirection, Kernel, PART_SR, PARTS};
-use crate::field::{LightField, Node, Site};
-use crate::fog::Scattering;
+use crate::field::{Kernel, LightField, Site};
+use crate::lookups::LOOKUPS;
 use crate::ray::{Hit, Ray};
 use crate::surface::surface;
 
@@ -37,7 +37,7 @@ const DIRECTIONS: u64 = 0;
 const LIGHTS: u64 = 1;
 const WAYS: u64 = 2;
 
-static SENT_ON: LazyLock<Kernel> = LazyLock::new(|| Kernel::new(1.0, |cos| Scattering::broad().phase(cos)));
+static SENT_ON: LazyLock<Kernel> = LazyLock::new(|| Kernel::new(1.0, |cos| LOOKUPS.broad.phase(cos)));
 static IRRADIANCE: LazyLock<Kernel> = LazyLock::new(|| Kernel::new(PI, |cos| cos.max(0.0)));
 
 /// What a node's ray meets.
@@ -66,13 +66,14 @@ pub(super) fn fill(scene: &PreparedScene, place: [i32; 3]) -> LightField {
     let seen: Vec<Seen> = sites.par_iter().map(|site| seen(scene, site)).collect();
     let nodes = seen.iter().map(|seen| seen.node.clone()).collect();
     let mut field = LightField::new(place, nodes);
-    let met: Vec<Vec<Met>> = sites.par_iter().zip(&seen).map(|(site, seen)| met(scene, &field, site, seen)).collect();
+    let met: Vec<Vec<Met>> =
+        sites.par_iter().zip(&seen).map(|(site, seen)| met(scene, &field.view(), site, seen)).collect();
     for _ in 0..ROUNDS {
         let tables: Vec<_> = met
             .par_iter()
             .zip(&seen)
             .map(|(met, seen)| {
-                let around = around(&field, met, &seen.of_lamps);
+                let around = around(&field.view(), met, &seen.of_lamps);
                 (SENT_ON.of(&around), IRRADIANCE.of(&around))
             })
             .collect();
@@ -84,7 +85,7 @@ pub(super) fn fill(scene: &PreparedScene, place: [i32; 3]) -> LightField {
 fn seen(scene: &PreparedScene, site: &Site) -> Seen {
     let mut random = site.random(DIRECTIONS);
     let rays: [Ray; PARTS] = std::array::from_fn(|part| {
-        let way = directions::direction_in(part, [random.unit() as f32, random.unit() as f32]);
+        let way = direction_in(part, [random.unit() as f32, random.unit() as f32]);
         Ray { through_glass: true, ..Ray::new(site.point, way) }
     });
     let mut hits = [None; PARTS];
@@ -132,7 +133,7 @@ fn from_lamps(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32
         let (from, u) = (near(site, unit), [(i as f32 + unit()) / TO_LAMPS as f32, unit(), unit()]);
         let drawn = lights.rest(from, Vec3::ZERO).draw(u);
         if let Some(lamp) = drawn.filter(|light| light.distance.is_finite()) {
-            let clear = scene.clear(from, lamp.wi, lamp.distance, Scattering::broad());
+            let clear = scene.clear(from, lamp.wi, lamp.distance, LOOKUPS.broad);
             rays.push(Ray { t_max: lamp.reach(from), ..Ray::new(from, lamp.wi) });
             light.push(lamp.radiance * (clear / (lamp.pdf * TO_LAMPS as f32)));
         }
@@ -140,13 +141,13 @@ fn from_lamps(scene: &PreparedScene, site: &Site, unit: &mut impl FnMut() -> f32
     wave::light(scene, Coherence::Incoherent, &rays, &mut light);
     let mut all = [Vec3::ZERO; PARTS];
     for (light, ray) in light.iter().zip(&rays) {
-        all[directions::part_of(ray.direction)] += *light / PART_SR;
+        all[part_of(ray.direction)] += *light / PART_SR;
     }
     all
 }
 
 /// What each ray of a node meets; nothing where it is of no use.
-fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> Vec<Met> {
+fn met(scene: &PreparedScene, field: &field::LightField<'_>, site: &Site, seen: &Seen) -> Vec<Met> {
     if !seen.node.is_open {
         return Vec::new();
     }
@@ -155,7 +156,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
     let (mut all, mut rays, mut light, mut whose) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (i, (ray, hit)) in seen.rays.iter().zip(&seen.hits).enumerate() {
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
-        let clear = scene.clear(site.point, ray.direction, free, Scattering::broad());
+        let clear = scene.clear(site.point, ray.direction, free, LOOKUPS.broad);
         let mut met = in_air(scene, field, ray, free, clear, &mut unit);
         match hit {
             None => {
@@ -171,10 +172,10 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
                 let sends = material.shade(&surface, 2.0 * SPREAD_RAD * hit.t, unit()).albedo * (clear / PI);
                 let beside = surface.point + surface.shading * (0.25 * site.step_m).min(0.5 * hit.t);
                 let node = field.nearest(beside, unit()).one(unit());
-                met.surface = node.map(|node| (node, directions::part_of(surface.shading), sends));
+                met.surface = node.map(|node| (node, part_of(surface.shading), sends));
                 let sun = lights.sample_sun([unit(), unit()]);
                 if let Some(sun) = sun.filter(|sun| surface.shading.dot(sun.wi) > 0.0) {
-                    let clear = scene.clear(surface.point, sun.wi, f32::INFINITY, Scattering::broad());
+                    let clear = scene.clear(surface.point, sun.wi, f32::INFINITY, LOOKUPS.broad);
                     rays.push(Ray::new(surface.leave(sun.wi), sun.wi));
                     light.push(sends * sun.radiance * (surface.shading.dot(sun.wi) * clear / sun.pdf));
                     whose.push(i);
@@ -194,7 +195,7 @@ fn met(scene: &PreparedScene, field: &LightField, site: &Site, seen: &Seen) -> V
 /// Nodes along a ray that is free so far, and the sun's light that droplets send on there.
 fn in_air(
     scene: &PreparedScene,
-    field: &LightField,
+    field: &field::LightField<'_>,
     ray: &Ray,
     free: f32,
     clear: f32,
@@ -202,7 +203,7 @@ fn in_air(
 ) -> Met {
     let (share, lights) = ((1.0 - clear) / IN_AIR as f32, scene.lights.view());
     let mut met = Met { fixed: Vec3::ZERO, surface: None, air: [None; IN_AIR], share };
-    let Some(fog) = scene.fog.map(|fog| fog.scattering(Scattering::broad())) else { return met };
+    let Some(fog) = scene.fog.map(|fog| fog.scattering(LOOKUPS.broad)) else { return met };
     for (k, node) in met.air.iter_mut().enumerate() {
         let Some(t) = fog.met(ray.origin, ray.direction, free, share * (k as f32 + unit())) else { continue };
         let point = ray.origin + ray.direction * t;
@@ -210,7 +211,7 @@ fn in_air(
         *node = nearest.one(unit());
         if let Some(sun) = lights.sample_sun([unit(), unit()]) {
             let clear = fog.transmittance(point, sun.wi, f32::INFINITY);
-            let phase = Scattering::broad().phase(ray.direction.dot(sun.wi));
+            let phase = LOOKUPS.broad.phase(ray.direction.dot(sun.wi));
             met.fixed += field.sun(&nearest) * sun.radiance * (share * clear * phase / sun.pdf);
         }
     }
@@ -218,12 +219,13 @@ fn in_air(
 }
 
 /// Radiance around a node, of what its rays met and of lamps.
-fn around(field: &LightField, met: &[Met], of_lamps: &ByDirection) -> ByDirection {
+fn around(field: &field::LightField<'_>, met: &[Met], of_lamps: &ByDirection) -> ByDirection {
     let mut around = *of_lamps;
     for (part, (met, light)) in met.iter().zip(&mut around).enumerate() {
-        let in_air: Vec3 = met.air.iter().flatten().map(|&node| field.node(node).sent_on[part]).sum();
-        let on_surface =
-            met.surface.map_or(Vec3::ZERO, |(node, facing, sends)| sends * field.node(node).irradiance[facing]);
+        let in_air: Vec3 = met.air.iter().flatten().map(|&node| field.nodes[node as usize].sent_on[part]).sum();
+        let on_surface = met
+            .surface
+            .map_or(Vec3::ZERO, |(node, facing, sends)| sends * field.nodes[node as usize].irradiance[facing]);
         *light += met.fixed + met.share * in_air + on_surface;
     }
     around

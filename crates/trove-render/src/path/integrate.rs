@@ -1,13 +1,13 @@
 //! One path and what happens at its vertices.
 
 use glam::Vec3;
+use trove_trace::field::LightField;
 use trove_trace::light::{LightSample, Rest};
-use trove_trace::{Bsdf, Sampler, Surface, power_heuristic};
+use trove_trace::{Bsdf, MATT_EVENTS, Sampler, Scattering, Surface, power_heuristic};
 
 use crate::PreparedScene;
-use crate::field::LightField;
-use crate::fog::{MATT_EVENTS, Scattering};
 use crate::light::LightsOf;
+use crate::lookups::LOOKUPS;
 use crate::ray::{Hit, Ray};
 use crate::texture::MapOf;
 
@@ -168,7 +168,7 @@ pub(crate) struct Vertex<'a> {
     pub(crate) scene: &'a PreparedScene,
     pub(crate) lights: &'a LightsOf<'a>,
     /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
-    pub(crate) field: Option<&'a LightField>,
+    pub(crate) field: Option<&'a LightField<'a>>,
     /// Index of the path.
     pub(crate) index: u32,
     pub(crate) shadows: &'a mut Shadows,
@@ -311,7 +311,7 @@ impl Vertex<'_> {
         let sun = sun.and_then(|sun| {
             let Some(fog) = self.scene.fog.filter(|_| self.field.is_some()) else { return ask(path, sun) };
             let depth = fog.depth(point, sun.wi, f32::INFINITY);
-            let phase = scattering.phase_of_turned(direction.dot(sun.wi), depth);
+            let phase = scattering.phase_of_turned(&LOOKUPS.broad, direction.dot(sun.wi), depth);
             Some(self.shadow(path, point, Vec3::splat(phase), 0.0, &sun))
         });
         let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
@@ -326,19 +326,19 @@ impl Vertex<'_> {
     }
 
     /// From where the light of droplets is read that so many events part from the eye; `None` where they are met.
-    fn field_after(&self, events: u32) -> Option<&LightField> {
+    fn field_after(&self, events: u32) -> Option<&LightField<'_>> {
         self.field.filter(|_| events > 0)
     }
 
     /// How the air scatters light that so many events part from the eye.
     fn after(&self, events: u32) -> Scattering {
-        self.field_after(events).map_or_else(|| Scattering::after(events), |_| Scattering::broad())
+        self.field_after(events).map_or_else(|| Scattering::after(events), |_| LOOKUPS.broad)
     }
 
     /// Gathers what droplets send on along a path's ray as far as it is free, and leaves the path what comes through them;
     /// false where that is so little that it has ended.
-    fn air(&self, path: &mut Path, field: &LightField, free: f32) -> bool {
-        let (lights, scattering) = (self.lights, Scattering::broad());
+    fn air(&self, path: &mut Path, field: &LightField<'_>, free: f32) -> bool {
+        let (lights, scattering) = (self.lights, LOOKUPS.broad);
         let Some(fog) = self.scene.fog.map(|fog| fog.scattering(scattering)) else { return true };
         let (origin, direction) = (path.ray.origin, path.ray.direction);
         let clear = fog.transmittance(origin, direction, free);

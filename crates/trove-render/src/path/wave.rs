@@ -26,7 +26,7 @@ pub(super) struct Wave {
 impl Wave {
     /// Follows all paths to their ends.
     pub(super) fn run(&mut self, scene: &PreparedScene, field: Option<&LightField>) {
-        let lights = &scene.lights.view();
+        let (lights, field) = (&scene.lights.view(), field.map(LightField::view));
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         let mut coherence = Coherence::Coherent;
@@ -38,7 +38,7 @@ impl Wave {
                 self.rays += group.len() as u64;
                 for (&index, hit) in group.iter().zip(hits) {
                     let path = &mut self.paths[index as usize];
-                    let mut vertex = Vertex { scene, lights, field, index, shadows: &mut self.shadows };
+                    let mut vertex = Vertex { scene, lights, field: field.as_ref(), index, shadows: &mut self.shadows };
                     if vertex.advance(path, hit) {
                         self.going.push(index);
                     }

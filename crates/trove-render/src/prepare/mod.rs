@@ -8,12 +8,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, Vec3, bvec3};
 use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject};
-use trove_trace::Surface;
+use trove_trace::{Fog, Scattering, Surface};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
 use crate::field::LightFields;
-use crate::fog::{Fog, Scattering};
+use crate::fog::fog;
 use crate::light::{LastSurroundings, Lights, PROBES};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
@@ -125,7 +125,7 @@ impl PreparedScene {
         };
         let others = [others(Beside::Previous)?, others(Beside::Next)?];
         let has_beside = scene.keyframes_apart_s.map(f64::is_finite);
-        let fog = Fog::new(&scene.light, lowest_z(scene, &bounds));
+        let fog = fog(&scene.light, lowest_z(scene, &bounds));
         let (falling, comes_down) = (scene.light.falling, ComesDown::new(&scene.light));
         let (wind_mps, spray) = (scene.light.wind_mps, Spray::new(&scene.light.spray));
         Ok(Self {
