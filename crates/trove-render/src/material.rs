@@ -1,36 +1,29 @@
 //! How light leaves a surface: materials of scenes with their textures filtered.
 
-mod flat;
 mod opacity;
 
-use std::sync::Arc;
+use glam::Vec3;
+use trove_model::{Mapping, Material, Tiling};
+use trove_trace::{Bsdf, NONE, Parameters, Surface, alpha};
 
-use glam::{Vec2, Vec3};
-use trove_model::{Beam, Mapping, Material, Tiling};
-use trove_trace::{Bsdf, Parameters, Surface, alpha};
-
+use crate::light::{Beams, Shines};
 use crate::lookups::LOOKUPS;
 use crate::texture::{Glow, MapOf, Textures};
 use opacity::Pane;
 
-pub(crate) use flat::flat;
 pub(crate) use opacity::Opacity;
 
 /// A material with its textures filtered.
 pub(crate) struct PreparedMaterial {
-    scatters: trove_trace::Material<MapOf>,
+    pub(crate) scatters: trove_trace::Material<MapOf>,
     retroreflection: f32,
-    emission: Vec3,
-    /// What it is multiplied by where.
-    glow: Option<Glow>,
-    beam: Option<Arc<Beam>>,
 }
 
 impl PreparedMaterial {
     /// What of it scatters light and what of it lets rays pass; numbers outside their range are brought into it.
     ///
     /// Takes the material apart whole: a new field does not compile until something is made of it.
-    pub(crate) fn new(material: &Material, textures: &Textures) -> (Self, Opacity) {
+    pub(crate) fn new(material: &Material, textures: &Textures, beams: &mut Beams) -> (Self, Opacity) {
         let Material {
             // For people.
             name: _,
@@ -64,7 +57,7 @@ impl PreparedMaterial {
         } = material;
         let ior = ior.max(1.0);
         let share = |x: &f32| x.clamp(0.0, 1.0);
-        let glow = emission_map.as_ref().map(|t| Glow::new(textures.map(t), *uv_scale));
+        let glow = emission_map.as_ref().map(|t| Glow { map: textures.map(t), scale: *uv_scale });
         // Light is drawn from triangles by where it is on them, which directions in the World do not tell.
         let (glow, evenly) = match mapping {
             Mapping::Uv => (glow, Vec3::ONE),
@@ -86,11 +79,14 @@ impl PreparedMaterial {
             wetness: share(wetness),
             height_m: *height_m,
             height_of_mesh: heights.as_ref().map_or(0.0, |map| 1.0 - map.mean().z),
+            emission: emission.max(Vec3::ZERO) * evenly,
+            beam: beam.as_ref().map_or(NONE, |beam| beams.index(beam)),
             scale: *uv_scale,
             base_color_map: MapOf(base_color_map.as_ref().map(|t| textures.map(t))),
             orm_map: MapOf(orm_map.as_ref().map(|t| textures.map(t))),
             normal_map: MapOf(normal_map.as_ref().map(|t| textures.normals(t))),
             height_map: MapOf(heights),
+            emission_map: MapOf(glow.map(|glow| glow.map)),
             is_triplanar: *mapping == Mapping::Triplanar,
             is_stochastic: *tiling == Tiling::Stochastic,
         };
@@ -105,9 +101,7 @@ impl PreparedMaterial {
                 alpha: alpha(scatters.roughness),
             }),
         };
-        let retroreflection = share(retroreflection);
-        let emission = emission.max(Vec3::ZERO) * evenly;
-        (Self { scatters, retroreflection, emission, glow, beam: beam.clone() }, opacity)
+        (Self { scatters, retroreflection: share(retroreflection) }, opacity)
     }
 
     /// Whether light that comes from behind is scattered to the front.
@@ -115,18 +109,11 @@ impl PreparedMaterial {
         self.scatters.translucency > 0.0
     }
 
-    /// Radiance that it emits from its front at a texture coordinate into a direction of the mesh.
-    pub(crate) fn emitted(&self, uv: Vec2, direction_mesh: impl FnOnce() -> Vec3) -> Vec3 {
-        if self.emission == Vec3::ZERO {
-            return Vec3::ZERO;
-        }
-        let here = self.glow.as_ref().map_or(Vec3::ONE, |glow| glow.at(uv));
-        self.emission * here * self.beam.as_ref().map_or(1.0, |beam| beam.share(direction_mesh()))
-    }
-
-    /// Its emission where that is the same everywhere, and what it is multiplied by where.
-    pub(crate) fn emission(&self) -> (Vec3, Option<Glow>) {
-        (self.emission, self.glow.clone())
+    /// How it shines.
+    pub(crate) fn shines(&self) -> Shines {
+        let trove_trace::Material { emission, beam, scale, emission_map, .. } = &self.scatters;
+        let glow = emission_map.0.as_ref().map(|map| Glow { map: map.clone(), scale: *scale });
+        Shines { radiance: *emission, glow, beam: *beam }
     }
 
     /// Whether rain may have wetted it.
@@ -147,8 +134,7 @@ impl PreparedMaterial {
     /// How it scatters light at a point; `width_m` is the width of what one sample covers there,
     /// `dither` a random number in [0, 1).
     pub(crate) fn shade(&self, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
-        let (p, normal) = self.scatters.parameters(&LOOKUPS, surface, width_m, dither);
-        Bsdf::new(&LOOKUPS.lobes, surface.wo, surface.geometric, normal, &p)
+        self.scatters.shade(&LOOKUPS, surface, width_m, dither)
     }
 
     /// The share of light that it scatters diffusely, and its perceptual roughness, at a point: as sharp as its textures

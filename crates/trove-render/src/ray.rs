@@ -4,6 +4,7 @@ use glam::Vec3;
 use trove_model::InstanceId;
 
 pub(crate) use trove_trace::Hit;
+use trove_trace::path::Path;
 
 use crate::motion::MIDDLE;
 #[cfg(doc)]
@@ -53,8 +54,27 @@ impl Ray {
         }
     }
 
+    /// Where and when it goes, without what it passes through.
+    pub(crate) fn plain(&self) -> trove_trace::Ray {
+        let Self { origin, t_min, direction, t_max, time, .. } = *self;
+        trove_trace::Ray { origin, t_min, direction, t_max, time }
+    }
+
     /// Another ray of the same time, to infinity, which is stopped by everything.
     pub(crate) fn then(&self, origin: Vec3, direction: Vec3) -> Self {
         Self { time: self.time, ..Self::new(origin, direction) }
+    }
+}
+
+impl From<trove_trace::Ray> for Ray {
+    fn from(ray: trove_trace::Ray) -> Self {
+        let trove_trace::Ray { origin, t_min, direction, t_max, time } = ray;
+        Self { t_min, t_max, time, ..Self::new(origin, direction) }
+    }
+}
+
+impl From<&Path> for Ray {
+    fn from(path: &Path) -> Self {
+        Self { past: (path.past != 0).then_some(InstanceId(path.past)), ..path.ray.into() }
     }
 }

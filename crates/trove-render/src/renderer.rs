@@ -101,8 +101,8 @@ impl Renderer {
         self.pool.install(|| path::ray_times(scene, shot))
     }
 
-    /// Measures how fast a card traces the rays of one sample a pixel and scatters light where they arrive, and compares
-    /// its answers; and how many bytes the scene takes there.
+    /// Measures how fast a card traces the rays of one sample a pixel, and compares what it finds; and how
+    /// many bytes the scene takes there.
     ///
     /// # Errors
     /// What the card refuses: most likely it is full.

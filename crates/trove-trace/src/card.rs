@@ -1,10 +1,11 @@
-//! What a card runs: one thread a ray, or a vertex.
+//! What a card runs: one thread a ray, or a path.
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x, trap};
 
-use crate::flat::{Asked, FlatScene, NONE};
+use crate::flat::{Asked, FlatScene};
 use crate::ray::Hit;
-use crate::vertex::{FlatMaterials, Scattered, Vertex};
+use crate::wave::{Step, Wave};
+use crate::world::FlatWorld;
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -12,14 +13,14 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     unsafe { trap() }
 }
 
-/// This thread's ray or vertex.
+/// This thread's ray or path.
 #[inline(always)]
 fn place() -> usize {
     // SAFETY: these read registers.
     unsafe { (_block_idx_x() * _block_dim_x() + _thread_idx_x()) as usize }
 }
 
-/// The nearest surface of each ray; where there is none, the instance is [`NONE`].
+/// The nearest surface of each ray; where there is none, it is [`Hit::NOTHING`].
 ///
 /// # Safety
 /// There are `count` rays and room for as many hits, and the scene is as `FlatScene::closest` wants it.
@@ -31,8 +32,7 @@ unsafe extern "ptx-kernel" fn closest(scene: *const FlatScene, asked: *const Ask
     }
     // SAFETY: the caller vouches for it.
     unsafe {
-        let nothing = Hit { t: f32::INFINITY, instance: NONE, triangle: NONE, u: 0.0, v: 0.0 };
-        *hits.add(i) = (*scene).closest(&*asked.add(i)).unwrap_or(nothing);
+        *hits.add(i) = (*scene).closest(&*asked.add(i)).unwrap_or(Hit::NOTHING);
     }
 }
 
@@ -52,23 +52,22 @@ unsafe extern "ptx-kernel" fn blocked(scene: *const FlatScene, asked: *const Ask
     }
 }
 
-/// How light scatters at each vertex.
-///
-/// # Safety
-/// There are `count` vertices and room for as many answers, and materials are as `FlatMaterials::scatter` wants them.
-#[unsafe(no_mangle)]
-unsafe extern "ptx-kernel" fn scatter(
-    materials: *const FlatMaterials,
-    vertices: *const Vertex,
-    scattered: *mut Scattered,
-    count: u32,
-) {
-    let i = place();
-    if i >= count as usize {
-        return;
-    }
-    // SAFETY: the caller vouches for it.
-    unsafe {
-        *scattered.add(i) = (*materials).scatter(&*vertices.add(i));
-    }
+/// A step of a wave for each of `count` paths.
+macro_rules! steps {
+    ($($name:ident: $step:ident),*) => {
+        $(
+            /// # Safety
+            /// As for [`Wave::step`], and it is that step's turn.
+            #[unsafe(no_mangle)]
+            unsafe extern "ptx-kernel" fn $name(world: *const FlatWorld, wave: *const Wave, which: u32, count: u32) {
+                let i = place();
+                if i < count as usize {
+                    // SAFETY: the caller vouches for it.
+                    unsafe { (*wave).step(Step::$step, &*world, which as usize, i) };
+                }
+            }
+        )*
+    };
 }
+
+steps!(begin: Begin, trace: Trace, turn: Turn, light: Light, end: End);

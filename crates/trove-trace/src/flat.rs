@@ -34,6 +34,13 @@ impl<T> Table<T> {
         Self { address, count: count as u64, holds: PhantomData }
     }
 
+    /// Where the `i`-th value lies.
+    #[inline(always)]
+    pub(crate) fn place(&self, i: usize) -> *mut T {
+        assert!((i as u64) < self.count);
+        (self.address as *mut T).wrapping_add(i)
+    }
+
     /// # Safety
     /// The values have to be there and stay as they are.
     #[inline(always)]
@@ -142,7 +149,7 @@ pub struct FlatScene {
 }
 
 /// A scene whose tables are vouched for.
-struct Readable<'a>(&'a FlatScene);
+pub(crate) struct Readable<'a>(pub(crate) &'a FlatScene);
 
 impl FlatScene {
     /// The nearest surface that a ray meets.
@@ -187,7 +194,7 @@ impl Readable<'_> {
 
     /// Whether there is a surface at a hit, and neither a hole nor glass that the ray passes through.
     #[inline(always)]
-    fn is_seen(&self, hit: &Hit, asked: &Asked) -> bool {
+    pub(crate) fn is_seen(&self, hit: &Hit, asked: &Asked) -> bool {
         let placement = self.placement(hit.instance);
         if placement.materials == NONE {
             return true;

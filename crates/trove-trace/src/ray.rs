@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::flat::NONE;
+
 /// A ray in World; distances are in lengths of `direction`.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -16,6 +18,19 @@ pub struct Ray {
     pub t_max: f32,
     /// When, from 0 to 1; the moment of the labels is 0.5.
     pub time: f32,
+}
+
+impl Hit {
+    /// None: instance and triangle are [`NONE`].
+    pub const NOTHING: Self = Self { t: f32::INFINITY, instance: NONE, triangle: NONE, u: 0.0, v: 0.0 };
+}
+
+impl Ray {
+    /// Another ray of the same time, to infinity.
+    #[inline]
+    pub fn then(&self, origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY, time: self.time }
+    }
 }
 
 /// Where a ray meets a triangle: the point is (1 − u − v)·a + u·b + v·c.

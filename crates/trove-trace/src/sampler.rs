@@ -5,6 +5,8 @@
 /// All samples of all pixels are points of one sequence, along a Z-curve over the picture that is shuffled within its
 /// squares (Ahmed, Wonka 2020): those of a pixel are stratified, and so are those of neighbouring pixels together,
 /// which makes the error blue noise. Every pair is a sequence of its own, shuffled and scrambled by a hash (Burley 2020).
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Sampler {
     index: u32,
     seed: u32,

@@ -5,6 +5,7 @@ use std::vec::Vec;
 
 use glam::{IVec3, Vec2, Vec3};
 
+use crate::flat::NONE;
 use crate::lookups::{Lookups, NOISE_SIDE};
 use crate::material::{Material, random3};
 use crate::texture::{Map, Texture};
@@ -35,11 +36,14 @@ pub(crate) fn plain() -> Material<NoMap> {
         wetness: 0.0,
         height_m: 0.0,
         height_of_mesh: 0.0,
+        emission: Vec3::ZERO,
+        beam: NONE,
         scale: Vec2::ONE,
         base_color_map: NoMap,
         orm_map: NoMap,
         normal_map: NoMap,
         height_map: NoMap,
+        emission_map: NoMap,
         is_triplanar: false,
         is_stochastic: false,
     }

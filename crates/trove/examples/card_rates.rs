@@ -1,4 +1,4 @@
-//! How fast a graphics card traces the renderer's rays and scatters light, and whether it answers what the processor does: `make bench-card`.
+//! How fast a graphics card traces the renderer's rays, and whether it finds what the processor finds: `make bench-card`.
 //!
 //! CAM_FRONT of a keyframe of scene-0103, one sample a pixel; the folder of real data is `TROVE_TEST_DATA`. An argument
 //! other than 1 scales the picture.
@@ -33,7 +33,7 @@ fn main() -> Result<()> {
     for rate in rates {
         let millions = |seconds: f64| rate.asked as f64 / seconds * 1e-6;
         println!(
-            "{}: {}, of which {} meet something or go on; {:.0} million a second on the card, {:.2} on one thread; {} \
+            "{}: {}, of which {} meet something; {:.0} million a second on the card, {:.2} on one thread; {} \
              answers differ; {} registers, {} bytes, {} threads at once",
             rate.sort,
             rate.asked,

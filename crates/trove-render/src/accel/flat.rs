@@ -21,6 +21,8 @@ pub(crate) struct Flat {
     placements: Vec<Placement>,
     motions: Vec<Motion>,
     meshes: Vec<(Bottom, Vec<Look>)>,
+    /// Each mesh, and its lowest z.
+    shown: Vec<(Arc<Mesh>, f32)>,
     materials: Vec<u32>,
 }
 
@@ -29,11 +31,12 @@ impl Flat {
     pub(crate) fn new(shapes: &Arc<Shapes>) -> Option<Self> {
         let over = over(&shapes.placed)?;
         let (mut placements, mut motions, mut materials) = (Vec::new(), Vec::new(), Vec::new());
-        let mut meshes: Vec<(&Arc<Mesh>, bool)> = Vec::new();
+        let (mut meshes, mut shown): (Vec<(&Arc<Mesh>, bool)>, _) = (Vec::new(), Vec::new());
         let mut numbers: BTreeMap<usize, u32> = BTreeMap::new();
         for placed in &shapes.placed {
             let mesh = *numbers.entry(Arc::as_ptr(&placed.mesh) as usize).or_insert_with(|| {
                 meshes.push((&placed.mesh, false));
+                shown.push((placed.mesh.clone(), placed.foot_z));
                 meshes.len() as u32 - 1
             });
             let judged = shapes.lets_pass(placed);
@@ -52,7 +55,12 @@ impl Flat {
             .into_iter()
             .map(|(mesh, judged)| (Bottom::new(mesh), if judged { looks(mesh) } else { Vec::new() }))
             .collect();
-        Some(Self { shapes: shapes.clone(), over, placements, motions, meshes, materials })
+        Some(Self { shapes: shapes.clone(), over, placements, motions, meshes, shown, materials })
+    }
+
+    /// Each mesh in the order of the tables, and its lowest z, metres.
+    pub(crate) fn meshes(&self) -> impl Iterator<Item = (&Mesh, f32)> {
+        self.shown.iter().map(|(mesh, foot_z)| (&**mesh, *foot_z))
     }
 
     /// The tables in some memory, into which `hold` puts each of them.

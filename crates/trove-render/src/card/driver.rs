@@ -216,6 +216,14 @@ impl<'a, T: Copy> Buffer<'a, T> {
         self.count * size_of::<T>()
     }
 
+    /// Other values in the same room, as many as fit.
+    pub(super) fn write(&self, values: &[T]) -> Result<(), String> {
+        let bytes = size_of_val(values).min(self.bytes());
+        // SAFETY: both places are at least so large.
+        let code = unsafe { (self.device.api.upload)(self.address, values.as_ptr().cast(), bytes) };
+        self.device.api.check("sending to a card", code)
+    }
+
     /// What lies there, which has to be values of the type, instead of what `values` holds.
     pub(super) fn read(&self, values: &mut [T]) -> Result<(), String> {
         let bytes = size_of_val(values).min(self.bytes());
@@ -249,17 +257,17 @@ impl Function<'_> {
         Ok(api.got("asking about a function", 0, ask)? as u32 * block)
     }
 
-    /// Runs it once for each of `count` rays of a scene and waits; seconds that it took on the card.
+    /// Runs it once for each of as many things as the last number says and waits; seconds that it took on the card.
     ///
     /// # Safety
-    /// It has to be a function of `trove_trace`'s over (scene, rays, answers, count), and what lies at the addresses what
-    /// that function wants.
-    pub(super) unsafe fn run(&self, addresses: [u64; 3], count: u32, block: u32) -> Result<f64, String> {
+    /// It has to be a function of `trove_trace`'s over these addresses and then these numbers, and what lies at the addresses
+    /// what that function wants.
+    pub(super) unsafe fn run(&self, addresses: &[u64], numbers: &[u32], block: u32) -> Result<f64, String> {
         let api = &self.device.api;
-        let [mut scene, mut rays, mut answers] = addresses;
-        let mut n = count;
-        let mut arguments: [*mut c_void; 4] =
-            [(&raw mut scene).cast(), (&raw mut rays).cast(), (&raw mut answers).cast(), (&raw mut n).cast()];
+        let count = numbers.last().copied().unwrap_or(0);
+        let of_addresses = addresses.iter().map(|address| ptr::from_ref(address).cast_mut().cast());
+        let of_numbers = numbers.iter().map(|number| ptr::from_ref(number).cast_mut().cast());
+        let mut arguments: Vec<*mut c_void> = of_addresses.chain(of_numbers).collect();
         let none: Handle = ptr::null_mut();
         // SAFETY: handles are alive, and the arguments are of the types of the function's parameters.
         unsafe {

@@ -1,24 +1,24 @@
 //! Rays on a graphics card: the functions of `trove_trace`, compiled to PTX, which the card's driver compiles for the card.
 
 mod driver;
+mod follow;
 mod rates;
+mod world;
 
-use std::ffi::CStr;
+use std::ffi::CString;
 
-use trove_trace::{FlatMaterials, FlatScene, Table};
+use trove_trace::{FlatWorld, Table};
 
 use self::driver::{Buffer, Device};
+use self::world::world;
+use crate::PreparedScene;
 use crate::accel::{Flat, Hold};
-use crate::material::{PreparedMaterial, flat};
 
 pub use rates::CardRate;
 pub(crate) use rates::card_rates;
 
 /// `trove_trace` for cards; `make ptx` writes it.
-const PTX: &CStr = match CStr::from_bytes_with_nul(concat!(include_str!("trace.ptx"), "\0").as_bytes()) {
-    Ok(ptx) => ptx,
-    Err(_) => panic!("PTX is text without zeros"),
-};
+const PTX: &str = include_str!("trace.ptx");
 
 /// Threads that start together; 64 to 256 differ by little.
 const BLOCK: u32 = 128;
@@ -34,7 +34,8 @@ impl Card {
     /// # Errors
     /// Why there is none that could be used: no driver, no card, or one that is too old or in use by somebody alone.
     pub fn find() -> Result<Self, String> {
-        Device::open(PTX).map(|device| Self { device })
+        let ptx = CString::new(PTX).map_err(|e| e.to_string())?;
+        Device::open(&ptx).map(|device| Self { device })
     }
 
     /// Name, memory, compute capability and driver, for people.
@@ -43,24 +44,23 @@ impl Card {
     }
 
     /// Puts a scene into the card's memory.
-    fn upload(&self, shapes: &Flat, materials: &[PreparedMaterial]) -> Result<Uploaded<'_>, String> {
+    fn upload(&self, shapes: &Flat, scene: &PreparedScene) -> Result<Uploaded<'_>, String> {
         let mut memory = Memory { device: &self.device, held: Vec::new() };
-        let (scene, materials) = (shapes.scene(&mut memory)?, flat(materials, &mut memory)?);
-        let (scene, materials) = (self.device.hold(&[scene])?, self.device.hold(&[materials])?);
-        Ok(Uploaded { scene, materials, held: memory.held })
+        let world = self.device.hold(&[world(scene, shapes, None, &mut memory)?])?;
+        Ok(Uploaded { world, held: memory.held })
     }
 }
 
 /// A scene in a card's memory.
 struct Uploaded<'a> {
-    scene: Buffer<'a, FlatScene>,
-    materials: Buffer<'a, FlatMaterials>,
+    /// Which begins with what rays meet.
+    world: Buffer<'a, FlatWorld>,
     held: Vec<Buffer<'a, u8>>,
 }
 
 impl Uploaded<'_> {
     fn bytes(&self) -> usize {
-        self.scene.bytes() + self.materials.bytes() + self.held.iter().map(Buffer::bytes).sum::<usize>()
+        self.world.bytes() + self.held.iter().map(Buffer::bytes).sum::<usize>()
     }
 }
 
@@ -80,6 +80,9 @@ impl Hold for Memory<'_> {
         Ok(table)
     }
 }
+
+#[cfg(test)]
+mod follows;
 
 #[cfg(test)]
 mod tests {
@@ -111,7 +114,7 @@ mod tests {
         let sources: String = hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
         let lock = std::fs::read_to_string(root.join("Cargo.lock")).unwrap();
         let glam = lock.split("name = \"glam\"\nversion = \"").nth(1).unwrap().split('"').next().unwrap();
-        let head: Vec<_> = PTX.to_str().unwrap().lines().filter_map(|line| line.strip_prefix("// ")).take(4).collect();
+        let head: Vec<_> = PTX.lines().filter_map(|line| line.strip_prefix("// ")).take(4).collect();
         assert_eq!(head[2..], [format!("glam {glam}"), format!("sources {sources}")], "run `make ptx`");
     }
 

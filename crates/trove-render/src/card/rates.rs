@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use glam::Vec3;
 use trove_model::Shot;
-use trove_trace::{Asked, Hit, NONE, Scattered, Vertex};
+use trove_trace::path::Sample;
+use trove_trace::{Asked, Hit, NONE};
 
-use super::{BLOCK, Card};
+use super::follow::{self, There, follow};
+use super::world::world;
+use super::{BLOCK, Card, Uploaded};
 use crate::PreparedScene;
 use crate::accel::{Flat, Here, asked};
-use crate::material::flat;
-use crate::path::{ray_sorts, vertices};
+use crate::path::{ray_sorts, starts};
 
 /// The best of so many runs counts: the first ones warm the card up.
 const RUNS: usize = 9;
@@ -19,11 +21,11 @@ const RUNS: usize = 9;
 /// What a function takes for all that it is asked.
 #[derive(Clone, Debug)]
 pub struct CardRate {
-    /// Rays of which sort, or what else.
+    /// Which rays.
     pub sort: &'static str,
     /// How many.
     pub asked: usize,
-    /// How many of the rays meet something, or vertices scatter light on.
+    /// How many of them meet something.
     pub met: usize,
     /// On the card, seconds.
     pub card_s: f64,
@@ -37,12 +39,12 @@ pub struct CardRate {
     pub at_once: u32,
 }
 
-/// Rates for the rays of one sample a pixel and what they meet, and bytes of the scene on the card.
+/// Rates for the rays of one sample a pixel, and bytes of the scene on the card.
 pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Result<(Vec<CardRate>, usize), String> {
     let shapes = Flat::new(&scene.shapes).ok_or("nothing is in the scene")?;
     let mut memory = Here::default();
-    let (Ok(here), Ok(materials)) = (shapes.scene(&mut memory), flat(&scene.materials, &mut memory));
-    let uploaded = card.upload(&shapes, &scene.materials)?;
+    let Ok(here) = shapes.scene(&mut memory);
+    let uploaded = card.upload(&shapes, scene)?;
     let nothing = Hit { t: f32::INFINITY, instance: NONE, triangle: NONE, u: 0.0, v: 0.0 };
     // SAFETY: the tables are as `Flat` makes them, and the memory lives on.
     let closest = |ray: &Asked| unsafe { here.closest(ray) }.unwrap_or(nothing);
@@ -52,7 +54,7 @@ pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Res
     let mut rates = Vec::new();
     for (sort, rays, is_shadow) in ray_sorts(scene, shot) {
         let rays: Vec<Asked> = rays.iter().map(asked).collect();
-        let among = uploaded.scene.address();
+        let among = uploaded.world.address();
         rates.push(if is_shadow {
             let question = Question { sort, function: c"blocked", among, asked: &rays };
             question.rate(card, 2, blocked, |is| *is == 1, |is| [*is])?
@@ -62,20 +64,46 @@ pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Res
             question.rate(card, Hit { instance: NONE - 1, ..nothing }, closest, |hit| hit.instance != NONE, bits)?
         });
     }
-    let vertices = vertices(scene, shot);
-    let (sort, among) = ("vertices", uploaded.materials.address());
-    let question = Question { sort, function: c"scatter", among, asked: &vertices };
-    // SAFETY: the tables are as `flat` makes them, and the memory lives on.
-    let scatter = |vertex: &Vertex| unsafe { materials.scatter(vertex) };
-    let unwritten = Scattered { light_pdf: f32::NAN, ..Scattered::default() };
-    rates.push(question.rate(card, unwritten, scatter, |on| on.wi != Vec3::ZERO, bits_of)?);
+    rates.push(of_paths(scene, shot, card, (&shapes, &uploaded))?);
     Ok((rates, uploaded.bytes()))
 }
 
-fn bits_of(on: &Scattered) -> [u32; 15] {
-    let Scattered { light, light_pdf, wi, pdf, weight, spread_rad, albedo } = on;
-    let [[a, b, c], [d, e, f], [g, h, i], [j, k, l]] = [light, wi, weight, albedo].map(Vec3::to_array);
-    [a, b, c, d, e, f, g, h, i, j, k, l, *light_pdf, *pdf, *spread_rad].map(f32::to_bits)
+/// Whole paths, one a pixel, and what they bring.
+fn of_paths(
+    scene: &PreparedScene,
+    shot: &Shot,
+    card: &Card,
+    (shapes, uploaded): (&Flat, &Uploaded<'_>),
+) -> Result<CardRate, String> {
+    let starts = starts(scene, shot);
+    let mut memory = Here::default();
+    let Ok(world) = world(scene, shapes, None, &mut memory);
+    let mut card_s = f64::INFINITY;
+    let mut samples = Vec::new();
+    for _ in 0..RUNS {
+        let mut there = There::new(&card.device, uploaded, &starts)?;
+        follow(&mut there, starts.len())?;
+        card_s = card_s.min(there.seconds);
+        samples = there.samples(starts.len())?;
+    }
+    let started = Instant::now();
+    // SAFETY: the tables are as `world` makes them, and the memory lives on.
+    let mut here = unsafe { follow::Here::new(&world, &starts) };
+    follow(&mut here, starts.len())?;
+    let processor_s = started.elapsed().as_secs_f64();
+    let bits =
+        |sample: &Sample| [sample.radiance, sample.albedo, sample.normal].map(|v| v.to_array().map(f32::to_bits));
+    let function = card.device.function(c"turn")?;
+    Ok(CardRate {
+        sort: "paths",
+        asked: starts.len(),
+        met: here.samples().iter().filter(|sample| sample.radiance != Vec3::ZERO).count(),
+        card_s,
+        processor_s,
+        differ: samples.iter().zip(here.samples()).filter(|(a, b)| bits(a) != bits(b)).count(),
+        takes: function.takes()?,
+        at_once: function.threads_at_once(BLOCK)? * card.device.multiprocessors,
+    })
 }
 
 /// What one function is asked.
@@ -107,7 +135,7 @@ impl<A: Copy> Question<'_, A> {
             let addresses = [among, sent.address(), room.address()];
             // SAFETY: the tables are what the function needs, and there are as many questions and places for answers as it
             // is told.
-            card_s = card_s.min(unsafe { function.run(addresses, asked.len() as u32, BLOCK)? });
+            card_s = card_s.min(unsafe { function.run(&addresses, &[asked.len() as u32], BLOCK)? });
         }
         room.read(&mut answers)?;
 

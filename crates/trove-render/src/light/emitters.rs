@@ -17,8 +17,18 @@ use crate::texture::{Glow, MapOf};
 /// Which rays that start on an instance do not end on it.
 pub(crate) type GetsAway<'a> = dyn Fn(u32, &[Ray; PROBES]) -> [bool; PROBES] + Sync + 'a;
 
-/// Radiance of a material, by its index, and what it is multiplied by where.
-pub(crate) type Emission<'a> = dyn Fn(usize) -> (Vec3, Option<Glow>) + 'a;
+/// How a material shines.
+pub(crate) struct Shines {
+    /// Where it is brightest.
+    pub(crate) radiance: Vec3,
+    /// What that is multiplied by where.
+    pub(crate) glow: Option<Glow>,
+    /// Index of its beam; [`NONE`] for none.
+    pub(crate) beam: u32,
+}
+
+/// How a material shines, by its index.
+pub(crate) type Emission<'a> = dyn Fn(usize) -> Shines + 'a;
 
 /// Rays by which a triangle's share of light that gets away is measured, a square number.
 pub(crate) const PROBES: usize = 16;
@@ -62,7 +72,7 @@ impl Emitters {
                 let [a, b, c]: [DVec3; 3] = corners.map(at);
                 let cross = (b - a).cross(c - a).as_vec3() * side;
                 if cross.length() > 0.0 {
-                    let (brightest, glow) = emission(index);
+                    let Shines { radiance: brightest, glow, beam: beam_index } = emission(index);
                     let pattern = glow.filter(|_| !mesh.uvs.is_empty()).map(|Glow { map, scale }| {
                         let uvs = corners.map(|c| mesh.uvs[c as usize]);
                         Pattern { brightest, scale, uvs, map: MapOf(Some(map)) }
@@ -75,7 +85,7 @@ impl Emitters {
                         let known = aims[first_aim..].iter().position(|aim: &Aim| Arc::ptr_eq(&aim.beam, beam));
                         let index = first_aim + known.unwrap_or(aims.len() - first_aim);
                         if index == aims.len() {
-                            aims.push(Aim::new(beam.clone(), mesh_from_world));
+                            aims.push(Aim::new(beam.clone(), beam_index, mesh_from_world));
                         }
                         index as u32
                     });
@@ -120,8 +130,8 @@ impl Emitters {
     }
 
     /// To be looked up.
-    pub(super) fn view(&self) -> light::Emitters<'_, MapOf> {
-        light::Emitters { triangles: &self.triangles, patterns: &self.patterns, tree: self.tree.view() }
+    pub(super) fn view<'a>(&'a self, beams: light::Beams<'a>) -> light::Emitters<'a, MapOf> {
+        light::Emitters { triangles: &self.triangles, patterns: &self.patterns, tree: self.tree.view(beams) }
     }
 }
 
@@ -175,6 +185,7 @@ mod tests {
     use trove_trace::light::EmitterPoint;
 
     use super::*;
+    use crate::light::beams::Beams;
     use crate::light::cdf::Lists;
 
     /// A box at a place that shines on all sides.
@@ -194,12 +205,24 @@ mod tests {
         })
     }
 
-    fn emitters(triangles: Vec<Emitter>, aims: Vec<Aim>) -> Emitters {
-        Emitters::of(triangles, Vec::new(), &aims, |_| 1.0).unwrap()
+    /// Lights and their beams.
+    struct Street(Emitters, Beams);
+
+    impl Street {
+        fn view(&self) -> light::Emitters<'_, MapOf> {
+            self.0.view(self.1.view())
+        }
+    }
+
+    /// Lights of which all aims have one beam.
+    fn emitters(triangles: Vec<Emitter>, aims: Vec<Aim>) -> Street {
+        let mut beams = Beams::default();
+        aims.first().map(|aim| beams.index(&aim.beam));
+        Street(Emitters::of(triangles, Vec::new(), &aims, |_| 1.0).unwrap(), beams)
     }
 
     /// Lamps along a street, 300 of them on both sides, some a hundred times as bright.
-    fn street() -> Emitters {
+    fn street() -> Street {
         let lamps = (0..300).flat_map(|i| {
             let at = Vec3::new((i / 2) as f32 * 6.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 5.0 + (i % 3) as f32);
             lamp(i, at, if i % 7 == 0 { 100.0 } else { 1.0 + (i % 5) as f32 }, None)
@@ -208,14 +231,14 @@ mod tests {
     }
 
     /// Far fewer lamps, and cars between them whose beams are a thousand times as bright ahead and on the road as elsewhere.
-    fn street_with_cars() -> Emitters {
+    fn street_with_cars() -> Street {
         let beam = Beam::new(vec![-12.0, -10.0, 10.0, 12.0], vec![-9.0, -7.0, -0.5, 0.0], {
             let row = |level: f32| [0.001, level, level, 0.001];
             [row(0.001), row(1.0), row(1.0), row(0.001)].concat()
         });
         let beam = Arc::new(beam.unwrap());
         let (ahead, towards) = (Mat3::IDENTITY, Mat3::from_rotation_z(PI));
-        let aims = (0..40).map(|i| Aim::new(beam.clone(), if i % 2 == 0 { ahead } else { towards }));
+        let aims = (0..40).map(|i| Aim::new(beam.clone(), 0, if i % 2 == 0 { ahead } else { towards }));
         let lamps = (0..30).flat_map(|i| {
             let at = Vec3::new((i / 2) as f32 * 60.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 7.0);
             lamp(i, at, 20.0, None)
@@ -229,7 +252,7 @@ mod tests {
     }
 
     /// As many lamps as along a street, each with its own aim, whose beams look down and along the road.
-    fn street_with_tables() -> Emitters {
+    fn street_with_tables() -> Street {
         let steps = |count: i32, least: f32| -> Vec<f32> { (0..=count).map(|i| least + 5.0 * i as f32).collect() };
         let beam = Beam::of(&steps(72, -180.0), &steps(36, -90.0), |toward| {
             let gamma_deg = (-toward.z).acos().to_degrees();
@@ -238,7 +261,7 @@ mod tests {
         });
         let beam = Arc::new(beam.unwrap());
         let turns = [PI / 2.0, -PI / 2.0];
-        let aims = (0..200).map(|i| Aim::new(beam.clone(), Mat3::from_rotation_z(-turns[i as usize % 2])));
+        let aims = (0..200).map(|i| Aim::new(beam.clone(), 0, Mat3::from_rotation_z(-turns[i as usize % 2])));
         let lamps = (0..200).flat_map(|i| {
             let at = Vec3::new((i / 2) as f32 * 30.0, if i % 2 == 0 { -8.0 } else { 8.0 }, 8.0);
             lamp(i, at, 20.0, Some(i))
@@ -260,8 +283,8 @@ mod tests {
 
     /// The noise of one sample relative to the light at each place, and of one that is drawn by power alone; fails where the
     /// mean is not the light.
-    fn noise(street: &Emitters) -> Vec<[f64; 2]> {
-        let powers: Vec<f64> = street.triangles.iter().map(|e| f64::from(power(e))).collect();
+    fn noise(street: &Street) -> Vec<[f64; 2]> {
+        let powers: Vec<f64> = street.0.triangles.iter().map(|e| f64::from(power(e))).collect();
         let mut lists = Lists::default();
         lists.append(&powers);
         let by_power = lists.one();
@@ -269,7 +292,7 @@ mod tests {
         let mut unit = || random.unit() as f32;
         let on = |e: &Emitter, place: Vec3, u: [f32; 2], probability: f32| {
             let point = e.point(u);
-            let tree = street.tree.view();
+            let tree = street.view().tree;
             let aim = tree.aims.get(e.aim as usize);
             let share = aim.map_or(1.0, |aim| tree.beams.aimed(aim, place - point));
             let is_lit = e.cross.dot(place - point) > 0.0;
@@ -279,7 +302,7 @@ mod tests {
         let measured = places().into_iter().map(|place| {
             // All lamps, finely: those in view, from the side that faces the place.
             let mut truth = 0.0;
-            for e in &street.triangles {
+            for e in &street.0.triangles {
                 let n = 8;
                 for k in 0..n * n {
                     let u = [k / n, k % n].map(|i| (i as f32 + 0.5) / n as f32);
@@ -297,7 +320,7 @@ mod tests {
                 sum += part;
                 squares += part * part;
                 let (index, _) = by_power.draw(u[0]);
-                let drawn = on(&street.triangles[index], place.0, [u[1], u[2]], by_power.probability(index));
+                let drawn = on(&street.0.triangles[index], place.0, [u[1], u[2]], by_power.probability(index));
                 squares_by_power += drawn.map_or(0.0, |drawn| brought(&drawn, place).powi(2));
             }
             let n = f64::from(draws);
@@ -327,7 +350,7 @@ mod tests {
         };
         let steps = |count: i32, least: f32| -> Vec<f32> { (0..=count).map(|i| least + 2.0 * i as f32).collect() };
         let beam = Beam::of(&steps(180, -180.0), &steps(42, -90.0), |toward| candelas(toward) / (0.04 * -toward.z));
-        let aim = Aim::new(Arc::new(beam.unwrap()), Mat3::IDENTITY);
+        let aim = Aim::new(Arc::new(beam.unwrap()), 0, Mat3::IDENTITY);
         let at = Vec3::new(0.0, 0.0, 8.0);
         let half = |number: u32, sign: f32| {
             let edges = [Vec3::Y * 0.2 * sign, Vec3::X * 0.2 * sign];
@@ -364,7 +387,7 @@ mod tests {
     fn what_gets_away_of_a_lamp_is_what_its_surroundings_let_through() {
         // With nothing around it, closed in, and with half of all ways closed.
         let lamp = emitters(lamp(3, Vec3::ZERO, 1.0, None).collect(), Vec::new());
-        for e in &lamp.triangles {
+        for e in &lamp.0.triangles {
             let normal = e.cross.normalize();
             let share = |away: &(dyn Fn(&Ray) -> bool + Sync)| measured(e, &|_, rays| rays.each_ref().map(away));
             assert_eq!(share(&|ray| ray.through_glass && ray.direction.dot(normal) > 0.0), 1.0);
@@ -384,12 +407,12 @@ mod tests {
         claimed_probabilities_hold(&street_with_tables());
     }
 
-    fn claimed_probabilities_hold(street: &Emitters) {
+    fn claimed_probabilities_hold(street: &Street) {
         let mut random = Seed(6).random();
         let place = places()[3];
         let draws = 100_000;
         let shining = street.view();
-        let mut drawn = vec![0.0; street.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
+        let mut drawn = vec![0.0; street.0.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
         for _ in 0..draws {
             let u = [random.unit() as f32, random.unit() as f32, random.unit() as f32];
             let Some(point) = shining.draw(&LOOKUPS, &shining.tree.cut(place.0, place.1), place.0, place.1, u) else {
@@ -399,7 +422,7 @@ mod tests {
                 let above = e.cross.normalize().dot(point.point - e.corner).abs();
                 above < 1e-4 && (point.point - e.centre()).length() < 0.3
             };
-            let e = street.triangles.iter().filter(near).min_by(|a, b| {
+            let e = street.0.triangles.iter().filter(near).min_by(|a, b| {
                 let claimed = |e: &Emitter| (shining.pdf(e.key, place.0, place.1, point.point) / point.pdf - 1.0).abs();
                 claimed(a).total_cmp(&claimed(b))
             });
@@ -408,8 +431,8 @@ mod tests {
             drawn[e.key[0] as usize] += 1.0;
         }
         let weight = |e: &Emitter| shining.pdf(e.key, place.0, place.1, e.centre()) / e.density(place.0, e.centre());
-        let mut expected = vec![0.0; street.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
-        for e in &street.triangles {
+        let mut expected = vec![0.0; street.0.triangles.last().map_or(0, |e| e.key[0] as usize + 1)];
+        for e in &street.0.triangles {
             expected[e.key[0] as usize] += f64::from(weight(e)) * f64::from(draws);
         }
         let total: f64 = expected.iter().sum();

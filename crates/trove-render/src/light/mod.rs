@@ -1,5 +1,6 @@
 //! Where light comes from, made ready: sky, sun, environment map, emitters.
 
+mod beams;
 mod cdf;
 mod cells;
 mod clouds;
@@ -20,9 +21,10 @@ use trove_trace::light::{Haze, Sun};
 
 use crate::lookups::LOOKUPS;
 use crate::texture::MapOf;
+pub(crate) use beams::Beams;
 use dome::Dome;
 use emitters::Emitters;
-pub(crate) use emitters::{Emission, GetsAway, PROBES};
+pub(crate) use emitters::{Emission, GetsAway, PROBES, Shines};
 use haze::haze;
 pub use sky::{BakedSky, bake_sky};
 use sun_in_map::take_sun;
@@ -96,6 +98,7 @@ fn is_same(a: &Environment, b: &Environment) -> bool {
 /// What [`light::Lights`](trove_trace::light::Lights) looks up.
 pub(crate) struct Lights {
     around: Arc<Surroundings>,
+    beams: Beams,
     emitters: Option<Emitters>,
     emitter_share: f32,
     scale: f32,
@@ -105,6 +108,7 @@ impl Lights {
     pub(crate) fn new(
         scene: &Scene,
         emission: &Emission<'_>,
+        beams: Beams,
         around: Arc<Surroundings>,
         gets_away: &GetsAway<'_>,
     ) -> Self {
@@ -116,7 +120,7 @@ impl Lights {
         let even = from_emitters / (from_emitters + from_sky).max(f32::MIN_POSITIVE);
         let emitter_share = if emitters.is_some() { even.clamp(0.1, 0.9) } else { 0.0 };
         let scale = (from_sky + from_sun + from_emitters) / PI;
-        Self { around, emitters, emitter_share, scale: scale.max(f32::MIN_POSITIVE) }
+        Self { around, beams, emitters, emitter_share, scale: scale.max(f32::MIN_POSITIVE) }
     }
 
     /// To be looked up.
@@ -127,7 +131,8 @@ impl Lights {
             sun: *sun,
             haze: *haze,
             sky: dome.view(),
-            emitters: self.emitters.as_ref().map(Emitters::view),
+            beams: self.beams.view(),
+            emitters: self.emitters.as_ref().map(|emitters| emitters.view(self.beams.view())),
             emitter_share: self.emitter_share,
             scale: self.scale,
         }
@@ -186,9 +191,10 @@ mod tests {
         let (around, textures) = (LastSurroundings::default().get(&scene.light.environment), Textures::default());
         let emission = |index: usize| {
             let Material { emission, emission_map, .. } = &scene.materials[index];
-            (*emission, emission_map.as_ref().map(|map| Glow::new(textures.map(map), Vec2::ONE)))
+            let glow = emission_map.as_ref().map(|map| Glow { map: textures.map(map), scale: Vec2::ONE });
+            Shines { radiance: *emission, glow, beam: trove_trace::NONE }
         };
-        Lights::new(scene, &emission, around, &|_, _| [true; PROBES])
+        Lights::new(scene, &emission, Beams::default(), around, &|_, _| [true; PROBES])
     }
 
     #[test]

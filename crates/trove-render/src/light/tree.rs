@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
 use trove_model::Beam;
-use trove_trace::light::{self, BeamTable, Beams, Group, GroupAim, LEAF};
+use trove_trace::light::{self, Beams, Group, GroupAim, LEAF};
 
 /// A beam that fills more than this at its brightest is broad, as street lamps' are; low beams fill some hundredths.
 const BROAD_SR: f32 = 0.5;
@@ -31,15 +31,16 @@ pub(super) struct TreeEntry {
 /// A beam, turned.
 pub(super) struct Aim {
     pub(super) beam: Arc<Beam>,
+    index: u32,
     mesh_from_world: Mat3,
     /// Whether its light is spread so wide that groups of it need no telling apart.
     pub(super) is_broad: bool,
 }
 
 impl Aim {
-    pub(super) fn new(beam: Arc<Beam>, mesh_from_world: Mat3) -> Self {
+    pub(super) fn new(beam: Arc<Beam>, index: u32, mesh_from_world: Mat3) -> Self {
         let is_broad = beam.flux() > BROAD_SR * beam.most();
-        Self { beam, mesh_from_world, is_broad }
+        Self { beam, index, mesh_from_world, is_broad }
     }
 
     /// What it leaves of the flux of a matt surface with a normal, World, of any length but 0.
@@ -54,8 +55,6 @@ pub(super) struct Tree {
     order: Vec<u32>,
     leaf_of: Vec<u32>,
     aims: Vec<light::Aim>,
-    tables: Vec<BeamTable>,
-    numbers: Vec<f32>,
 }
 
 impl Tree {
@@ -63,32 +62,16 @@ impl Tree {
     pub(super) fn new(entries: &[TreeEntry], aims: &[Aim]) -> Self {
         let order = (0..entries.len() as u32).collect();
         let (groups, leaf_of) = (Vec::new(), vec![0; entries.len()]);
-        let mut tree = Self { groups, order, leaf_of, aims: Vec::new(), tables: Vec::new(), numbers: Vec::new() };
+        let mut tree = Self { groups, order, leaf_of, aims: Vec::new() };
         tree.grow(entries, 0, entries.len(), 0);
-        let mut beams: Vec<&Arc<Beam>> = Vec::new();
-        for Aim { beam, mesh_from_world, .. } in aims {
-            let known = beams.iter().position(|other| Arc::ptr_eq(other, beam));
-            let index = known.unwrap_or_else(|| {
-                beams.push(beam);
-                tree.list(beam);
-                beams.len() - 1
-            });
-            tree.aims.push(light::Aim { mesh_from_world: *mesh_from_world, beam: index as u32 });
-        }
+        tree.aims.extend(aims.iter().map(|aim| light::Aim { mesh_from_world: aim.mesh_from_world, beam: aim.index }));
         tree
     }
 
-    fn list(&mut self, beam: &Beam) {
-        let [azimuths, elevations, shares] = beam.table();
-        let first = self.numbers.len() as u32;
-        self.tables.push(BeamTable { first, azimuths: azimuths.len() as u32, elevations: elevations.len() as u32 });
-        [azimuths, elevations, shares].into_iter().for_each(|part| self.numbers.extend_from_slice(part));
-    }
-
     /// To be looked up.
-    pub(super) fn view(&self) -> light::Tree<'_> {
-        let Self { groups, order, leaf_of, aims, tables, numbers } = self;
-        light::Tree { groups, order, leaf_of, aims, beams: Beams { tables, numbers } }
+    pub(super) fn view<'a>(&'a self, beams: Beams<'a>) -> light::Tree<'a> {
+        let Self { groups, order, leaf_of, aims } = self;
+        light::Tree { groups, order, leaf_of, aims, beams }
     }
 
     fn grow(&mut self, entries: &[TreeEntry], start: usize, end: usize, parent: u32) {

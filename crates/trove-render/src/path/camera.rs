@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Vec3};
 use trove_model::Shot;
+use trove_trace::path::Cone;
 
-use super::integrate::Cone;
 use crate::motion::{MIDDLE, ray_time};
 use crate::ray::Ray;
 

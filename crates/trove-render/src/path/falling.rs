@@ -7,9 +7,9 @@
 use glam::{DVec2, DVec3, IVec3, Vec3};
 use rayon::prelude::*;
 use trove_model::{Form, Precipitation, Raster, Seed, Shot};
+use trove_trace::path::{Cone, Start};
 use trove_trace::{Basis, Sampler, disk};
 
-use super::integrate::{Cone, Path};
 use super::splash;
 use super::streak::{REACH_M, Streak, cover};
 use super::wave::Wave;
@@ -146,8 +146,8 @@ fn light(scene: &PreparedScene, shot: &Shot, form: Form, depth_m: &Raster<f32>) 
                 Form::Rain => through_drop(towards, onwards, which[0]),
                 Form::Snow => anywhere(onwards),
             };
-            let ray = Ray::new(origin, from);
-            wave.paths.push(Path::new(ray, Cone { width_m: 0.0, spread_rad: 0.05 }, sampler));
+            let cone = Cone { width_m: 0.0, spread_rad: 0.05 };
+            wave.starts.push(Start { ray: Ray::new(origin, from).plain(), past: 0, cone, sampler });
         }
         wave.run(scene, None);
         wave.paths.iter().map(|path| path.sample().radiance).sum::<Vec3>() / PATHS as f32

@@ -64,7 +64,7 @@ struct Seen {
 pub(super) fn fill(scene: &PreparedScene, place: [i32; 3]) -> LightField {
     let sites: Vec<Site> = LightField::sites(place).collect();
     let seen: Vec<Seen> = sites.par_iter().map(|site| seen(scene, site)).collect();
-    let nodes = seen.iter().map(|seen| seen.node.clone()).collect();
+    let nodes = seen.iter().map(|seen| seen.node).collect();
     let mut field = LightField::new(place, nodes);
     let met: Vec<Vec<Met>> =
         sites.par_iter().zip(&seen).map(|(site, seen)| met(scene, &field.view(), site, seen)).collect();

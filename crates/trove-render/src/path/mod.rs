@@ -1,10 +1,10 @@
-//! Light carried along random paths from the eye: unidirectional path tracing with light sampling.
+//! Light carried along random paths from the eye: the paths that `trove_trace::path` follows.
 
 mod camera;
 pub(crate) mod falling;
 mod fill;
-mod integrate;
 mod rates;
+mod seen;
 mod splash;
 mod splat;
 pub(crate) mod streak;
@@ -19,10 +19,21 @@ use trove_model::{Raster, Shot};
 use crate::PreparedScene;
 use crate::prepare::Carrier;
 pub use rates::{RaySeconds, RayTimes};
-pub(crate) use rates::{ray_sorts, ray_times, vertices};
+pub(crate) use rates::{ray_sorts, ray_times, starts};
+#[cfg(test)]
+pub(crate) use seen::Seen;
 use splat::{MARGIN_PX, Splat};
 use tile::{Eye, Tile};
 use wave::Wave;
+
+/// What paths bring that begin there.
+#[cfg(test)]
+pub(crate) fn followed(scene: &PreparedScene, starts: Vec<trove_trace::path::Start>) -> Vec<trove_trace::path::Sample> {
+    let mut wave = Wave::default();
+    wave.starts = starts;
+    wave.run(scene, None);
+    wave.paths.iter().map(|path| path.sample()).collect()
+}
 
 /// A picture and the denoiser's guides.
 pub(crate) struct Buffers {

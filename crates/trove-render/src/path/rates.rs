@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use glam::Vec3;
 use trove_model::Shot;
-use trove_trace::Sampler;
+use trove_trace::path::{Path, Shadow, Start, advance};
 
-use super::integrate::{Path, Shadow, Shadows, Vertex};
-use super::tile::{Eye, tiles};
-use super::wave::{self, Wave};
+use super::seen::Seen;
+use super::tile::{Eye, Tile, tiles};
+use super::wave::{self, Shadows, Wave};
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::prepare::Carrier;
@@ -38,22 +38,20 @@ pub struct RayTimes {
 }
 
 pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
-    let (carrier, lights) = (Carrier::new(scene, shot.carrier), &scene.lights.view());
+    let (carrier, seen) = (Carrier::new(scene, shot.carrier), Seen::new(scene, None));
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
     let (mut times, mut wave) = (RayTimes::default(), Wave::default());
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
         tile.start(&eye, &mut wave);
-        let mut paths = std::mem::take(&mut wave.paths);
+        let mut paths: Vec<Path> = wave.starts.iter().map(|start| Path::new(*start)).collect();
         let hits = closest(scene, &mut times.camera, &paths, Coherence::Coherent);
 
         let mut shadows = Shadows::default();
-        let advance = |(index, (path, hit)): (u32, (&mut Path, Option<Hit>))| {
-            Vertex { scene, lights, field: None, index, shadows: &mut shadows }.advance(path, hit)
-        };
-        let goes_on: Vec<bool> = (0..).zip(paths.iter_mut().zip(hits)).map(advance).collect();
+        let turn = |(path, hit): (&mut Path, Option<Hit>)| shadows.take(0, &advance(&seen, path, hit));
+        let goes_on: Vec<bool> = paths.iter_mut().zip(hits).map(turn).collect();
         let lists = [(&shadows.to_sun, Coherence::Coherent), (&shadows.to_rest, Coherence::Incoherent)];
         for (list, coherence) in lists {
-            let rays: Vec<Ray> = list.iter().map(|shadow| shadow.ray).collect();
+            let rays: Vec<Ray> = list.iter().map(|(_, shadow)| shadow.ray.into()).collect();
             let mut light = vec![Vec3::ONE; rays.len()];
             let groups = rays.chunks(PACKET).zip(light.chunks_mut(PACKET));
             times.shadow.take(
@@ -71,15 +69,15 @@ pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
 
 /// Rays of one sample a pixel by sort, and whether they only ask if anything is met.
 pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, Vec<Ray>, bool); 5] {
-    let (carrier, lights) = (Carrier::new(scene, shot.carrier), &scene.lights.view());
+    let (carrier, seen) = (Carrier::new(scene, shot.carrier), Seen::new(scene, None));
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
     let mut wave = Wave::default();
     let (mut closest, mut shadows) = ([const { Vec::new() }; 3], Shadows::default());
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
         tile.start(&eye, &mut wave);
-        let mut paths = std::mem::take(&mut wave.paths);
+        let mut paths: Vec<Path> = wave.starts.iter().map(|start| Path::new(*start)).collect();
         for (bounce, rays) in closest.iter_mut().enumerate() {
-            let all = paths.iter().map(|path| path.ray);
+            let all = paths.iter().map(Ray::from);
             rays.extend(all.clone());
             if bounce == 2 {
                 break;
@@ -88,15 +86,16 @@ pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, V
             scene.closest(&all.collect::<Vec<_>>(), Coherence::Incoherent, &mut hits);
             let mut unused = Shadows::default();
             let shadows = if bounce == 0 { &mut shadows } else { &mut unused };
-            let mut hits = (0..).zip(hits);
+            let mut hits = hits.into_iter();
             paths.retain_mut(|path| {
-                let (index, hit) = hits.next().expect("one for each path");
-                Vertex { scene, lights, field: None, index, shadows }.advance(path, hit)
+                let hit = hits.next().expect("one for each path");
+                shadows.take(0, &advance(&seen, path, hit))
             });
         }
     }
     // Shares of panes are no question of what is met.
-    let asked = |list: Vec<Shadow>| list.into_iter().map(|shadow| Ray { through_glass: true, ..shadow.ray }).collect();
+    let through = |(_, shadow): (u32, Shadow)| Ray { through_glass: true, ..shadow.ray.into() };
+    let asked = |list: Vec<(u32, Shadow)>| list.into_iter().map(through).collect();
     let [camera, first, second] = closest;
     [
         ("camera", camera, false),
@@ -107,26 +106,21 @@ pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, V
     ]
 }
 
-/// Where the rays of one sample a pixel arrive first, with light asked for from straight above.
-pub(crate) fn vertices(scene: &PreparedScene, shot: &Shot) -> Vec<trove_trace::Vertex> {
-    let [(_, camera, _), ..] = ray_sorts(scene, shot);
-    let mut hits = vec![None; camera.len()];
-    scene.closest(&camera, Coherence::Incoherent, &mut hits);
-    let mut sampler = Sampler::new(shot.seed.0, [0, 0], 0, 0);
-    let vertex = |(ray, hit): (&Ray, Option<Hit>)| {
-        let hit = hit?;
-        let (surface, _) = scene.surface(&hit, ray);
-        let material = scene.placed(hit.instance).material(&hit) as u32;
-        let ([lobe, dither], [u0, u1]) = (sampler.next2(), sampler.next2());
-        let (to_light, u) = (Vec3::Z, [lobe, u0, u1]);
-        Some(trove_trace::Vertex { surface, to_light, width_m: hit.t / shot.lens.fx_px as f32, u, dither, material })
+/// Where the paths of one sample a pixel begin.
+pub(crate) fn starts(scene: &PreparedScene, shot: &Shot) -> Vec<Start> {
+    let carrier = Carrier::new(scene, shot.carrier);
+    let eye = Eye { scene, shot, carrier: &carrier, field: None };
+    let mut wave = Wave::default();
+    let of_tile = |mut tile: Tile| {
+        tile.start(&eye, &mut wave);
+        wave.starts.clone()
     };
-    camera.iter().zip(hits).filter_map(vertex).collect()
+    tiles(shot.lens.width_px, shot.lens.height_px).into_iter().flat_map(of_tile).collect()
 }
 
 /// What the paths' rays meet, both ways.
 fn closest(scene: &PreparedScene, seconds: &mut RaySeconds, paths: &[Path], coherence: Coherence) -> Vec<Option<Hit>> {
-    let rays: Vec<Ray> = paths.iter().map(|path| path.ray).collect();
+    let rays: Vec<Ray> = paths.iter().map(Ray::from).collect();
     let all: Vec<u32> = (0..paths.len() as u32).collect();
     let mut found = Vec::with_capacity(paths.len());
     let trace = || {

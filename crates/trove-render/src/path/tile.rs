@@ -5,9 +5,9 @@ use std::ops::Range;
 use glam::{DVec2, Vec3};
 use trove_model::Shot;
 use trove_trace::Sampler;
+use trove_trace::path::{Sample, Start};
 
 use super::camera::camera_ray;
-use super::integrate::{Path, Sample};
 use super::splat::{BLOCK_PX, MARGIN_PX, Place, Splats, brightness};
 use super::wave::Wave;
 use crate::PreparedScene;
@@ -117,7 +117,7 @@ impl Tile {
     fn start_blocks(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[usize]) {
         let shot = eye.shot;
         let log2_count = shot.spp.max(1).next_power_of_two().ilog2();
-        wave.paths.clear();
+        wave.starts.clear();
         wave.places.clear();
         for &index in blocks {
             let block = &mut self.blocks[index];
@@ -130,7 +130,9 @@ impl Tile {
                 let corner = DVec2::from(block.corner.map(f64::from)) - f64::from(MARGIN_PX);
                 let at = corner + DVec2::from(position.map(f64::from));
                 if let Some((ray, cone)) = camera_ray(shot, at, within) {
-                    wave.paths.push(Path::new(eye.carrier.past(ray), cone, sampler));
+                    let ray = eye.carrier.past(ray);
+                    let past = ray.past.map_or(0, |id| id.0);
+                    wave.starts.push(Start { ray: ray.plain(), past, cone, sampler });
                     wave.places.push(Place { block: index, pixel, position });
                 } else {
                     // Where the lens shows nothing the picture is black.

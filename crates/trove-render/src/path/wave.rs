@@ -1,18 +1,38 @@
 //! Paths of neighbouring pixels that advance together, so that their rays may be traced together.
 
 use glam::Vec3;
+use trove_trace::path::{Path, Shadow, Start, Turn, advance};
 
-use super::integrate::{Path, Shadows, Vertex};
+use super::seen::Seen;
 use super::splat::Place;
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::field::LightField;
 use crate::ray::{Hit, Ray};
 
+/// Shadow rays to trace, each with the index of its path.
+#[derive(Default)]
+pub(super) struct Shadows {
+    /// All in nearly the same direction.
+    pub(super) to_sun: Vec<(u32, Shadow)>,
+    /// To the sky and to lamps.
+    pub(super) to_rest: Vec<(u32, Shadow)>,
+}
+
+impl Shadows {
+    /// Those of a path; whether it goes on.
+    pub(super) fn take(&mut self, path: u32, turn: &Turn) -> bool {
+        self.to_sun.extend(turn.to_sun.map(|shadow| (path, shadow)));
+        self.to_rest.extend(turn.to_rest.map(|shadow| (path, shadow)));
+        turn.goes_on
+    }
+}
+
 /// Paths under way, with room that is used again and again.
 #[derive(Default)]
 pub(super) struct Wave {
     /// In an order in which [`PACKET`] successive ones start alike.
+    pub(super) starts: Vec<Start>,
     pub(super) paths: Vec<Path>,
     /// Where in its tile each path's sample belongs.
     pub(super) places: Vec<Place>,
@@ -24,9 +44,11 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Follows all paths to their ends.
+    /// Follows all paths from their starts to their ends.
     pub(super) fn run(&mut self, scene: &PreparedScene, field: Option<&LightField>) {
-        let (lights, field) = (&scene.lights.view(), field.map(LightField::view));
+        let seen = Seen::new(scene, field);
+        self.paths.clear();
+        self.paths.extend(self.starts.iter().map(|start| Path::new(*start)));
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         let mut coherence = Coherence::Coherent;
@@ -37,14 +59,13 @@ impl Wave {
                 closest(scene, coherence, &self.paths, group, &mut hits);
                 self.rays += group.len() as u64;
                 for (&index, hit) in group.iter().zip(hits) {
-                    let path = &mut self.paths[index as usize];
-                    let mut vertex = Vertex { scene, lights, field: field.as_ref(), index, shadows: &mut self.shadows };
-                    if vertex.advance(path, hit) {
+                    let turn = advance(&seen, &mut self.paths[index as usize], hit);
+                    if self.shadows.take(index, &turn) {
                         self.going.push(index);
                     }
                 }
             }
-            self.light(scene, coherence, lights.scale);
+            self.light(scene, coherence, seen.lights.scale);
             std::mem::swap(&mut self.active, &mut self.going);
             coherence = Coherence::Incoherent;
         }
@@ -56,14 +77,14 @@ impl Wave {
         for (shadows, coherence) in lists {
             self.rays += shadows.len() as u64;
             for group in shadows.chunks(PACKET) {
-                let mut rays = [group[0].ray; PACKET];
+                let mut rays = [Ray::from(group[0].1.ray); PACKET];
                 let mut light = [Vec3::ZERO; PACKET];
-                for ((shadow, ray), light) in group.iter().zip(&mut rays).zip(&mut light) {
-                    (*ray, *light) = (shadow.ray, shadow.light);
+                for (((_, shadow), ray), light) in group.iter().zip(&mut rays).zip(&mut light) {
+                    (*ray, *light) = (shadow.ray.into(), shadow.light);
                 }
                 self::light(scene, coherence, &rays[..group.len()], &mut light[..group.len()]);
-                for (shadow, light) in group.iter().zip(light) {
-                    self.paths[shadow.path as usize].gather(light, shadow.bounce, scale);
+                for ((path, shadow), light) in group.iter().zip(light) {
+                    self.paths[*path as usize].gather(light, shadow.bounce, scale);
                 }
             }
             shadows.clear();
@@ -92,7 +113,7 @@ pub(super) fn closest(
     group: &[u32],
     hits: &mut [Option<Hit>; PACKET],
 ) {
-    let ray = |&index: &u32| paths[index as usize].ray;
+    let ray = |&index: &u32| Ray::from(&paths[index as usize]);
     let mut rays = [ray(&group[0]); PACKET];
     rays.iter_mut().zip(group).for_each(|(to, index)| *to = ray(index));
     scene.closest(&rays[..group.len()], coherence, &mut hits[..group.len()]);

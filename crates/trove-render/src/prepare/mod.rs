@@ -14,7 +14,7 @@ use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
 use crate::field::LightFields;
 use crate::fog::fog;
-use crate::light::{LastSurroundings, Lights, PROBES};
+use crate::light::{Beams, LastSurroundings, Lights, PROBES};
 use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
 use crate::placed::{Placed, Sort};
@@ -90,8 +90,9 @@ impl PreparedScene {
     ) -> Result<Self, RenderError> {
         check::check(scene)?;
         textures.make_all(&scene.materials);
+        let mut beams = Beams::default();
         let (materials, opacities): (Vec<_>, Vec<_>) =
-            scene.materials.iter().map(|m| PreparedMaterial::new(m, textures)).unzip();
+            scene.materials.iter().map(|m| PreparedMaterial::new(m, textures, &mut beams)).unzip();
         let opacities: Arc<[_]> = opacities.into();
         let instances: Vec<_> = scene.instances.iter().map(|i| PreparedInstance::new(scene, i)).collect();
         let bounds: Vec<_> = scene.meshes.iter().map(|m| m.bounds()).collect();
@@ -107,7 +108,7 @@ impl PreparedScene {
         let shapes = Arc::new(Shapes::new(placed.collect(), opacities.clone()));
         let (accel, around) = rayon::join(|| kernel.build(&shapes), || last.get(&scene.light.environment));
         let accel = accel?;
-        let lights = Lights::new(scene, &|index| materials[index].emission(), around, &|instance, rays| {
+        let lights = Lights::new(scene, &|index| materials[index].shines(), beams, around, &|instance, rays| {
             let mut hits = [None; PROBES];
             accel.closest(rays, Coherence::Incoherent, &mut hits);
             hits.map(|hit| hit.is_none_or(|hit: Hit| hit.instance != instance))
@@ -203,12 +204,6 @@ impl PreparedScene {
     /// What the surface at a hit lets pass.
     pub(crate) fn opacity(&self, hit: &Hit) -> &Opacity {
         &self.shapes.opacities[self.placed(hit.instance).material(hit)]
-    }
-
-    /// Radiance that a surface's material emits to where it is seen from, at the moment of the labels.
-    pub(crate) fn emitted(&self, hit: &Hit, surface: &Surface, material: &PreparedMaterial) -> Vec3 {
-        let mesh_from_world = || self.instances[hit.instance as usize].mesh_from_world;
-        material.emitted(surface.uv, || mesh_from_world().transform_vector3(surface.wo.as_dvec3()).as_vec3())
     }
 
     /// The surface at a ray's hit, and its material.

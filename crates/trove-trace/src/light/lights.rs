@@ -7,6 +7,7 @@ use core::cell::OnceCell;
 
 use glam::Vec3;
 
+use super::beam::Beams;
 use super::emitters::{EmitterPoint, Emitters};
 use super::haze::Haze;
 use super::sky::Sky;
@@ -61,6 +62,8 @@ pub struct Lights<'a, T> {
     pub haze: Option<Haze>,
     /// Without the sun's disk.
     pub sky: Sky<'a>,
+    /// Into which directions lamps shine.
+    pub beams: Beams<'a>,
     /// `None` where nothing shines.
     pub emitters: Option<Emitters<'a, T>>,
     /// Probability that a sample of the rest is one of an emitter.

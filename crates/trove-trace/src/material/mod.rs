@@ -8,7 +8,9 @@ mod weather;
 
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::bsdf::{Coat, Parameters, ggx};
+use crate::bsdf::{Bsdf, Coat, Lobes, Parameters, ggx, reflected};
+use crate::flat::NONE;
+use crate::light::Beams;
 use crate::lookups::Lookups;
 use crate::math::{floor, sqrt, unit_or};
 use crate::surface::Surface;
@@ -62,6 +64,10 @@ pub struct Material<T> {
     pub height_m: f32,
     /// How far the mesh lies below white, as a share of that.
     pub height_of_mesh: f32,
+    /// Radiance of its front, where the map of emission is white and its beam brightest.
+    pub emission: Vec3,
+    /// Index of the beam by which that differs between directions; [`NONE`] for none.
+    pub beam: u32,
     /// What texture coordinates are multiplied by.
     pub scale: Vec2,
     /// Colours.
@@ -73,6 +79,8 @@ pub struct Material<T> {
     /// Slopes along u and v from 0 to 1 for −1 to 1 of the heights' range per texel, the height from 0 to 1, and the root of
     /// the slopes' variance. Without `normal_map` they tell where a surface faces.
     pub height_map: T,
+    /// What the emission is multiplied by where.
+    pub emission_map: T,
     /// Whether textures are laid along World's axes instead of by the mesh's coordinates.
     pub is_triplanar: bool,
     /// Whether they are laid in patches, so that nobody sees them repeat.
@@ -100,11 +108,14 @@ impl<T> Material<T> {
             wetness: self.wetness,
             height_m: self.height_m,
             height_of_mesh: self.height_of_mesh,
+            emission: self.emission,
+            beam: self.beam,
             scale: self.scale,
             base_color_map: map(&self.base_color_map)?,
             orm_map: map(&self.orm_map)?,
             normal_map: map(&self.normal_map)?,
             height_map: map(&self.height_map)?,
+            emission_map: map(&self.emission_map)?,
             is_triplanar: self.is_triplanar,
             is_stochastic: self.is_stochastic,
         })
@@ -153,10 +164,42 @@ impl<T: Map> Material<T> {
         (p, normal)
     }
 
+    /// Radiance that it emits from its front at a texture coordinate into a direction of the mesh.
+    #[inline]
+    pub fn emitted(
+        &self,
+        lookups: &Lookups,
+        beams: &Beams<'_>,
+        uv: Vec2,
+        direction_mesh: impl FnOnce() -> Vec3,
+    ) -> Vec3 {
+        if self.emission == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let here = self.emission_map.texture().map_or(Vec3::ONE, |map| map.sharp(lookups, uv * self.scale).truncate());
+        let share = if self.beam == NONE { 1.0 } else { beams.share(self.beam, direction_mesh()) };
+        self.emission * here * share
+    }
+
+    /// How it scatters light at a point, as for [`Self::parameters`].
+    #[inline]
+    pub fn shade(&self, lookups: &Lookups, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
+        let (p, normal) = self.parameters(lookups, surface, width_m, dither);
+        Bsdf::new(&lookups.lobes, surface.wo, surface.geometric, normal, &p)
+    }
+
     /// Base colour at a point as sharp as its texture has it, before weather; where patches or directions are mixed, of one
     /// of them.
     pub fn base_color(&self, lookups: &Lookups, surface: &Surface) -> Vec3 {
         self.colored(lookups, surface, &self.spot(lookups, surface, 0.0, 0.5))
+    }
+
+    /// Share of light that goes straight through, at an angle with cosine `cos` to the normal, where it is a pane.
+    #[inline]
+    pub fn straight_through(&self, lobes: &Lobes, cos: f32) -> Vec3 {
+        let split = lobes.split(cos.abs(), alpha(self.roughness));
+        let reflected = reflected(Vec3::splat(self.pane_f0()), split).x;
+        self.base_color * ((1.0 - reflected) * self.transmission * (1.0 - self.metalness))
     }
 
     /// Normal reflectance; a pane reflects at both of its faces, back and forth (the sum of that series).

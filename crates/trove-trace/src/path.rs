@@ -1,15 +1,18 @@
-//! One path and what happens at its vertices.
+//! One path and what happens at its vertices: unidirectional path tracing with light sampling.
 
 use glam::Vec3;
-use trove_trace::field::LightField;
-use trove_trace::light::{LightSample, Rest};
-use trove_trace::{Bsdf, MATT_EVENTS, Sampler, Scattering, Surface, power_heuristic};
 
-use crate::PreparedScene;
-use crate::light::LightsOf;
-use crate::lookups::LOOKUPS;
+use crate::bsdf::Bsdf;
+use crate::field::LightField;
+use crate::fog::{Fog, MATT_EVENTS, Scattering};
+use crate::light::{LightSample, Lights, Rest};
+use crate::lookups::Lookups;
+use crate::material::Material;
 use crate::ray::{Hit, Ray};
-use crate::texture::MapOf;
+use crate::sampler::Sampler;
+use crate::sampling::power_heuristic;
+use crate::surface::Surface;
+use crate::texture::Map;
 
 /// Times that a path goes on from a surface that it meets, so that light comes over one surface more; straight passages
 /// through glass do not count.
@@ -41,41 +44,98 @@ const HARDLY: f32 = 0.05;
 const MOST_ASLANT: f32 = 3.0;
 
 /// What a ray stands for: a cone that grows along it.
-#[derive(Clone, Copy)]
-pub(crate) struct Cone {
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Cone {
     /// At the origin.
-    pub(crate) width_m: f32,
-    pub(crate) spread_rad: f32,
+    pub width_m: f32,
+    /// By which it grows for each metre.
+    pub spread_rad: f32,
 }
 
 /// One sample, or a mean of several.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Sample {
-    pub(crate) radiance: Vec3,
-    pub(crate) albedo: Vec3,
-    pub(crate) normal: Vec3,
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct Sample {
+    /// What it brought.
+    pub radiance: Vec3,
+    /// What the first surface that is no mirror reflects of white light; 1 for the sky.
+    pub albedo: Vec3,
+    /// That surface's shading normal, World; 0 for the sky.
+    pub normal: Vec3,
 }
 
 impl Sample {
-    pub(crate) fn add(&mut self, other: &Self) {
+    /// Adds another one to a sum.
+    pub fn add(&mut self, other: &Self) {
         self.radiance += other.radiance;
         self.albedo += other.albedo;
         self.normal += other.normal;
     }
 
-    pub(crate) fn divided(&self, n: f32) -> Self {
+    /// The mean of a sum of so many.
+    pub fn divided(&self, n: f32) -> Self {
         Self { radiance: self.radiance / n, albedo: self.albedo / n, normal: self.normal / n }
     }
 }
 
+/// Where paths go.
+pub trait World {
+    /// What holds textures.
+    type Map: Map;
+
+    /// What is looked up.
+    fn lookups(&self) -> &Lookups;
+
+    /// All lights.
+    fn lights(&self) -> &Lights<'_, Self::Map>;
+
+    /// The surface at a ray's hit, and its material.
+    fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &Material<Self::Map>);
+
+    /// A direction of World in the coordinates of the mesh of an instance, at the moment of the labels.
+    fn direction_mesh(&self, instance: u32, direction: Vec3) -> Vec3;
+
+    /// Droplets of the air, if there are any.
+    fn fog(&self) -> Option<&Fog>;
+
+    /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
+    fn field(&self) -> Option<&LightField<'_>>;
+
+    /// Where a ray meets a droplet of spray before so many metres, by a random number, if there is any.
+    fn met_in_spray(&self, origin: Vec3, direction: Vec3, t_max: f32, u: impl FnOnce() -> f32) -> Option<f32>;
+
+    /// Share of light that spray lets pass along a unit direction for `t` metres.
+    fn through_spray(&self, origin: Vec3, direction: Vec3, t: f32) -> f32;
+}
+
+/// Where a path begins.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+pub struct Start {
+    /// From the eye.
+    pub ray: Ray,
+    /// As in [`Path`].
+    pub past: u32,
+    /// What the ray stands for.
+    pub cone: Cone,
+    /// The path's numbers.
+    pub sampler: Sampler,
+}
+
 /// A path under way.
-pub(crate) struct Path {
-    pub(crate) ray: Ray,
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct Path {
+    /// Where it goes.
+    pub ray: Ray,
+    /// The object that it passes through as if it were not there: what carries the sensor; 0 for none.
+    pub past: u32,
     cone: Cone,
     sampler: Sampler,
     throughput: Vec3,
     /// Times that it has scattered.
-    pub(crate) bounce: u32,
+    pub bounce: u32,
     passages: u32,
     droplets: u32,
     /// Scattering events that part it from the eye, as `Scattering::after` counts them.
@@ -89,9 +149,11 @@ pub(crate) struct Path {
 
 impl Path {
     /// From the eye.
-    pub(crate) fn new(ray: Ray, cone: Cone, sampler: Sampler) -> Self {
+    pub fn new(start: Start) -> Self {
+        let Start { ray, past, cone, sampler } = start;
         Self {
             ray,
+            past,
             cone,
             sampler,
             throughput: Vec3::ONE,
@@ -107,7 +169,7 @@ impl Path {
     }
 
     /// Adds light that came over `bounce` surfaces, kept below what a sample may bring where a white surface has `scale`.
-    pub(crate) fn gather(&mut self, light: Vec3, bounce: u32, scale: f32) {
+    pub fn gather(&mut self, light: Vec3, bounce: u32, scale: f32) {
         let most = scale * if bounce <= 1 { MOST_DIRECT } else { MOST_INDIRECT };
         let largest = light.max_element();
         // NaN would spread over the picture when it is filtered.
@@ -123,8 +185,14 @@ impl Path {
         (u < chance).then_some(chance)
     }
 
+    /// Sends it on from where it has scattered, and through nothing any more.
+    #[inline(always)]
+    fn go_on(&mut self, origin: Vec3, direction: Vec3) {
+        (self.ray, self.past) = (self.ray.then(origin, direction), 0);
+    }
+
     /// What it brought, once it has ended.
-    pub(crate) fn sample(&self) -> Sample {
+    pub fn sample(&self) -> Sample {
         let (albedo, normal) = self.guide.unwrap_or((Vec3::ONE, Vec3::ZERO));
         Sample { radiance: self.radiance, albedo, normal }
     }
@@ -136,6 +204,7 @@ fn chance(carries: Vec3, roulette: f32) -> f32 {
 }
 
 /// The last vertex at which a path scattered.
+#[derive(Clone, Copy)]
 struct Scattered {
     point: Vec3,
     /// The side that light was asked for, as for `Lights::rest`.
@@ -146,37 +215,46 @@ struct Scattered {
 }
 
 /// Light that reaches a path if nothing is in the way.
-pub(crate) struct Shadow {
-    /// Index of the path.
-    pub(crate) path: u32,
-    pub(crate) ray: Ray,
-    pub(crate) light: Vec3,
-    pub(crate) bounce: u32,
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Shadow {
+    /// What must not meet anything.
+    pub ray: Ray,
+    /// What then reaches the path.
+    pub light: Vec3,
+    /// Surfaces over which it comes.
+    pub bounce: u32,
 }
 
-/// Shadow rays to trace.
-#[derive(Default)]
-pub(crate) struct Shadows {
-    /// All in nearly the same direction.
-    pub(crate) to_sun: Vec<Shadow>,
+/// What comes of a vertex.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Turn {
+    /// Whether the path goes on.
+    pub goes_on: bool,
+    /// To the sun, all of them in nearly the same direction.
+    pub to_sun: Option<Shadow>,
     /// To the sky and to lamps.
-    pub(crate) to_rest: Vec<Shadow>,
+    pub to_rest: Option<Shadow>,
 }
 
-/// Where a path's ray has arrived.
-pub(crate) struct Vertex<'a> {
-    pub(crate) scene: &'a PreparedScene,
-    pub(crate) lights: &'a LightsOf<'a>,
-    /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
-    pub(crate) field: Option<&'a LightField<'a>>,
-    /// Index of the path.
-    pub(crate) index: u32,
-    pub(crate) shadows: &'a mut Shadows,
+/// A vertex of a path in a world.
+struct At<'a, W: World> {
+    world: &'a W,
+    lights: &'a Lights<'a, W::Map>,
+    turn: Turn,
 }
 
-impl Vertex<'_> {
-    /// Gathers light, asks for more behind shadow rays, and sends the path on; false when it has ended.
-    pub(crate) fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
+/// Where a path's ray has arrived: gathers light, asks for more behind shadow rays, and sends it on.
+#[inline(always)]
+pub fn advance<W: World>(world: &W, path: &mut Path, hit: Option<Hit>) -> Turn {
+    let mut at = At { world, lights: world.lights(), turn: Turn::default() };
+    at.turn.goes_on = at.advance(path, hit);
+    at.turn
+}
+
+impl<W: World> At<'_, W> {
+    /// False when the path has ended.
+    fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
         let lights = self.lights;
         if let Some(t) = self.droplet(path, hit) {
             return self.scatter(path, t, hit);
@@ -201,16 +279,16 @@ impl Vertex<'_> {
         };
         // Between other surfaces there is little of it, and in fog it is lost.
         if path.scattered.is_none()
-            && self.scene.fog.is_none()
+            && self.world.fog().is_none()
             && let Some((passes, sent)) = lights.haze(path.ray.direction, hit.t)
         {
             path.gather(path.throughput * sent, path.bounce, lights.scale);
             path.throughput *= passes;
         }
-        let (surface, material) = self.scene.surface(&hit, &path.ray);
+        let (surface, material) = self.world.surface(&hit, &path.ray);
         path.cone.width_m += path.cone.spread_rad * hit.t;
 
-        let emitted = if surface.is_front { self.scene.emitted(&hit, &surface, material) } else { Vec3::ZERO };
+        let emitted = if surface.is_front { self.emitted(&hit, &surface, material) } else { Vec3::ZERO };
         if emitted != Vec3::ZERO {
             let weight = path.scattered.as_ref().map_or(1.0, |s| {
                 let other = lights.pdf_rest_emitter([hit.instance, hit.triangle], s.point, s.lit_side, surface.point);
@@ -220,13 +298,13 @@ impl Vertex<'_> {
         }
 
         let [u_light, dither] = path.sampler.next2();
-        let bsdf = material.shade(&surface, path.cone.width_m * SHARPNESS, dither);
+        let bsdf = self.shade(material, &surface, path.cone.width_m * SHARPNESS, dither);
         // In fog mirrors and panes guide too: what droplets keep paths from would show as noise behind them.
-        if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2 || self.scene.fog.is_some()) {
+        if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2 || self.world.fog().is_some()) {
             path.guide = Some(self.guide(path, hit.t, bsdf.albedo, surface.shading));
         }
 
-        let lit_side = if material.is_translucent() { Vec3::ZERO } else { surface.shading };
+        let lit_side = if material.translucency > 0.0 { Vec3::ZERO } else { surface.shading };
         let events = if bsdf.is_matt { MATT_EVENTS } else { 1 };
         let air = self.after(path.events + events);
         let sun = self.sun(path, surface.point, air);
@@ -247,7 +325,7 @@ impl Vertex<'_> {
             if path.guide.is_none() {
                 path.guide_filter *= next.weight.min(Vec3::ONE);
             }
-            path.ray = Ray { past: path.ray.past, ..path.ray.then(surface.leave(next.wi), next.wi) };
+            path.ray = path.ray.then(surface.leave(next.wi), next.wi);
             return path.passages <= MAX_PASSAGES;
         };
 
@@ -257,14 +335,14 @@ impl Vertex<'_> {
         let Some(chance) = path.survives(u_roulette, roulette) else { return false };
         path.scattered = Some(Scattered { point: surface.point, lit_side, pdf: pdf * chance });
         path.cone.spread_rad += next.spread_rad;
-        path.ray = path.ray.then(surface.leave(next.wi), next.wi);
+        path.go_on(surface.leave(next.wi), next.wi);
         true
     }
 
     /// What a path at a surface plays roulette against there; 0 where it ends for sure.
     fn roulette(&self, path: &Path) -> f32 {
         match path.bounce {
-            0 if self.field.is_some() => ROULETTE_TO_AIR,
+            0 if self.world.field().is_some() => ROULETTE_TO_AIR,
             MAX_BOUNCES => 0.0,
             _ => ROULETTE,
         }
@@ -274,9 +352,10 @@ impl Vertex<'_> {
     fn droplet(&self, path: &mut Path, hit: Option<Hit>) -> Option<f32> {
         let (origin, direction) = (path.ray.origin, path.ray.direction);
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
-        let spray = Some(&self.scene.spray).filter(|spray| !spray.is_none() && path.scattered.is_none());
-        let in_spray = spray.and_then(|spray| spray.met(origin, direction, free, path.sampler.next2()[0]));
-        let in_fog = self.scene.fog.filter(|_| self.field_after(path.events).is_none()).and_then(|fog| {
+        let sees = path.scattered.is_none();
+        let mut u = || path.sampler.next2()[0];
+        let in_spray = if sees { self.world.met_in_spray(origin, direction, free, &mut u) } else { None };
+        let in_fog = self.world.fog().filter(|_| self.field_after(path.events).is_none()).and_then(|fog| {
             let fog = fog.scattering(self.after(path.events));
             fog.met(origin, direction, in_spray.unwrap_or(free), path.sampler.next2()[0])
         });
@@ -288,9 +367,9 @@ impl Vertex<'_> {
         let (lights, direction) = (self.lights, path.ray.direction);
         if path.guide.is_none() {
             path.guide = Some(hit.map_or((path.guide_filter, Vec3::ZERO), |hit| {
-                let (surface, material) = self.scene.surface(&hit, &path.ray);
+                let (surface, material) = self.world.surface(&hit, &path.ray);
                 let width_m = path.cone.width_m + path.cone.spread_rad * hit.t;
-                let bsdf = material.shade(&surface, width_m * SHARPNESS, 0.5);
+                let bsdf = self.shade(material, &surface, width_m * SHARPNESS, 0.5);
                 self.guide(path, hit.t, bsdf.albedo, surface.shading)
             }));
         }
@@ -309,9 +388,9 @@ impl Vertex<'_> {
             Some(self.shadow(path, point, Vec3::splat(phase), phase * goes_on, &light))
         };
         let sun = sun.and_then(|sun| {
-            let Some(fog) = self.scene.fog.filter(|_| self.field.is_some()) else { return ask(path, sun) };
+            let Some(fog) = self.world.fog().filter(|_| self.world.field().is_some()) else { return ask(path, sun) };
             let depth = fog.depth(point, sun.wi, f32::INFINITY);
-            let phase = scattering.phase_of_turned(&LOOKUPS.broad, direction.dot(sun.wi), depth);
+            let phase = scattering.phase_of_turned(&self.world.lookups().broad, direction.dot(sun.wi), depth);
             Some(self.shadow(path, point, Vec3::splat(phase), 0.0, &sun))
         });
         let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
@@ -321,25 +400,25 @@ impl Vertex<'_> {
         let on = scattering.turn(direction, path.sampler.next2());
         let pdf = scattering.phase(direction.dot(on)) * chance;
         path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf });
-        path.ray = path.ray.then(point, on);
+        path.go_on(point, on);
         true
     }
 
     /// From where the light of droplets is read that so many events part from the eye; `None` where they are met.
     fn field_after(&self, events: u32) -> Option<&LightField<'_>> {
-        self.field.filter(|_| events > 0)
+        self.world.field().filter(|_| events > 0)
     }
 
     /// How the air scatters light that so many events part from the eye.
     fn after(&self, events: u32) -> Scattering {
-        self.field_after(events).map_or_else(|| Scattering::after(events), |_| LOOKUPS.broad)
+        self.field_after(events).map_or_else(|| Scattering::after(events), |_| self.world.lookups().broad)
     }
 
     /// Gathers what droplets send on along a path's ray as far as it is free, and leaves the path what comes through them;
     /// false where that is so little that it has ended.
     fn air(&self, path: &mut Path, field: &LightField<'_>, free: f32) -> bool {
-        let (lights, scattering) = (self.lights, LOOKUPS.broad);
-        let Some(fog) = self.scene.fog.map(|fog| fog.scattering(scattering)) else { return true };
+        let (lights, scattering) = (self.lights, self.world.lookups().broad);
+        let Some(fog) = self.world.fog().map(|fog| fog.scattering(scattering)) else { return true };
         let (origin, direction) = (path.ray.origin, path.ray.direction);
         let clear = fog.transmittance(origin, direction, free);
         let ([u_t, u_grid], on_sun) = (path.sampler.next2(), path.sampler.next2());
@@ -363,7 +442,9 @@ impl Vertex<'_> {
 
     /// What guides the denoiser at a surface: droplets before it are white and face nowhere.
     fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
-        let clear = self.scene.seen(path.ray.origin, path.ray.direction, t);
+        let (origin, direction) = (path.ray.origin, path.ray.direction);
+        let clear =
+            self.clear(origin, direction, t, Scattering::after(0)) * self.world.through_spray(origin, direction, t);
         (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
     }
 
@@ -373,7 +454,7 @@ impl Vertex<'_> {
     fn ask_rest(
         &self,
         path: &mut Path,
-        rest: &Rest<'_, MapOf>,
+        rest: &Rest<'_, W::Map>,
         u: f32,
         air: Scattering,
         ask: impl Fn(&Path, LightSample) -> Option<Shadow>,
@@ -410,15 +491,14 @@ impl Vertex<'_> {
             let chance = (shadow.light.max_element() / faint).min(1.0);
             (u < chance).then(|| Shadow { light: shadow.light / chance, ..shadow })
         };
-        self.shadows.to_sun.extend(worth(sun, us[0]));
-        self.shadows.to_rest.extend(worth(rest, us[1]));
+        (self.turn.to_sun, self.turn.to_rest) = (worth(sun, us[0]), worth(rest, us[1]));
     }
 
     /// The sun as it shines through the air on a surface, some of it from around its disk.
     fn sun(&self, path: &mut Path, point: Vec3, air: Scattering) -> Option<LightSample> {
         let u = path.sampler.next2();
         let sun = self.dimmed(self.lights.sample_sun(u)?, point, air);
-        let Some(fog) = &self.scene.fog else { return Some(sun) };
+        let Some(fog) = self.world.fog() else { return Some(sun) };
         let ([u0, u1], [u2, _]) = (path.sampler.next2(), path.sampler.next2());
         let wi = air.turn_together(sun.wi, fog.depth(point, sun.wi, f32::INFINITY), [u0, u1, u2]);
         // Turned or not, as much comes down on the level.
@@ -426,9 +506,28 @@ impl Vertex<'_> {
         (wi.z > 0.0).then(|| LightSample { wi, radiance: sun.radiance * aslant, ..sun })
     }
 
+    /// Radiance that a surface emits from its front to where it is seen from.
+    #[inline(always)]
+    fn emitted(&self, hit: &Hit, surface: &Surface, material: &Material<W::Map>) -> Vec3 {
+        let toward = || self.world.direction_mesh(hit.instance, surface.wo);
+        material.emitted(self.world.lookups(), &self.lights.beams, surface.uv, toward)
+    }
+
+    /// How a material scatters light at a point.
+    #[inline(always)]
+    fn shade(&self, material: &Material<W::Map>, surface: &Surface, width_m: f32, dither: f32) -> Bsdf {
+        material.shade(self.world.lookups(), surface, width_m, dither)
+    }
+
+    /// Share of light, scattered so, that droplets let pass along a unit direction for `t` metres.
+    #[inline(always)]
+    fn clear(&self, origin: Vec3, direction: Vec3, t: f32, scattering: Scattering) -> f32 {
+        self.world.fog().map_or(1.0, |fog| fog.scattering(scattering).transmittance(origin, direction, t))
+    }
+
     /// What the air leaves of light on its way to a point.
     fn dimmed(&self, light: LightSample, point: Vec3, air: Scattering) -> LightSample {
-        let clear = self.scene.clear(point, light.wi, light.distance, air);
+        let clear = self.clear(point, light.wi, light.distance, air);
         LightSample { radiance: light.radiance * clear, ..light }
     }
 
@@ -447,6 +546,6 @@ impl Vertex<'_> {
         let ray = Ray { t_max: light.reach(origin), ..path.ray.then(origin, light.wi) };
         let weight = power_heuristic(light.pdf, pdf) / light.pdf;
         let light = path.throughput * f * light.radiance * weight;
-        Shadow { path: self.index, ray, light, bounce: path.bounce + 1 }
+        Shadow { ray, light, bounce: path.bounce + 1 }
     }
 }
