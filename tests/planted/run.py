@@ -24,7 +24,7 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 HEADER = re.compile(r"(?P<what>.+); caught by cargo test (?P<arguments>.+) -- (?P<test>\S+)")
 LONGEST_S = 1800
 # Compiled again for every fault, our crates are quicker unoptimised.
-OPTIMISED = ("", "package.trove-render.", "package.trove-assets.", "package.trove-judge.")
+OPTIMISED = ("", "package.trove-render.", "package.trove-trace.", "package.trove-assets.", "package.trove-judge.")
 QUICK = tuple(word for which in OPTIMISED for word in ("--config", f"profile.dev.{which}opt-level=0"))
 
 
