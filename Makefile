@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install ptx wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clay bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
+.PHONY: demo install ptx registers wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clay bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -209,6 +209,13 @@ bench-card:
 # What cards run, compiled anew after a change of crates/trove-trace.
 ptx:
 	packaging/ptx.sh
+
+# Whether NVIDIA's assembler, 45 MB from PyPI, takes trace.ptx for all cards without spills.
+registers: .tools/ptxas
+	$(BIN)/python packaging/registers.py .tools/ptxas/nvidia/cu13/bin/ptxas
+
+.tools/ptxas: | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target $@ nvidia-cuda-nvcc==13.5.37
 
 # Labels alone, of six cameras.
 bench-labels: install

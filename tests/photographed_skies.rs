@@ -18,7 +18,7 @@ use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 fn real_skies_light_a_white_surface_with_all_that_they_have() {
     let data = std::env::var_os("TROVE_TEST_DATA").expect("TROVE_TEST_DATA");
     let options =
-        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, ..Default::default() };
     let renderer = Renderer::new(&options).unwrap();
     for name in ["venice_sunset_1k.hdr", "kiara_1_dawn_1k.hdr"] {
         let path = Path::new(&data).join("hdri").join(name);

@@ -36,10 +36,15 @@ AnyPath = str | PathLike[str]
 
 
 def demo(
-    out: AnyPath = "demo-out", *, threads: int | None = None, kernel: str = "auto", progress: Progress | None = None
+    out: AnyPath = "demo-out",
+    *,
+    threads: int | None = None,
+    kernel: str = "auto",
+    device: str = "cpu",
+    progress: Progress | None = None,
 ) -> Summary:
     """Runs the whole pipeline on a built-in drive; its recipe is then `OUT/.trove/demo/recipe.toml`."""
-    summary: Summary = _run("demo", [], progress, out=out, threads=threads, kernel=kernel)
+    summary: Summary = _run("demo", [], progress, out=out, threads=threads, kernel=kernel, device=device)
     return summary
 
 
@@ -53,6 +58,7 @@ def generate(
     labels_only: bool = False,
     threads: int | None = None,
     kernel: str = "auto",
+    device: str = "cpu",
 ) -> Summary:
     """Generates the dataset of a recipe in `out`; finished frames are kept, so a second call resumes.
 
@@ -69,6 +75,7 @@ def generate(
         labels_only=labels_only,
         threads=threads,
         kernel=kernel,
+        device=device,
     )
     return summary
 
@@ -82,6 +89,7 @@ def estimate(
     labels_only: bool = False,
     threads: int | None = None,
     kernel: str = "auto",
+    device: str = "cpu",
     progress: Progress | None = None,
 ) -> Estimate:
     """Tells how many frames a recipe, or a part of it, has, and what they will take, after frames of one moment.
@@ -99,6 +107,7 @@ def estimate(
         labels_only=labels_only,
         threads=threads,
         kernel=kernel,
+        device=device,
     )
     return estimate
 
@@ -113,6 +122,7 @@ def merge(
     labels_only: bool = False,
     threads: int | None = None,
     kernel: str = "auto",
+    device: str = "cpu",
 ) -> Summary:
     """Merges folders that parts of a recipe were rendered in into `out`, and renders what is missing.
 
@@ -128,6 +138,7 @@ def merge(
         labels_only=labels_only,
         threads=threads,
         kernel=kernel,
+        device=device,
     )
     return summary
 

@@ -54,6 +54,9 @@ pub struct Versions {
     /// null where the bytes are the same on every machine.
     #[serde(default)]
     pub device: Option<String>,
+    /// The graphics card that followed light, on which last digits depend; null where the processor did.
+    #[serde(default)]
+    pub card: Option<String>,
 }
 
 /// A file on disk.

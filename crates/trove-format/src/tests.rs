@@ -144,6 +144,7 @@ fn manifest() -> Manifest {
             kernel: "obvhs".into(),
             denoiser: None,
             device: None,
+            card: None,
         },
         classes: ClassEntry::all(),
         drives: vec![ManifestDrive { drive: site.drive, sources: site.sources.clone() }],

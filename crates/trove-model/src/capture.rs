@@ -198,7 +198,7 @@ pub struct SeenKeypoint {
 }
 
 /// What a picture cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaptureStats {
     /// Rays traced, of all sorts.
     pub rays: u64,
@@ -206,4 +206,6 @@ pub struct CaptureStats {
     pub spp: f64,
     /// Whether the denoiser ran.
     pub denoised: bool,
+    /// Why the processor followed its light instead of the graphics card that was to; `None` where none was.
+    pub refused: Option<String>,
 }

@@ -35,6 +35,14 @@ pub enum RenderError {
         /// What it was doing, and what it said.
         problem: String,
     },
+    /// The graphics card that was asked for cannot be used.
+    #[error("cuda:{number}: {problem}; let the processor do it (--device cpu), or see docs/cards.md")]
+    Card {
+        /// Which, counted from 0.
+        number: u32,
+        /// What the driver said.
+        problem: String,
+    },
     /// The machine refused threads.
     #[error("cannot start {threads} threads: {source}; use fewer")]
     Threads {

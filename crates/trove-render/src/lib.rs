@@ -55,7 +55,8 @@
 //! let north = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
 //! let shot = Shot { spp: 16, ..Shot::new("example", lens, Pose::new(north, DVec3::Z * 2.0)) };
 //!
-//! let options = RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 1, search: vec![] };
+//! let options =
+//!     RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 1, ..RendererOptions::default() };
 //! let renderer = Renderer::new(&options)?;
 //! let prepared = renderer.prepare(&scene)?;
 //! let capture = renderer.render(&prepared, &shot, true, &|_share| false).expect("nothing stops it");
@@ -91,6 +92,7 @@ mod poisson;
 mod prepare;
 mod radar;
 mod ray;
+mod remote;
 mod renderer;
 mod scan;
 mod shared_library;
@@ -107,4 +109,4 @@ pub use error::RenderError;
 pub use light::{BakedSky, SUN_RADIUS_RAD, bake_sky};
 pub use path::{RaySeconds, RayTimes};
 pub use prepare::PreparedScene;
-pub use renderer::{Capabilities, Renderer, RendererOptions};
+pub use renderer::{Capabilities, DeviceChoice, Renderer, RendererOptions};

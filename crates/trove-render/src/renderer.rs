@@ -9,9 +9,11 @@ use trove_model::{
 };
 
 use crate::accel::{self, Kernel, KernelChoice};
-use crate::card::{self, Card, CardRate};
+use crate::card::{self, Card, CardRate, Emulated, Machine};
 use crate::denoise::{Denoiser, Denoising, blended};
 use crate::light::LastSurroundings;
+use crate::path::Ended;
+use crate::remote::Place;
 use crate::texture::Textures;
 use crate::{PreparedScene, RayTimes, RenderError, drops, film, labels, lidar, path, radar, scan, voxels};
 
@@ -22,10 +24,26 @@ pub struct RendererOptions {
     pub kernel: KernelChoice,
     /// How pictures are denoised where a denoiser is installed.
     pub denoise: Denoising,
+    /// Who follows light.
+    pub device: DeviceChoice,
     /// Threads; 0 is one for every core.
     pub threads: usize,
     /// Files, or folders with them, in which Embree and Open Image Denoise are looked for before the system's folders.
     pub search: Vec<PathBuf>,
+}
+
+/// Who follows the paths of pictures. Labels are always the processor's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// The first graphics card that can be used, else the processor.
+    Auto,
+    /// The processor.
+    #[default]
+    Cpu,
+    /// NVIDIA's card of a number, counted from 0; an error where there is none that could be used.
+    Cuda(u32),
+    /// A card's functions and tables on the processor, slower than the processor's own: what a card is checked against.
+    Emulated,
 }
 
 /// What a renderer works with.
@@ -38,6 +56,8 @@ pub struct Capabilities {
     /// The kind of processor whose instructions kernel and denoiser choose among, on which last digits depend
     /// (`x86-64-v3`); `None` where every machine gives the same.
     pub device: Option<String>,
+    /// The graphics card that follows light; `None` where the processor does.
+    pub card: Option<String>,
     /// Threads that it uses.
     pub threads: usize,
 }
@@ -46,16 +66,18 @@ pub struct Capabilities {
 pub struct Renderer {
     kernel: Box<dyn Kernel>,
     denoiser: Result<Denoiser, String>,
+    card: Option<Box<dyn Machine>>,
     textures: Textures,
     surroundings: LastSurroundings,
     pool: rayon::ThreadPool,
 }
 
 impl Renderer {
-    /// Loads the kernel and the denoiser and starts the threads.
+    /// Loads the kernel and the denoiser, opens the card and starts the threads.
     ///
     /// # Errors
-    /// A kernel that was asked for and is not installed, or threads that the system refuses to start.
+    /// A kernel that was asked for and is not installed, a card that cannot be used, or threads that the system refuses to
+    /// start.
     pub fn new(options: &RendererOptions) -> Result<Self, RenderError> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(options.threads)
@@ -67,7 +89,15 @@ impl Renderer {
             Denoising::None => Err("not asked for".into()),
             how => Denoiser::load(&options.search, pool.current_num_threads(), how).map_err(|e| e.to_string()),
         };
-        Ok(Self { kernel, denoiser, textures: Textures::default(), surroundings: LastSurroundings::default(), pool })
+        let card = card(options.device)?;
+        let (textures, surroundings) = (Textures::default(), LastSurroundings::default());
+        Ok(Self { kernel, denoiser, card, textures, surroundings, pool })
+    }
+
+    /// The same, with another machine to follow light.
+    #[cfg(test)]
+    pub(crate) fn with(self, machine: Box<dyn Machine>) -> Self {
+        Self { card: Some(machine), ..self }
     }
 
     /// What this renderer works with.
@@ -76,6 +106,7 @@ impl Renderer {
             kernel: self.kernel.name(),
             denoiser: self.denoiser.as_ref().map(Denoiser::name).map_err(Clone::clone),
             device: (!self.kernel.is_same_everywhere() || self.denoiser.is_ok()).then(device),
+            card: self.card.as_ref().map(|card| card.name().to_owned()),
             threads: self.pool.current_num_threads(),
         }
     }
@@ -87,7 +118,13 @@ impl Renderer {
     /// A mesh, material or instance that breaks the rules of [`Scene`], which the error names, or a kernel that cannot build
     /// its tree, such as for want of memory.
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene, RenderError> {
-        self.pool.install(|| PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings))
+        self.pool.install(|| {
+            let mut prepared = PreparedScene::new(scene, &*self.kernel, &self.textures, &self.surroundings)?;
+            if let Some(card) = &self.card {
+                prepared.place = card.take(&prepared).map_or_else(Place::Refused, Place::There);
+            }
+            Ok(prepared)
+        })
     }
 
     /// Runs `work` on this thread; what it spawns takes one of the renderer's threads, besides the pictures that `work` takes.
@@ -168,26 +205,29 @@ impl Renderer {
             if stop(0.0) {
                 return None;
             }
-            let labels = labels::render(scene, shot, &|| stop(0.0))?;
-            let mut stats = CaptureStats::default();
-            let color = if light {
-                let mut radiance = self.radiance(scene, shot, &mut stats, &stop)?;
-                if let Some(falling) = scene.falling {
-                    path::falling::draw(scene, shot, falling, &labels.depth_m, &mut radiance);
-                }
-                if let Some(drops) = shot.drops {
-                    let mut wide = CaptureStats::default();
-                    // Its share of the work is not told: the picture's has been.
-                    let around = self.radiance(scene, &drops::wide(shot), &mut wide, &|_| stop(1.0))?;
-                    stats.rays += wide.rays;
-                    drops::draw(shot, drops, &around, &mut radiance);
-                }
-                let (srgb, exposure_ev) = film::develop(&radiance, shot);
-                Some(Color { radiance, srgb, exposure_ev })
-            } else {
-                None
+            let labels = || labels::render(scene, shot, &|| stop(0.0));
+            let seen = || light.then(|| self.radiance(scene, shot, &stop));
+            let (labels, seen) = match scene.place {
+                // A card follows light while the processor makes labels.
+                Place::There(_) => rayon::join(labels, seen),
+                Place::Here | Place::Refused(_) => (Some(labels()?), seen()),
             };
-            Some(Capture { color, labels, change: None, stats })
+            let labels = labels?;
+            let Some(seen) = seen else {
+                return Some(Capture { color: None, labels, change: None, stats: CaptureStats::default() });
+            };
+            let (mut radiance, mut stats) = seen?;
+            if let Some(falling) = scene.falling {
+                path::falling::draw(scene, shot, falling, &labels.depth_m, &mut radiance);
+            }
+            if let Some(drops) = shot.drops {
+                // Its share of the work is not told: the picture's has been.
+                let (around, wide) = self.radiance(scene, &drops::wide(shot), &|_| stop(1.0))?;
+                stats.rays += wide.rays;
+                drops::draw(shot, drops, &around, &mut radiance);
+            }
+            let (srgb, exposure_ev) = film::develop(&radiance, shot);
+            Some(Capture { color: Some(Color { radiance, srgb, exposure_ev }), labels, change: None, stats })
         })
     }
 
@@ -196,19 +236,37 @@ impl Renderer {
         &self,
         scene: &PreparedScene,
         shot: &Shot,
-        stats: &mut CaptureStats,
         stop: &(dyn Fn(f32) -> bool + Sync),
-    ) -> Option<Raster<[f32; 3]>> {
-        let buffers = path::trace(scene, shot, stop)?;
-        stats.rays = buffers.rays;
-        stats.spp = buffers.spp;
+    ) -> Option<(Raster<[f32; 3]>, CaptureStats)> {
+        let (remote, mut refused) = match &scene.place {
+            Place::Here => (None, None),
+            Place::Refused(why) => (None, Some(why.clone())),
+            Place::There(remote) => (Some(&**remote), None),
+        };
+        let mut traced = path::trace(scene, shot, remote, stop);
+        if let Err(Ended::Failed(why)) = traced {
+            refused = Some(why);
+            traced = path::trace(scene, shot, None, stop);
+        }
+        let buffers = traced.ok()?;
         let clean = match &self.denoiser {
             Ok(denoiser) => denoiser.denoise(&buffers.own, &buffers.albedo, &buffers.normal, buffers.spp),
             Err(_) => None,
         };
-        stats.denoised = clean.is_some();
+        let stats = CaptureStats { rays: buffers.rays, spp: buffers.spp, denoised: clean.is_some(), refused };
         let blended = clean.map(|clean| blended(&clean, &buffers.radiance, &buffers.variance));
-        Some(blended.unwrap_or(buffers.radiance))
+        Some((blended.unwrap_or(buffers.radiance), stats))
+    }
+}
+
+/// The card that was asked for.
+fn card(choice: DeviceChoice) -> Result<Option<Box<dyn Machine>>, RenderError> {
+    let open = |number| Card::open(number).map(|card| Box::new(card) as Box<dyn Machine>);
+    match choice {
+        DeviceChoice::Cpu => Ok(None),
+        DeviceChoice::Emulated => Ok(Some(Box::new(Emulated))),
+        DeviceChoice::Cuda(number) => open(number).map(Some).map_err(|problem| RenderError::Card { number, problem }),
+        DeviceChoice::Auto => Ok(open(0).inspect_err(|why| tracing::info!(%why, "no card is used")).ok()),
     }
 }
 

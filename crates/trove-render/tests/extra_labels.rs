@@ -337,7 +337,9 @@ fn by_all_kernels(scene: &Scene, shot: &Shot) -> Vec<Labels> {
 
 fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Labels {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).unwrap();
+    let renderer =
+        Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search, ..Default::default() })
+            .unwrap();
     let prepared = renderer.prepare(scene).unwrap();
     renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
 }

@@ -209,7 +209,8 @@ fn renderers() -> Vec<Renderer> {
     let embree = std::env::var_os("TROVE_EMBREE").map(|_| KernelChoice::Embree);
     let made = |kernel| {
         let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-        Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads: 2, search }).unwrap()
+        Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads: 2, search, ..Default::default() })
+            .unwrap()
     };
     [KernelChoice::Obvhs].into_iter().chain(embree).map(made).collect()
 }

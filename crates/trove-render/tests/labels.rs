@@ -94,7 +94,7 @@ fn a_change_is_where_what_is_met_first_looks_or_stands_otherwise_and_not_where_l
     let before = scene(things());
     let shot = shot(PLACE);
     let options =
-        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, ..Default::default() };
     let renderer = Renderer::new(&options).unwrap();
     let prepared = renderer.prepare(&before).unwrap();
     let changes = |after: &Scene| {
@@ -428,14 +428,16 @@ fn by_all_kernels(scene: &Scene, shot: &Shot) -> Vec<Labels> {
 
 fn by(kernel: KernelChoice, scene: &Scene, shot: &Shot, threads: usize) -> Labels {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).unwrap();
+    let renderer =
+        Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search, ..Default::default() })
+            .unwrap();
     let prepared = renderer.prepare(scene).unwrap();
     renderer.render(&prepared, shot, false, &|_| false).unwrap().labels
 }
 
 fn colour(scene: &Scene, shot: &Shot) -> Raster<[f32; 3]> {
     let options =
-        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, search: Vec::new() };
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 2, ..Default::default() };
     let renderer = Renderer::new(&options).unwrap();
     let prepared = renderer.prepare(scene).unwrap();
     renderer.render(&prepared, shot, true, &|_| false).unwrap().color.unwrap().radiance

@@ -250,7 +250,7 @@ const SHEETING: usize = 2;
 
 fn sweep(scene: &Scene, shot: &LidarShot, threads: usize) -> Vec<LidarPoint> {
     let options =
-        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads, search: Vec::new() };
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads, ..Default::default() };
     let renderer = Renderer::new(&options).unwrap();
     renderer.sweep(&renderer.prepare(scene).unwrap(), shot).points
 }

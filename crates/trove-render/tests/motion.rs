@@ -182,7 +182,7 @@ fn kernels() -> Vec<KernelChoice> {
 
 fn options(kernel: KernelChoice, threads: usize) -> RendererOptions {
     let search = std::env::var_os("TROVE_EMBREE").into_iter().map(Into::into).collect();
-    RendererOptions { kernel, denoise: Denoising::None, threads, search }
+    RendererOptions { kernel, denoise: Denoising::None, threads, search, ..Default::default() }
 }
 
 fn renderer(kernel: KernelChoice, threads: usize) -> Renderer {

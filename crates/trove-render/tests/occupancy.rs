@@ -153,7 +153,9 @@ fn filled(scene: &Scene, shot: &GridShot) -> Occupancy {
     let embree = std::env::var_os("TROVE_EMBREE");
     let by = |kernel, threads| {
         let search = embree.iter().map(Into::into).collect();
-        let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search }).unwrap();
+        let renderer =
+            Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads, search, ..Default::default() })
+                .unwrap();
         renderer.occupancy(&renderer.prepare(scene).unwrap(), shot)
     };
     let found = by(KernelChoice::Obvhs, 1);

@@ -188,7 +188,7 @@ fn surfaces(kind: RadarSurface) -> RadarSurfaces {
 
 fn detections(scene: &Scene, shot: &RadarShot, threads: usize) -> Vec<RadarDetection> {
     let options =
-        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads, search: Vec::new() };
+        RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads, ..Default::default() };
     let renderer = Renderer::new(&options).unwrap();
     renderer.detections(&renderer.prepare(scene).unwrap(), shot)
 }

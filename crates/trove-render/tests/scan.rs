@@ -216,7 +216,7 @@ fn by_all_kernels(scene: &Scene, check: impl Fn(&Renderer, &PreparedScene, Kerne
     let embree = std::env::var_os("TROVE_EMBREE");
     for kernel in [KernelChoice::Obvhs].into_iter().chain(embree.as_ref().map(|_| KernelChoice::Embree)) {
         let search = embree.iter().map(Into::into).collect();
-        let options = RendererOptions { kernel, denoise: Denoising::None, threads: 2, search };
+        let options = RendererOptions { kernel, denoise: Denoising::None, threads: 2, search, ..Default::default() };
         let renderer = Renderer::new(&options).unwrap();
         check(&renderer, &renderer.prepare(scene).unwrap(), kernel);
     }

@@ -7,7 +7,7 @@ use glam::{Affine3A, Vec2};
 use crate::mask::Mask;
 use crate::motion::Motion;
 use crate::pair::Pair;
-use crate::ray::{Hit, Ray};
+use crate::ray::{Hit, NONE, Ray};
 use crate::sheared::Corners;
 use crate::tables::{Mesh, Tables};
 use crate::trace;
@@ -61,7 +61,7 @@ pub struct FlatMesh {
     pub pairs: Table<Pair>,
     /// As in [`Mesh`].
     pub corners: Table<Corners>,
-    /// By number of the triangle; none where nothing of the mesh is ever judged.
+    /// By number of the triangle.
     pub looks: Table<Look>,
     /// As in [`Mesh`].
     pub root: u32,
@@ -108,9 +108,6 @@ pub struct FlatOpacity {
     /// 1 for a pane of glass, else 0.
     pub is_pane: u32,
 }
-
-/// No motion, no material, no instance.
-pub const NONE: u32 = u32::MAX;
 
 /// A ray and what it passes through.
 #[derive(Clone, Copy, Debug)]

@@ -69,14 +69,14 @@ pub mod wave;
 mod world;
 
 pub use bsdf::{Bsdf, BsdfSample, Coat, Lobes, Parameters, ggx, reflected};
-pub use flat::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, NONE, Placement, Table};
+pub use flat::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, Placement, Table};
 pub use fog::{Fog, MATT_EVENTS, Scattering};
 pub use lookups::{Lookups, NOISE_SIDE};
 pub use mask::Mask;
 pub use material::{Material, alpha, holds_snow};
 pub use motion::Motion;
 pub use pair::{LEAF_MOST, Pair, inner, leaf};
-pub use ray::{Hit, Ray};
+pub use ray::{Hit, NONE, Ray};
 pub use sampler::Sampler;
 pub use sampling::{Basis, cosine_hemisphere, cosine_pdf, disk, power_heuristic};
 pub use sheared::Corners;

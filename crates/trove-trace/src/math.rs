@@ -149,6 +149,13 @@ pub(crate) fn unit2(v: Vec2) -> Vec2 {
     if scale.is_finite() && scale > 0.0 { v * scale } else { Vec2::ZERO }
 }
 
+/// From 0 below `low` to 1 above `high`.
+#[inline(always)]
+pub(crate) fn step(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -228,41 +228,108 @@ pub struct Shadow {
 
 /// What comes of a vertex.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub struct Turn {
     /// Whether the path goes on.
     pub goes_on: bool,
+    /// Light that it asked for.
+    pub shadows: Shadows,
+}
+
+/// Rays that ask for light.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct Shadows {
     /// To the sun, all of them in nearly the same direction.
     pub to_sun: Option<Shadow>,
     /// To the sky and to lamps.
     pub to_rest: Option<Shadow>,
 }
 
-/// A vertex of a path in a world.
-struct At<'a, W: World> {
-    world: &'a W,
-    lights: &'a Lights<'a, W::Map>,
-    turn: Turn,
+/// Where a path has arrived.
+#[derive(Clone, Copy)]
+#[repr(C)]
+#[expect(clippy::large_enum_variant, reason = "each lies in a table, with room for the largest")]
+pub enum Arrival {
+    /// Where it ends.
+    End,
+    /// At a droplet of the air, so many metres along its ray.
+    Droplet(f32),
+    /// At a surface.
+    Surface(Vertex),
+}
+
+/// A surface that a path has arrived at.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct Vertex {
+    surface: Surface,
+    bsdf: Bsdf,
+    /// As for `Lights::rest`.
+    lit_side: Vec3,
+    /// By which it parts the path from the eye, as `Scattering::after` counts them.
+    events: u32,
+    /// Draws among lights.
+    u_light: f32,
 }
 
 /// Where a path's ray has arrived: gathers light, asks for more behind shadow rays, and sends it on.
 #[inline(always)]
 pub fn advance<W: World>(world: &W, path: &mut Path, hit: Option<Hit>) -> Turn {
-    let mut at = At { world, lights: world.lights(), turn: Turn::default() };
-    at.turn.goes_on = at.advance(path, hit);
-    at.turn
+    match arrive(world, path, hit) {
+        Arrival::End => Turn::default(),
+        Arrival::Droplet(t) => scatter(world, path, t, hit),
+        Arrival::Surface(vertex) => {
+            let shadows = ask(world, path, &vertex);
+            Turn { shadows, goes_on: send(world, path, &vertex) }
+        }
+    }
 }
 
-impl<W: World> At<'_, W> {
-    /// False when the path has ended.
-    fn advance(&mut self, path: &mut Path, hit: Option<Hit>) -> bool {
+/// Gathers the light that reaches a path where its ray has arrived.
+#[inline(always)]
+pub fn arrive<W: World>(world: &W, path: &mut Path, hit: Option<Hit>) -> Arrival {
+    At::new(world).arrive(path, hit)
+}
+
+/// Sends a path on from a droplet `t` metres along its ray, before what that meets.
+#[inline(always)]
+pub fn scatter<W: World>(world: &W, path: &mut Path, t: f32, hit: Option<Hit>) -> Turn {
+    At::new(world).scatter(path, t, hit)
+}
+
+/// The light that a path asks for at a surface.
+#[inline(always)]
+pub fn ask<W: World>(world: &W, path: &mut Path, vertex: &Vertex) -> Shadows {
+    At::new(world).ask(path, vertex)
+}
+
+/// Sends a path on from a surface where it has asked for light; false where it ends.
+#[inline(always)]
+pub fn send<W: World>(world: &W, path: &mut Path, vertex: &Vertex) -> bool {
+    At::new(world).send(path, vertex)
+}
+
+/// Vertices of paths in a world.
+struct At<'a, W: World> {
+    world: &'a W,
+    lights: &'a Lights<'a, W::Map>,
+}
+
+impl<'a, W: World> At<'a, W> {
+    fn new(world: &'a W) -> Self {
+        Self { world, lights: world.lights() }
+    }
+
+    fn arrive(&self, path: &mut Path, hit: Option<Hit>) -> Arrival {
         let lights = self.lights;
         if let Some(t) = self.droplet(path, hit) {
-            return self.scatter(path, t, hit);
+            return Arrival::Droplet(t);
         }
         if let Some(field) = self.field_after(path.events)
             && !self.air(path, field, hit.map_or(f32::INFINITY, |hit| hit.t))
         {
-            return false;
+            return Arrival::End;
         }
         let Some(hit) = hit else {
             let direction = path.ray.direction;
@@ -275,7 +342,7 @@ impl<W: World> At<'_, W> {
             let sky = lights.sky.radiance(direction, path.cone.spread_rad) * of_sky;
             path.gather(path.throughput * (sun + sky), path.bounce, lights.scale);
             path.guide = path.guide.or(Some((path.guide_filter, Vec3::ZERO)));
-            return false;
+            return Arrival::End;
         };
         // Between other surfaces there is little of it, and in fog it is lost.
         if path.scattered.is_none()
@@ -303,18 +370,23 @@ impl<W: World> At<'_, W> {
         if path.guide.is_none() && (!bsdf.is_mirror || path.bounce >= 2 || self.world.fog().is_some()) {
             path.guide = Some(self.guide(path, hit.t, bsdf.albedo, surface.shading));
         }
-
         let lit_side = if material.translucency > 0.0 { Vec3::ZERO } else { surface.shading };
         let events = if bsdf.is_matt { MATT_EVENTS } else { 1 };
+        Arrival::Surface(Vertex { surface, bsdf, lit_side, events, u_light })
+    }
+
+    fn ask(&self, path: &mut Path, vertex: &Vertex) -> Shadows {
+        let Vertex { surface, lit_side, events, u_light, .. } = vertex;
         let air = self.after(path.events + events);
         let sun = self.sun(path, surface.point, air);
-        let roulette = self.roulette(path);
-        let sun = sun.and_then(|sun| self.ask(path, &surface, &bsdf, roulette, sun));
-        let rest = lights.rest(surface.point, lit_side);
-        let rest =
-            self.ask_rest(path, &rest, u_light, air, |path, light| self.ask(path, &surface, &bsdf, roulette, light));
-        self.trace(path, sun, rest, lights.faint());
+        let sun = sun.and_then(|sun| self.ask_straight(path, vertex, sun));
+        let rest = self.lights.rest(surface.point, *lit_side);
+        let rest = self.ask_rest(path, &rest, *u_light, air, |path, light| self.ask_straight(path, vertex, light));
+        self.trace(path, sun, rest, self.lights.faint())
+    }
 
+    fn send(&self, path: &mut Path, vertex: &Vertex) -> bool {
+        let Vertex { surface, bsdf, lit_side, events, .. } = vertex;
         let [u_lobe, u_roulette] = path.sampler.next2();
         let [u0, u1] = path.sampler.next2();
         let Some(next) = bsdf.sample([u_lobe, u0, u1]) else { return false };
@@ -329,11 +401,12 @@ impl<W: World> At<'_, W> {
             return path.passages <= MAX_PASSAGES;
         };
 
+        let roulette = self.roulette(path);
         path.bounce += 1;
         path.events += events;
         path.throughput *= next.weight;
         let Some(chance) = path.survives(u_roulette, roulette) else { return false };
-        path.scattered = Some(Scattered { point: surface.point, lit_side, pdf: pdf * chance });
+        path.scattered = Some(Scattered { point: surface.point, lit_side: *lit_side, pdf: pdf * chance });
         path.cone.spread_rad += next.spread_rad;
         path.go_on(surface.leave(next.wi), next.wi);
         true
@@ -362,8 +435,8 @@ impl<W: World> At<'_, W> {
         in_fog.or(in_spray)
     }
 
-    /// Sends the path on from a droplet `t` metres along it; what lies behind guides the denoiser all the same.
-    fn scatter(&mut self, path: &mut Path, t: f32, hit: Option<Hit>) -> bool {
+    /// What lies behind guides the denoiser all the same.
+    fn scatter(&self, path: &mut Path, t: f32, hit: Option<Hit>) -> Turn {
         let (lights, direction) = (self.lights, path.ray.direction);
         if path.guide.is_none() {
             path.guide = Some(hit.map_or((path.guide_filter, Vec3::ZERO), |hit| {
@@ -394,14 +467,14 @@ impl<W: World> At<'_, W> {
             Some(self.shadow(path, point, Vec3::splat(phase), 0.0, &sun))
         });
         let rest = self.ask_rest(path, &lights.rest(point, Vec3::ZERO), u_light, air, ask);
-        self.trace(path, sun, rest, FAINT_IN_AIR);
+        let shadows = self.trace(path, sun, rest, FAINT_IN_AIR);
 
-        let Some(chance) = path.survives(u_roulette, roulette) else { return false };
+        let Some(chance) = path.survives(u_roulette, roulette) else { return Turn { goes_on: false, shadows } };
         let on = scattering.turn(direction, path.sampler.next2());
         let pdf = scattering.phase(direction.dot(on)) * chance;
         path.scattered = Some(Scattered { point, lit_side: Vec3::ZERO, pdf });
         path.go_on(point, on);
-        true
+        Turn { goes_on: true, shadows }
     }
 
     /// From where the light of droplets is read that so many events part from the eye; `None` where they are met.
@@ -482,8 +555,8 @@ impl<W: World> At<'_, W> {
         Some(Shadow { light: shadow.light * (total / (brings * count as f32)), ..shadow })
     }
 
-    /// Has shadow rays traced; those that would bring little by chance, the likelier the more, and then for all of them.
-    fn trace(&mut self, path: &mut Path, sun: Option<Shadow>, rest: Option<Shadow>, faint: f32) {
+    /// Which shadow rays are traced: those that would bring little by chance, the likelier the more, and then for all of them.
+    fn trace(&self, path: &mut Path, sun: Option<Shadow>, rest: Option<Shadow>, faint: f32) -> Shadows {
         let us = path.sampler.next2();
         let faint = faint * self.lights.scale;
         let worth = |shadow: Option<Shadow>, u: f32| {
@@ -491,7 +564,7 @@ impl<W: World> At<'_, W> {
             let chance = (shadow.light.max_element() / faint).min(1.0);
             (u < chance).then(|| Shadow { light: shadow.light / chance, ..shadow })
         };
-        (self.turn.to_sun, self.turn.to_rest) = (worth(sun, us[0]), worth(rest, us[1]));
+        Shadows { to_sun: worth(sun, us[0]), to_rest: worth(rest, us[1]) }
     }
 
     /// The sun as it shines through the air on a surface, some of it from around its disk.
@@ -532,10 +605,10 @@ impl<W: World> At<'_, W> {
     }
 
     /// The ray that asks for light which a surface sends on straight from where a light sample lies.
-    fn ask(&self, path: &Path, surface: &Surface, bsdf: &Bsdf, roulette: f32, light: LightSample) -> Option<Shadow> {
+    fn ask_straight(&self, path: &Path, Vertex { surface, bsdf, .. }: &Vertex, light: LightSample) -> Option<Shadow> {
         let (f, pdf) = bsdf.eval(light.wi);
         (f != Vec3::ZERO).then(|| {
-            let goes_on = if pdf > 0.0 { chance(path.throughput * f / pdf, roulette) } else { 0.0 };
+            let goes_on = if pdf > 0.0 { chance(path.throughput * f / pdf, self.roulette(path)) } else { 0.0 };
             self.shadow(path, surface.leave(light.wi), f, pdf * goes_on, &light)
         })
     }

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use crate::flat::NONE;
+/// No motion, no material, no instance.
+pub const NONE: u32 = u32::MAX;
 
 /// A ray in World; distances are in lengths of `direction`.
 #[derive(Clone, Copy, Debug)]

@@ -5,9 +5,9 @@ use std::vec::Vec;
 
 use glam::{IVec3, Vec2, Vec3};
 
-use crate::flat::NONE;
 use crate::lookups::{Lookups, NOISE_SIDE};
 use crate::material::{Material, random3};
+use crate::ray::NONE;
 use crate::texture::{Map, Texture};
 
 /// No texture.

@@ -3,7 +3,7 @@
 use glam::{Affine3A, IVec3, Mat3A, Vec2, Vec3};
 
 use crate::field::{GRIDS, LightField, Node};
-use crate::flat::{Asked, FlatScene, NONE, Readable, Table};
+use crate::flat::{Asked, FlatScene, Readable, Table};
 use crate::fog::Fog;
 use crate::light::{
     Aim, BeamTable, Beams, Cell, Cells, Emitter, Emitters, Group, Haze, Lights, Patches, Pattern, Picture, Sky, Sun,
@@ -14,7 +14,7 @@ use crate::material::Material;
 use crate::math::unit_or;
 use crate::motion::Motion;
 use crate::path::World;
-use crate::ray::{Hit, Ray};
+use crate::ray::{Hit, NONE, Ray};
 use crate::surface::{Surface, Triangle};
 use crate::texture::FlatTexture;
 use crate::trace;

@@ -123,7 +123,12 @@ fn capture() -> Capture {
         srgb: Raster::from_fn(W, H, |x, y| [x as u8, y as u8, 200]),
         exposure_ev: -0.7,
     };
-    Capture { color: Some(color), labels, change: None, stats: CaptureStats { rays: 1, spp: 1.0, denoised: false } }
+    Capture {
+        color: Some(color),
+        labels,
+        change: None,
+        stats: CaptureStats { rays: 1, spp: 1.0, ..CaptureStats::default() },
+    }
 }
 
 fn meta() -> FrameMeta {

@@ -17,14 +17,14 @@ const KEYFRAME: usize = 10;
 
 fn main() -> Result<()> {
     let started = Instant::now();
-    let card = Card::find().map_err(anyhow::Error::msg)?;
+    let card = Card::open(0).map_err(anyhow::Error::msg)?;
     println!("{}; opened and compiled for in {:.2} s", card.about(), started.elapsed().as_secs_f64());
     let scale: f64 = std::env::args().nth(1).map_or(Ok(1.0), |text| text.parse()).context("expected a scale")?;
     let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(scale));
     let views = ViewSettings { rig, size, spp: 1, ..ViewSettings::default() };
     let (scene, shots) = Street::build("scene-0103", "boston-seaport.osm")?.at(KEYFRAME, views);
     let (kernel, denoise) = (KernelChoice::Obvhs, Denoising::None);
-    let renderer = Renderer::new(&RendererOptions { kernel, denoise, threads: 0, search: Vec::new() })?;
+    let renderer = Renderer::new(&RendererOptions { kernel, denoise, threads: 0, ..Default::default() })?;
     let prepared = renderer.prepare(&scene)?;
     let started = Instant::now();
     let (rates, scene_bytes) = renderer.card_rates(&prepared, &shots[0], &card).map_err(anyhow::Error::msg)?;

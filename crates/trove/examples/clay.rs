@@ -35,8 +35,13 @@ fn main() -> Result<()> {
     let scene = of_clay(scene, &shots, &out)?;
 
     let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
-    let renderer =
-        Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: Denoising::None, threads: 0, search })?;
+    let renderer = Renderer::new(&RendererOptions {
+        kernel: KernelChoice::Auto,
+        denoise: Denoising::None,
+        threads: 0,
+        search,
+        ..Default::default()
+    })?;
     let prepared = renderer.prepare(&scene)?;
     for seed in [1, 2] {
         let shot = Shot { seed: Seed(seed), ..shots[0].clone() };

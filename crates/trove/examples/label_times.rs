@@ -24,7 +24,13 @@ fn main() -> Result<()> {
     let (scene, shots) = Street::build("scene-0103", "boston-seaport.osm")?.at(KEYFRAME, views);
     for kernel in [KernelChoice::Embree, KernelChoice::Obvhs] {
         let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
-        let renderer = Renderer::new(&RendererOptions { kernel, denoise: Denoising::None, threads: 0, search })?;
+        let renderer = Renderer::new(&RendererOptions {
+            kernel,
+            denoise: Denoising::None,
+            threads: 0,
+            search,
+            ..Default::default()
+        })?;
         let prepared = renderer.prepare(&scene)?;
         let mut all_s = 0.0;
         for shot in &shots {

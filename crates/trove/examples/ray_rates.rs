@@ -14,8 +14,13 @@ use trove_render::{Denoising, KernelChoice, RaySeconds, Renderer, RendererOption
 
 fn main() -> Result<()> {
     let search = std::env::var_os("TROVE_EMBREE").map(PathBuf::from).into_iter().collect();
-    let renderer =
-        Renderer::new(&RendererOptions { kernel: KernelChoice::Embree, denoise: Denoising::None, threads: 1, search })?;
+    let renderer = Renderer::new(&RendererOptions {
+        kernel: KernelChoice::Embree,
+        denoise: Denoising::None,
+        threads: 1,
+        search,
+        ..Default::default()
+    })?;
     for (name, map) in [("scene-0103", "boston-seaport.osm"), ("scene-0061", "singapore-onenorth.osm")] {
         let (rig, size) = (Some(vec!["CAM_FRONT".into()]), PictureSize::Scaled(0.5));
         let views = ViewSettings { rig, size, spp: 1, ..ViewSettings::default() };

@@ -56,7 +56,13 @@ impl BuiltScene {
         let mut built = VirtualScene::build(&sources, (&timeline, map.as_ref()), &library, 0, report)?;
         if recipe.views.match_photographs {
             let (denoise, threads) = (Denoising::None, recipe.render.threads);
-            let options = RendererOptions { kernel: KernelChoice::Auto, denoise, threads, search: search.to_vec() };
+            let options = RendererOptions {
+                kernel: KernelChoice::Auto,
+                denoise,
+                threads,
+                search: search.to_vec(),
+                ..Default::default()
+            };
             match_photographs(&mut built, &sources, &Renderer::new(&options)?, report)?;
         }
         let scene = built.at(keyframe);

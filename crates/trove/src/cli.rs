@@ -12,7 +12,7 @@ use tracing::Level;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
-use trove_render::KernelChoice;
+use trove_render::{DeviceChoice, KernelChoice};
 
 use crate::answer::Answer;
 use crate::assets::{self, AssetsCommand};
@@ -231,6 +231,22 @@ struct Machine {
     /// Ray-tracing kernel; obvhs is built in and gives the same bytes on every machine.
     #[arg(long, value_enum, default_value = "auto")]
     kernel: Kernel,
+    /// Who follows light: cpu, the NVIDIA card cuda:0 (or another number), or auto, the first card that can be used, else
+    /// the processor; emulated is what a card runs, on the processor; labels are always the processor's.
+    #[arg(long, value_parser = device, default_value = "cpu", value_name = "auto|cpu|cuda:N|emulated")]
+    device: DeviceChoice,
+}
+
+fn device(text: &str) -> Result<DeviceChoice, String> {
+    let number = |text: &str| text.strip_prefix("cuda:")?.parse().ok();
+    match text {
+        "auto" => Ok(DeviceChoice::Auto),
+        "cpu" => Ok(DeviceChoice::Cpu),
+        "emulated" => Ok(DeviceChoice::Emulated),
+        _ => number(text)
+            .map(DeviceChoice::Cuda)
+            .ok_or_else(|| "expected auto, cpu, emulated, or cuda:0 or another number".into()),
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -250,6 +266,7 @@ impl Machine {
         RunOptions {
             recipe_file: None,
             kernel,
+            device: self.device,
             search: libraries::search(site_packages),
             frames: None,
             share: None,

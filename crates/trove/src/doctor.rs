@@ -10,12 +10,18 @@ use crate::library;
 
 /// Prints what is there, what is missing and how to get it.
 pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
-    let options = RendererOptions { kernel: KernelChoice::Auto, denoise: Denoising::Best, threads: 0, search };
+    let options = RendererOptions {
+        kernel: KernelChoice::Auto,
+        denoise: Denoising::Best,
+        threads: 0,
+        search,
+        ..Default::default()
+    };
     let body = library::body::folder(&options.search);
     let found = Renderer::new(&options)?.capabilities();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let memory_gib = memory_gib();
-    let card = Card::find();
+    let card = Card::open(0);
     let card = card.as_ref().map(Card::about);
     if as_json {
         let report = json!({
@@ -58,7 +64,10 @@ pub(crate) fn run(search: Vec<PathBuf>, as_json: bool) -> Result<()> {
     println!("memory      {}", memory_gib.map_or("unknown".into(), |gib| format!("{gib:.1} GiB")));
     match card {
         Ok(about) => {
-            println!("card        {about}; it traces rays as the processor does, but pictures do not use it yet")
+            println!("card        {about}");
+            println!(
+                "            --device cuda:0 has it follow light, which no card has been tried for yet: docs/cards.md"
+            );
         }
         Err(why) => println!("card        none, and none is needed: {why}"),
     }

@@ -59,8 +59,13 @@ fn shot(middle: DVec2, size_m: f64) -> Shot {
 }
 
 fn take(scene: &Scene, shot: &Shot, path: &Path, search: Vec<PathBuf>) -> Result<()> {
-    let renderer =
-        Renderer::new(&RendererOptions { kernel: KernelChoice::Auto, denoise: Denoising::Best, threads: 0, search })?;
+    let renderer = Renderer::new(&RendererOptions {
+        kernel: KernelChoice::Auto,
+        denoise: Denoising::Best,
+        threads: 0,
+        search,
+        ..Default::default()
+    })?;
     let prepared = renderer.prepare(scene)?;
     let capture = renderer.render(&prepared, shot, true, &|_| false);
     if let Some(color) = capture.and_then(|capture| capture.color) {

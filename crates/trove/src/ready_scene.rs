@@ -80,6 +80,7 @@ impl ReadyScene {
                 denoise: recipe.denoising(),
                 threads: recipe.render.threads,
                 search,
+                ..RendererOptions::default()
             })?;
             let prepared = renderer.prepare(&built.scene)?;
             let report = serde_json::to_string(&ReportTable::from(&report))?;

@@ -7,12 +7,15 @@ use std::sync::Arc;
 
 use glam::Vec2;
 use trove_model::Mesh;
-use trove_trace::{Asked, FlatMesh, FlatOpacity, FlatScene, Look, Motion, NONE, Placement, Table};
+use trove_trace::{
+    Asked, FlatLook, FlatMesh, FlatOpacity, FlatScene, FlatTexture, Look, Motion, NONE, Placement, Table,
+};
 
 use super::hierarchy::Hierarchy;
 use super::obvhs::{Bottom, over};
 use super::shapes::Shapes;
 use crate::ray::Ray;
+use crate::texture::MipMap;
 
 /// The tables of a scene in which something is.
 pub(crate) struct Flat {
@@ -20,9 +23,8 @@ pub(crate) struct Flat {
     over: Hierarchy,
     placements: Vec<Placement>,
     motions: Vec<Motion>,
-    meshes: Vec<(Bottom, Vec<Look>)>,
-    /// Each mesh, and its lowest z.
-    shown: Vec<(Arc<Mesh>, f32)>,
+    /// Each mesh, and its lowest z, metres.
+    meshes: Vec<(Arc<Mesh>, f32)>,
     materials: Vec<u32>,
 }
 
@@ -31,16 +33,14 @@ impl Flat {
     pub(crate) fn new(shapes: &Arc<Shapes>) -> Option<Self> {
         let over = over(&shapes.placed)?;
         let (mut placements, mut motions, mut materials) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut meshes, mut shown): (Vec<(&Arc<Mesh>, bool)>, _) = (Vec::new(), Vec::new());
+        let mut meshes = Vec::new();
         let mut numbers: BTreeMap<usize, u32> = BTreeMap::new();
         for placed in &shapes.placed {
             let mesh = *numbers.entry(Arc::as_ptr(&placed.mesh) as usize).or_insert_with(|| {
-                meshes.push((&placed.mesh, false));
-                shown.push((placed.mesh.clone(), placed.foot_z));
+                meshes.push((placed.mesh.clone(), placed.foot_z));
                 meshes.len() as u32 - 1
             });
             let judged = shapes.lets_pass(placed);
-            meshes[mesh as usize].1 |= judged;
             let [previous, next] = placed.stays;
             placements.push(Placement {
                 mesh_from_world: placed.world_from_mesh.middle.inverse(),
@@ -51,28 +51,21 @@ impl Flat {
                 materials: if judged { listed(&mut materials, placed.materials.iter().copied()) } else { NONE },
             });
         }
-        let meshes = meshes
-            .into_iter()
-            .map(|(mesh, judged)| (Bottom::new(mesh), if judged { looks(mesh) } else { Vec::new() }))
-            .collect();
-        Some(Self { shapes: shapes.clone(), over, placements, motions, meshes, shown, materials })
+        Some(Self { shapes: shapes.clone(), over, placements, motions, meshes, materials })
     }
 
-    /// Each mesh in the order of the tables, and its lowest z, metres.
-    pub(crate) fn meshes(&self) -> impl Iterator<Item = (&Mesh, f32)> {
-        self.shown.iter().map(|(mesh, foot_z)| (&**mesh, *foot_z))
+    /// Each mesh, and its lowest z, metres.
+    pub(crate) fn meshes(&self) -> &[(Arc<Mesh>, f32)] {
+        &self.meshes
     }
 
-    /// The tables in some memory, into which `hold` puts each of them.
-    pub(crate) fn scene<E>(&self, hold: &mut impl Hold<Error = E>) -> Result<FlatScene, E> {
-        let mut meshes = Vec::with_capacity(self.meshes.len());
-        for (bottom, looks) in &self.meshes {
-            meshes.push(FlatMesh {
-                pairs: hold.hold(&bottom.pairs)?,
-                corners: hold.hold(&bottom.corners)?,
-                looks: hold.hold(looks)?,
-                root: bottom.root,
-            });
+    /// The tables in some memory, into which `hold` puts each of them, and what each mesh looks like.
+    pub(crate) fn scene<H: Hold>(&self, hold: &mut H) -> Result<(FlatScene, Table<FlatLook>), H::Error> {
+        let (mut meshes, mut looks) = (Vec::new(), Vec::new());
+        for (mesh, foot_z) in &self.meshes {
+            let (mesh, look) = hold.mesh(mesh, *foot_z)?;
+            meshes.push(mesh);
+            looks.push(look);
         }
         let mut opacities = Vec::with_capacity(self.shapes.opacities.len());
         for opacity in self.shapes.opacities.iter() {
@@ -82,7 +75,7 @@ impl Flat {
                 None => FlatOpacity { holes: Table::at(0, 0), size: [8; 2], scale: Vec2::ONE, is_pane },
             });
         }
-        Ok(FlatScene {
+        let scene = FlatScene {
             pairs: hold.hold(&self.over.pairs)?,
             order: hold.hold(&self.over.order)?,
             placements: hold.hold(&self.placements)?,
@@ -91,7 +84,8 @@ impl Flat {
             materials: hold.hold(&self.materials)?,
             opacities: hold.hold(&opacities)?,
             root: self.over.root,
-        })
+        };
+        Ok((scene, hold.hold(&looks)?))
     }
 }
 
@@ -100,17 +94,60 @@ pub(crate) trait Hold {
     type Error;
 
     /// Where the values lie from now on.
-    fn hold<T: Copy + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Self::Error>;
+    fn hold<T: Copy + Send + Sync + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Self::Error>;
+
+    /// A mesh as it is traced and as it looks, with its lowest z, metres.
+    fn mesh(&mut self, mesh: &Arc<Mesh>, foot_z: f32) -> Result<(FlatMesh, FlatLook), Self::Error> {
+        flat_mesh(self, mesh, foot_z)
+    }
+
+    /// A texture that many may share.
+    fn map(&mut self, map: &Arc<MipMap>) -> Result<FlatTexture, Self::Error> {
+        flat_map(self, map)
+    }
+}
+
+/// A mesh in a memory of its own or of all.
+pub(crate) fn flat_mesh<H: Hold + ?Sized>(
+    hold: &mut H,
+    mesh: &Mesh,
+    foot_z: f32,
+) -> Result<(FlatMesh, FlatLook), H::Error> {
+    let bottom = Bottom::new(mesh);
+    let traced = FlatMesh {
+        pairs: hold.hold(&bottom.pairs)?,
+        corners: hold.hold(&bottom.corners)?,
+        looks: hold.hold(&looks(mesh))?,
+        root: bottom.root,
+    };
+    let look = FlatLook {
+        triangles: hold.hold(&mesh.triangles)?,
+        positions: hold.hold(&mesh.positions)?,
+        normals: hold.hold(&mesh.normals)?,
+        uvs: hold.hold(&mesh.uvs)?,
+        tints: hold.hold(&mesh.tints)?,
+        slots: hold.hold(&mesh.slots)?,
+        foot_z,
+    };
+    Ok((traced, look))
+}
+
+/// A texture in a memory of its own or of all.
+pub(crate) fn flat_map<H: Hold + ?Sized>(hold: &mut H, map: &MipMap) -> Result<FlatTexture, H::Error> {
+    let texture = map.texture();
+    let (firsts, texels) = (hold.hold(texture.firsts)?, hold.hold(texture.texels)?);
+    // SAFETY: whoever holds them keeps them.
+    Ok(unsafe { FlatTexture::new(texture.size, firsts, texels, texture.is_srgb) })
 }
 
 /// Copies in the processor's memory.
 #[derive(Default)]
-pub(crate) struct Here(Vec<Box<dyn Any>>);
+pub(crate) struct Here(Vec<Box<dyn Any + Send + Sync>>);
 
 impl Hold for Here {
     type Error = Infallible;
 
-    fn hold<T: Copy + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Infallible> {
+    fn hold<T: Copy + Send + Sync + 'static>(&mut self, values: &[T]) -> Result<Table<T>, Infallible> {
         let copies = Box::new(values.to_vec());
         let table = Table::at(copies.as_ptr() as u64, copies.len());
         self.0.push(copies);

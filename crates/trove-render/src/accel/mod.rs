@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 use crate::RenderError;
 
-pub(crate) use flat::{Flat, Here, Hold, asked};
+pub(crate) use flat::{Flat, Here, Hold, asked, flat_map, flat_mesh};
 pub(crate) use kernel::{Accel, Coherence, Kernel, PACKET};
 pub(crate) use shapes::Shapes;
 

@@ -4,6 +4,7 @@ use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::marker::PhantomData;
 use std::mem::ManuallyDrop;
 use std::ptr;
+use std::sync::Arc;
 
 use libloading::Library;
 
@@ -34,7 +35,6 @@ shared_library! {
     context_retain = b"cuDevicePrimaryCtxRetain": fn(*mut Handle, c_int) -> c_int;
     context_release = b"cuDevicePrimaryCtxRelease_v2": fn(c_int) -> c_int;
     context_set = b"cuCtxSetCurrent": fn(Handle) -> c_int;
-    synchronize = b"cuCtxSynchronize": fn() -> c_int;
     module_load = b"cuModuleLoadData": fn(*mut Handle, *const c_void) -> c_int;
     module_unload = b"cuModuleUnload": fn(Handle) -> c_int;
     module_function = b"cuModuleGetFunction": fn(*mut Handle, Handle, *const c_char) -> c_int;
@@ -53,20 +53,29 @@ shared_library! {
     event_ms = b"cuEventElapsedTime": fn(*mut f32, Handle, Handle) -> c_int;
 }
 
-/// The first card with a program on it, for the thread that opened it.
+/// A card with a program on it.
 pub(super) struct Device {
     api: Api,
     device: c_int,
+    context: Handle,
     module: Handle,
+    /// What it is called.
+    pub(super) name: String,
     /// What it is, for people.
     pub(super) about: String,
     pub(super) multiprocessors: u32,
 }
 
+// SAFETY: the driver may be called by any thread, and the handles are the process's; each call makes the context its thread's.
+unsafe impl Send for Device {}
+// SAFETY: as above.
+unsafe impl Sync for Device {}
+
 impl Drop for Device {
     fn drop(&mut self) {
         // SAFETY: both were made when it was opened; a card that is lost refuses, and nothing is left to do then.
         unsafe {
+            (self.api.context_set)(self.context);
             (self.api.module_unload)(self.module);
             (self.api.context_release)(self.device);
         }
@@ -81,16 +90,16 @@ pub(super) struct Function<'a> {
 }
 
 /// Values in a card's memory.
-pub(super) struct Buffer<'a, T> {
-    device: &'a Device,
+pub(super) struct Buffer<T> {
+    device: Arc<Device>,
     address: u64,
     count: usize,
     holds: PhantomData<T>,
 }
 
-impl<T> Drop for Buffer<'_, T> {
+impl<T> Drop for Buffer<T> {
     fn drop(&mut self) {
-        if self.address != 0 {
+        if self.address != 0 && self.device.enter().is_ok() {
             // SAFETY: it was allocated and is freed once.
             unsafe { (self.device.api.free)(self.address) };
         }
@@ -129,21 +138,26 @@ impl Api {
 }
 
 impl Device {
-    /// Opens the first card and compiles a program in PTX for it.
-    pub(super) fn open(ptx: &CStr) -> Result<Self, String> {
+    /// Opens the card of a number and compiles a program in PTX for it.
+    pub(super) fn open(number: u32, ptx: &CStr) -> Result<Self, String> {
         let api = Api::load()?;
         // SAFETY: every function gets what `cuda.h` says, and pointers to values of its types.
         unsafe {
             api.check("starting the driver", (api.init)(0))?;
             let version = api.got("asking for the driver's version", 0, |to| (api.driver_version)(to))?;
-            if api.got("counting cards", 0, |to| (api.device_count)(to))? == 0 {
-                return Err("the driver finds no card".into());
+            let count = api.got("counting cards", 0, |to| (api.device_count)(to))?;
+            let number = c_int::try_from(number).unwrap_or(c_int::MAX);
+            if number >= count {
+                return Err(match count {
+                    0 => "the driver finds no card".into(),
+                    count => format!("there is no card {number}, since the driver finds {count}, counted from 0"),
+                });
             }
-            let device = api.got("asking for a card", 0, |to| (api.device_get)(to, 0))?;
+            let device = api.got("asking for a card", 0, |to| (api.device_get)(to, number))?;
             let mut name: [c_char; 128] = [0; 128];
             // One less, so that the text ends in any case.
             api.check("asking for a card's name", (api.device_name)(name.as_mut_ptr(), 127, device))?;
-            let name = CStr::from_ptr(name.as_ptr()).to_string_lossy();
+            let name = CStr::from_ptr(name.as_ptr()).to_string_lossy().into_owned();
             let bytes = api.got("asking for a card's memory", 0, |to| (api.device_memory)(to, device))?;
             let attribute = |which| api.got("asking about a card", 0, |to| (api.device_attribute)(to, which, device));
             let [major, minor] = [attribute(COMPUTE_MAJOR)?, attribute(COMPUTE_MINOR)?];
@@ -159,7 +173,7 @@ impl Device {
                 api.got("compiling for a card", ptr::null_mut(), |to| (api.module_load)(to, ptx.as_ptr().cast()))
             });
             match made {
-                Ok(module) => Ok(Self { api, device, module, about, multiprocessors }),
+                Ok(module) => Ok(Self { api, device, context, module, name, about, multiprocessors }),
                 Err(problem) => {
                     (api.context_release)(device);
                     Err(format!("{about}: {problem}"))
@@ -168,8 +182,15 @@ impl Device {
         }
     }
 
+    /// Makes this the card of the calling thread.
+    fn enter(&self) -> Result<(), String> {
+        // SAFETY: the context is alive.
+        self.api.check("turning to a card", unsafe { (self.api.context_set)(self.context) })
+    }
+
     /// A function of the program.
     pub(super) fn function(&self, name: &CStr) -> Result<Function<'_>, String> {
+        self.enter()?;
         let find = |to| {
             // SAFETY: the module is loaded and the name a C string.
             unsafe { (self.api.module_function)(to, self.module, name.as_ptr()) }
@@ -178,34 +199,55 @@ impl Device {
     }
 
     /// Room for `count` values, whatever lies there.
-    pub(super) fn room<T: Copy>(&self, count: usize) -> Result<Buffer<'_, T>, String> {
+    pub(super) fn room<T: Copy>(self: &Arc<Self>, count: usize) -> Result<Buffer<T>, String> {
         let bytes = count * size_of::<T>();
         let mut address = 0;
         if bytes > 0 {
+            self.enter()?;
             let doing = format!("taking {bytes} bytes of a card's memory");
             // SAFETY: it writes one address.
             address = self.api.got(&doing, 0, |to| unsafe { (self.api.allocate)(to, bytes) })?;
         }
-        Ok(Buffer { device: self, address, count, holds: PhantomData })
+        Ok(Buffer { device: self.clone(), address, count, holds: PhantomData })
     }
 
     /// Values in the card's memory.
-    pub(super) fn hold<T: Copy>(&self, values: &[T]) -> Result<Buffer<'_, T>, String> {
+    pub(super) fn hold<T: Copy>(self: &Arc<Self>, values: &[T]) -> Result<Buffer<T>, String> {
         let buffer = self.room(values.len())?;
-        if !values.is_empty() {
-            // SAFETY: the room is as large as the values.
-            let code = unsafe { (self.api.upload)(buffer.address, values.as_ptr().cast(), size_of_val(values)) };
-            self.api.check("sending to a card", code)?;
-        }
+        buffer.write(values)?;
         Ok(buffer)
+    }
+
+    /// Seconds that the card takes for what `work` has it do.
+    pub(super) fn timed(&self, work: impl FnOnce() -> Result<(), String>) -> Result<f64, String> {
+        let (api, none): (_, Handle) = (&self.api, ptr::null_mut());
+        self.enter()?;
+        // SAFETY: handles are alive.
+        unsafe {
+            let event = || api.got("making an event", none, |to| (api.event_create)(to, 0));
+            let [before, after] = [event()?, event()?];
+            let timed = || {
+                api.check("timing", (api.event_record)(before, none))?;
+                work()?;
+                api.check("timing", (api.event_record)(after, none))?;
+                api.check("running a function", (api.event_synchronize)(after))?;
+                api.got("timing", 0.0, |to| (api.event_ms)(to, before, after))
+            };
+            let ms = timed();
+            (api.event_destroy)(before);
+            (api.event_destroy)(after);
+            Ok(f64::from(ms?) * 1e-3)
+        }
     }
 }
 
-impl<'a, T: Copy> Buffer<'a, T> {
+impl<T: Copy> Buffer<T> {
     /// The same room, without saying what lies there.
-    pub(super) fn into_bytes(self) -> Buffer<'a, u8> {
+    pub(super) fn into_bytes(self) -> Buffer<u8> {
         let this = ManuallyDrop::new(self);
-        Buffer { device: this.device, address: this.address, count: this.bytes(), holds: PhantomData }
+        // SAFETY: the other one is never dropped, so that there is one owner as before.
+        let device = unsafe { ptr::read(&raw const this.device) };
+        Buffer { device, address: this.address, count: this.bytes(), holds: PhantomData }
     }
 
     pub(super) fn address(&self) -> u64 {
@@ -219,6 +261,10 @@ impl<'a, T: Copy> Buffer<'a, T> {
     /// Other values in the same room, as many as fit.
     pub(super) fn write(&self, values: &[T]) -> Result<(), String> {
         let bytes = size_of_val(values).min(self.bytes());
+        if bytes == 0 {
+            return Ok(());
+        }
+        self.device.enter()?;
         // SAFETY: both places are at least so large.
         let code = unsafe { (self.device.api.upload)(self.address, values.as_ptr().cast(), bytes) };
         self.device.api.check("sending to a card", code)
@@ -230,6 +276,7 @@ impl<'a, T: Copy> Buffer<'a, T> {
         if bytes == 0 {
             return Ok(());
         }
+        self.device.enter()?;
         // SAFETY: both places are at least so large.
         let code = unsafe { (self.device.api.download)(values.as_mut_ptr().cast(), self.address, bytes) };
         self.device.api.check("receiving from a card", code)
@@ -257,37 +304,25 @@ impl Function<'_> {
         Ok(api.got("asking about a function", 0, ask)? as u32 * block)
     }
 
-    /// Runs it once for each of as many things as the last number says and waits; seconds that it took on the card.
+    /// Has it run once for each of as many things as the last number says, after all that the card was told before.
     ///
     /// # Safety
     /// It has to be a function of `trove_trace`'s over these addresses and then these numbers, and what lies at the addresses
     /// what that function wants.
-    pub(super) unsafe fn run(&self, addresses: &[u64], numbers: &[u32], block: u32) -> Result<f64, String> {
+    pub(super) unsafe fn launch(&self, addresses: &[u64], numbers: &[u32], block: u32) -> Result<(), String> {
         let api = &self.device.api;
-        let count = numbers.last().copied().unwrap_or(0);
+        let blocks = numbers.last().copied().unwrap_or(0).div_ceil(block);
+        if blocks == 0 {
+            return Ok(());
+        }
         let of_addresses = addresses.iter().map(|address| ptr::from_ref(address).cast_mut().cast());
         let of_numbers = numbers.iter().map(|number| ptr::from_ref(number).cast_mut().cast());
         let mut arguments: Vec<*mut c_void> = of_addresses.chain(of_numbers).collect();
-        let none: Handle = ptr::null_mut();
+        let (none, nothing): (Handle, _) = (ptr::null_mut(), ptr::null_mut());
+        self.device.enter()?;
         // SAFETY: handles are alive, and the arguments are of the types of the function's parameters.
-        unsafe {
-            let event = || api.got("making an event", none, |to| (api.event_create)(to, 0));
-            let [before, after] = [event()?, event()?];
-            let timed = || {
-                api.check("timing", (api.event_record)(before, none))?;
-                let (blocks, nothing) = (count.div_ceil(block), ptr::null_mut());
-                let parameters = arguments.as_mut_ptr();
-                let code = (api.launch)(self.handle, blocks, 1, 1, block, 1, 1, 0, none, parameters, nothing);
-                api.check("starting a function", code)?;
-                api.check("timing", (api.event_record)(after, none))?;
-                api.check("running a function", (api.event_synchronize)(after))?;
-                api.check("running a function", (api.synchronize)())?;
-                api.got("timing", 0.0, |to| (api.event_ms)(to, before, after))
-            };
-            let ms = { timed }();
-            (api.event_destroy)(before);
-            (api.event_destroy)(after);
-            Ok(f64::from(ms?) * 1e-3)
-        }
+        let code =
+            unsafe { (api.launch)(self.handle, blocks, 1, 1, block, 1, 1, 0, none, arguments.as_mut_ptr(), nothing) };
+        api.check("starting a function", code)
     }
 }

@@ -2,20 +2,23 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3, Vec3, vec2};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3, vec2};
 use trove_model::{
-    Beam, Class, ColorSpace, Environment, Fog, Instance, InstanceId, Light, Mapping, Material, Mesh, PhysicalSky,
-    Placement, Random, Scene, Seed, Texture, Tiling,
+    Beam, Capture, Class, ColorSpace, Distortion, Environment, Fog, Instance, InstanceId, Lens, Light, Mapping,
+    Material, Mesh, PhysicalSky, Placement, Pose, Random, Scene, Seed, Shot, Texture, Tiling,
 };
 use trove_trace::Sampler;
-use trove_trace::path::{Cone, Path, Start, World, advance};
+use trove_trace::field::LightField;
+use trove_trace::path::{Cone, Path, Sample, Start, World, advance};
 
-use super::follow::{self, follow};
+use super::follow::follow_here;
 use super::world::world;
+use super::{Emulated, Machine};
 use crate::accel::{Coherence, Flat, Here, asked};
 use crate::path::{Seen, followed};
 use crate::ray::Ray;
-use crate::{Denoising, KernelChoice, Renderer, RendererOptions};
+use crate::remote::{RemoteScene, RemoteWave};
+use crate::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
 
 fn texture(name: &str, color_space: ColorSpace, texel: impl Fn(u32, u32) -> [u8; 4]) -> Option<Arc<Texture>> {
     let side = 32;
@@ -135,26 +138,28 @@ fn starts(count: u32) -> Vec<Start> {
     (0..count).map(start).collect()
 }
 
+fn renderer() -> Renderer {
+    let (kernel, denoise) = (KernelChoice::Obvhs, Denoising::None);
+    Renderer::new(&RendererOptions { kernel, denoise, threads: 2, ..Default::default() }).unwrap()
+}
+
 #[test]
 fn paths_go_the_same_way_through_tables_as_through_the_scene() {
     let fog = Fog { visibility_m: 60.0, height_m: 30.0, ground_z_m: 0.0 };
     for (is_night, fog) in [(false, None), (true, None), (false, Some(fog))] {
         let scene = scene(is_night, fog);
-        let options =
-            RendererOptions { kernel: KernelChoice::Obvhs, denoise: Denoising::None, threads: 1, search: Vec::new() };
-        let renderer = Renderer::new(&options).unwrap();
+        let renderer = renderer();
         let prepared = renderer.prepare(&scene).unwrap();
         let shapes = Flat::new(&prepared.shapes).unwrap();
         let mut memory = Here::default();
-        let Ok(flat) = world(&prepared, &shapes, None, &mut memory);
+        let Ok(flat) = world(&prepared, &shapes, &mut memory);
         // SAFETY: the tables are as `world` makes them, and the memory lives on.
         let (here, seen) = (unsafe { flat.readable() }, Seen::new(&prepared, None));
         let starts = starts(20_000);
         let mut ours: Vec<Path> = starts.iter().map(|start| Path::new(*start)).collect();
         let (mut others, mut met, mut lit) = (ours.clone(), 0, 0);
-        let bits = |sample: trove_trace::path::Sample| {
-            [sample.radiance, sample.albedo, sample.normal].map(|v| v.to_array().map(f32::to_bits))
-        };
+        let bits =
+            |sample: Sample| [sample.radiance, sample.albedo, sample.normal].map(|v| v.to_array().map(f32::to_bits));
         while !ours.is_empty() {
             let mut on = Vec::new();
             for (path, other) in ours.iter_mut().zip(&mut others) {
@@ -165,7 +170,10 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
                 assert_eq!(unsafe { flat.scene.closest(&asked(&ray)) }, hits[0]);
                 met += usize::from(hits[0].is_some());
                 let (turn, of_tables) = (advance(&seen, path, hits[0]), advance(&here, other, hits[0]));
-                let shadows = [(turn.to_rest, of_tables.to_rest), (turn.to_sun, of_tables.to_sun)];
+                let shadows = [
+                    (turn.shadows.to_rest, of_tables.shadows.to_rest),
+                    (turn.shadows.to_sun, of_tables.shadows.to_sun),
+                ];
                 for (shadow, of_tables) in shadows {
                     assert_eq!(shadow.is_some(), of_tables.is_some());
                     let (Some(shadow), Some(of_tables)) = (shadow, of_tables) else { continue };
@@ -189,10 +197,9 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
 
         // In waves, as on a card.
         // SAFETY: as above.
-        let mut wave = unsafe { follow::Here::new(&flat, &starts) };
-        follow(&mut wave, starts.len()).unwrap();
+        let (samples, _) = unsafe { follow_here(&flat, &starts) };
         let mut sum = [0.0, 0.0];
-        for (sample, expected) in wave.samples().iter().zip(followed(&prepared, starts.clone())) {
+        for (sample, expected) in samples.iter().zip(followed(&prepared, starts.clone())) {
             assert_eq!((sample.albedo, sample.normal), (expected.albedo, expected.normal));
             // Panes in another order round otherwise.
             let apart = (sample.radiance - expected.radiance).length();
@@ -201,4 +208,108 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
         }
         assert!(sum[0] > 0.0 && (sum[0] / sum[1] - 1.0).abs() < 1e-5, "{sum:?}");
     }
+}
+
+/// A card that does not hold out.
+#[derive(Clone, Copy)]
+struct Failing {
+    is_full: bool,
+    /// Is lost after it has followed so many waves of a picture.
+    lost_after: usize,
+}
+
+/// A scene that it has taken.
+struct Taken {
+    emulated: Box<dyn RemoteScene>,
+    lost_after: usize,
+}
+
+struct Followed<'a> {
+    emulated: Box<dyn RemoteWave + 'a>,
+    more: usize,
+}
+
+impl Machine for Failing {
+    fn name(&self) -> &str {
+        "failing"
+    }
+
+    fn take(&self, scene: &PreparedScene) -> Result<Box<dyn RemoteScene>, String> {
+        let emulated = Emulated.take(scene)?;
+        if self.is_full { Err("full".into()) } else { Ok(Box::new(Taken { emulated, lost_after: self.lost_after })) }
+    }
+}
+
+impl RemoteScene for Taken {
+    fn wave<'a>(&'a self, field: Option<LightField<'a>>, most: usize) -> Result<Box<dyn RemoteWave + 'a>, String> {
+        Ok(Box::new(Followed { emulated: self.emulated.wave(field, most)?, more: self.lost_after }))
+    }
+}
+
+impl RemoteWave for Followed<'_> {
+    fn follow(&mut self, starts: &[Start], samples: &mut [Sample]) -> Result<u64, String> {
+        self.more = self.more.checked_sub(1).ok_or("lost")?;
+        self.emulated.follow(starts, samples)
+    }
+}
+
+/// A picture from the middle of all.
+fn shot(noise: f32) -> Shot {
+    let lens = Lens {
+        width_px: 70,
+        height_px: 40,
+        fx_px: 40.0,
+        fy_px: 40.0,
+        cx_px: 35.0,
+        cy_px: 20.0,
+        distortion: Distortion::None,
+    };
+    let north = DQuat::from_mat3(&DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y));
+    Shot { spp: 24, noise, cache: true, ..Shot::new("front", lens, Pose::new(north, DVec3::new(0.0, -3.0, 2.0))) }
+}
+
+fn taken(renderer: &Renderer, scene: &Scene, noise: f32) -> Capture {
+    renderer.render(&renderer.prepare(scene).unwrap(), &shot(noise), true, &|_| false).unwrap()
+}
+
+fn radiance(capture: &Capture) -> &[[f32; 3]] {
+    &capture.color.as_ref().unwrap().radiance.data
+}
+
+#[test]
+fn a_picture_through_tables_is_the_processor_s() {
+    let fog = Fog { visibility_m: 60.0, height_m: 30.0, ground_z_m: 0.0 };
+    for (is_night, fog, noise) in [(false, None, 0.0), (true, None, 0.2), (false, Some(fog), 0.0)] {
+        let scene = scene(is_night, fog);
+        let ours = taken(&renderer(), &scene, noise);
+        let theirs = taken(&renderer().with(Box::new(Emulated)), &scene, noise);
+        assert_eq!(theirs.stats, ours.stats);
+        assert_eq!(theirs.labels.depth_m.data, ours.labels.depth_m.data);
+        let mut lit = 0;
+        for (there, here) in radiance(&theirs).iter().zip(radiance(&ours)) {
+            let [there, here] = [there, here].map(|rgb| Vec3::from(*rgb));
+            // Panes in another order round otherwise.
+            assert!((there - here).length() <= 1e-4 * here.length(), "{there} instead of {here}");
+            lit += usize::from(here != Vec3::ZERO);
+        }
+        assert!(lit > 2000, "{lit}");
+    }
+}
+
+#[test]
+fn the_processor_goes_on_where_a_card_cannot() {
+    let dry = scene(false, None);
+    let ours = taken(&renderer(), &dry, 0.0);
+    let full = Failing { is_full: true, lost_after: 0 };
+    let lost = Failing { is_full: false, lost_after: 3 };
+    for (machine, why) in [(full, "full"), (lost, "lost")] {
+        let theirs = taken(&renderer().with(Box::new(machine)), &dry, 0.0);
+        assert_eq!(theirs.stats.refused.as_deref(), Some(why));
+        assert_eq!(radiance(&theirs), radiance(&ours));
+    }
+    let mut wet = scene(false, None);
+    wet.materials[0].wetness = 1.0;
+    let theirs = taken(&renderer().with(Box::new(Emulated)), &wet, 0.0);
+    assert_eq!(theirs.stats.refused.as_deref(), Some("water on surfaces is left to the processor"));
+    assert_eq!(radiance(&theirs), radiance(&taken(&renderer(), &wet, 0.0)));
 }

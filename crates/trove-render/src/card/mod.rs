@@ -1,41 +1,56 @@
-//! Rays on a graphics card: the functions of `trove_trace`, compiled to PTX, which the card's driver compiles for the card.
+//! Paths on a graphics card: the functions of `trove_trace`, compiled to PTX, which the card's driver compiles for the card.
 
 mod driver;
+mod emulated;
 mod follow;
+mod memory;
 mod rates;
 mod world;
 
 use std::ffi::CString;
+use std::sync::Arc;
 
-use trove_trace::{FlatWorld, Table};
-
-use self::driver::{Buffer, Device};
-use self::world::world;
+use self::driver::Device;
+use self::memory::{Shared, Uploaded};
+use self::world::flat;
 use crate::PreparedScene;
-use crate::accel::{Flat, Hold};
+use crate::accel::Flat;
+use crate::remote::RemoteScene;
 
+pub(crate) use emulated::Emulated;
 pub use rates::CardRate;
 pub(crate) use rates::card_rates;
 
 /// `trove_trace` for cards; `make ptx` writes it.
 const PTX: &str = include_str!("trace.ptx");
 
-/// Threads that start together; 64 to 256 differ by little.
-const BLOCK: u32 = 128;
-
-/// A graphics card that traces rays, for the thread that found it.
+/// A graphics card that follows paths.
 pub struct Card {
-    device: Device,
+    device: Arc<Device>,
+    shared: Shared,
+}
+
+/// A machine that scenes can be sent to.
+pub(crate) trait Machine: Send + Sync {
+    /// Name, for the identity of a run.
+    fn name(&self) -> &str;
+
+    /// Sends a scene.
+    ///
+    /// # Errors
+    /// Why its paths cannot be followed there.
+    fn take(&self, scene: &PreparedScene) -> Result<Box<dyn RemoteScene>, String>;
 }
 
 impl Card {
-    /// Opens this machine's first NVIDIA card and compiles the functions for it.
+    /// Opens this machine's NVIDIA card of a number, counted from 0, and compiles the functions for it.
     ///
     /// # Errors
-    /// Why there is none that could be used: no driver, no card, or one that is too old or in use by somebody alone.
-    pub fn find() -> Result<Self, String> {
+    /// Why there is none that could be used: no driver, no such card, or one that is too old or in use by somebody alone.
+    pub fn open(number: u32) -> Result<Self, String> {
         let ptx = CString::new(PTX).map_err(|e| e.to_string())?;
-        Device::open(&ptx).map(|device| Self { device })
+        let device = Arc::new(Device::open(number, &ptx)?);
+        Ok(Self { device, shared: Shared::default() })
     }
 
     /// Name, memory, compute capability and driver, for people.
@@ -43,41 +58,19 @@ impl Card {
         &self.device.about
     }
 
-    /// Puts a scene into the card's memory.
-    fn upload(&self, shapes: &Flat, scene: &PreparedScene) -> Result<Uploaded<'_>, String> {
-        let mut memory = Memory { device: &self.device, held: Vec::new() };
-        let world = self.device.hold(&[world(scene, shapes, None, &mut memory)?])?;
-        Ok(Uploaded { world, held: memory.held })
+    fn upload(&self, shapes: &Flat, scene: &PreparedScene) -> Result<Uploaded, String> {
+        Uploaded::new(&self.device, &self.shared, shapes, scene)
     }
 }
 
-/// A scene in a card's memory.
-struct Uploaded<'a> {
-    /// Which begins with what rays meet.
-    world: Buffer<'a, FlatWorld>,
-    held: Vec<Buffer<'a, u8>>,
-}
-
-impl Uploaded<'_> {
-    fn bytes(&self) -> usize {
-        self.world.bytes() + self.held.iter().map(Buffer::bytes).sum::<usize>()
+impl Machine for Card {
+    fn name(&self) -> &str {
+        &self.device.name
     }
-}
 
-/// What is kept there as long as the scene is.
-struct Memory<'a> {
-    device: &'a Device,
-    held: Vec<Buffer<'a, u8>>,
-}
-
-impl Hold for Memory<'_> {
-    type Error = String;
-
-    fn hold<T: Copy + 'static>(&mut self, values: &[T]) -> Result<Table<T>, String> {
-        let buffer = self.device.hold(values)?.into_bytes();
-        let table = Table::at(buffer.address(), values.len());
-        self.held.push(buffer);
-        Ok(table)
+    fn take(&self, scene: &PreparedScene) -> Result<Box<dyn RemoteScene>, String> {
+        let shapes = flat(scene)?;
+        Ok(Box::new(self.upload(&shapes, scene)?))
     }
 }
 
@@ -120,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_machine_says_what_card_it_has_or_why_none() {
-        match Card::find() {
+        match Card::open(0) {
             Ok(card) => assert!(card.about().contains("compute capability")),
             Err(why) => assert!(!why.is_empty()),
         }

@@ -8,12 +8,14 @@ use trove_model::Shot;
 use trove_trace::path::Sample;
 use trove_trace::{Asked, Hit, NONE};
 
-use super::follow::{self, There, follow};
-use super::world::world;
-use super::{BLOCK, Card, Uploaded};
+use super::Card;
+use super::follow::follow_here;
+use super::memory::{BLOCK, Uploaded, UploadedWave};
+use super::world::{flat, world};
 use crate::PreparedScene;
 use crate::accel::{Flat, Here, asked};
 use crate::path::{ray_sorts, starts};
+use crate::remote::RemoteWave;
 
 /// The best of so many runs counts: the first ones warm the card up.
 const RUNS: usize = 9;
@@ -27,7 +29,7 @@ pub struct CardRate {
     pub asked: usize,
     /// How many of them meet something.
     pub met: usize,
-    /// On the card, seconds.
+    /// On the card, seconds; of paths, with sending where they start and receiving what they bring.
     pub card_s: f64,
     /// On one thread of the processor by the same functions, seconds.
     pub processor_s: f64,
@@ -41,10 +43,11 @@ pub struct CardRate {
 
 /// Rates for the rays of one sample a pixel, and bytes of the scene on the card.
 pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Result<(Vec<CardRate>, usize), String> {
-    let shapes = Flat::new(&scene.shapes).ok_or("nothing is in the scene")?;
+    let shapes = flat(scene)?;
     let mut memory = Here::default();
-    let Ok(here) = shapes.scene(&mut memory);
+    let Ok((here, _)) = shapes.scene(&mut memory);
     let uploaded = card.upload(&shapes, scene)?;
+    let there = card.device.hold(&[uploaded.world])?;
     let nothing = Hit { t: f32::INFINITY, instance: NONE, triangle: NONE, u: 0.0, v: 0.0 };
     // SAFETY: the tables are as `Flat` makes them, and the memory lives on.
     let closest = |ray: &Asked| unsafe { here.closest(ray) }.unwrap_or(nothing);
@@ -54,7 +57,7 @@ pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Res
     let mut rates = Vec::new();
     for (sort, rays, is_shadow) in ray_sorts(scene, shot) {
         let rays: Vec<Asked> = rays.iter().map(asked).collect();
-        let among = uploaded.world.address();
+        let among = there.address();
         rates.push(if is_shadow {
             let question = Question { sort, function: c"blocked", among, asked: &rays };
             question.rate(card, 2, blocked, |is| *is == 1, |is| [*is])?
@@ -65,7 +68,7 @@ pub(crate) fn card_rates(scene: &PreparedScene, shot: &Shot, card: &Card) -> Res
         });
     }
     rates.push(of_paths(scene, shot, card, (&shapes, &uploaded))?);
-    Ok((rates, uploaded.bytes()))
+    Ok((rates, uploaded.bytes))
 }
 
 /// Whole paths, one a pixel, and what they bring.
@@ -73,34 +76,30 @@ fn of_paths(
     scene: &PreparedScene,
     shot: &Shot,
     card: &Card,
-    (shapes, uploaded): (&Flat, &Uploaded<'_>),
+    (shapes, uploaded): (&Flat, &Uploaded),
 ) -> Result<CardRate, String> {
     let starts = starts(scene, shot);
     let mut memory = Here::default();
-    let Ok(world) = world(scene, shapes, None, &mut memory);
-    let mut card_s = f64::INFINITY;
-    let mut samples = Vec::new();
+    let Ok(world) = world(scene, shapes, &mut memory);
+    let mut there = UploadedWave::new(uploaded, None, starts.len())?;
+    let (mut card_s, mut samples) = (f64::INFINITY, vec![Sample::default(); starts.len()]);
     for _ in 0..RUNS {
-        let mut there = There::new(&card.device, uploaded, &starts)?;
-        follow(&mut there, starts.len())?;
-        card_s = card_s.min(there.seconds);
-        samples = there.samples(starts.len())?;
+        card_s = card_s.min(card.device.timed(|| there.follow(&starts, &mut samples).map(drop))?);
     }
     let started = Instant::now();
     // SAFETY: the tables are as `world` makes them, and the memory lives on.
-    let mut here = unsafe { follow::Here::new(&world, &starts) };
-    follow(&mut here, starts.len())?;
+    let (here, _) = unsafe { follow_here(&world, &starts) };
     let processor_s = started.elapsed().as_secs_f64();
     let bits =
         |sample: &Sample| [sample.radiance, sample.albedo, sample.normal].map(|v| v.to_array().map(f32::to_bits));
-    let function = card.device.function(c"turn")?;
+    let function = card.device.function(c"ask")?;
     Ok(CardRate {
         sort: "paths",
         asked: starts.len(),
-        met: here.samples().iter().filter(|sample| sample.radiance != Vec3::ZERO).count(),
+        met: here.iter().filter(|sample| sample.radiance != Vec3::ZERO).count(),
         card_s,
         processor_s,
-        differ: samples.iter().zip(here.samples()).filter(|(a, b)| bits(a) != bits(b)).count(),
+        differ: samples.iter().zip(&here).filter(|(a, b)| bits(a) != bits(b)).count(),
         takes: function.takes()?,
         at_once: function.threads_at_once(BLOCK)? * card.device.multiprocessors,
     })
@@ -135,7 +134,8 @@ impl<A: Copy> Question<'_, A> {
             let addresses = [among, sent.address(), room.address()];
             // SAFETY: the tables are what the function needs, and there are as many questions and places for answers as it
             // is told.
-            card_s = card_s.min(unsafe { function.run(&addresses, &[asked.len() as u32], BLOCK)? });
+            let launch = || unsafe { function.launch(&addresses, &[asked.len() as u32], BLOCK) };
+            card_s = card_s.min(card.device.timed(launch)?);
         }
         room.read(&mut answers)?;
 

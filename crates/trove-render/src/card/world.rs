@@ -3,39 +3,30 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use trove_trace::field::LightField;
 use trove_trace::light::{Haze, Pattern, Sun};
-use trove_trace::{FlatLights, FlatLook, FlatMaterials, FlatTexture, FlatWorld, Fog, Lookups, Map, Stand, Table};
+use trove_trace::{FlatLights, FlatMaterials, FlatTexture, FlatWorld, Fog, Lookups, Stand, Table};
 
 use crate::PreparedScene;
 use crate::accel::{Flat, Hold};
 use crate::lookups::LOOKUPS;
 use crate::texture::{MapOf, MipMap};
 
+/// What of a scene is traced, or why none of its paths can be followed through tables.
+pub(super) fn flat(scene: &PreparedScene) -> Result<Flat, String> {
+    if let Some(what) = scene.beyond_tables() {
+        return Err(format!("{what} is left to the processor"));
+    }
+    Flat::new(&scene.shapes).ok_or_else(|| "nothing is in the scene".into())
+}
+
 /// The tables of a scene in some memory, into which `hold` puts each of them; a texture that many share is put there once.
-pub(super) fn world<H: Hold>(
-    scene: &PreparedScene,
-    shapes: &Flat,
-    field: Option<&LightField<'_>>,
-    hold: &mut H,
-) -> Result<FlatWorld, H::Error> {
+/// There is no field of the light in its air.
+pub(super) fn world<H: Hold>(scene: &PreparedScene, shapes: &Flat, hold: &mut H) -> Result<FlatWorld, H::Error> {
     let (mut stands, mut slots) = (Vec::new(), Vec::new());
     for placed in &scene.shapes.placed {
         let (world_from_mesh, world_from_normal) = placed.at(trove_trace::Motion::MIDDLE);
         stands.push(Stand { world_from_mesh, world_from_normal, materials: slots.len() as u32 });
         slots.extend_from_slice(&placed.materials);
-    }
-    let mut looks = Vec::new();
-    for (mesh, foot_z) in shapes.meshes() {
-        looks.push(FlatLook {
-            triangles: hold.hold(&mesh.triangles)?,
-            positions: hold.hold(&mesh.positions)?,
-            normals: hold.hold(&mesh.normals)?,
-            uvs: hold.hold(&mesh.uvs)?,
-            tints: hold.hold(&mesh.tints)?,
-            slots: hold.hold(&mesh.slots)?,
-            foot_z,
-        });
     }
     let mut maps = Maps { hold, held: BTreeMap::new() };
     let mut materials = Vec::with_capacity(scene.materials.len());
@@ -47,15 +38,16 @@ pub(super) fn world<H: Hold>(
     let lookups = hold.hold(std::slice::from_ref(lookups))?;
     let materials = FlatMaterials { lookups, materials: hold.hold(&materials)? };
     let clear = Fog { extinction_per_m: 0.0, height_m: 1.0, ground_z: 0.0, lowest_z: 0.0 };
+    let (shapes, looks) = shapes.scene(hold)?;
     Ok(FlatWorld {
-        scene: shapes.scene(hold)?,
+        scene: shapes,
         stands: hold.hold(&stands)?,
-        looks: hold.hold(&looks)?,
+        looks,
         slots: hold.hold(&slots)?,
         materials,
         lights,
-        nodes: hold.hold(field.map_or(&[], |field| field.nodes))?,
-        lowest: field.map_or_else(Default::default, |field| field.lowest),
+        nodes: Table::at(0, 0),
+        lowest: Default::default(),
         fog: scene.fog.unwrap_or(clear),
         has_fog: scene.fog.is_some(),
     })
@@ -69,7 +61,7 @@ struct Maps<'a, H> {
 
 impl<H: Hold> Maps<'_, H> {
     fn flat(&mut self, map: &MapOf) -> Result<FlatTexture, H::Error> {
-        let (Some(texture), Some(map)) = (map.texture(), &map.0) else {
+        let Some(map) = &map.0 else {
             // SAFETY: there is nothing in it.
             return Ok(unsafe { FlatTexture::new([1; 2], Table::at(0, 0), Table::at(0, 0), false) });
         };
@@ -77,9 +69,7 @@ impl<H: Hold> Maps<'_, H> {
         if let Some(flat) = self.held.get(&address) {
             return Ok(*flat);
         }
-        let (firsts, texels) = (self.hold.hold(texture.firsts)?, self.hold.hold(texture.texels)?);
-        // SAFETY: whoever holds them keeps them.
-        let flat = unsafe { FlatTexture::new(texture.size, firsts, texels, texture.is_srgb) };
+        let flat = self.hold.map(map)?;
         self.held.insert(address, flat);
         Ok(flat)
     }

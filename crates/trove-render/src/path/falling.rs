@@ -150,7 +150,7 @@ fn light(scene: &PreparedScene, shot: &Shot, form: Form, depth_m: &Raster<f32>) 
             wave.starts.push(Start { ray: Ray::new(origin, from).plain(), past: 0, cone, sampler });
         }
         wave.run(scene, None);
-        wave.paths.iter().map(|path| path.sample().radiance).sum::<Vec3>() / PATHS as f32
+        wave.samples.iter().map(|sample| sample.radiance).sum::<Vec3>() / PATHS as f32
     };
     (0..NODES[0] * NODES[1]).into_par_iter().map(node).collect()
 }

@@ -15,16 +15,21 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use trove_model::{Raster, Shot};
+use trove_trace::path::Sample;
 
 use crate::PreparedScene;
 use crate::prepare::Carrier;
+use crate::remote::{RemoteScene, RemoteWave};
 pub use rates::{RaySeconds, RayTimes};
 pub(crate) use rates::{ray_sorts, ray_times, starts};
 #[cfg(test)]
 pub(crate) use seen::Seen;
 use splat::{MARGIN_PX, Splat};
-use tile::{Eye, Tile};
+use tile::{Eye, Pass, Tile};
 use wave::Wave;
+
+/// Tiles whose paths another machine follows together: a million paths, which take 0.8 GB there.
+const TILES_THERE: usize = 4096;
 
 /// What paths bring that begin there.
 #[cfg(test)]
@@ -32,7 +37,7 @@ pub(crate) fn followed(scene: &PreparedScene, starts: Vec<trove_trace::path::Sta
     let mut wave = Wave::default();
     wave.starts = starts;
     wave.run(scene, None);
-    wave.paths.iter().map(|path| path.sample()).collect()
+    wave.samples
 }
 
 /// A picture and the denoiser's guides.
@@ -53,34 +58,125 @@ pub(crate) struct Buffers {
     pub(crate) spp: f64,
 }
 
-/// Traces a picture; `None` once `stop`, which is told the share done, has answered true.
-pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> bool + Sync)) -> Option<Buffers> {
-    let (width, height) = (shot.lens.width_px, shot.lens.height_px);
+/// Why a picture was not traced.
+pub(crate) enum Ended {
+    /// As it was asked to.
+    Stopped,
+    /// By what another machine said.
+    Failed(String),
+}
+
+/// Traces a picture, by another machine where there is one; ends once `stop`, which is told the share done, has answered true.
+pub(crate) fn trace(
+    scene: &PreparedScene,
+    shot: &Shot,
+    remote: Option<&dyn RemoteScene>,
+    stop: &(dyn Fn(f32) -> bool + Sync),
+) -> Result<Buffers, Ended> {
     let carrier = Carrier::new(scene, shot.carrier);
     let field = (shot.cache && scene.fog.is_some()).then(|| {
         let eye = shot.world_from_camera.translation.as_vec3();
         scene.fields.get(eye, |place| fill::fill(scene, place))
     });
     let eye = Eye { scene, shot, carrier: &carrier, field: field.as_deref() };
-    let mut tiles = tile::tiles(width, height);
-    let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));
+    let mut tiles = tile::tiles(shot.lens.width_px, shot.lens.height_px);
+    let rays = match remote {
+        Some(remote) => followed_there(&eye, &mut tiles, remote, stop)?,
+        None => followed_here(&eye, &mut tiles, stop)?,
+    };
+    Ok(developed(shot, &tiles, rays))
+}
 
+/// Gives the tiles' pixels their samples, each tile by one thread of the processor; how many rays that took.
+fn followed_here(eye: &Eye<'_>, tiles: &mut [Tile], stop: &(dyn Fn(f32) -> bool + Sync)) -> Result<u64, Ended> {
+    let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));
     // What a tile brings depends on the seed and on itself alone, so the threads may take the tiles in any order.
-    let pass = |tiles: &mut [Tile], work: &(dyn Fn(&mut Tile, &mut Wave) + Sync)| {
+    let take = |tiles: &mut [Tile], pass: Pass| {
         tiles.par_iter_mut().try_for_each_init(Wave::default, |wave, tile| {
             if stop(done.fetch_add(1, Ordering::Relaxed) as f32 / steps as f32) {
-                return None;
+                return Err(Ended::Stopped);
             }
-            work(tile, wave);
+            while tile.wants(eye.shot, pass) {
+                wave.starts.clear();
+                wave.places.clear();
+                tile.start(eye, &mut wave.starts, &mut wave.places);
+                wave.run(eye.scene, eye.field);
+                tile.take(&wave.places, &wave.samples);
+            }
             rays.fetch_add(std::mem::take(&mut wave.rays), Ordering::Relaxed);
-            Some(())
+            Ok(())
         })
     };
-    pass(&mut tiles, &|tile, wave| tile.begin(&eye, wave))?;
-    let middle = tile::middle_brightness(&tiles);
-    pass(&mut tiles, &|tile, wave| tile.refine(&eye, wave, middle))?;
+    take(tiles, Pass::First)?;
+    let middle = tile::middle_brightness(tiles);
+    take(tiles, Pass::Refined(middle))?;
+    Ok(rays.into_inner())
+}
 
-    // Put together in their own order, since sums of floats depend on it.
+/// The same by another machine, many tiles at once.
+fn followed_there(
+    eye: &Eye<'_>,
+    tiles: &mut [Tile],
+    remote: &dyn RemoteScene,
+    stop: &(dyn Fn(f32) -> bool + Sync),
+) -> Result<u64, Ended> {
+    let most = tiles.len().min(TILES_THERE) * tile::MOST_PATHS;
+    let mut wave = remote.wave(eye.field.map(|field| field.view()), most).map_err(Ended::Failed)?;
+    let mut samples = vec![Sample::default(); most];
+    let (steps, mut done, mut rays) = (2.0 * (tiles.len() as f32 / TILES_THERE as f32).ceil(), 0.0, 0);
+    let mut take = |tiles: &mut [Tile], pass: Pass| {
+        for tiles in tiles.chunks_mut(TILES_THERE) {
+            rays += followed_at_once(eye, tiles, pass, &mut *wave, &mut samples, &|| stop(done / steps))?;
+            done += 1.0;
+        }
+        Ok(())
+    };
+    take(tiles, Pass::First)?;
+    let middle = tile::middle_brightness(tiles);
+    take(tiles, Pass::Refined(middle))?;
+    Ok(rays)
+}
+
+/// Some of the tiles, sample by sample.
+fn followed_at_once(
+    eye: &Eye<'_>,
+    tiles: &mut [Tile],
+    pass: Pass,
+    wave: &mut dyn RemoteWave,
+    samples: &mut [Sample],
+    stop: &dyn Fn() -> bool,
+) -> Result<u64, Ended> {
+    let mut rays = 0;
+    loop {
+        let start = |tile: &mut Tile| {
+            let (mut starts, mut places) = (Vec::new(), Vec::new());
+            let wants = tile.wants(eye.shot, pass);
+            if wants {
+                tile.start(eye, &mut starts, &mut places);
+            }
+            (wants, starts, places)
+        };
+        let started: Vec<_> = tiles.par_iter_mut().map(start).collect();
+        if started.iter().all(|(wants, ..)| !wants) {
+            return Ok(rays);
+        }
+        if stop() {
+            return Err(Ended::Stopped);
+        }
+        let starts = started.iter().map(|(_, starts, _)| starts.as_slice()).collect::<Vec<_>>().concat();
+        rays += wave.follow(&starts, &mut samples[..starts.len()]).map_err(Ended::Failed)?;
+        let mut rest = &samples[..starts.len()];
+        let of_tiles = started.iter().map(|(_, starts, _)| rest.split_off(..starts.len()).unwrap_or_default());
+        let of_tiles: Vec<_> = of_tiles.collect();
+        let all = tiles.par_iter_mut().zip(&started).zip(of_tiles);
+        all.filter(|((_, (wants, ..)), _)| *wants)
+            .for_each(|((tile, (.., places)), samples)| tile.take(places, samples));
+    }
+}
+
+/// The picture of all samples. Tiles are put together in their own order, since sums of floats depend on it.
+fn developed(shot: &Shot, tiles: &[Tile], rays: u64) -> Buffers {
+    let (width, height) = (shot.lens.width_px, shot.lens.height_px);
     let black = || Raster::filled(width, height, [0.0; 3]);
     let (mut own, mut albedo, mut normal) = (black(), black(), black());
     let mut film = Raster::filled(width, height, Splat::default());
@@ -100,5 +196,5 @@ pub(crate) fn trace(scene: &PreparedScene, shot: &Shot, stop: &(dyn Fn(f32) -> b
     }
     let spp = samples as f64 / (f64::from(width) * f64::from(height)).max(1.0);
     let (radiance, variance) = (film.map(|splat| splat.mean().to_array()), film.map(Splat::variance));
-    Some(Buffers { radiance, own, variance, albedo, normal, rays: rays.into_inner(), spp })
+    Buffers { radiance, own, variance, albedo, normal, rays, spp }
 }

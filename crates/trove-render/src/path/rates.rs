@@ -7,8 +7,8 @@ use trove_model::Shot;
 use trove_trace::path::{Path, Shadow, Start, advance};
 
 use super::seen::Seen;
-use super::tile::{Eye, Tile, tiles};
-use super::wave::{self, Shadows, Wave};
+use super::tile::{Eye, tiles};
+use super::wave::{self, Shadows};
 use crate::PreparedScene;
 use crate::accel::{Coherence, PACKET};
 use crate::prepare::Carrier;
@@ -40,10 +40,11 @@ pub struct RayTimes {
 pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
     let (carrier, seen) = (Carrier::new(scene, shot.carrier), Seen::new(scene, None));
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
-    let (mut times, mut wave) = (RayTimes::default(), Wave::default());
+    let mut times = RayTimes::default();
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
-        tile.start(&eye, &mut wave);
-        let mut paths: Vec<Path> = wave.starts.iter().map(|start| Path::new(*start)).collect();
+        let mut starts = Vec::new();
+        tile.start(&eye, &mut starts, &mut Vec::new());
+        let mut paths: Vec<Path> = starts.iter().map(|start| Path::new(*start)).collect();
         let hits = closest(scene, &mut times.camera, &paths, Coherence::Coherent);
 
         let mut shadows = Shadows::default();
@@ -71,11 +72,11 @@ pub(crate) fn ray_times(scene: &PreparedScene, shot: &Shot) -> RayTimes {
 pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, Vec<Ray>, bool); 5] {
     let (carrier, seen) = (Carrier::new(scene, shot.carrier), Seen::new(scene, None));
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
-    let mut wave = Wave::default();
     let (mut closest, mut shadows) = ([const { Vec::new() }; 3], Shadows::default());
     for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
-        tile.start(&eye, &mut wave);
-        let mut paths: Vec<Path> = wave.starts.iter().map(|start| Path::new(*start)).collect();
+        let mut starts = Vec::new();
+        tile.start(&eye, &mut starts, &mut Vec::new());
+        let mut paths: Vec<Path> = starts.iter().map(|start| Path::new(*start)).collect();
         for (bounce, rays) in closest.iter_mut().enumerate() {
             let all = paths.iter().map(Ray::from);
             rays.extend(all.clone());
@@ -110,12 +111,11 @@ pub(crate) fn ray_sorts(scene: &PreparedScene, shot: &Shot) -> [(&'static str, V
 pub(crate) fn starts(scene: &PreparedScene, shot: &Shot) -> Vec<Start> {
     let carrier = Carrier::new(scene, shot.carrier);
     let eye = Eye { scene, shot, carrier: &carrier, field: None };
-    let mut wave = Wave::default();
-    let of_tile = |mut tile: Tile| {
-        tile.start(&eye, &mut wave);
-        wave.starts.clone()
-    };
-    tiles(shot.lens.width_px, shot.lens.height_px).into_iter().flat_map(of_tile).collect()
+    let (mut starts, mut places) = (Vec::new(), Vec::new());
+    for mut tile in tiles(shot.lens.width_px, shot.lens.height_px) {
+        tile.start(&eye, &mut starts, &mut places);
+    }
+    starts
 }
 
 /// What the paths' rays meet, both ways.

@@ -9,13 +9,15 @@ use trove_trace::path::{Sample, Start};
 
 use super::camera::camera_ray;
 use super::splat::{BLOCK_PX, MARGIN_PX, Place, Splats, brightness};
-use super::wave::Wave;
 use crate::PreparedScene;
 use crate::field::LightField;
 use crate::prepare::Carrier;
 
 /// Side of the squares that threads work on, whole blocks, pixels.
 const TILE_PX: u32 = 16;
+
+/// Most paths that a tile starts at once.
+pub(super) const MOST_PATHS: usize = (TILE_PX * TILE_PX) as usize;
 
 /// Samples that every pixel gets before any is judged, and those that are added before it is judged again.
 const FIRST: u32 = 8;
@@ -35,7 +37,18 @@ pub(super) struct Eye<'a> {
 /// A square of the picture with its margin.
 pub(super) struct Tile {
     pub(super) blocks: Vec<Block>,
+    /// Places of the blocks that get more samples, which so far have had all that any has.
+    open: Vec<usize>,
     samples: u32,
+}
+
+/// What is known of a picture when samples are taken.
+#[derive(Clone, Copy)]
+pub(super) enum Pass {
+    /// Nothing: every pixel gets its first samples, all of them where errors are not judged.
+    First,
+    /// Its middle brightness: pixels get more where the error is above what is asked for.
+    Refined(f32),
 }
 
 /// Pixels that get the same number of samples.
@@ -62,64 +75,42 @@ impl Tile {
         let corners = rows.clone().step_by(BLOCK_PX as usize);
         let corners = corners.flat_map(|y| columns.clone().step_by(BLOCK_PX as usize).map(move |x| [x, y]));
         let size = |[x, y]: [u32; 2]| [(columns.end - x).min(BLOCK_PX), (rows.end - y).min(BLOCK_PX)];
-        Self { blocks: corners.map(|corner| Block::new(corner, size(corner))).collect(), samples: 0 }
+        let blocks: Vec<_> = corners.map(|corner| Block::new(corner, size(corner))).collect();
+        Self { open: (0..blocks.len()).collect(), blocks, samples: 0 }
     }
 
-    /// The first samples of every pixel: all of them where errors are not judged.
-    pub(super) fn begin(&mut self, eye: &Eye<'_>, wave: &mut Wave) {
-        let first = if eye.shot.noise > 0.0 { FIRST.min(eye.shot.spp) } else { eye.shot.spp };
-        let blocks = self.all();
-        (0..first.max(1)).for_each(|_| self.sample(eye, wave, &blocks));
-    }
-
-    /// More samples where the error is above what is asked for, given the picture's middle brightness.
-    pub(super) fn refine(&mut self, eye: &Eye<'_>, wave: &mut Wave, middle: f32) {
-        if eye.shot.noise <= 0.0 {
-            return;
-        }
-        let mut blocks = self.all();
-        loop {
-            blocks.retain(|&block| self.blocks[block].error(middle) > eye.shot.noise);
-            if blocks.is_empty() {
-                return;
-            }
-            for _ in 0..ROUND {
-                if self.samples >= eye.shot.spp {
-                    return;
+    /// Whether any pixels are to get one more sample.
+    pub(super) fn wants(&mut self, shot: &Shot, pass: Pass) -> bool {
+        let judged = shot.noise > 0.0;
+        let most = shot.spp.max(1);
+        let first = if judged { FIRST.min(most) } else { most };
+        match pass {
+            Pass::First => self.samples < first,
+            Pass::Refined(_) if !judged || self.samples >= most => false,
+            Pass::Refined(middle) => {
+                if (self.samples - first).is_multiple_of(ROUND) {
+                    self.open.retain(|&block| self.blocks[block].error(middle) > shot.noise);
                 }
-                self.sample(eye, wave, &blocks);
+                !self.open.is_empty()
             }
         }
     }
 
-    /// One more sample for the pixels of some blocks, which so far have had all that any has.
-    fn sample(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[usize]) {
-        self.start_blocks(eye, wave, blocks);
-        wave.run(eye.scene, eye.field);
-        for (path, place) in wave.paths.iter().zip(&wave.places) {
-            let (block, sample) = (&mut self.blocks[place.block], path.sample());
-            block.pixels[place.pixel].add(&sample);
+    /// Adds a sample of each path that was started.
+    pub(super) fn take<'a>(&mut self, places: &[Place], samples: impl IntoIterator<Item = &'a Sample>) {
+        for (sample, place) in samples.into_iter().zip(places) {
+            let block = &mut self.blocks[place.block];
+            block.pixels[place.pixel].add(sample);
             block.splats.add(place.position, sample.radiance, self.samples % 2 == 1);
         }
         self.samples += 1;
     }
 
-    /// The paths of one sample of every pixel.
-    pub(super) fn start(&mut self, eye: &Eye<'_>, wave: &mut Wave) {
-        self.start_blocks(eye, wave, &self.all());
-    }
-
-    /// The places of all blocks.
-    fn all(&self) -> Vec<usize> {
-        (0..self.blocks.len()).collect()
-    }
-
-    fn start_blocks(&mut self, eye: &Eye<'_>, wave: &mut Wave, blocks: &[usize]) {
+    /// The paths of one more sample, and where each belongs.
+    pub(super) fn start(&mut self, eye: &Eye<'_>, starts: &mut Vec<Start>, places: &mut Vec<Place>) {
         let shot = eye.shot;
         let log2_count = shot.spp.max(1).next_power_of_two().ilog2();
-        wave.starts.clear();
-        wave.places.clear();
-        for &index in blocks {
+        for &index in &self.open {
             let block = &mut self.blocks[index];
             block.count += 1;
             for pixel in 0..block.pixels.len() {
@@ -132,8 +123,8 @@ impl Tile {
                 if let Some((ray, cone)) = camera_ray(shot, at, within) {
                     let ray = eye.carrier.past(ray);
                     let past = ray.past.map_or(0, |id| id.0);
-                    wave.starts.push(Start { ray: ray.plain(), past, cone, sampler });
-                    wave.places.push(Place { block: index, pixel, position });
+                    starts.push(Start { ray: ray.plain(), past, cone, sampler });
+                    places.push(Place { block: index, pixel, position });
                 } else {
                     // Where the lens shows nothing the picture is black.
                     block.splats.add(position, Vec3::ZERO, self.samples % 2 == 1);

@@ -1,7 +1,7 @@
 //! Paths of neighbouring pixels that advance together, so that their rays may be traced together.
 
 use glam::Vec3;
-use trove_trace::path::{Path, Shadow, Start, Turn, advance};
+use trove_trace::path::{Path, Sample, Shadow, Start, Turn, advance};
 
 use super::seen::Seen;
 use super::splat::Place;
@@ -22,8 +22,8 @@ pub(super) struct Shadows {
 impl Shadows {
     /// Those of a path; whether it goes on.
     pub(super) fn take(&mut self, path: u32, turn: &Turn) -> bool {
-        self.to_sun.extend(turn.to_sun.map(|shadow| (path, shadow)));
-        self.to_rest.extend(turn.to_rest.map(|shadow| (path, shadow)));
+        self.to_sun.extend(turn.shadows.to_sun.map(|shadow| (path, shadow)));
+        self.to_rest.extend(turn.shadows.to_rest.map(|shadow| (path, shadow)));
         turn.goes_on
     }
 }
@@ -33,9 +33,10 @@ impl Shadows {
 pub(super) struct Wave {
     /// In an order in which [`PACKET`] successive ones start alike.
     pub(super) starts: Vec<Start>,
-    pub(super) paths: Vec<Path>,
     /// Where in its tile each path's sample belongs.
     pub(super) places: Vec<Place>,
+    pub(super) samples: Vec<Sample>,
+    paths: Vec<Path>,
     active: Vec<u32>,
     going: Vec<u32>,
     shadows: Shadows,
@@ -69,6 +70,8 @@ impl Wave {
             std::mem::swap(&mut self.active, &mut self.going);
             coherence = Coherence::Incoherent;
         }
+        self.samples.clear();
+        self.samples.extend(self.paths.iter().map(Path::sample));
     }
 
     /// Brings light to the paths from lamps, sky and sun where nothing is in the way.

@@ -19,6 +19,7 @@ use crate::material::{Opacity, PreparedMaterial};
 use crate::motion::Motion;
 use crate::placed::{Placed, Sort};
 use crate::ray::{Beside, Hit, Ray};
+use crate::remote::Place;
 use crate::spray::Spray;
 use crate::surface::surface;
 use crate::texture::Textures;
@@ -45,6 +46,8 @@ pub struct PreparedScene {
     others: [Others; 2],
     /// Whether there is a previous and a next keyframe.
     pub(crate) has_beside: [bool; 2],
+    /// Where its light is followed.
+    pub(crate) place: Place,
 }
 
 /// Shapes that are there at another moment.
@@ -143,6 +146,7 @@ impl PreparedScene {
             accel,
             others,
             has_beside,
+            place: Place::Here,
         })
     }
 
@@ -204,6 +208,16 @@ impl PreparedScene {
     /// What the surface at a hit lets pass.
     pub(crate) fn opacity(&self, hit: &Hit) -> &Opacity {
         &self.shapes.opacities[self.placed(hit.instance).material(hit)]
+    }
+
+    /// What of it the tables that a card reads do not hold, if there is any.
+    pub(crate) fn beyond_tables(&self) -> Option<&'static str> {
+        match () {
+            () if self.comes_down.snow.is_some() => Some("snow on surfaces"),
+            () if self.materials.iter().any(|material| material.is_wet()) => Some("water on surfaces"),
+            () if !self.spray.is_none() => Some("spray"),
+            () => None,
+        }
     }
 
     /// The surface at a ray's hit, and its material.

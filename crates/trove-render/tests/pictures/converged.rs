@@ -10,7 +10,7 @@ use trove_model::{Raster, Scene, Seed, Shot};
 use trove_render::{KernelChoice, Renderer};
 
 use crate::sets::{self, Set};
-use crate::studio::{Picture, kernels, renderer, take};
+use crate::studio::{Picture, emulated, kernels, renderer, take};
 
 /// Samples of the pictures that are judged.
 const SPP: u32 = 64;
@@ -27,14 +27,14 @@ struct Reference {
     noise: Picture,
 }
 
-/// Pictures of every set with every kernel, which differ in their seeds.
-static TAKEN: LazyLock<Vec<(KernelChoice, &'static str, Vec<Picture>)>> = LazyLock::new(|| {
+/// Pictures of every set with every kernel and by what a card runs, which differ in their seeds.
+static TAKEN: LazyLock<Vec<(String, &'static str, Vec<Picture>)>> = LazyLock::new(|| {
     let mut taken = Vec::new();
-    for kernel in kernels() {
-        let renderer = renderer(kernel, 2);
+    let by_kernel = kernels().map(|kernel| (format!("{kernel:?}"), renderer(kernel, 2)));
+    for (by, renderer) in by_kernel.chain([("emulated".into(), emulated())]) {
         for Set { name, scene, shot } in sets::all() {
             let shots = (0..8).map(|seed| Shot { spp: SPP, seed: Seed(seed), ..shot.clone() });
-            taken.push((kernel, name, shots.map(|shot| take(&renderer, &scene, &shot)).collect()));
+            taken.push((by.clone(), name, shots.map(|shot| take(&renderer, &scene, &shot)).collect()));
         }
     }
     taken
@@ -43,7 +43,7 @@ static TAKEN: LazyLock<Vec<(KernelChoice, &'static str, Vec<Picture>)>> = LazyLo
 #[test]
 fn pictures_differ_from_converged_ones_by_their_noise() {
     let (mut far, mut all) = (0, 0);
-    for (kernel, name, pictures) in &*TAKEN {
+    for (by, name, pictures) in &*TAKEN {
         let reference = Reference::read(name);
         let [mean, error, noise] =
             [&reference.mean, &reference.error, &reference.noise].map(|image| image.data.as_flattened());
@@ -59,20 +59,20 @@ fn pictures_differ_from_converged_ones_by_their_noise() {
         let n = z.len() as f64;
         let (bias, squares) = (z.iter().sum::<f64>() / n, z.iter().map(|z| z * z).sum::<f64>() / n);
         (far, all) = (far + z.iter().filter(|z| z.abs() > 3.0).count(), all + z.len());
-        assert!(bias.abs() < 0.3, "{kernel:?}, {name}: mean z = {bias}");
-        assert!((0.6..1.4).contains(&squares), "{kernel:?}, {name}: mean z² = {squares}");
+        assert!(bias.abs() < 0.3, "{by}, {name}: mean z = {bias}");
+        assert!((0.6..1.4).contains(&squares), "{by}, {name}: mean z² = {squares}");
     }
     assert!(far * 100 < all, "{far} of {all} values are off by more than 3 σ");
 }
 
 #[test]
 fn no_pixel_is_a_firefly() {
-    for (kernel, name, pictures) in &*TAKEN {
+    for (by, name, pictures) in &*TAKEN {
         let mean = Reference::read(name).mean;
         for picture in pictures {
             for (i, (value, mean)) in picture.data.iter().zip(&mean.data).enumerate() {
                 let [value, mean] = [value, mean].map(|rgb| rgb.iter().sum::<f32>());
-                assert!(value < 20.0 * mean, "{kernel:?}, {name}: pixel {i} is {value} instead of {mean}");
+                assert!(value < 20.0 * mean, "{by}, {name}: pixel {i} is {value} instead of {mean}");
             }
         }
     }

@@ -1,13 +1,13 @@
 //! What the tests take pictures with and of: renderers, cameras, shapes.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, vec2, vec3};
 use trove_model::{
     Camera, Class, Distortion, Environment, EnvironmentMap, Instance, InstanceId, Lens, Light, Material, Mesh, Pose,
     Raster, Scene, Seed, Shot, World,
 };
-use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
+use trove_render::{Denoising, DeviceChoice, KernelChoice, Renderer, RendererOptions};
 
 /// Linear radiance.
 pub(crate) type Picture = Raster<[f32; 3]>;
@@ -24,7 +24,7 @@ pub(crate) fn renderer(kernel: KernelChoice, threads: usize) -> Renderer {
 
 fn options(kernel: KernelChoice, threads: usize) -> RendererOptions {
     let search = std::env::var_os("TROVE_EMBREE").map(Into::into).into_iter().collect();
-    RendererOptions { kernel, denoise: Denoising::None, threads, search }
+    RendererOptions { kernel, denoise: Denoising::None, threads, search, ..Default::default() }
 }
 
 /// 16×16 pixels from `eye` towards `target`, `half_width_m` of which are seen to each side there.
@@ -38,7 +38,32 @@ pub(crate) fn shot(eye: DVec3, target: DVec3, half_width_m: f64) -> Shot {
     Shot { seed: Seed(1), ..Shot::new("test", lens, Pose::<World, Camera>::new(rotation, eye)) }
 }
 
+/// The built-in kernel, and what a card runs.
+static BOTH: LazyLock<[Renderer; 2]> = LazyLock::new(|| [renderer(KernelChoice::Obvhs, 2), emulated()]);
+
+/// What a card runs, run by the processor.
+pub(crate) fn emulated() -> Renderer {
+    let options = RendererOptions { device: DeviceChoice::Emulated, ..options(KernelChoice::Obvhs, 2) };
+    Renderer::new(&options).unwrap()
+}
+
+/// A picture; by the way some samples of it show that a card would see the same.
 pub(crate) fn take(renderer: &Renderer, scene: &Scene, shot: &Shot) -> Picture {
+    let few = Shot { spp: shot.spp.min(2), noise: 0.0, ..shot.clone() };
+    let captures = BOTH.each_ref().map(|r| r.render(&r.prepare(scene).unwrap(), &few, true, &|_| false).unwrap());
+    let beyond = captures[1].stats.refused.is_some();
+    let [ours, theirs] = captures.map(|capture| capture.color.unwrap().radiance);
+    for (here, there) in ours.data.iter().zip(&theirs.data) {
+        let [here, there] = [here, there].map(|rgb| Vec3::from(*rgb));
+        // Panes in another order round otherwise.
+        assert!((there - here).length() <= 1e-4 * here.length(), "{there} instead of {here}");
+    }
+    let is_weather = scene.light.snow.is_some()
+        || !scene.light.spray.is_empty()
+        || scene.materials.iter().any(|material| material.wetness > 0.0);
+    let is_empty = scene.meshes.iter().all(|mesh| mesh.triangles.is_empty());
+    assert_eq!(beyond, is_weather || is_empty);
+
     let prepared = renderer.prepare(scene).unwrap();
     renderer.render(&prepared, shot, true, &|_| false).unwrap().color.unwrap().radiance
 }

@@ -12,6 +12,8 @@ const C2: f32 = 2.0 / 3.0 - 28.0 / (15.0 * PI);
 const DEEP: f32 = 0.975;
 
 /// A diffuse lobe for one outgoing direction.
+#[derive(Clone, Copy)]
+#[repr(C)]
 pub(super) struct Diffuse {
     /// Reflected once, and more often, between grains: energy-preserving Oren–Nayar (Portsmouth, Kutz, Hill 2025).
     single: Vec3,

@@ -66,6 +66,8 @@ pub struct Parameters {
 }
 
 /// How light scatters at a point, for one outgoing direction.
+#[derive(Clone, Copy)]
+#[repr(C)]
 pub struct Bsdf {
     normal: Vec3,
     geometric: Vec3,

@@ -3,9 +3,9 @@
 use glam::{Vec2, Vec3};
 
 use super::tree::{Cut, Tree};
-use crate::flat::NONE;
 use crate::lookups::Lookups;
 use crate::math::sqrt;
+use crate::ray::NONE;
 use crate::texture::Map;
 
 /// All shining triangles of a scene, drawn by what they give to the place that asks.

@@ -9,13 +9,13 @@ mod weather;
 use glam::{Vec2, Vec3, Vec4};
 
 use crate::bsdf::{Bsdf, Coat, Lobes, Parameters, ggx, reflected};
-use crate::flat::NONE;
 use crate::light::Beams;
 use crate::lookups::Lookups;
 use crate::math::{floor, sqrt, unit_or};
+use crate::ray::NONE;
 use crate::surface::Surface;
 use crate::texture::{Map, Texture};
-use texturing::Spot;
+use texturing::{Spot, Tiling};
 
 pub use snow::holds as holds_snow;
 #[cfg(test)]
@@ -208,10 +208,14 @@ impl<T: Map> Material<T> {
         self.f0 + self.transmission * (2.0 * self.f0 / (1.0 + self.f0) - self.f0)
     }
 
+    fn tiling(&self) -> Tiling {
+        Tiling { scale: self.scale, is_triplanar: self.is_triplanar, is_stochastic: self.is_stochastic }
+    }
+
     /// Where on its textures lies what is seen at a point.
     #[inline(always)]
     fn spot(&self, lookups: &Lookups, surface: &Surface, width_m: f32, dither: f32) -> Spot {
-        let spot = self.laid(surface, width_m, dither);
+        let spot = texturing::laid(self.tiling(), surface, width_m, dither);
         match self.height_map.texture() {
             Some(heights) => Spot { uv: spot.uv + self.shift(lookups, heights, surface, &spot, width_m), ..spot },
             None => spot,
@@ -266,13 +270,6 @@ fn look_up(map: &impl Map, lookups: &Lookups, spot: &Spot) -> Option<Vec4> {
 #[inline]
 pub fn alpha(roughness: f32) -> f32 {
     (roughness * roughness).max(ggx::ALPHA_MIN)
-}
-
-/// From 0 below `low` to 1 above `high`.
-#[inline(always)]
-fn step(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// GGX α of facets on slopes that vary themselves (variances add up; α² is twice that of each slope).

@@ -3,11 +3,10 @@
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::step;
 use super::weather::{TOO_WIDE_M, WATER_F0, soak};
 use crate::bsdf::{Coat, Parameters};
 use crate::lookups::Lookups;
-use crate::math::{length, sqrt, unit_or, unit2};
+use crate::math::{length, sqrt, step, unit_or, unit2};
 use crate::surface::Surface;
 
 /// Reflectance of snow a day old (Wiscombe and Warren 1980), and of slush full of grit.

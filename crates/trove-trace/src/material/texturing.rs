@@ -2,7 +2,6 @@
 
 use glam::{IVec2, IVec3, Vec2, Vec3, vec2};
 
-use super::Material;
 use crate::math::{floor2, sqrt};
 use crate::surface::Surface;
 
@@ -26,27 +25,36 @@ pub(super) struct Spot {
     pub(super) dither: f32,
 }
 
-impl<T> Material<T> {
-    /// The spot of a point; `width_m` is the width of what a sample covers there.
-    ///
-    /// Where patches or directions are mixed `dither` chooses one of them: the mean over many samples is the mixture,
-    /// and each takes one look-up.
-    #[inline(always)]
-    pub(super) fn laid(&self, surface: &Surface, width_m: f32, dither: f32) -> Spot {
-        let mut dither = dither;
-        let (uv, axes) = if self.is_triplanar {
-            triplanar(surface, &mut dither)
-        } else {
-            (surface.uv, (surface.uv_axes != [Vec3::ZERO; 2]).then_some(surface.uv_axes))
-        };
-        let uv = uv * self.scale;
-        let uv = if self.is_stochastic { uv + patch(uv * NODES, &mut dither) } else { uv };
-        let scale = self.scale.abs().max(Vec2::splat(1e-9));
-        let metres = axes.map_or(Vec2::INFINITY, |[u, v]| {
-            vec2(sqrt(u.length_squared()), sqrt(v.length_squared())).max(Vec2::splat(1e-9)) / scale
-        });
-        Spot { uv, footprint: width_m / metres, axes, metres, dither }
-    }
+/// How textures are laid.
+#[derive(Clone, Copy)]
+pub(super) struct Tiling {
+    /// What texture coordinates are multiplied by.
+    pub(super) scale: Vec2,
+    /// Along World's axes instead of by the mesh's coordinates.
+    pub(super) is_triplanar: bool,
+    /// In patches, so that nobody sees them repeat.
+    pub(super) is_stochastic: bool,
+}
+
+/// The spot of a point; `width_m` is the width of what a sample covers there.
+///
+/// Where patches or directions are mixed `dither` chooses one of them: the mean over many samples is the mixture,
+/// and each takes one look-up.
+#[inline(always)]
+pub(super) fn laid(tiling: Tiling, surface: &Surface, width_m: f32, dither: f32) -> Spot {
+    let mut dither = dither;
+    let (uv, axes) = if tiling.is_triplanar {
+        triplanar(surface, &mut dither)
+    } else {
+        (surface.uv, (surface.uv_axes != [Vec3::ZERO; 2]).then_some(surface.uv_axes))
+    };
+    let uv = uv * tiling.scale;
+    let uv = if tiling.is_stochastic { uv + patch(uv * NODES, &mut dither) } else { uv };
+    let scale = tiling.scale.abs().max(Vec2::splat(1e-9));
+    let metres = axes.map_or(Vec2::INFINITY, |[u, v]| {
+        vec2(sqrt(u.length_squared()), sqrt(v.length_squared())).max(Vec2::splat(1e-9)) / scale
+    });
+    Spot { uv, footprint: width_m / metres, axes, metres, dither }
 }
 
 /// Coordinates along one of the World's axes, the likelier the more the surface faces it.
@@ -115,12 +123,11 @@ fn bits(node: IVec3) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::plain;
 
     fn at(is_stochastic: bool, is_triplanar: bool, x: f32, y: f32, dither: f32) -> Spot {
         let up = Surface::plain(Vec3::new(x, y, 5.0), Vec3::Z);
         let surface = Surface { uv: vec2(x, y), uv_axes: [Vec3::X, Vec3::Y], ..up };
-        Material { scale: Vec2::splat(0.5), is_stochastic, is_triplanar, ..plain() }.laid(&surface, 0.1, dither)
+        laid(Tiling { scale: Vec2::splat(0.5), is_stochastic, is_triplanar }, &surface, 0.1, dither)
     }
 
     #[test]

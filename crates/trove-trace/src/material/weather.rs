@@ -3,10 +3,10 @@
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::{step, water};
+use super::water;
 use crate::bsdf::{Coat, Parameters};
 use crate::lookups::Lookups;
-use crate::math::{exp, length, unit_or};
+use crate::math::{exp, length, step, unit_or};
 use crate::surface::Surface;
 
 /// Samples that cover more than this see the mean of what weather does, metres.

@@ -231,6 +231,7 @@ pub(crate) fn finished(root: &Path, frames: &[Made]) {
             kernel: "made".into(),
             denoiser: None,
             device: None,
+            card: None,
         },
         classes: ClassEntry::all(),
         drives: vec![],

@@ -67,6 +67,7 @@ impl Sheet {
             denoise: Denoising::Best,
             threads: 0,
             search,
+            ..RendererOptions::default()
         })?;
         let each = self.each.as_deref().map(OutputRoot::new);
         let subjects = self.chosen(library);

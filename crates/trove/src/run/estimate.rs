@@ -66,6 +66,7 @@ pub fn estimate(recipe: &Recipe, options: &RunOptions, machines: Option<u32>) ->
     let trial_options = RunOptions {
         recipe_file: None,
         kernel: options.kernel,
+        device: options.device,
         search: options.search.clone(),
         frames: options.frames.clone(),
         share: None,

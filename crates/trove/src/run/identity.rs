@@ -45,6 +45,7 @@ pub(super) fn of_run(
         kernel: found.kernel,
         denoiser: found.denoiser.ok(),
         device: found.device,
+        card: found.card,
     };
     Ok(RunIdentity::new(serde_json::to_value(recipe)?, versions, inputs::of_run(recipe, sources, contents)?))
 }

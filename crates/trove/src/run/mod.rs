@@ -32,7 +32,7 @@ use trove_model::{
     AssetLibrary, Capture, GridForm, GridShot, LidarShot, Occupancy, Outcome, PointCloud, RadarDetection, RadarShot,
     Report, Scene, Shot, Viewpoint,
 };
-use trove_render::{Denoising, KernelChoice, PreparedScene, Renderer, RendererOptions};
+use trove_render::{Denoising, DeviceChoice, KernelChoice, PreparedScene, Renderer, RendererOptions};
 use trove_write::{Frame, FrameFolders, FrameMeta, Grid, RadarCycle, Sweep, WriteError};
 
 use crate::contents::Contents;
@@ -66,6 +66,8 @@ pub struct RunOptions {
     pub recipe_file: Option<PathBuf>,
     /// Ray kernel.
     pub kernel: KernelChoice,
+    /// Who follows light.
+    pub device: DeviceChoice,
     /// Files and folders to look for Embree and Open Image Denoise in.
     pub search: Vec<PathBuf>,
     /// Paths of the only frames to render (`scene-0103/v00/k005/ego.CAM_FRONT`); `None`: all that the recipe asks for.
@@ -129,6 +131,7 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     exports::check(recipe, out)?;
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
+        device: options.device,
         denoise: recipe.denoising(),
         threads: recipe.render.threads,
         search: options.search.clone(),
@@ -587,6 +590,9 @@ impl Run<'_> {
         let after = (&**scene, prepared);
         capture.change = before.map(|b| self.renderer.changes((&b.scene, &b.prepared), after, shot));
         let render_s = started.elapsed().as_secs_f64();
+        if let Some(why) = &capture.stats.refused {
+            self.report.note(Outcome::Warned, "light followed by the processor instead of the card", why);
+        }
         let moment = &moments.drive.keyframes[key.keyframe as usize];
         let exposure = match shot.viewpoint {
             Viewpoint::Recording { camera } => moment.exposures.iter().find(|e| e.camera == camera),

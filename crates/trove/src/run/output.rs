@@ -440,6 +440,7 @@ mod tests {
             kernel: "obvhs".into(),
             denoiser: None,
             device: None,
+            card: None,
         };
         RunIdentity::new(json!({ "seed": seed }), versions, Inputs::new())
     }

@@ -135,7 +135,7 @@ fn a_card_s_tables_answer_as_the_kernel_does() {
     let kernel = Obvhs::default().build(&shapes).unwrap();
     let flat = Flat::new(&shapes).unwrap();
     let mut memory = Here::default();
-    let Ok(scene) = flat.scene(&mut memory);
+    let Ok((scene, _)) = flat.scene(&mut memory);
     let rays = rays();
     let mut hits = vec![None; rays.len()];
     kernel.closest(&rays, Coherence::Incoherent, &mut hits);
