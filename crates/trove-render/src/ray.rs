@@ -59,11 +59,6 @@ impl Ray {
         let Self { origin, t_min, direction, t_max, time, .. } = *self;
         trove_trace::Ray { origin, t_min, direction, t_max, time }
     }
-
-    /// Another ray of the same time, to infinity, which is stopped by everything.
-    pub(crate) fn then(&self, origin: Vec3, direction: Vec3) -> Self {
-        Self { time: self.time, ..Self::new(origin, direction) }
-    }
 }
 
 impl From<trove_trace::Ray> for Ray {

@@ -1,99 +1,42 @@
-//! Puffs of droplets behind vehicles, which scatter light as fog does.
-//!
-//! What is seen straight or through panes is seen through them; mirrors show none, and they cast no shadow.
+//! Puffs of droplets behind vehicles as `trove_trace` reads them.
 
 use glam::Vec3;
-use trove_model::Puff;
-
-/// Halvings of the way through puffs, in which a droplet is looked for.
-const HALVINGS: u32 = 24;
+use trove_trace::{Plume, Puff};
 
 /// All spray of a scene.
 pub(crate) struct Spray {
     plumes: Vec<Plume>,
-}
-
-/// What one vehicle throws up.
-struct Plume {
-    /// Box around its puffs, World.
-    low: Vec3,
-    high: Vec3,
     puffs: Vec<Puff>,
 }
 
 impl Spray {
-    pub(crate) fn new(spray: &[Vec<Puff>]) -> Self {
-        let plume = |puffs: &Vec<Puff>| {
-            let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
-            for Puff { centre, radius_m: [across_m, up_m], .. } in puffs {
-                let half = Vec3::new(*across_m as f32, *across_m as f32, *up_m as f32);
-                (low, high) = (low.min(centre.as_vec3() - half), high.max(centre.as_vec3() + half));
+    pub(crate) fn new(spray: &[Vec<trove_model::Puff>]) -> Self {
+        let (mut plumes, mut puffs) = (Vec::new(), Vec::new());
+        for plume in spray.iter().filter(|plume| !plume.is_empty()) {
+            let (mut low, mut high, first) = (Vec3::MAX, Vec3::MIN, puffs.len());
+            for trove_model::Puff { centre, radius_m: [across_m, up_m], extinction_per_m } in plume {
+                let (centre, half) = (centre.as_vec3(), Vec3::new(*across_m as f32, *across_m as f32, *up_m as f32));
+                (low, high) = (low.min(centre - half), high.max(centre + half));
+                puffs.push(Puff { centre, per_radius: half.recip(), extinction_per_m: *extinction_per_m as f32 });
             }
-            Plume { low, high, puffs: puffs.clone() }
-        };
-        Self { plumes: spray.iter().filter(|puffs| !puffs.is_empty()).map(plume).collect() }
-    }
-
-    pub(crate) fn is_none(&self) -> bool {
-        self.plumes.is_empty()
-    }
-
-    /// The puffs through which a ray goes.
-    fn on(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Vec<&Puff> {
-        let plumes = self.plumes.iter().filter(|plume| plume.is_on(origin, direction, t_max));
-        let is_met = |puff: &&Puff| puff.optical_depth(origin.as_dvec3(), direction.as_dvec3(), f64::from(t_max)) > 0.0;
-        plumes.flat_map(|plume| &plume.puffs).filter(is_met).collect()
-    }
-
-    /// Share of light that passes along a unit direction for `t` metres.
-    pub(crate) fn transmittance(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
-        (-depth(&self.on(origin, direction, t), origin, direction, t)).exp()
-    }
-
-    /// Where within `t_max` metres a ray meets a droplet, by a number drawn from 0 to 1; `None` where it meets none.
-    pub(crate) fn met(&self, origin: Vec3, direction: Vec3, t_max: f32, u: f32) -> Option<f32> {
-        let puffs = self.on(origin, direction, t_max);
-        let wanted = -(-u).ln_1p();
-        if depth(&puffs, origin, direction, t_max) <= wanted {
-            return None;
+            plumes.push(Plume { low, high, first: first as u32, count: plume.len() as u32 });
         }
-        // What a ray without an end passes lies before its farthest puff's end.
-        let reach =
-            |puff: &&Puff| puff.centre.as_vec3().distance(origin) + puff.radius_m[0].max(puff.radius_m[1]) as f32;
-        let (mut near, mut far) = (0.0, puffs.iter().map(reach).fold(0.0, f32::max).min(t_max));
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (near + far);
-            if depth(&puffs, origin, direction, middle) > wanted { far = middle } else { near = middle }
-        }
-        Some(far)
+        Self { plumes, puffs }
     }
 
-    /// What a metre takes at a place in World.
-    pub(crate) fn extinction_at(&self, place: Vec3) -> f32 {
-        self.plumes.iter().flat_map(|plume| &plume.puffs).map(|puff| puff.extinction_at(place.as_dvec3())).sum::<f64>()
-            as f32
+    /// To be read.
+    pub(crate) fn view(&self) -> trove_trace::Spray<'_> {
+        trove_trace::Spray { plumes: &self.plumes, puffs: &self.puffs }
     }
-}
-
-impl Plume {
-    /// Whether a ray goes through its box.
-    fn is_on(&self, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
-        let [a, b] = [self.low, self.high].map(|side| (side - origin) / direction);
-        a.min(b).max_element().max(0.0) <= a.max(b).min_element().min(t_max)
-    }
-}
-
-/// Exponent of what puffs take on the first metres of a ray.
-fn depth(puffs: &[&Puff], origin: Vec3, direction: Vec3, t: f32) -> f32 {
-    let (origin, direction, t) = (origin.as_dvec3(), direction.as_dvec3(), f64::from(t));
-    puffs.iter().map(|puff| puff.optical_depth(origin, direction, t)).sum::<f64>() as f32
 }
 
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use trove_model::Puff;
 
-    use super::*;
+    use super::Spray;
+    use super::Vec3;
 
     fn spray() -> Spray {
         let puff = |x_m: f64, extinction_per_m: f64| Puff {
@@ -106,7 +49,8 @@ mod tests {
 
     #[test]
     fn rays_meet_droplets_where_there_are_any_as_often_as_light_is_lost() {
-        let (spray, origin) = (spray(), Vec3::new(0.0, 0.2, 0.9));
+        let (all, origin) = (spray(), Vec3::new(0.0, 0.2, 0.9));
+        let spray = all.view();
         for t_max in [5.5, f32::INFINITY] {
             let n = 20_000;
             let found: Vec<f32> =

@@ -70,4 +70,4 @@ macro_rules! steps {
     };
 }
 
-steps!(begin: Begin, trace: Trace, arrive: Arrive, scatter: Scatter, ask: Ask, send: Send, light: Light, end: End);
+steps!(begin: Begin, trace: Trace, shelter: Shelter, arrive: Arrive, scatter: Scatter, ask: Ask, send: Send, light: Light, end: End);

@@ -77,6 +77,12 @@ pub struct Look {
     pub slot: u32,
 }
 
+/// Bits of what stands at the previous, and at the next, keyframe as it stands now.
+pub const STAYS: [u32; 2] = [1, 2];
+
+/// Bit of what keeps rain and snow off what is below.
+pub const SHELTERS: u32 = 4;
+
 /// A mesh somewhere in World.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -89,8 +95,8 @@ pub struct Placement {
     pub mesh: u32,
     /// The object that it is part of; 0 for stuff.
     pub id: u32,
-    /// Bits 1 and 2: whether it stands at the previous and at the next keyframe as it stands now.
-    pub stays: u32,
+    /// [`STAYS`] and [`SHELTERS`], as far as they are true of it.
+    pub marks: u32,
     /// Where the materials of its slots begin; [`NONE`] where none of them lets anything pass.
     pub materials: u32,
 }
@@ -117,8 +123,8 @@ pub struct Asked {
     pub ray: Ray,
     /// The object that it passes through; 0 for none.
     pub past: u32,
-    /// Bits of [`Placement::stays`] that an instance has to have.
-    pub stays: u32,
+    /// Those of [`Placement::marks`] that an instance has to have.
+    pub marks: u32,
     /// 1 if panes of glass are not there, else 0.
     pub through_glass: u32,
 }
@@ -185,8 +191,8 @@ impl Readable<'_> {
 
     #[inline(always)]
     fn is_entered(&self, instance: u32, asked: &Asked) -> bool {
-        let Placement { id, stays, .. } = self.placement(instance);
-        !(asked.past != 0 && *id == asked.past) && stays & asked.stays == asked.stays
+        let Placement { id, marks, .. } = self.placement(instance);
+        !(asked.past != 0 && *id == asked.past) && marks & asked.marks == asked.marks
     }
 
     /// Whether there is a surface at a hit, and neither a hole nor glass that the ray passes through.

@@ -11,6 +11,7 @@ use crate::material::Material;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::sampling::power_heuristic;
+use crate::spray::Spray;
 use crate::surface::Surface;
 use crate::texture::Map;
 
@@ -102,11 +103,8 @@ pub trait World {
     /// From where light is read that droplets send on to a path which has scattered; without it they are met one by one.
     fn field(&self) -> Option<&LightField<'_>>;
 
-    /// Where a ray meets a droplet of spray before so many metres, by a random number, if there is any.
-    fn met_in_spray(&self, origin: Vec3, direction: Vec3, t_max: f32, u: impl FnOnce() -> f32) -> Option<f32>;
-
-    /// Share of light that spray lets pass along a unit direction for `t` metres.
-    fn through_spray(&self, origin: Vec3, direction: Vec3, t: f32) -> f32;
+    /// Spray, if there is any.
+    fn spray(&self) -> Option<&Spray<'_>>;
 }
 
 /// Where a path begins.
@@ -425,9 +423,8 @@ impl<'a, W: World> At<'a, W> {
     fn droplet(&self, path: &mut Path, hit: Option<Hit>) -> Option<f32> {
         let (origin, direction) = (path.ray.origin, path.ray.direction);
         let free = hit.map_or(f32::INFINITY, |hit| hit.t);
-        let sees = path.scattered.is_none();
-        let mut u = || path.sampler.next2()[0];
-        let in_spray = if sees { self.world.met_in_spray(origin, direction, free, &mut u) } else { None };
+        let spray = self.world.spray().filter(|_| path.scattered.is_none());
+        let in_spray = spray.and_then(|spray| spray.met(origin, direction, free, path.sampler.next2()[0]));
         let in_fog = self.world.fog().filter(|_| self.field_after(path.events).is_none()).and_then(|fog| {
             let fog = fog.scattering(self.after(path.events));
             fog.met(origin, direction, in_spray.unwrap_or(free), path.sampler.next2()[0])
@@ -516,8 +513,8 @@ impl<'a, W: World> At<'a, W> {
     /// What guides the denoiser at a surface: droplets before it are white and face nowhere.
     fn guide(&self, path: &Path, t: f32, albedo: Vec3, normal: Vec3) -> (Vec3, Vec3) {
         let (origin, direction) = (path.ray.origin, path.ray.direction);
-        let clear =
-            self.clear(origin, direction, t, Scattering::after(0)) * self.world.through_spray(origin, direction, t);
+        let through_spray = self.world.spray().map_or(1.0, |spray| spray.transmittance(origin, direction, t));
+        let clear = self.clear(origin, direction, t, Scattering::after(0)) * through_spray;
         (path.guide_filter * Vec3::ONE.lerp(albedo, clear), normal * clear)
     }
 

@@ -5,6 +5,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use crate::flat::{Asked, Table};
 use crate::path::{Arrival, Path, Sample, Shadows, Start, World, arrive, ask, scatter, send};
 use crate::ray::{Hit, NONE};
+use crate::surface::Exposure;
 use crate::world::FlatWorld;
 
 /// Room for paths, each with its own place in every table.
@@ -17,7 +18,9 @@ pub struct Wave {
     pub paths: Table<Path>,
     /// What their rays meet; the instance is [`NONE`] where that is nothing.
     pub hits: Table<Hit>,
-    /// Where they have arrived.
+    /// What comes down where they have arrived.
+    pub exposures: Table<Exposure>,
+    /// Where that is.
     pub arrivals: Table<Arrival>,
     /// Light that they asked for there.
     pub shadows: Table<Shadows>,
@@ -46,7 +49,9 @@ pub enum Step {
     Begin,
     /// What the rays of those in a list meet.
     Trace,
-    /// Where that is, and what light is there.
+    /// What comes down there.
+    Shelter,
+    /// Where they have arrived, and what light is there.
     Arrive,
     /// Those at droplets ask for light and go on; who goes on is put into the other list.
     Scatter,
@@ -65,7 +70,7 @@ impl Wave {
     ///
     /// # Safety
     /// The world has to be as [`FlatWorld::readable`] wants it, all tables as long as that of the starts, and steps have to be
-    /// done in the order begin, (trace, arrive, scatter, ask, send, light) until nobody goes on, end; each once for each place, by any threads.
+    /// done in the order begin, (trace, shelter, arrive, scatter, ask, send, light) until nobody goes on, end; each once for each place, by any threads.
     #[inline(always)]
     pub unsafe fn step(&self, step: Step, world: &FlatWorld, which: usize, i: usize) {
         // SAFETY: the caller vouches for all tables, and that nobody else is at this place.
@@ -79,19 +84,27 @@ impl Wave {
                 Step::Trace => {
                     let place = self.active[which].place(i).read() as usize;
                     let path = &*self.paths.place(place);
-                    let asked = Asked { ray: path.ray, past: path.past, stays: 0, through_glass: 0 };
+                    let asked = Asked { ray: path.ray, past: path.past, marks: 0, through_glass: 0 };
                     self.hits.place(place).write(world.scene.closest(&asked).unwrap_or(Hit::NOTHING));
+                }
+                Step::Shelter => {
+                    let place = self.active[which].place(i).read() as usize;
+                    let ray = &(*self.paths.place(place)).ray;
+                    let exposure = self.hit(place).map(|hit| world.readable().exposure(&hit, ray));
+                    self.exposures.place(place).write(exposure.unwrap_or(Exposure::BARE));
                 }
                 Step::Arrive => {
                     let place = self.active[which].place(i).read() as usize;
-                    let arrival = arrive(&world.readable(), &mut *self.paths.place(place), self.hit(place));
+                    let world = world.readable().under(self.exposures.place(place).read());
+                    let arrival = arrive(&world, &mut *self.paths.place(place), self.hit(place));
                     self.arrivals.place(place).write(arrival);
                     self.shadows.place(place).write(Shadows::default());
                 }
                 Step::Scatter => {
                     let place = self.active[which].place(i).read() as usize;
                     if let Arrival::Droplet(t) = *self.arrivals.place(place) {
-                        let turn = scatter(&world.readable(), &mut *self.paths.place(place), t, self.hit(place));
+                        let world = world.readable().under(self.exposures.place(place).read());
+                        let turn = scatter(&world, &mut *self.paths.place(place), t, self.hit(place));
                         self.shadows.place(place).write(turn.shadows);
                         self.go_on(which, place, turn.goes_on);
                     }

@@ -2,8 +2,9 @@
 
 use glam::{Affine3A, IVec3, Mat3A, Vec2, Vec3};
 
+use crate::exposure::{Bears, ComesDown, SnowLeft, exposure};
 use crate::field::{GRIDS, LightField, Node};
-use crate::flat::{Asked, FlatScene, Readable, Table};
+use crate::flat::{Asked, FlatScene, Readable, SHELTERS, Table};
 use crate::fog::Fog;
 use crate::light::{
     Aim, BeamTable, Beams, Cell, Cells, Emitter, Emitters, Group, Haze, Lights, Patches, Pattern, Picture, Sky, Sun,
@@ -15,7 +16,8 @@ use crate::math::unit_or;
 use crate::motion::Motion;
 use crate::path::World;
 use crate::ray::{Hit, NONE, Ray};
-use crate::surface::{Surface, Triangle};
+use crate::spray::{Plume, Puff, Spray};
+use crate::surface::{Exposure, Surface, Triangle};
 use crate::texture::FlatTexture;
 use crate::trace;
 
@@ -59,6 +61,8 @@ pub struct Stand {
     pub world_from_normal: Mat3A,
     /// Where the materials of its slots begin.
     pub materials: u32,
+    /// What snow it bears.
+    pub bears: Bears,
 }
 
 /// All lights.
@@ -113,6 +117,32 @@ pub struct FlatLights {
     pub has_haze: bool,
 }
 
+/// What comes down, and what vehicles throw up.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct FlatWeather {
+    /// As in [`SnowLeft`]; none where snow lies as it fell.
+    pub shares: Table<u8>,
+    /// As in [`SnowLeft`].
+    pub size: [u32; 2],
+    /// As in [`SnowLeft`].
+    pub origin: Vec2,
+    /// As in [`SnowLeft`].
+    pub cell_m: f32,
+    /// As in [`ComesDown`], if there is snow.
+    pub snow: f32,
+    /// As in [`ComesDown`].
+    pub rain_mm_h: f32,
+    /// As in [`ComesDown`].
+    pub moment_s: f32,
+    /// As in [`Spray`]; none where there is no spray.
+    pub plumes: Table<Plume>,
+    /// As in [`Spray`].
+    pub puffs: Table<Puff>,
+    /// Whether there is snow.
+    pub has_snow: bool,
+}
+
 /// A scene with its materials and its lights.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -137,6 +167,8 @@ pub struct FlatWorld {
     pub fog: Fog,
     /// Whether there are.
     pub has_fog: bool,
+    /// What comes down.
+    pub weather: FlatWeather,
 }
 
 /// A world whose tables are vouched for.
@@ -144,6 +176,9 @@ pub struct ReadableWorld<'a> {
     world: &'a FlatWorld,
     lights: Lights<'a, FlatTexture>,
     field: Option<LightField<'a>>,
+    spray: Option<Spray<'a>>,
+    /// What comes down where a path has arrived.
+    exposure: Exposure,
 }
 
 impl FlatWorld {
@@ -158,7 +193,10 @@ impl FlatWorld {
         unsafe {
             let nodes = self.nodes.values();
             let field = (!nodes.is_empty()).then_some(LightField { lowest: self.lowest, nodes });
-            ReadableWorld { world: self, lights: self.lights.readable(&self.materials.lookups.values()[0]), field }
+            let lights = self.lights.readable(&self.materials.lookups.values()[0]);
+            let (plumes, puffs) = (self.weather.plumes.values(), self.weather.puffs.values());
+            let spray = (!plumes.is_empty()).then_some(Spray { plumes, puffs });
+            ReadableWorld { world: self, lights, field, spray, exposure: Exposure::BARE }
         }
     }
 }
@@ -205,13 +243,44 @@ impl FlatLights {
 }
 
 impl ReadableWorld<'_> {
+    /// The same where so much comes down, as [`Self::exposure`] has it.
+    #[inline(always)]
+    pub fn under(self, exposure: Exposure) -> Self {
+        Self { exposure, ..self }
+    }
+
+    /// What comes down where a ray meets something.
+    #[inline(always)]
+    pub fn exposure(&self, hit: &Hit, ray: &Ray) -> Exposure {
+        let weather = &self.world.weather;
+        if !weather.has_snow && self.material(hit).wetness <= 0.0 {
+            return Exposure::BARE;
+        }
+        // SAFETY: whoever made it vouches for all tables.
+        let shares = unsafe { weather.shares.values() };
+        let FlatWeather { size, origin, cell_m, rain_mm_h, moment_s, .. } = *weather;
+        let what = ComesDown {
+            snow: weather.has_snow.then_some(weather.snow),
+            left: (!shares.is_empty()).then_some(SnowLeft { origin, cell_m, size, shares }),
+            rain_mm_h,
+            moment_s,
+        };
+        let (stand, triangle, (world_from_mesh, world_from_normal)) = self.triangle(hit, ray.time);
+        let surface = Surface::new(&triangle, hit, ray.direction, world_from_mesh, world_from_normal);
+        exposure(&what, stand.bears, &surface, ray, |looking| {
+            let asked = Asked { ray: *looking, past: 0, marks: SHELTERS, through_glass: 0 };
+            // SAFETY: as above.
+            unsafe { self.world.scene.is_blocked(&asked) }
+        })
+    }
+
     /// Leaves of light along a ray what nothing keeps back: nothing behind what is solid, and behind panes what goes straight
     /// through them.
     #[inline(always)]
     pub fn let_through(&self, ray: &Ray, light: Vec3) -> Vec3 {
         let scene = Readable(&self.world.scene);
         let mut left = light;
-        let asked = Asked { ray: *ray, past: 0, stays: 0, through_glass: 0 };
+        let asked = Asked { ray: *ray, past: 0, marks: 0, through_glass: 0 };
         let keeps_back = |hit: &Hit| {
             if !scene.is_seen(hit, &asked) {
                 return false;
@@ -313,7 +382,7 @@ impl World for ReadableWorld<'_> {
     fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &Material<FlatTexture>) {
         let (_, triangle, (world_from_mesh, world_from_normal)) = self.triangle(hit, ray.time);
         let surface = Surface::new(&triangle, hit, ray.direction, world_from_mesh, world_from_normal);
-        (surface, self.material(hit))
+        (Surface { exposure: self.exposure, ..surface }, self.material(hit))
     }
 
     #[inline(always)]
@@ -333,14 +402,8 @@ impl World for ReadableWorld<'_> {
         self.field.as_ref()
     }
 
-    // Scenes with spray are left to the processor.
     #[inline(always)]
-    fn met_in_spray(&self, _: Vec3, _: Vec3, _: f32, _: impl FnOnce() -> f32) -> Option<f32> {
-        None
-    }
-
-    #[inline(always)]
-    fn through_spray(&self, _: Vec3, _: Vec3, _: f32) -> f32 {
-        1.0
+    fn spray(&self) -> Option<&Spray<'_>> {
+        self.spray.as_ref()
     }
 }

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use glam::Vec2;
 use trove_model::Mesh;
 use trove_trace::{
-    Asked, FlatLook, FlatMesh, FlatOpacity, FlatScene, FlatTexture, Look, Motion, NONE, Placement, Table,
+    Asked, FlatLook, FlatMesh, FlatOpacity, FlatScene, FlatTexture, Look, Motion, NONE, Placement, SHELTERS, STAYS,
+    Table,
 };
 
 use super::hierarchy::Hierarchy;
@@ -41,13 +42,13 @@ impl Flat {
                 meshes.len() as u32 - 1
             });
             let judged = shapes.lets_pass(placed);
-            let [previous, next] = placed.stays;
+            let stays = STAYS.iter().zip(placed.stays).map(|(mark, stays)| mark * u32::from(stays)).sum::<u32>();
             placements.push(Placement {
                 mesh_from_world: placed.world_from_mesh.middle.inverse(),
                 motion: placed.world_from_mesh.flat().map_or(NONE, |motion| listed(&mut motions, [motion])),
                 mesh,
                 id: placed.id.0,
-                stays: u32::from(previous) | u32::from(next) << 1,
+                marks: stays | (SHELTERS * u32::from(placed.sort.shelters())),
                 materials: if judged { listed(&mut materials, placed.materials.iter().copied()) } else { NONE },
             });
         }
@@ -160,7 +161,7 @@ pub(crate) fn asked(ray: &Ray) -> Asked {
     Asked {
         ray: super::obvhs::flat(ray),
         past: ray.past.map_or(0, |id| id.0),
-        stays: ray.beside.map_or(0, |beside| 1 << beside as u32),
+        marks: ray.beside.map_or(0, |beside| STAYS[beside as usize]) | (SHELTERS * u32::from(ray.for_shelter)),
         through_glass: u32::from(ray.through_glass),
     }
 }

@@ -2,7 +2,7 @@
 
 use trove_trace::path::{Arrival, Path, Sample, Shadows, Start};
 use trove_trace::wave::{Counts, Step, Wave};
-use trove_trace::{FlatWorld, Hit, Table};
+use trove_trace::{Exposure, FlatWorld, Hit, Table};
 
 /// Who does the steps of a wave.
 pub(super) trait Steps {
@@ -18,7 +18,7 @@ pub(super) fn follow(steps: &mut impl Steps, count: usize) -> Result<u64, String
     steps.step(Step::Begin, 0, count)?;
     let (mut which, mut going, mut rays) = (0, count, 0);
     while going > 0 {
-        for step in [Step::Trace, Step::Arrive, Step::Scatter, Step::Ask, Step::Send, Step::Light] {
+        for step in [Step::Trace, Step::Shelter, Step::Arrive, Step::Scatter, Step::Ask, Step::Send, Step::Light] {
             steps.step(step, which, going)?;
         }
         let counts = steps.counts()?;
@@ -36,7 +36,7 @@ pub(super) fn follow(steps: &mut impl Steps, count: usize) -> Result<u64, String
 pub(super) unsafe fn follow_here(world: &FlatWorld, starts: &[Start]) -> (Vec<Sample>, u64) {
     let count = starts.len();
     let mut paths: Vec<_> = starts.iter().map(|start| Path::new(*start)).collect();
-    let mut hits = vec![Hit::NOTHING; count];
+    let (mut hits, mut exposures) = (vec![Hit::NOTHING; count], vec![Exposure::BARE; count]);
     let (mut arrivals, mut shadows) = (vec![Arrival::End; count], vec![Shadows::default(); count]);
     let mut active = [vec![0; count], vec![0; count]];
     let (mut samples, mut counts) = (vec![Sample::default(); count], [Counts::default()]);
@@ -44,6 +44,7 @@ pub(super) unsafe fn follow_here(world: &FlatWorld, starts: &[Start]) -> (Vec<Sa
         starts: Table::at(starts.as_ptr() as u64, count),
         paths: table(&mut paths),
         hits: table(&mut hits),
+        exposures: table(&mut exposures),
         arrivals: table(&mut arrivals),
         shadows: table(&mut shadows),
         active: active.each_mut().map(|list| table(list)),

@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3, vec2};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3, vec2};
 use trove_model::{
-    Beam, Capture, Class, ColorSpace, Distortion, Environment, Fog, Instance, InstanceId, Lens, Light, Mapping,
-    Material, Mesh, PhysicalSky, Placement, Pose, Random, Scene, Seed, Shot, Texture, Tiling,
+    Beam, Capture, Class, ColorSpace, Distortion, Environment, Fog, Form, Instance, InstanceId, Lens, Light, Mapping,
+    Material, Mesh, PhysicalSky, Placement, Pose, Precipitation, Puff, Random, Raster, Scene, Seed, Shot, Snow,
+    SnowLeft, Texture, Tiling,
 };
-use trove_trace::Sampler;
 use trove_trace::field::LightField;
 use trove_trace::path::{Cone, Path, Sample, Start, World, advance};
+use trove_trace::{Exposure, Sampler};
 
 use super::follow::follow_here;
 use super::world::world;
@@ -39,8 +40,41 @@ fn square(size: f32) -> Arc<Mesh> {
     })
 }
 
-/// Squares of all sorts of materials, some of which move, above ground, by day or by night, in clear air or in fog.
-fn scene(is_night: bool, fog: Option<Fog>) -> Scene {
+/// What changes a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sort {
+    Day,
+    Night,
+    Fog,
+    Rain,
+    Snow,
+}
+
+const SORTS: [Sort; 5] = [Sort::Day, Sort::Night, Sort::Fog, Sort::Rain, Sort::Snow];
+
+fn light(sort: Sort, sky: PhysicalSky) -> Light {
+    let clear = Light::clear(Environment::Sky(sky));
+    let puff = |x: f64| Puff { centre: DVec3::new(x, 2.0, 1.5), radius_m: [1.5, 1.0], extinction_per_m: 0.3 };
+    match sort {
+        Sort::Day | Sort::Night => clear,
+        Sort::Fog => Light { fog: Some(Fog { visibility_m: 60.0, height_m: 30.0, ground_z_m: 0.0 }), ..clear },
+        Sort::Rain => Light {
+            falling: Some(Precipitation { form: Form::Rain, rate_mm_h: 10.0 }),
+            spray: vec![vec![puff(0.0), puff(1.0)], vec![puff(-4.0)]],
+            moment_s: 2.5,
+            ..clear
+        },
+        Sort::Snow => {
+            let shares = Raster::from_fn(40, 40, |x, y| (x * 5 + y) as u8);
+            let left = SnowLeft { origin: DVec2::splat(-10.0), cell_m: 0.5, shares };
+            Light { snow: Some(Snow { cover: 0.8, left: Some(Arc::new(left)) }), ..clear }
+        }
+    }
+}
+
+/// Squares of all sorts of materials, some of which move, above ground.
+fn scene(sort: Sort) -> Scene {
+    let wetness = if sort == Sort::Rain { 0.8 } else { 0.0 };
     let noise = |x: u32, y: u32| ((x * 37 + y * 91) % 200) as u8 + 40;
     let colors = texture("colors", ColorSpace::Srgb, |x, y| [noise(x, y), noise(y, x), 120, 255]);
     let holes =
@@ -48,7 +82,7 @@ fn scene(is_night: bool, fog: Option<Fog>) -> Scene {
     let orm = texture("orm", ColorSpace::Linear, |x, y| [255, noise(x, y), 30, 255]);
     let normals = texture("normals", ColorSpace::Linear, |x, y| [noise(x, y) / 4 + 96, noise(y, x) / 4 + 96, 240, 255]);
     let heights = texture("heights", ColorSpace::Linear, |x, y| [noise(x / 4, y / 4), 0, 0, 255]);
-    let plain = || Material { base_color: Vec3::new(0.6, 0.5, 0.4), roughness: 0.6, ..Material::default() };
+    let plain = || Material { base_color: Vec3::new(0.6, 0.5, 0.4), roughness: 0.6, wetness, ..Material::default() };
     let beam =
         Beam::new(vec![-60.0, 0.0, 60.0], vec![-40.0, 0.0, 40.0], vec![0.1, 0.4, 0.2, 0.3, 1.0, 0.5, 0.0, 0.6, 0.1]);
     let materials = vec![
@@ -107,7 +141,7 @@ fn scene(is_night: bool, fog: Option<Fog>) -> Scene {
         object: None,
     };
     let sky = PhysicalSky {
-        to_sun: DVec3::new(0.3, -0.5, if is_night { -0.4 } else { 0.6 }).normalize(),
+        to_sun: DVec3::new(0.3, -0.5, if sort == Sort::Night { -0.4 } else { 0.6 }).normalize(),
         moon: None,
         turbidity: 3.0,
         ground_albedo: 0.2,
@@ -120,7 +154,7 @@ fn scene(is_night: bool, fog: Option<Fog>) -> Scene {
         instances: instances.chain([ground]).collect(),
         others: Default::default(),
         keyframes_apart_s: [0.5; 2],
-        light: Light { fog, ..Light::clear(Environment::Sky(sky)) },
+        light: light(sort, sky),
         provenance: Vec::new(),
     }
 }
@@ -145,9 +179,8 @@ fn renderer() -> Renderer {
 
 #[test]
 fn paths_go_the_same_way_through_tables_as_through_the_scene() {
-    let fog = Fog { visibility_m: 60.0, height_m: 30.0, ground_z_m: 0.0 };
-    for (is_night, fog) in [(false, None), (true, None), (false, Some(fog))] {
-        let scene = scene(is_night, fog);
+    for sort in SORTS {
+        let scene = scene(sort);
         let renderer = renderer();
         let prepared = renderer.prepare(&scene).unwrap();
         let shapes = Flat::new(&prepared.shapes).unwrap();
@@ -155,6 +188,7 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
         let Ok(flat) = world(&prepared, &shapes, &mut memory);
         // SAFETY: the tables are as `world` makes them, and the memory lives on.
         let (here, seen) = (unsafe { flat.readable() }, Seen::new(&prepared, None));
+        let (mut wet, mut snowy) = (0, 0);
         let starts = starts(20_000);
         let mut ours: Vec<Path> = starts.iter().map(|start| Path::new(*start)).collect();
         let (mut others, mut met, mut lit) = (ours.clone(), 0, 0);
@@ -169,7 +203,12 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
                 // SAFETY: as above.
                 assert_eq!(unsafe { flat.scene.closest(&asked(&ray)) }, hits[0]);
                 met += usize::from(hits[0].is_some());
-                let (turn, of_tables) = (advance(&seen, path, hits[0]), advance(&here, other, hits[0]));
+                let exposure = hits[0].map_or(Exposure::BARE, |hit| here.exposure(&hit, &other.ray));
+                wet += usize::from(exposure.rain_mm_h > 0.0);
+                snowy += usize::from(exposure.snow * exposure.left > 0.0);
+                // SAFETY: as above.
+                let there = unsafe { flat.readable() }.under(exposure);
+                let (turn, of_tables) = (advance(&seen, path, hits[0]), advance(&there, other, hits[0]));
                 let shadows = [
                     (turn.shadows.to_rest, of_tables.shadows.to_rest),
                     (turn.shadows.to_sun, of_tables.shadows.to_sun),
@@ -194,6 +233,7 @@ fn paths_go_the_same_way_through_tables_as_through_the_scene() {
             (ours, others) = on.into_iter().unzip();
         }
         assert!(met > 20_000 && lit > 5_000, "{met} {lit}");
+        assert_eq!([wet > 1000, snowy > 1000], [sort == Sort::Rain, sort == Sort::Snow], "{wet} {snowy}");
 
         // In waves, as on a card.
         // SAFETY: as above.
@@ -278,9 +318,8 @@ fn radiance(capture: &Capture) -> &[[f32; 3]] {
 
 #[test]
 fn a_picture_through_tables_is_the_processor_s() {
-    let fog = Fog { visibility_m: 60.0, height_m: 30.0, ground_z_m: 0.0 };
-    for (is_night, fog, noise) in [(false, None, 0.0), (true, None, 0.2), (false, Some(fog), 0.0)] {
-        let scene = scene(is_night, fog);
+    for sort in SORTS {
+        let (scene, noise) = (scene(sort), if sort == Sort::Night { 0.2 } else { 0.0 });
         let ours = taken(&renderer(), &scene, noise);
         let theirs = taken(&renderer().with(Box::new(Emulated)), &scene, noise);
         assert_eq!(theirs.stats, ours.stats);
@@ -298,18 +337,13 @@ fn a_picture_through_tables_is_the_processor_s() {
 
 #[test]
 fn the_processor_goes_on_where_a_card_cannot() {
-    let dry = scene(false, None);
-    let ours = taken(&renderer(), &dry, 0.0);
+    let scene = scene(Sort::Day);
+    let ours = taken(&renderer(), &scene, 0.0);
     let full = Failing { is_full: true, lost_after: 0 };
     let lost = Failing { is_full: false, lost_after: 3 };
     for (machine, why) in [(full, "full"), (lost, "lost")] {
-        let theirs = taken(&renderer().with(Box::new(machine)), &dry, 0.0);
+        let theirs = taken(&renderer().with(Box::new(machine)), &scene, 0.0);
         assert_eq!(theirs.stats.refused.as_deref(), Some(why));
         assert_eq!(radiance(&theirs), radiance(&ours));
     }
-    let mut wet = scene(false, None);
-    wet.materials[0].wetness = 1.0;
-    let theirs = taken(&renderer().with(Box::new(Emulated)), &wet, 0.0);
-    assert_eq!(theirs.stats.refused.as_deref(), Some("water on surfaces is left to the processor"));
-    assert_eq!(radiance(&theirs), radiance(&taken(&renderer(), &wet, 0.0)));
 }

@@ -8,7 +8,7 @@ use trove_model::Mesh;
 use trove_trace::field::LightField;
 use trove_trace::path::{Arrival, Path, Sample, Shadows, Start};
 use trove_trace::wave::{Counts, Step, Wave};
-use trove_trace::{FlatLook, FlatMesh, FlatTexture, FlatWorld, Hit, Table};
+use trove_trace::{Exposure, FlatLook, FlatMesh, FlatTexture, FlatWorld, Hit, Table};
 
 use super::driver::{Buffer, Device};
 use super::follow::{Steps, follow};
@@ -159,12 +159,14 @@ impl<'a> UploadedWave<'a> {
         let world = device.hold(&[FlatWorld { nodes: of_nodes, lowest, ..scene.world }])?;
         let (starts, samples, counts) = (device.room(most)?, device.room(most)?, device.hold(&[Counts::default()])?);
         let (paths, hits) = (device.room::<Path>(most)?, device.room::<Hit>(most)?);
+        let exposures = device.room::<Exposure>(most)?;
         let (arrivals, shadows) = (device.room::<Arrival>(most)?, device.room::<Shadows>(most)?);
         let (first, second) = (device.room::<u32>(most)?, device.room::<u32>(most)?);
         let wave = device.hold(&[Wave {
             starts: Table::at(starts.address(), most),
             paths: Table::at(paths.address(), most),
             hits: Table::at(hits.address(), most),
+            exposures: Table::at(exposures.address(), most),
             arrivals: Table::at(arrivals.address(), most),
             shadows: Table::at(shadows.address(), most),
             active: [&first, &second].map(|list| Table::at(list.address(), most)),
@@ -175,6 +177,7 @@ impl<'a> UploadedWave<'a> {
             nodes_there.into_bytes(),
             paths.into_bytes(),
             hits.into_bytes(),
+            exposures.into_bytes(),
             arrivals.into_bytes(),
             shadows.into_bytes(),
             first.into_bytes(),
@@ -189,6 +192,7 @@ impl Steps for UploadedWave<'_> {
         let name = match step {
             Step::Begin => c"begin",
             Step::Trace => c"trace",
+            Step::Shelter => c"shelter",
             Step::Arrive => c"arrive",
             Step::Scatter => c"scatter",
             Step::Ask => c"ask",

@@ -3,8 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use glam::Vec2;
 use trove_trace::light::{Haze, Pattern, Sun};
-use trove_trace::{FlatLights, FlatMaterials, FlatTexture, FlatWorld, Fog, Lookups, Stand, Table};
+use trove_trace::{
+    ComesDown, FlatLights, FlatMaterials, FlatTexture, FlatWeather, FlatWorld, Fog, Lookups, SnowLeft, Spray, Stand,
+    Table,
+};
 
 use crate::PreparedScene;
 use crate::accel::{Flat, Hold};
@@ -13,9 +17,6 @@ use crate::texture::{MapOf, MipMap};
 
 /// What of a scene is traced, or why none of its paths can be followed through tables.
 pub(super) fn flat(scene: &PreparedScene) -> Result<Flat, String> {
-    if let Some(what) = scene.beyond_tables() {
-        return Err(format!("{what} is left to the processor"));
-    }
     Flat::new(&scene.shapes).ok_or_else(|| "nothing is in the scene".into())
 }
 
@@ -23,9 +24,9 @@ pub(super) fn flat(scene: &PreparedScene) -> Result<Flat, String> {
 /// There is no field of the light in its air.
 pub(super) fn world<H: Hold>(scene: &PreparedScene, shapes: &Flat, hold: &mut H) -> Result<FlatWorld, H::Error> {
     let (mut stands, mut slots) = (Vec::new(), Vec::new());
-    for placed in &scene.shapes.placed {
+    for (placed, instance) in scene.shapes.placed.iter().zip(&scene.instances) {
         let (world_from_mesh, world_from_normal) = placed.at(trove_trace::Motion::MIDDLE);
-        stands.push(Stand { world_from_mesh, world_from_normal, materials: slots.len() as u32 });
+        stands.push(Stand { world_from_mesh, world_from_normal, materials: slots.len() as u32, bears: instance.bears });
         slots.extend_from_slice(&placed.materials);
     }
     let mut maps = Maps { hold, held: BTreeMap::new() };
@@ -50,6 +51,26 @@ pub(super) fn world<H: Hold>(scene: &PreparedScene, shapes: &Flat, hold: &mut H)
         lowest: Default::default(),
         fog: scene.fog.unwrap_or(clear),
         has_fog: scene.fog.is_some(),
+        weather: weather(scene, hold)?,
+    })
+}
+
+fn weather<H: Hold>(scene: &PreparedScene, hold: &mut H) -> Result<FlatWeather, H::Error> {
+    let ComesDown { snow, left, rain_mm_h, moment_s } = scene.comes_down.view();
+    let Spray { plumes, puffs } = scene.spray.view();
+    let none = SnowLeft { origin: Vec2::ZERO, cell_m: 1.0, size: [0; 2], shares: &[] };
+    let SnowLeft { origin, cell_m, size, shares } = left.unwrap_or(none);
+    Ok(FlatWeather {
+        shares: hold.hold(shares)?,
+        size,
+        origin,
+        cell_m,
+        snow: snow.unwrap_or_default(),
+        rain_mm_h,
+        moment_s,
+        plumes: hold.hold(plumes)?,
+        puffs: hold.hold(puffs)?,
+        has_snow: snow.is_some(),
     })
 }
 

@@ -44,15 +44,15 @@ pub(super) fn of_spray(
     met: &[Part],
     seed: Seed,
 ) -> Option<Echo> {
-    if scene.spray.is_none() {
+    let spray = scene.spray.view();
+    if spray.plumes.is_empty() {
         return None;
     }
     let [near_m, far_m] = free_m(scanner, met)?;
     let (origin, direction) = (middle.origin.as_vec3(), middle.direction.as_vec3());
-    let lost = 1.0 - scene.spray.transmittance(origin, direction, far_m as f32);
-    let range_m =
-        scene.spray.met(origin, direction, far_m as f32, lost * seed.child("spray").random().unit() as f32)?;
-    let thick = scene.spray.extinction_at(origin + direction * range_m);
+    let lost = 1.0 - spray.transmittance(origin, direction, far_m as f32);
+    let range_m = spray.met(origin, direction, far_m as f32, lost * seed.child("spray").random().unit() as f32)?;
+    let thick = spray.extinction_at(origin + direction * range_m);
     (f64::from(range_m) > near_m).then(|| echo(scene, scanner, middle, f64::from(thick), f64::from(range_m)))
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use trove_trace::field::LightField;
 use trove_trace::path::World;
-use trove_trace::{Fog, Hit, Lookups, Material, Surface};
+use trove_trace::{Fog, Hit, Lookups, Material, Spray, Surface};
 
 use crate::PreparedScene;
 use crate::light::LightsOf;
@@ -16,11 +16,13 @@ pub(crate) struct Seen<'a> {
     scene: &'a PreparedScene,
     pub(crate) lights: LightsOf<'a>,
     field: Option<LightField<'a>>,
+    spray: Option<Spray<'a>>,
 }
 
 impl<'a> Seen<'a> {
     pub(crate) fn new(scene: &'a PreparedScene, field: Option<&'a field::LightField>) -> Self {
-        Self { scene, lights: scene.lights.view(), field: field.map(field::LightField::view) }
+        let spray = Some(scene.spray.view()).filter(|spray| !spray.plumes.is_empty());
+        Self { scene, lights: scene.lights.view(), field: field.map(field::LightField::view), spray }
     }
 }
 
@@ -52,12 +54,7 @@ impl World for Seen<'_> {
         self.field.as_ref()
     }
 
-    fn met_in_spray(&self, origin: Vec3, direction: Vec3, t_max: f32, u: impl FnOnce() -> f32) -> Option<f32> {
-        let spray = &self.scene.spray;
-        if spray.is_none() { None } else { spray.met(origin, direction, t_max, u()) }
-    }
-
-    fn through_spray(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
-        self.scene.spray.transmittance(origin, direction, t)
+    fn spray(&self) -> Option<&Spray<'_>> {
+        self.spray.as_ref()
     }
 }

@@ -2,13 +2,13 @@
 
 mod carrier;
 mod check;
-mod exposure;
+mod comes_down;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, Vec3, bvec3};
 use trove_model::{Class, Instance, Mesh, Origin, Placement, Precipitation, Scene, SceneObject};
-use trove_trace::{Fog, Scattering, Surface};
+use trove_trace::{Bears, Fog, Scattering, Surface, exposure};
 
 use crate::RenderError;
 use crate::accel::{Accel, Coherence, Kernel, PACKET, Shapes};
@@ -23,7 +23,7 @@ use crate::remote::Place;
 use crate::spray::Spray;
 use crate::surface::surface;
 use crate::texture::Textures;
-use exposure::{Bears, ComesDown, exposure};
+use comes_down::{ComesDown, bears};
 
 pub(crate) use carrier::Carrier;
 
@@ -40,7 +40,7 @@ pub struct PreparedScene {
     pub(crate) spray: Spray,
     /// The light around eyes, as far as it was asked for.
     pub(crate) fields: LightFields,
-    comes_down: ComesDown,
+    pub(crate) comes_down: ComesDown,
     accel: Box<dyn Accel>,
     /// What is at the previous and at the next keyframe other than now, as it is then.
     others: [Others; 2],
@@ -59,7 +59,7 @@ struct Others {
 /// What labels tell of an instance.
 pub(crate) struct PreparedInstance {
     pub(crate) class: Class,
-    bears: Bears,
+    pub(crate) bears: Bears,
     /// In the model's precision.
     pub(crate) world_from_mesh: Motion<DAffine3>,
     /// At the moment of the labels.
@@ -197,7 +197,7 @@ impl PreparedScene {
 
     /// Share of a thing's light that fog and spray let pass straight to an eye.
     pub(crate) fn seen(&self, origin: Vec3, direction: Vec3, t: f32) -> f32 {
-        self.clear(origin, direction, t, Scattering::after(0)) * self.spray.transmittance(origin, direction, t)
+        self.clear(origin, direction, t, Scattering::after(0)) * self.spray.view().transmittance(origin, direction, t)
     }
 
     /// The kernel, to be measured.
@@ -210,24 +210,19 @@ impl PreparedScene {
         &self.shapes.opacities[self.placed(hit.instance).material(hit)]
     }
 
-    /// What of it the tables that a card reads do not hold, if there is any.
-    pub(crate) fn beyond_tables(&self) -> Option<&'static str> {
-        match () {
-            () if self.comes_down.snow.is_some() => Some("snow on surfaces"),
-            () if self.materials.iter().any(|material| material.is_wet()) => Some("water on surfaces"),
-            () if !self.spray.is_none() => Some("spray"),
-            () => None,
-        }
-    }
-
     /// The surface at a ray's hit, and its material.
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
         let placed = self.placed(hit.instance);
         let material = &self.materials[placed.material(hit)];
         let mut surface = surface(placed, hit, ray);
-        if self.comes_down.snow.is_some() || material.is_wet() {
+        if self.comes_down.has_snow() || material.is_wet() {
             let bears = self.instances[hit.instance as usize].bears;
-            surface.exposure = exposure(&*self.accel, &self.comes_down, bears, &surface, ray);
+            surface.exposure = exposure(&self.comes_down.view(), bears, &surface, &ray.plain(), |looking| {
+                let mut blocked = [false];
+                let looking = Ray { for_shelter: true, ..(*looking).into() };
+                self.accel.blocked(&[looking], Coherence::Incoherent, &mut blocked);
+                blocked[0]
+            });
         }
         (surface, material)
     }
@@ -269,7 +264,7 @@ impl PreparedInstance {
         let ways = neighbours.map(|placement| Some(placement?.world_from_mesh));
         Self {
             class: instance.class,
-            bears: Bears::new(instance),
+            bears: bears(instance),
             world_from_mesh: Motion::new(instance.world_from_mesh, ways, scene.keyframes_apart_s),
             mesh_from_world,
             then: neighbours.map(then),
