@@ -121,7 +121,8 @@ fn scene(sort: Sort) -> Scene {
             |pose: Placement| if moves { Some(pose) } else { Some(Placement { mesh: 1, world_from_mesh: here }) };
         Instance {
             id: InstanceId(0),
-            class: Class::Barrier,
+            // Trees keep no rain off, and people bear no snow.
+            class: [Class::Barrier, Class::Tree, Class::Human][i % 3],
             mesh: 1,
             materials: vec![i % 8, (i + 3) % 8],
             world_from_mesh: here,
