@@ -139,6 +139,33 @@ def test_the_virtual_scene_is_a_binary_gltf(recipe, tmp_path):
     assert "map.path_to_road_median_m" in report["report"]["measurements"]
 
 
+def test_what_a_card_runs_makes_the_processor_s_pictures(recipe, tmp_path):
+    quick = tmp_path / "quick.toml"
+    quick.write_text(recipe.read_text().replace("keyframes = [1, 2]", "keyframes = [1]"))
+    outs = {device: tmp_path / device for device in ("cpu", "emulated")}
+    for device, out in outs.items():
+        done = trove("generate", quick, "--out", out, "--kernel", "obvhs", "--device", device)
+        assert done.returncode == 0, done.stderr
+    assert [read_manifest(out)["versions"]["card"] for out in outs.values()] == [None, "emulated"]
+    report = json.loads((outs["emulated"] / "report.json").read_text())
+    assert not any("card" in row["what"] for row in report["run"]["entries"]), "it was the processor after all"
+    ours, theirs = [files(out) for out in outs.values()]
+    assert ours.keys() == theirs.keys()
+    pictures = [name for name in ours if name.endswith("/rgb.png")]
+    for name in ours.keys() - {*pictures, "manifest.json", "contact_sheet.png"}:
+        assert ours[name] == theirs[name], name
+    for name in pictures:
+        here, there = (np.asarray(Image.open(out / name), int) for out in outs.values())
+        # Light through several panes is rounded otherwise.
+        assert np.abs(here - there).max() <= 1 and (here != there).mean() < 0.01, name
+    mixed = trove("generate", quick, "--out", outs["emulated"], "--kernel", "obvhs")
+    assert mixed.returncode == 1 and 'card was "emulated"' in mixed.stderr, mixed.stderr
+    absent = trove("generate", quick, "--out", tmp_path / "out", "--device", "cuda:99")
+    assert absent.returncode == 1 and "cuda:99: " in absent.stderr and "--device cpu" in absent.stderr, absent.stderr
+    wrong = trove("generate", quick, "--out", tmp_path / "out", "--device", "gpu")
+    assert wrong.returncode == 2 and "expected auto, cpu, emulated, or cuda:0" in wrong.stderr, wrong.stderr
+
+
 def test_doctor_and_inspect_speak_json(recipe):
     doctor = json.loads(trove("doctor", "--json").stdout)
     assert doctor["kernel"] and doctor["threads"] >= 1
