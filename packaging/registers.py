@@ -19,14 +19,15 @@ REGISTERS = re.compile(r"Used (\d+) registers")
 STACK = re.compile(r"(\d+) bytes cumulative stack size")
 
 
-def functions(ptxas, architecture):
+def functions(ptxas: str, architecture: str) -> dict[str, list[int]]:
     """Registers, stack and spills of each function, the two last in bytes."""
     with tempfile.TemporaryDirectory() as folder:
         command = [ptxas, f"-arch={architecture}", "-v", "-o", f"{folder}/trace.cubin", PTX]
         done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"{PTX} is not assembled for {architecture}: {done.stdout}{done.stderr}")
-    found, name, spills = {}, None, 0
+    found: dict[str, list[int]] = {}
+    name = ""
     # Functions that an entry calls are told of after it.
     for line in (done.stdout + done.stderr).splitlines():
         if entry := ENTRY.search(line):
@@ -41,7 +42,7 @@ def functions(ptxas, architecture):
     return found
 
 
-def main():
+def main() -> None:
     [ptxas] = sys.argv[1:]
     by_architecture = {architecture: functions(ptxas, architecture) for architecture in ARCHITECTURES}
     print("| registers, bytes of stack |", " | ".join(ARCHITECTURES), "|")
