@@ -22,7 +22,7 @@ STACK = re.compile(r"(\d+) bytes cumulative stack size")
 def functions(ptxas: str, architecture: str) -> dict[str, list[int]]:
     """Registers, stack and spills of each function, the two last in bytes."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [ptxas, f"-arch={architecture}", "-v", "-o", f"{folder}/trace.cubin", PTX]
+        command = [ptxas, f"-arch={architecture}", "-v", "-o", f"{folder}/trace.cubin", str(PTX)]
         done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"{PTX} is not assembled for {architecture}: {done.stdout}{done.stderr}")
