@@ -1,8 +1,10 @@
-//! Flat tables and a ray → what the ray meets, on a processor or, compiled to PTX, on a graphics card.
+//! A path in a world of plain numbers → where it goes and the light that it brings, on a processor or, compiled to PTX, on a
+//! graphics card.
 //!
-//! What goes in: hierarchies of boxes over triangles and over the instances of meshes, as tables of plain numbers, and a
-//! ray. What comes out: the nearest hit that counts. This crate must not know what the meshes show, nor who asks; it has no
-//! standard library, no allocation and no dynamic dispatch, since a card has none of them.
+//! What goes in: hierarchies of boxes over triangles and over the instances of meshes, and surfaces, materials, lights and
+//! air as numbers, in tables or behind the trait `path::World`; and a ray. What comes out: the nearest hit that counts, and
+//! what paths bring. This crate must not know where its numbers come from, nor who asks; it has no standard library, no
+//! allocation and no dynamic dispatch, since a card has none of them.
 //!
 //! ```
 //! use glam::{Affine3A, Vec3};
