@@ -91,7 +91,7 @@ pub struct Bsdf {
     pub albedo: Vec3,
     /// Whether what is seen in it, rather than itself, is what the eye sees.
     pub is_mirror: bool,
-    /// Whether directions that lie [`MATT_ALPHA`] apart are much the same to it.
+    /// Whether directions that lie `MATT_ALPHA` apart are much the same to it.
     pub is_matt: bool,
 }
 
