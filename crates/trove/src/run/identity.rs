@@ -75,9 +75,11 @@ pub(super) fn differences(was: &RunIdentity, is: &RunIdentity) -> Vec<String> {
         }
         value
     });
-    // Where no picture showed light, none has been denoised either.
+    // Where no picture showed light, no card has followed any, and none has been denoised either.
     if !shows_light(&was.recipe) || !shows_light(&is.recipe) {
-        sides.iter_mut().for_each(|side| side["versions"]["denoiser"] = Value::Null);
+        for side in &mut sides {
+            (side["versions"]["denoiser"], side["versions"]["card"]) = (Value::Null, Value::Null);
+        }
     }
     // The device counts where both sides' libraries choose by it.
     if sides.iter().any(|side| side["versions"]["device"].is_null()) && was.versions.kernel == is.versions.kernel {
@@ -158,7 +160,7 @@ mod tests {
                 "seed": 1, "drive": {"scenes": ["a"], "keyframes": [0]}, "variations": {"count": 1}, "views": {"rig": "all"},
                 "render": {"spp": 4}, "output": {"files": null},
             },
-            "versions": {"trove": "0.1.0", "build": "ab", "assets": ["x"], "kernel": "k", "denoiser": "d", "device": "x"},
+            "versions": {"trove": "0.1.0", "build": "ab", "assets": ["x"], "kernel": "k", "denoiser": "d", "device": "x", "card": null},
             "inputs": {"map.osm: a.osm": "01"},
         });
         change(&mut value);
@@ -180,6 +182,7 @@ mod tests {
         assert!(told(&|v| v["versions"]["assets"] = json!(["y"])).contains("asset library"));
         assert_eq!(told(&|v| v["versions"]["denoiser"] = json!("e")), r#"denoiser was "d", is "e""#);
         assert_eq!(told(&|v| v["versions"]["device"] = json!("y")), r#"device was "x", is "y""#);
+        assert_eq!(told(&|v| v["versions"]["card"] = json!("c")), r#"card was null, is "c""#);
         for (section, key, more) in [
             ("drive", "scenes", json!(["a", "b"])),
             ("drive", "keyframes", json!("all")),
@@ -218,6 +221,7 @@ mod tests {
             v["versions"]["denoiser"] = Value::Null;
         });
         assert_eq!(differences(&labels, &identity(|_| ())), [""; 0]);
+        assert_eq!(differences(&labels, &identity(|v| v["versions"]["card"] = json!("c"))), [""; 0]);
         // Labels of the built-in kernel are the same on every machine, denoised pictures beside them are not.
         let everywhere = identity(|v| v["versions"]["device"] = Value::Null);
         assert_eq!(differences(&everywhere, &identity(|_| ())), [""; 0]);
