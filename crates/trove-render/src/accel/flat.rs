@@ -159,7 +159,7 @@ impl Hold for Here {
 /// A ray as the tables' functions want it.
 pub(crate) fn asked(ray: &Ray) -> Asked {
     Asked {
-        ray: super::obvhs::flat(ray),
+        ray: ray.plain(),
         past: ray.past.map_or(0, |id| id.0),
         marks: ray.beside.map_or(0, |beside| STAYS[beside as usize]) | (SHELTERS * u32::from(ray.for_shelter)),
         through_glass: u32::from(ray.through_glass),

@@ -123,7 +123,7 @@ impl Top {
         }
         let one = One { top: self, placed: &shapes.placed[instance as usize] };
         let is_seen = |hit: &Hit| !self.judged || shapes.is_seen(hit, ray.through_glass);
-        trove_trace::closest_on(&one, &flat(ray), instance, is_seen)
+        trove_trace::closest_on(&one, &ray.plain(), instance, is_seen)
     }
 
     fn mesh(&self) -> trove_trace::Mesh<'_> {
@@ -199,12 +199,12 @@ impl Scene {
     /// The nearest hit that counts, on an instance that does.
     fn nearest(&self, ray: &Ray, enters: impl Fn(u32) -> bool, counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let counts = |hit: &Hit| !self.tops[hit.instance as usize].judged || counts(hit);
-        trove_trace::closest(&self.all()?, &flat(ray), enters, counts)
+        trove_trace::closest(&self.all()?, &ray.plain(), enters, counts)
     }
 
     fn is_blocked(&self, ray: &Ray, enters: impl Fn(u32) -> bool, mut counts: impl FnMut(&Hit) -> bool) -> bool {
         let counts = |hit: &Hit| !self.tops[hit.instance as usize].judged || counts(hit);
-        self.all().is_some_and(|all| trove_trace::any(&all, &flat(ray), enters, counts).is_some())
+        self.all().is_some_and(|all| trove_trace::any(&all, &ray.plain(), enters, counts).is_some())
     }
 }
 
@@ -246,10 +246,4 @@ impl Accel for Scene {
     fn bare_any(&self, rays: &[Ray]) -> usize {
         rays.iter().filter(|ray| self.is_blocked(ray, |_| true, |_| true)).count()
     }
-}
-
-/// What tracing needs of a ray.
-pub(super) fn flat(ray: &Ray) -> trove_trace::Ray {
-    let &Ray { origin, direction, t_min, t_max, time, .. } = ray;
-    trove_trace::Ray { origin, t_min, direction, t_max, time }
 }

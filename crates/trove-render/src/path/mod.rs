@@ -87,6 +87,13 @@ pub(crate) fn trace(
     Ok(developed(shot, &tiles, rays))
 }
 
+/// The first samples of all tiles, and then those that their picture asks for.
+fn in_passes(tiles: &mut [Tile], mut take: impl FnMut(&mut [Tile], Pass) -> Result<(), Ended>) -> Result<(), Ended> {
+    take(tiles, Pass::First)?;
+    let middle = tile::middle_brightness(tiles);
+    take(tiles, Pass::Refined(middle))
+}
+
 /// Gives the tiles' pixels their samples, each tile by one thread of the processor; how many rays that took.
 fn followed_here(eye: &Eye<'_>, tiles: &mut [Tile], stop: &(dyn Fn(f32) -> bool + Sync)) -> Result<u64, Ended> {
     let (steps, done, rays) = (2 * tiles.len(), AtomicUsize::new(0), AtomicU64::new(0));
@@ -107,9 +114,7 @@ fn followed_here(eye: &Eye<'_>, tiles: &mut [Tile], stop: &(dyn Fn(f32) -> bool 
             Ok(())
         })
     };
-    take(tiles, Pass::First)?;
-    let middle = tile::middle_brightness(tiles);
-    take(tiles, Pass::Refined(middle))?;
+    in_passes(tiles, take)?;
     Ok(rays.into_inner())
 }
 
@@ -124,16 +129,14 @@ fn followed_there(
     let mut wave = remote.wave(eye.field.map(|field| field.view()), most).map_err(Ended::Failed)?;
     let mut samples = vec![Sample::default(); most];
     let (steps, mut done, mut rays) = (2.0 * (tiles.len() as f32 / TILES_THERE as f32).ceil(), 0.0, 0);
-    let mut take = |tiles: &mut [Tile], pass: Pass| {
+    let take = |tiles: &mut [Tile], pass: Pass| {
         for tiles in tiles.chunks_mut(TILES_THERE) {
             rays += followed_at_once(eye, tiles, pass, &mut *wave, &mut samples, &|| stop(done / steps))?;
             done += 1.0;
         }
         Ok(())
     };
-    take(tiles, Pass::First)?;
-    let middle = tile::middle_brightness(tiles);
-    take(tiles, Pass::Refined(middle))?;
+    in_passes(tiles, take)?;
     Ok(rays)
 }
 
@@ -148,29 +151,31 @@ fn followed_at_once(
 ) -> Result<u64, Ended> {
     let mut rays = 0;
     loop {
-        let start = |tile: &mut Tile| {
+        let started = tiles.par_iter_mut().filter_map(|tile| {
             let (mut starts, mut places) = (Vec::new(), Vec::new());
-            let wants = tile.wants(eye.shot, pass);
-            if wants {
+            tile.wants(eye.shot, pass).then(|| {
                 tile.start(eye, &mut starts, &mut places);
-            }
-            (wants, starts, places)
-        };
-        let started: Vec<_> = tiles.par_iter_mut().map(start).collect();
-        if started.iter().all(|(wants, ..)| !wants) {
+                (tile, starts, places)
+            })
+        });
+        let started: Vec<_> = started.collect();
+        if started.is_empty() {
             return Ok(rays);
         }
         if stop() {
             return Err(Ended::Stopped);
         }
         let starts = started.iter().map(|(_, starts, _)| starts.as_slice()).collect::<Vec<_>>().concat();
-        rays += wave.follow(&starts, &mut samples[..starts.len()]).map_err(Ended::Failed)?;
-        let mut rest = &samples[..starts.len()];
-        let of_tiles = started.iter().map(|(_, starts, _)| rest.split_off(..starts.len()).unwrap_or_default());
-        let of_tiles: Vec<_> = of_tiles.collect();
-        let all = tiles.par_iter_mut().zip(&started).zip(of_tiles);
-        all.filter(|((_, (wants, ..)), _)| *wants)
-            .for_each(|((tile, (.., places)), samples)| tile.take(places, samples));
+        let samples = &mut samples[..starts.len()];
+        rays += wave.follow(&starts, samples).map_err(Ended::Failed)?;
+        let mut rest = &*samples;
+        let brought = started.into_iter().map(|(tile, starts, places)| {
+            let (own, others) = rest.split_at(starts.len());
+            rest = others;
+            (tile, places, own)
+        });
+        let brought: Vec<_> = brought.collect();
+        brought.into_par_iter().for_each(|(tile, places, samples)| tile.take(&places, samples));
     }
 }
 
