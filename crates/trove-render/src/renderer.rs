@@ -224,6 +224,7 @@ impl Renderer {
                 // Its share of the work is not told: the picture's has been.
                 let (around, wide) = self.radiance(scene, &drops::wide(shot), &|_| stop(1.0))?;
                 stats.rays += wide.rays;
+                stats.refused = stats.refused.or(wide.refused);
                 drops::draw(shot, drops, &around, &mut radiance);
             }
             let (srgb, exposure_ev) = film::develop(&radiance, shot);
