@@ -162,6 +162,8 @@ def test_what_a_card_runs_makes_the_processor_s_pictures(recipe, tmp_path):
     assert mixed.returncode == 1 and 'card was "emulated"' in mixed.stderr, mixed.stderr
     absent = trove("generate", quick, "--out", tmp_path / "out", "--device", "cuda:99")
     assert absent.returncode == 1 and "cuda:99: " in absent.stderr and "--device cpu" in absent.stderr, absent.stderr
+    labels = trove("generate", quick, "--out", tmp_path / "labels", "--device", "cuda:99", "--labels-only")
+    assert labels.returncode == 0, labels.stderr
     wrong = trove("generate", quick, "--out", tmp_path / "out", "--device", "gpu")
     assert wrong.returncode == 2 and "expected auto, cpu, emulated, or cuda:0" in wrong.stderr, wrong.stderr
 

@@ -131,7 +131,8 @@ pub fn generate(recipe: &Recipe, out: &Path, options: &RunOptions) -> Result<Sum
     exports::check(recipe, out)?;
     let renderer = Renderer::new(&RendererOptions {
         kernel: options.kernel,
-        device: options.device,
+        // Labels are the processor's: no scene need be sent to a card for them.
+        device: if recipe.follows_light() { options.device } else { DeviceChoice::Cpu },
         denoise: recipe.denoising(),
         threads: recipe.render.threads,
         search: options.search.clone(),
