@@ -70,7 +70,8 @@ impl Wave {
     ///
     /// # Safety
     /// The world has to be as [`FlatWorld::readable`] wants it, all tables as long as that of the starts, and steps have to be
-    /// done in the order begin, (trace, shelter, arrive, scatter, ask, send, light) until nobody goes on, end; each once for each place, by any threads.
+    /// done in the order begin, (trace, shelter, arrive, scatter, ask, send, light) until nobody goes on, end; each once for each
+    /// place, by any threads.
     #[inline(always)]
     pub unsafe fn step(&self, step: Step, world: &FlatWorld, which: usize, i: usize) {
         // SAFETY: the caller vouches for all tables, and that nobody else is at this place.
