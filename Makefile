@@ -16,7 +16,7 @@ STAGED := python/trove/LICENCES-OF-OTHERS.txt
 SOURCES := Cargo.toml Cargo.lock pyproject.toml README.md \
 	$(shell find crates python/trove -name '*.rs' -o -name Cargo.toml -o -name '*.py' -o -name '*.pyi') $(shell find web -type f)
 
-.PHONY: demo install ptx registers wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clay bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-camvid experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
+.PHONY: demo install ptx registers wheel test-wheel test test-planted chromium three fuzz fuzz-long test-rust test-python test-devkit test-devkit-export lint deny bench-build bench-frame bench-frames bench-memory bench-city bench-nuscenes bench-waymo bench-cycles bench-clay bench-clean bench-weather bench-rays bench-labels bench-verify bench-judge bench-torch bench-export bench-lidar experiment-paper experiment-unseen test-train test-loaders test-cluster test-stores test-rerun bench-card bench-merge bench-ray bench-dry-run bench-view clean
 
 demo: install
 	$(BIN)/trove demo --out demo-out
@@ -234,10 +234,10 @@ bench-clean: $(VENV)/.test-installed
 bench-weather: $(VENV)/.test-installed
 	$(BIN)/python benches/cycles/weather.py --trove $(BIN)/trove $(WEATHER)
 
-# The paper's experiment on CamVid, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/experiment.md.
+# The paper's experiment, from nothing: DATA is a folder with nuscenes, osm and camvid in it. See docs/experiment.md.
 DATA ?= data
-experiment-camvid: install .venv-train/.installed
-	.venv-train/bin/python experiments/camvid/run.py --data $(DATA) $(EXPERIMENT)
+experiment-paper: install .venv-train/.installed
+	.venv-train/bin/python experiments/paper/run.py --data $(DATA) $(EXPERIMENT)
 
 # What frames are worth on held-out drives and in Indian streets: DATA is a folder with osm, camvid and idd-lite in it.
 experiment-unseen: install .venv-train/.installed
@@ -253,7 +253,7 @@ experiment-unseen: install .venv-train/.installed
 # PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
 test-train: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
-	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_training_folds.py python/tests/test_torch.py \
+	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_training_folds.py python/tests/test_training_paper.py python/tests/test_torch.py \
 	    python/tests/test_export_torchvision.py
 
 TORCH := torch==2.15.0 torchvision==0.29.2
@@ -332,4 +332,4 @@ bench-export: $(VENV)/.test-installed
 	$(BIN)/python benches/export.py --trove $(BIN)/trove
 
 clean:
-	rm -rf target dist .tools .torch .cluster .stores .rerun python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/camvid/out experiments/unseen/out
+	rm -rf target dist .tools .torch .cluster .stores .rerun python/trove/human_body python/trove/schema $(STAGED) $(VENV) .venv-devkit .venv-cycles .venv-train benches/cycles/.cache demo-out experiments/paper/out experiments/unseen/out

@@ -1,29 +1,114 @@
 """What frames are worth on places that nothing of was seen, from nothing: frames, colours of each fold, training, tables.
 
 Every step finishes what is missing and redoes nothing, so that the same command goes on after an interruption.
+`out/times.json` has the seconds that each step took altogether.
 """
 
 import argparse
+import json
 import os
+import shutil
 import subprocess
 import sys
+import time
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from trove.train.experiment import Experiment, Trial, read
+from trove.train.experiment import Trial, read, tomllib
 
 HERE = Path(__file__).resolve().parent
 OUT = HERE / "out"
 
 
-def targets(experiment: Experiment) -> Path:
-    """A folder of links to what a fold trains on, and to nothing that it is measured on or chooses by."""
-    folder = OUT / "targets" / experiment.trial.fold
+@dataclass(frozen=True)
+class Frames:
+    """What frames an experiment has: real pictures, a folder of recipes, and files of changes to all of them."""
+
+    real: str
+    recipes: str
+    changes: tuple[str, ...] = ()
+    # Whether frames also come in the colours of what each fold trains on.
+    recolored: bool = True
+
+
+# Those of small networks are for a processor.
+EXPERIMENTS = {
+    "camvid": Frames("camvid", "britain"),
+    "idd-lite": Frames("idd-lite", "india", recolored=False),
+    "camvid-small": Frames("camvid", "britain"),
+    "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "sensor")),
+}
+
+
+def changed(recipes: Path, change: str) -> Path:
+    """A folder of recipes like those in `recipes`, with what `changes/CHANGE.toml` has in their place."""
+    folder = OUT / "recipes" / f"{recipes.name}-{change}"
     folder.mkdir(parents=True, exist_ok=True)
-    for sample in experiment.pools["R"].samples:
-        link = folder / sample.picture.name
-        link.unlink(missing_ok=True)
-        link.symlink_to(sample.picture.resolve())
+    link(OUT / "recipes/data", HERE / "data")
+    changes = tomllib.loads((HERE / f"changes/{change}.toml").read_text())
+    for path in recipes.glob("*.toml"):
+        if path.stem == "camera":
+            shutil.copy(path, folder)
+        else:
+            (folder / path.name).write_text("".join(toml(merged(tomllib.loads(path.read_text()), changes))))
     return folder
+
+
+def merged(table: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """A table with other values, those of its own tables merged likewise."""
+    both = {key: merged(table.get(key, {}), value) for key, value in changes.items() if isinstance(value, dict)}
+    return {**table, **changes, **both}
+
+
+def toml(table: dict[str, Any], name: str = "") -> list[str]:
+    """Lines of TOML: numbers, strings and lists are written as in JSON."""
+    lines = [f"[{name}]\n"] if name else []
+    lines += [f"{key} = {json.dumps(value)}\n" for key, value in table.items() if not isinstance(value, dict)]
+    for key, value in table.items():
+        if isinstance(value, dict):
+            lines += toml(value, f"{name}.{key}" if name else key)
+    return lines
+
+
+def link(path: Path, to: Path) -> None:
+    path.unlink(missing_ok=True)
+    path.symlink_to(to.resolve())
+
+
+def run(title: str, *step: object) -> bool:
+    """Whether a step succeeds; the time it takes is added to that of all steps with its title."""
+    print("+", *step, flush=True)
+    began = time.monotonic()
+    done = subprocess.run([str(part) for part in step]).returncode == 0
+    file = OUT / "times.json"
+    times = json.loads(file.read_text()) if file.exists() else {}
+    times[title] = round(times.get(title, 0) + time.monotonic() - began, 1)
+    OUT.mkdir(exist_ok=True)
+    file.write_text(json.dumps(times, indent=2) + "\n")
+    return done
+
+
+def prepared(name: str) -> bool:
+    """Whether the frames of an experiment are there, also in each fold's colours."""
+    what = EXPERIMENTS[name]
+    trove = [sys.executable, "-m", "trove"]
+    folders = [changed(HERE / what.recipes, change) for change in what.changes] or [HERE / what.recipes]
+    places = [path for folder in folders for path in sorted(folder.glob("*.toml")) if path.stem != "camera"]
+    for place in places:
+        frames = OUT / place.parent.name / place.stem
+        if not run(f"frames of {frames.parent.name}", *trove, "generate", place, "--out", frames):
+            return False
+    for fold in read(HERE / f"{name}.toml").folds if what.recolored else ():
+        # What the fold trains on, and nothing that it is measured on or chooses by.
+        real = read(HERE / f"{name}.toml", Trial(fold)).pools["R"].linked(OUT / "targets" / fold)
+        to = ["--to", real, "--method", "paired", "--strength", 1]
+        for place in places:
+            frames = Path(place.parent.name, place.stem)
+            out = OUT / "recolored" / fold / frames
+            if not run(f"colours of {frames.parent}", *trove, "recolor", OUT / frames, *to, "--out", out):
+                return False
+    return True
 
 
 def main() -> int:
@@ -31,42 +116,23 @@ def main() -> int:
         description=__doc__.splitlines()[0], epilog="Example: run.py --data ~/datasets --only camvid"
     )
     parser.add_argument("--data", type=Path, required=True, help="folder with osm, camvid and idd-lite in it")
-    parser.add_argument("--only", choices=["camvid", "idd-lite"], help="one of the two experiments")
+    parser.add_argument("--only", choices=EXPERIMENTS, help="one of the experiments; otherwise all but the small ones")
     parser.add_argument("--rows", nargs="*", default=[], help="only these rows of the tables")
     parser.add_argument("--threads", type=int, default=1, help="threads on the CPU for each network; 0 is all")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="groups of rows that are trained at once")
     options = parser.parse_args()
-    experiments = {"camvid": "britain", "idd-lite": "india"}
-    chosen = [options.only] if options.only else list(experiments)
-    for name in ("osm", *chosen):
-        if not (options.data / name).is_dir():
-            print(
-                f"error: {options.data}: expected a folder {name}, found none; see docs/experiment.md", file=sys.stderr
-            )
+    chosen = [options.only] if options.only else [name for name in EXPERIMENTS if not name.endswith("-small")]
+    for folder in ("osm", *dict.fromkeys(EXPERIMENTS[name].real for name in chosen)):
+        if not (options.data / folder).is_dir():
+            expected = f"expected a folder {folder}, found none; see docs/experiment.md"
+            print(f"error: {options.data}: {expected}", file=sys.stderr)
             return 1
-    link = HERE / "data"
-    link.unlink(missing_ok=True)
-    link.symlink_to(options.data.resolve())
-
-    def run(*step: object) -> bool:
-        print("+", *step, flush=True)
-        return subprocess.run([str(part) for part in step]).returncode == 0
-
-    trove = [sys.executable, "-m", "trove"]
+    link(HERE / "data", options.data)
+    rows = ["--rows", *options.rows] if options.rows else []
+    how = ["--threads", options.threads, "--jobs", options.jobs, *rows]
     for name in chosen:
-        places = [path for path in sorted((HERE / experiments[name]).glob("*.toml")) if path.stem != "camera"]
-        frames = OUT / experiments[name]
-        file = HERE / f"{name}.toml"
-        if not all(run(*trove, "generate", place, "--out", frames / place.stem) for place in places):
-            return 1
-        for fold in read(file).folds if name == "camvid" else ():
-            to = ["--to", targets(read(file, Trial(fold))), "--method", "paired", "--strength", 1]
-            colours = OUT / "recolored" / fold
-            if not all(run(*trove, "recolor", frames / p.stem, *to, "--out", colours / p.stem) for p in places):
-                return 1
-        how = ["--threads", options.threads, "--jobs", options.jobs]
-        rows = ["--rows", *options.rows] if options.rows else []
-        if not run(sys.executable, "-m", "trove.train", file, "--out", OUT / "results" / name, *how, *rows):
+        train = [sys.executable, "-m", "trove.train", HERE / f"{name}.toml", "--out", OUT / "results" / name, *how]
+        if not prepared(name) or not run(f"training of {name}", *train):
             return 1
     return 0
 

@@ -80,7 +80,6 @@ def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkey
     assert before == read(Path(experiment.name)).folders("S+R[F]", tmp_path)
     assert before[0] == read(experiment).folders("S", tmp_path)[0]
     assert before[0] != read(experiment, Trial(seed=2)).folders("S", tmp_path)[0]
-    assert before[0] != read(experiment, Trial(total=9)).folders("S", tmp_path)[0]
     experiment.write_text(experiment.read_text().replace("count = 2", "count = 1"))
     after = read(experiment).folders("S+R[F]", tmp_path)
     assert after[0] == before[0] and after[1] != before[1]
@@ -97,6 +96,7 @@ def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkey
         (('format = "native"', 'format = "kitti"'), "format: expected one of"),
         (('of = "S"', 'of = "T"'), "sets.R.of"),
         (("[val]", "[test]"), "test is not known"),
+        (("epochs = 1", "total = [2, 4]"), "training.total: a ladder needs averaged = true"),
     ],
 )
 def test_a_wrong_experiment_names_the_place(experiment, change, expected):
@@ -123,7 +123,7 @@ def test_cuts_keep_picture_and_labels_together(tmp_path):
     table = labels.lookup("camvid", "camvid").astype(int)
     assert torch.equal((rgb[0, 0] * 255).round().int(), (2 * torch.arange(80)).int().expand(60, 80))
     assert (ids[1] == torch.from_numpy(table[(np.arange(80) + 10) // 10])).all()
-    cuts = torch.from_numpy(random_cuts(1, 2, 5)[0])
+    cuts = torch.from_numpy(random_cuts(1, 2, 5, 1.4, True)[0])
     assert torch.equal(stock.cut(chosen, cuts, (64, 48))[0], stock.cut(chosen, cuts, (64, 48))[0])
     for mirrored in (0.0, 1.0):
         cuts[:, 3] = mirrored
@@ -266,9 +266,9 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
 
     with pytest.raises(Stopped):
         training.run(found, "S", tmp_path / "stopped", stop)
-    whole = training.run(found, "S", tmp_path / "whole", lines.append)
+    (whole,) = training.run(found, "S", tmp_path / "whole", lines.append)
     assert len(list((tmp_path / "stopped").rglob("checkpoint.pt"))) == 1
-    resumed = training.run(found, "S", tmp_path / "stopped", lines.append)
+    (resumed,) = training.run(found, "S", tmp_path / "stopped", lines.append)
     assert {**resumed, "seconds": 0} == {**whole, "seconds": 0}
     accuracy = np.trace(whole["confusion"]) / np.sum(whole["confusion"])
     assert accuracy > 0.85, f"{accuracy}, {whole['curve']}"

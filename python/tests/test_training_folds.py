@@ -29,6 +29,7 @@ of = "R"
 inner = 0.25
 [training]
 total = [2, 4]
+averaged = true
 batch = 2
 seeds = [1, 2]
 """
@@ -112,9 +113,20 @@ def test_a_star_stands_for_every_count(experiment):
     assert read(experiment).compare == {"C+P2[M]": "Pall", "C+Pall[M]": "Pall"}
 
 
-def test_trials_are_every_seed_with_every_fold_and_rung(experiment):
+def test_trials_are_every_seed_with_every_fold(experiment):
     trials = read(experiment).trials()
-    assert len(trials) == 12 and trials[:3] == [Trial("A", 1, 2), Trial("A", 1, 4), Trial("B", 1, 2)]
+    assert len(trials) == 6 and trials[:4] == [Trial("A", 1), Trial("B", 1), Trial("C", 1), Trial("A", 2)]
+
+
+def test_a_row_in_two_stages_has_the_rungs_that_its_last_stage_reaches(experiment):
+    experiment.write_text(EXPERIMENT.replace("[2, 4]", "[7, 2, 4]"))
+    found = read(experiment)
+    assert found.steps("P2") == [7] and found.rungs("P2") == {2: 2, 4: 4, 7: 7}
+    assert found.steps("C+P2[F]") == [4, 3] and found.rungs("C+P2[F]") == {3: 7}
+    experiment.write_text(EXPERIMENT.replace("[2, 4]", "[5, 4]"))
+    assert read(experiment).rungs("C+P2[F]") == {1: 4, 2: 5}
+    # Stages of other lengths are other networks, though they begin with the same pictures.
+    assert found.folders("C+P2[F]", experiment.parent)[0] != found.folders("C", experiment.parent)[0]
 
 
 def test_pictures_of_a_set_may_depend_on_the_fold(experiment, tmp_path):
@@ -159,6 +171,7 @@ def result(row, fold="A", seed=1, total=2, right=8, inner=8, count=2):
         "inner": counts[inner],
         "images": {"P2": count, "Pall": count},
         "curve": [],
+        "seconds": 1800.0,
     }
 
 
@@ -222,7 +235,8 @@ def test_the_report_has_every_rung_and_every_row_at_its_best(experiment, tmp_pat
         "## every row at its best",
     ]
     best, rung = text.split("## every row at its best")[1], text.split("## 4 steps")[1].split("##")[0]
-    assert best.strip() == rung.strip()
+    # Both rungs of a row are one network.
+    assert best.strip() == rung.strip() + "\n\n8 networks were trained in 4.0 hours of their jobs."
     assert "| P* | 2 | 12 |" in (tmp_path / "learning.md").read_text()
     assert (tmp_path / "learning.svg").read_text().startswith("<svg")
     # A row that has not been trained yet is left out.
@@ -247,15 +261,15 @@ def test_numbers_of_idd_lite_are_its_classes():
         labels.lookup("camvid", "idd-lite")
 
 
-def test_a_finished_run_is_not_trained_again_and_a_rung_has_as_many_steps_as_it_says(experiment, tmp_path):
+def test_a_finished_run_is_not_trained_again_and_a_stage_has_as_many_steps_as_it_says(experiment, tmp_path):
     torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
     from trove.train import training
 
     torch.set_num_threads(1)
-    text = EXPERIMENT.replace('"P*", "C+P*[M]"', '"P2", "C+P2[F]"').replace("compare = ", "#").replace("[2, 4]", "[5]")
+    text = EXPERIMENT.replace('"P*", "C+P*[M]"', '"P2", "C+P2[F]"').replace("compare = ", "#").replace("[2, 4]", "5")
     experiment.write_text(text)
-    found, lines = read(experiment, Trial("B", 2, 5)), []
-    first = training.run(found, "C+P2[F]", tmp_path / "out", lines.append)
+    found, lines = read(experiment, Trial("B", 2)), []
+    (first,) = training.run(found, "C+P2[F]", tmp_path / "out", lines.append)
     assert (first["fold"], first["seed"], first["total"]) == ("B", 2, 5)
     assert [(point[0], point[1]) for point in first["curve"]] == [(0, 3), (1, 2)]
     assert np.sum(first["confusion"]) <= 8 * 16 * 12 and np.sum(first["inner"]) <= 4 * 16 * 12
@@ -263,5 +277,55 @@ def test_a_finished_run_is_not_trained_again_and_a_rung_has_as_many_steps_as_it_
     for model in (tmp_path / "out").rglob("model.pt"):
         model.unlink()
     lines.clear()
-    assert training.run(found, "C+P2[F]", tmp_path / "out", lines.append) == first
-    assert len(lines) == 1 and "step" not in lines[0].replace("5 steps", "")
+    assert training.run(found, "C+P2[F]", tmp_path / "out", lines.append) == [first]
+    assert len(lines) == 1 and "step" not in lines[0]
+
+
+def test_a_rung_is_what_a_run_that_ends_there_has_learnt_and_survives_an_interruption(
+    experiment, tmp_path, monkeypatch
+):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train import training
+
+    torch.set_num_threads(1)
+    monkeypatch.setattr(training, "_SAVE_AFTER_S", 0)
+    monkeypatch.setattr(training, "_SAVE_EVERY", 20)
+
+    def learnt(total, out, say=lambda line: None):
+        experiment.write_text(EXPERIMENT.replace("[2, 4]", total))
+        return training.run(read(experiment, Trial("B")), "C+P2[M]", tmp_path / out, say)
+
+    rungs = learnt("[4, 8, 45]", "ladder")
+    assert [rung["total"] for rung in rungs] == [4, 8, 45]
+    assert rungs[0]["confusion"] != rungs[1]["confusion"] != rungs[2]["confusion"]
+    (alone,) = learnt("8", "alone")
+    assert alone["confusion"] == rungs[1]["confusion"] and alone["inner"] == rungs[1]["inner"]
+
+    class Stopped(Exception):
+        pass
+
+    def stop(line):
+        if "step 40" in line:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        learnt("[4, 8, 45]", "stopped", stop)
+    again = learnt("[4, 8, 45]", "stopped")
+    assert [{**rung, "seconds": 0} for rung in again] == [{**rung, "seconds": 0} for rung in rungs]
+
+
+def test_an_average_forgets_the_first_steps_and_follows_the_last():
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.average import Average
+
+    model = torch.nn.BatchNorm1d(1, dtype=torch.float64)
+    average = Average(model, 1000, torch.device("cpu"))
+    steps = np.arange(1, 1001) / 1000
+    for at, value in enumerate(steps):
+        model.weight.data.fill_(value), model.running_mean.fill_(-value)
+        average.add(torch.tensor([at]))
+    # The mean of t under the density proportional to t^6.94 on 0 to 1.
+    expected = pytest.approx(7.94 / 8.94, abs=1e-3)
+    other = average.put_into(torch.nn.BatchNorm1d(1, dtype=torch.float64))
+    assert other.weight.item() == expected and -other.running_mean.item() == expected
+    assert model.weight.item() == 1 and other.num_batches_tracked == 0

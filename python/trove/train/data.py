@@ -76,29 +76,29 @@ FORMATS: dict[str, tuple[Callable[..., list[Sample]], str]] = {
 }
 
 
-# How much pictures may be enlarged before they are cut.
+# How much pictures may be enlarged before they are cut, at most.
 ZOOM = 1.4
 
 
 class Pictures:
     """Pairs of an image (H, W, 3) and its labels (H, W) in the target's ids, both `uint8`.
 
-    They have their own size, or if that is more than a cut of `size` (width, height) enlarged by `ZOOM` needs, as much
+    They have their own size, or if that is more than a cut of `size` (width, height) enlarged by `zoom` needs, as much
     as that needs. Up to 2 GiB of them are kept, for all objects of this class together.
     """
 
     KEPT_BYTES = 2 << 30
-    _kept: ClassVar[dict[tuple[Sample, str, str, tuple[int, int]], tuple[np.ndarray, np.ndarray]]] = {}
+    _kept: ClassVar[dict[tuple[Sample, str, str, tuple[int, int], float], tuple[np.ndarray, np.ndarray]]] = {}
     _kept_bytes: ClassVar[int] = 0
 
-    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int]):
-        self.samples, self.numbering, self.target, self.size = samples, numbering, target, size
+    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], zoom: float = ZOOM):
+        self.samples, self.numbering, self.target, self.size, self.zoom = samples, numbering, target, size, zoom
 
     def __len__(self) -> int:
         return len(self.samples)
 
     def __getitem__(self, index: int) -> tuple[np.ndarray, np.ndarray]:
-        key = (self.samples[index], self.numbering, self.target, self.size)
+        key = (self.samples[index], self.numbering, self.target, self.size, self.zoom)
         if key not in self._kept:
             pair = self._read(self.samples[index])
             size_bytes = sum(array.nbytes for array in pair)
@@ -118,7 +118,7 @@ class Pictures:
         labels = Image.fromarray(lookup(self.numbering, self.target)[np.asarray(labels)])
         if self.numbering == "native" and self.target in CROWNS:
             labels = _outlined_crowns(labels, *CROWNS[self.target])
-        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * ZOOM
+        scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * self.zoom
         if scale < 1:
             size = (round(picture.width * scale), round(picture.height * scale))
             picture, labels = (

@@ -34,10 +34,14 @@ split  = "val"
 model  = "small"              # or "unet", "deeplab"
 steps  = 600                  # of each stage of every row; or epochs = 30, of a row's own images
 total  = 2000                 # instead: of all stages of a row; or a ladder such as [500, 2000, 8000]
+averaged = true               # the rate stays as it is and weights are averaged, as ladders need; otherwise it falls
 batch  = 10
 rate   = 1e-3
 seeds  = [1, 2, 3]
+optimiser = "adamw"           # or "sgd", as DeepLab v2 has it, its classifier at ten times the rate
 balanced = true               # rare classes weigh more in the loss
+zoom = 1.4                    # cut at any place, from as large as can be to so many times smaller; 1 is none of that
+mirrored = true               # half of the pictures
 colour = 0.4                  # brightness, contrast, saturation and balance are drawn anew by up to ±40 %, for every row
 
 Several counts are one line of a curve: a row `S+P*[M]` stands for `S+P25[M]`, `S+P100[M]` and so on, in `compare` too.
@@ -50,21 +54,21 @@ count = 3                     # places are dealt out to so many folds; without i
 inner = 0.2                   # this share of what remains, its last places or pictures, is for choices alone
 
 A place is CamVid's drive, IDD-Lite's folder, Cityscapes' city, KITTI-STEP's sequence or a scene of ours.
-Of a ladder every row has the rung on which the mean over seeds is best on the inner share, for each fold by itself; the
+A ladder is one run, which is measured at each rung as if it ended there; a row [F] has only those that its last stage
+reaches. Every row has the rung on which the mean over seeds is best on the inner share, for each fold by itself; the
 tables also show every rung.
 """
 
 import itertools
 import re
 import sys
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from trove.train.data import FORMATS
+from trove.train.data import FORMATS, ZOOM
 from trove.train.folds import Folds, Pool, digest
 from trove.train.labels import TARGETS
 
@@ -92,24 +96,29 @@ class Training:
     weights: Path | None = None
     balanced: bool = False
     colour: float = 0.0
+    averaged: bool = False
+    optimiser: str = "adamw"
+    zoom: float = 1.4
+    mirrored: bool = True
 
-    def settings(self) -> list[Any]:
-        """Everything that affects the result of a run except its seed."""
-        weights = self.weights and [self.weights.name, self.weights.stat().st_size]
-        return [self.model, self.steps, self.epochs, self.batch, self.rate, weights, self.balanced, self.colour]
+    def settings(self) -> dict[str, Any]:
+        """Everything that affects the result of a run, except its seed and what is as by default."""
+        chosen = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "seeds"}
+        chosen = {name: value for name, value in chosen.items() if value != getattr(Training, name)}
+        if self.weights:
+            chosen["weights"] = [self.weights.name, self.weights.stat().st_size]
+        return chosen
 
 
 @dataclass(frozen=True)
 class Trial:
-    """What a network is trained for: a fold ("" without [folds]), a seed, steps altogether (0: as the file says)."""
+    """What a network is trained for: a fold ("" without [folds]) and a seed."""
 
     fold: str = ""
     seed: int = 1
-    total: int = 0
 
     def __str__(self) -> str:
-        parts = [f"fold {self.fold}"] * bool(self.fold) + [f"seed {self.seed}"]
-        return ", ".join(parts + [f"{self.total} steps"] * bool(self.total))
+        return (f"fold {self.fold}, " if self.fold else "") + f"seed {self.seed}"
 
 
 @dataclass(frozen=True)
@@ -132,9 +141,8 @@ class Experiment:
     training: Training = field(default_factory=Training)
 
     def trials(self) -> list[Trial]:
-        """Every seed with every fold and every rung of the ladder, so that what is cut short has whole seeds."""
-        ladder = itertools.product(self.training.seeds, self.folds, self.training.total or (0,))
-        return [Trial(fold, seed, total) for seed, fold, total in ladder]
+        """Every seed with every fold, so that what is cut short has whole seeds."""
+        return [Trial(fold, seed) for seed, fold in itertools.product(self.training.seeds, self.folds)]
 
     def stages(self, row: str) -> list[list[str]]:
         """The sets of each stage of a row: `S+R[F]` is trained on S, then on R; `S+C+R[M]` on C and R at once.
@@ -147,6 +155,25 @@ class Experiment:
             return [names[:-1], names[-1:]]
         return [names]
 
+    def steps(self, row: str) -> list[int]:
+        """How many steps each stage of a row has."""
+        stages, training = self.stages(row), self.training
+        if training.total:
+            each, over = divmod(training.total[-1], len(stages))
+            return [each + (number < over) for number in range(len(stages))]
+        if training.steps:
+            return [training.steps] * len(stages)
+        images = [sum(len(self.pools[name].samples) for name in names) for names in stages]
+        return [max(1, training.epochs * count // training.batch) for count in images]
+
+    def rungs(self, row: str) -> dict[int, int]:
+        """After which steps of its last stage a row is measured, and how many it then has altogether (0: by `epochs` or
+        `steps`)."""
+        *before, last = self.steps(row)
+        if not self.training.total:
+            return {last: 0}
+        return {total - sum(before): total for total in self.training.total if total > sum(before)}
+
     def alike(self, rows: list[str]) -> list[list[str]]:
         """Rows grouped by their first stage: groups can be trained in parallel, the rows of a group one after another."""
         groups: dict[tuple[str, ...], list[str]] = {}
@@ -158,17 +185,12 @@ class Experiment:
         """The folder and the sets of each stage of a row in the experiment's trial."""
         measured = [pool.digest(self.folder) for pool in (self.val, self.inner) if pool]
         folders, name = [], ""
-        key = digest(self.classes, self.size, self.training.settings(), measured, self.trial.total)
-        for names in self.stages(row):
-            key = digest(key, self.trial.seed, [self.digests[n] for n in names])
+        key = digest(self.classes, self.size, self.training.settings(), measured)
+        for names, steps in zip(self.stages(row), self.steps(row)):
+            key = digest(key, self.trial.seed, steps, [self.pools[name].digest(self.folder) for name in names])
             name += (" then " if name else "") + "+".join(names)
             folders.append((out / "runs" / f"{name}, {self.trial}, {key}", names))
         return folders
-
-    @cached_property
-    def digests(self) -> dict[str, str]:
-        """A digest of every set."""
-        return {name: pool.digest(self.folder) for name, pool in self.pools.items()}
 
 
 def read(path: Path, trial: Trial | None = None) -> Experiment:
@@ -192,7 +214,7 @@ def read(path: Path, trial: Trial | None = None) -> Experiment:
         )
     split = _folds(path, table["folds"], sets) if "folds" in table else None
     names = tuple(split.names) if split else ("",)
-    trial = trial or Trial(names[0], training.seeds[0], (training.total or (0,))[0])
+    trial = trial or Trial(names[0], training.seeds[0])
     if trial.fold not in names:
         raise ExperimentError(f"{path}: expected a fold of {', '.join(names)}, found {trial.fold}")
     pools: dict[str, Pool] = {}
@@ -245,16 +267,24 @@ def read(path: Path, trial: Trial | None = None) -> Experiment:
 
 
 def _training(path: Path, entry: dict[str, Any]) -> Training:
-    known = {"model", "steps", "total", "epochs", "batch", "rate", "seeds", "weights", "balanced", "colour"}
-    _known(path, "training.", entry, known)
+    _known(path, "training.", entry, {field.name for field in fields(Training)})
     total = entry.get("total", [])
-    entry["total"] = tuple(total) if isinstance(total, list) else (total,)
+    entry["total"] = tuple(sorted(total)) if isinstance(total, list) else (total,)
+    if len(entry["total"]) > 1 and not entry.get("averaged"):
+        raise ExperimentError(f"{path}: training.total: a ladder needs averaged = true; expected that or one number")
     if not 0 <= entry.get("colour", 0) < 1:
         raise ExperimentError(f"{path}: training.colour: expected 0 to below 1, found {entry['colour']}")
+    if not 1 <= entry.get("zoom", 1) <= ZOOM:
+        raise ExperimentError(f"{path}: training.zoom: expected 1 to {ZOOM}, found {entry['zoom']}")
+    if entry.get("optimiser", "adamw") not in ("adamw", "sgd"):
+        raise ExperimentError(f"{path}: training.optimiser: expected adamw or sgd, found {entry['optimiser']}")
     if "seeds" in entry:
         entry["seeds"] = tuple(entry["seeds"])
     if "weights" in entry:
         entry["weights"] = path.parent / entry["weights"]
+        if not entry["weights"].is_file():
+            expected = "expected the state of torchvision's resnet50"
+            raise ExperimentError(f"{path}: training.weights: {expected}, found no file {entry['weights']}")
     return Training(**entry)
 
 

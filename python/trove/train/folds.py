@@ -27,6 +27,19 @@ class Pool:
         ]
         return digest(self.numbering, files)
 
+    def linked(self, folder: Path) -> Path:
+        """Fills a folder with links to the set's pictures and nothing else, for `trove recolor --to`, and returns it."""
+        folder.mkdir(parents=True, exist_ok=True)
+        wanted = {f"{s.place}_{s.picture.name}".replace("/", "_"): s.picture.resolve() for s in self.samples}
+        for link in folder.iterdir():
+            if link.readlink() == wanted.get(link.name):
+                del wanted[link.name]
+            else:
+                link.unlink()
+        for name, picture in wanted.items():
+            (folder / name).symlink_to(picture)
+        return folder
+
 
 def digest(*parts: Any) -> str:
     """Twelve hexadecimal digits that depend on all parts."""

@@ -110,3 +110,9 @@ def network(name: str, classes: int, weights: Path | None) -> nn.Module:
             raise ValueError(f"weights: {name} has no pretrained weights; remove the key")
         return Normalised(UNet(classes, _WIDTHS[name]))
     raise ValueError(f"model: expected deeplab, {' or '.join(_WIDTHS)}, found {name}")
+
+
+def classifier_of(network: nn.Module) -> nn.Module:
+    """The layers of a network that make its classes out of features."""
+    body = network.body
+    return body.branches if isinstance(body, DeepLabV2) else body.head

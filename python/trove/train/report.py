@@ -22,7 +22,9 @@ def write(experiment: Experiment, rows: list[str], results: list[dict[str, Any]]
     for title, part in sections:
         summaries = {row: table.summary(runs) for row in rows if (runs := [r for r in part if r["row"] == row])}
         text += (f"## {title}\n\n" if title else "") + table.markdown(classes, summaries, experiment.compare) + "\n"
-    (out / "table.md").write_text(text.rstrip("\n") + "\n")
+    spent = {(r["row"], r["fold"], r["seed"]): r["seconds"] for r in results}
+    text += f"{len(spent)} networks were trained in {sum(spent.values()) / 3600:.1f} hours of their jobs.\n"
+    (out / "table.md").write_text(text)
     (out / "table.tex").write_text(table.latex(classes, summaries))
     (out / "curves.svg").write_text(table.curves(results))
     lines = learning.lines(experiment.lines, best)

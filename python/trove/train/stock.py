@@ -4,7 +4,7 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
-from trove.train.data import ZOOM, Pictures
+from trove.train.data import Pictures
 from trove.train.labels import IGNORED
 
 # The cut that shows as much of an image as there is: its zoom, where it lies from 0 to 1, and whether it is mirrored.
@@ -87,14 +87,15 @@ class Stock:
         return torch.from_numpy(pictures).to(self.device), torch.from_numpy(labels).to(self.device)
 
 
-def random_cuts(steps: int, batch: int, seed: int) -> np.ndarray:
-    """Cuts (steps, batch, 4) at random: zooms from 1 to `ZOOM`, any place, half of them mirrored."""
+def random_cuts(steps: int, batch: int, seed: int, zoom: float, mirrored: bool) -> np.ndarray:
+    """Cuts (steps, batch, 4) at random: zooms from 1 to `zoom`, any place, and if `mirrored` half of them so."""
     cuts = np.random.default_rng((seed, 1)).random((steps, batch, 4), np.float32)
-    cuts[..., 0] = 1 + cuts[..., 0] * (ZOOM - 1)
+    cuts[..., 0] = 1 + cuts[..., 0] * (zoom - 1)
+    cuts[..., 3] *= mirrored
     return cuts
 
 
-def random_tints(steps: int, batch: int, spread: float, seed: int) -> np.ndarray:
+def random_tints(steps: int, batch: int, seed: int, spread: float) -> np.ndarray:
     """What `tinted` takes, at random: (steps, batch, 6) factors up to `spread` above or below 1, balance half of it."""
     tints = np.random.default_rng((seed, 2)).uniform(-spread, spread, (steps, batch, 6)).astype(np.float32)
     tints[..., 3:] /= 2

@@ -1,5 +1,6 @@
 """Trains one network on one or two stages of sets, and measures it."""
 
+import copy
 import json
 import time
 from collections.abc import Callable
@@ -13,12 +14,13 @@ import torch
 from torch import nn
 from torch.nn import functional as F
 
+from trove.train.average import Average
 from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
 from trove.train.experiment import Experiment, Trial, read
 from trove.train.folds import Pool
 from trove.train.labels import IGNORED, TARGETS
-from trove.train.models import network
+from trove.train.models import classifier_of, network
 from trove.train.stock import MIDDLE, Stock, random_cuts, random_tints, tinted
 
 # Steps between two lines of the curve, and before a GPU's steps are recorded.
@@ -51,33 +53,38 @@ def run_rows(path: Path, out: Path, threads: int, trial: Trial, rows: list[str])
     if threads:
         torch.set_num_threads(threads)
     experiment = read(path, trial)
-    return [run(experiment, row, out, lambda text: print(text, flush=True)) for row in rows]
+    return [found for row in rows for found in run(experiment, row, out, lambda text: print(text, flush=True))]
 
 
-def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None]) -> dict[str, Any]:
+def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None]) -> list[dict[str, Any]]:
     """Trains and measures one row in the experiment's trial.
 
     Finished work in `out` is not repeated, started work is resumed, and rows with the same first stage share it; a
     folder's name contains a hash of everything that went into it, so other data or settings get another folder.
-    Returns `{"row", "fold", "seed", "total", "confusion", "inner", "images", "curve", "seconds"}`: `inner` is the
-    confusion on what choices are made by or `None`, `images` how many each set has, `curve` holds (stage, step, loss),
-    and `seconds` is the time that was spent on what no other row had trained.
+    Returns `{"row", "fold", "seed", "total", "confusion", "inner", "images", "curve", "seconds"}` for each rung:
+    `total` is its steps (0 without `total` in the file), `inner` the confusion on what choices are made by or `None`,
+    `images` how many each set has, `curve` holds (stage, step, loss), and `seconds` is the time that the whole run
+    spent on what no other row had trained.
     """
     trial, folders = experiment.trial, experiment.folders(row, out)
     name = f"{row} {trial}"
     result = folders[-1][0] / "result.json"
     if not result.exists():
-        found = _found(experiment, folders, lambda text: say(f"{name}: {text}"))
+        found = _found(experiment, row, folders, lambda text: say(f"{name}: {text}"))
         partial = result.with_suffix(".partial")
         partial.write_text(json.dumps(found))
         partial.replace(result)
-    found = {"row": row, "fold": trial.fold, "seed": trial.seed, "total": trial.total, **json.loads(result.read_text())}
-    say(f"{name}: mIoU {100 * np.nanmean(iou(np.array(found['confusion']))):.2f}, {found['seconds']:.0f} s")
-    return found
+    found = json.loads(result.read_text())
+    rungs = found.pop("rungs")
+    mious = [f"{100 * np.nanmean(iou(np.array(rung['confusion']))):.2f}" for rung in rungs]
+    say(f"{name}: mIoU {', '.join(mious)}, {found['seconds']:.0f} s")
+    return [{"row": row, "fold": trial.fold, "seed": trial.seed, **rung, **found} for rung in rungs]
 
 
-def _found(experiment: Experiment, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]) -> dict[str, Any]:
-    """The confusion matrices of the network that is trained in `folders`, one a stage, its curve and time."""
+def _found(
+    experiment: Experiment, row: str, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]
+) -> dict[str, Any]:
+    """What the network that is trained in `folders`, one a stage, has learnt at each rung, its curve and time."""
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     # Images have one size, so that the fastest convolutions are worth finding.
     torch.backends.cudnn.benchmark = True
@@ -85,73 +92,86 @@ def _found(experiment: Experiment, folders: list[tuple[Path, list[str]]], say: C
     torch.manual_seed(trial.seed)
     classes, began = len(TARGETS[experiment.classes]), time.perf_counter()
     model = network(training.model, classes, training.weights).to(device)
-    curve: list[list[float]] = []
-    for number, (folder, names) in enumerate(folders):
-        trained = folder / "model.pt"
+    told: dict[str, list[Any]] = {"curve": [], "rungs": []}
+
+    def measured(learnt: nn.Module, total: int) -> dict[str, Any]:
+        pools = {"confusion": experiment.val, "inner": experiment.inner}
+        return {"total": total} | {
+            name: pool and measure(learnt, _stock(experiment, pool, device), experiment.size, classes).tolist()
+            for name, pool in pools.items()
+        }
+
+    rungs = experiment.rungs(row)
+    for number, ((folder, names), steps) in enumerate(zip(folders, experiment.steps(row))):
+        trained, last = folder / "model.pt", number == len(folders) - 1
         if trained.exists():
             state = torch.load(trained, map_location=device, weights_only=True)
             model.load_state_dict(state["model"])
-            curve = state["curve"]
+            told = state["told"]
             continue
         folder.mkdir(parents=True, exist_ok=True)
-        steps = trial.total // len(folders) + (number < trial.total % len(folders))
-        stage = _Stage(experiment, names, number, steps, trial.seed * 1000 + number, folder / "checkpoint.pt")
-        _train(stage, model, device, curve, say)
-        _save(trained, {"model": model.state_dict(), "curve": curve})
-        (folder / "checkpoint.pt").unlink(missing_ok=True)
+        before = {step: total for step, total in rungs.items() if last and step < steps}
+        stage = _Stage(experiment, names, number, steps, before, trial.seed * 1000 + number, folder / "checkpoint.pt")
+        _train(stage, model, device, told, measured, say)
+        _save(trained, {"model": model.state_dict(), "told": told})
+        stage.checkpoint.unlink(missing_ok=True)
+    told["rungs"].append(measured(model, rungs[steps]))
+    images = {name: len(experiment.pools[name].samples) for _, names in folders for name in names}
+    return {**told, "images": images, "seconds": time.perf_counter() - began}
 
-    def measured(pool: Pool) -> list[list[int]]:
-        stock = _stock(tuple(pool.samples), pool.numbering, experiment.classes, experiment.size, device)
-        counts: list[list[int]] = measure(model, stock, experiment.size, classes).tolist()
-        return counts
 
-    return {
-        "confusion": measured(experiment.val),
-        "inner": measured(experiment.inner) if experiment.inner else None,
-        "images": {name: len(experiment.pools[name].samples) for _, names in folders for name in names},
-        "curve": curve,
-        "seconds": time.perf_counter() - began,
-    }
+def _stock(experiment: Experiment, pool: Pool, device: torch.device) -> Stock:
+    """What networks are measured on, kept since many are measured on the same."""
+    of = pool.numbering, experiment.classes, experiment.size, experiment.training.zoom
+    return _kept(tuple(pool.samples), of, device)
 
 
 @lru_cache(maxsize=8)
-def _stock(samples: tuple[Any, ...], numbering: str, target: str, size: tuple[int, int], device: torch.device) -> Stock:
-    """What networks are measured on, kept since many are measured on the same."""
-    return Stock([Pictures(list(samples), numbering, target, size)], device)
+def _kept(samples: tuple[Any, ...], of: tuple[str, str, tuple[int, int], float], device: torch.device) -> Stock:
+    return Stock([Pictures(list(samples), *of)], device)
 
 
 @dataclass(frozen=True)
 class _Stage:
-    """What one stage of a row trains on, and the file it resumes from."""
+    """What one stage of a row trains on, the rungs before its end, and the file it resumes from."""
 
     experiment: Experiment
     names: list[str]
     number: int
     steps: int
+    rungs: dict[int, int]
     seed: int
     checkpoint: Path
 
 
 def _train(
-    stage: _Stage, model: nn.Module, device: torch.device, curve: list[list[float]], say: Callable[[str], None]
+    stage: _Stage,
+    model: nn.Module,
+    device: torch.device,
+    told: dict[str, list[Any]],
+    measured: Callable[[nn.Module, int], dict[str, Any]],
+    say: Callable[[str], None],
 ) -> None:
-    """Trains on all `names` in mixed batches; an interrupted stage resumes from the checkpoint."""
-    experiment, names, checkpoint = stage.experiment, stage.names, stage.checkpoint
-    training = experiment.training
+    """Trains on all `names` in mixed batches; an interrupted stage resumes from the checkpoint.
+
+    Adds to what is told, the curve and what each rung has learnt. Where weights are averaged `model` ends with these.
+    """
+    experiment, names, checkpoint, steps = stage.experiment, stage.names, stage.checkpoint, stage.steps
     pools = [experiment.pools[name] for name in names]
-    sets = [Pictures(p.samples, p.numbering, experiment.classes, experiment.size) for p in pools]
+    how = experiment.classes, experiment.size, experiment.training.zoom
+    sets = [Pictures(p.samples, p.numbering, *how) for p in pools]
     stock, lengths = Stock(sets, device), [len(s) for s in sets]
-    steps = stage.steps or training.steps or max(1, training.epochs * sum(lengths) // training.batch)
     model.train().to(memory_format=torch.channels_last)
-    step = _Step(stage, model, stock, lengths, steps)
-    resumed = {"model": model, "optimiser": step.optimiser}
+    average = Average(model, steps, device) if experiment.training.averaged else None
+    step = _Step(stage, model, average, stock, lengths)
+    resumed = {"model": model, "optimiser": step.optimiser} | ({"average": average} if average else {})
     first = 0
     if checkpoint.exists():
         state = torch.load(checkpoint, map_location=device, weights_only=True)
         for name, part in resumed.items():
             part.load_state_dict(state[name])
         first = state["step"]
-        curve[:] = state["curve"]
+        told.update(state["told"])
     step.at.fill_(first)
     line, saved = first, time.monotonic()
     for done in range(first + 1, steps + 1):
@@ -159,12 +179,16 @@ def _train(
         if done % _LINE_EVERY == 0 or done == steps:
             loss = float(step.losses[line:done].mean())
             line = done
-            curve.append([stage.number, done, loss])
+            told["curve"].append([stage.number, done, loss])
             say(f"stage {stage.number + 1} on {'+'.join(names)}, step {done} of {steps}, loss {loss:.3f}")
+        if average and done in stage.rungs:
+            told["rungs"].append(measured(average.put_into(copy.deepcopy(model)), stage.rungs[done]))
         if done % _SAVE_EVERY == 0 and done < steps and time.monotonic() - saved >= _SAVE_AFTER_S:
             state = {name: part.state_dict() for name, part in resumed.items()}
-            _save(checkpoint, state | {"step": done, "curve": curve})
+            _save(checkpoint, state | {"step": done, "told": told})
             saved = time.monotonic()
+    if average:
+        average.put_into(model)
 
 
 class _Step:
@@ -174,22 +198,23 @@ class _Step:
     than they do.
     """
 
-    def __init__(self, stage: _Stage, model: nn.Module, stock: Stock, lengths: list[int], steps: int):
-        training, self._size, self._model, self._stock = stage.experiment.training, stage.experiment.size, model, stock
-        device = stock.device
+    def __init__(self, stage: _Stage, model: nn.Module, average: Average | None, stock: Stock, lengths: list[int]):
+        training, steps, device = stage.experiment.training, stage.steps, stock.device
+        self._size, self._model, self._average, self._stock = stage.experiment.size, model, average, stock
         starts = np.cumsum([0, *lengths])
         batches = mixed_batches(lengths, training.batch, steps, stage.seed)
         members = np.array([[starts[s] + i for s, i in batch] for batch in batches])
-        # The polynomial schedule of DeepLab.
-        rates = training.rate * (1 - np.arange(steps) / (steps + 1)) ** 0.9
+        draws = steps, training.batch, stage.seed
+        # The polynomial schedule of DeepLab, unless an average of the weights stands in for its end.
+        rates = training.rate * (1 - np.arange(steps) / (steps + 1)) ** (0 if average else 0.9)
         self._members = torch.from_numpy(members).to(device)
-        self._cuts = torch.from_numpy(random_cuts(steps, training.batch, stage.seed)).to(device)
-        tints = random_tints(steps, training.batch, training.colour, stage.seed) if training.colour else None
+        self._cuts = torch.from_numpy(random_cuts(*draws, training.zoom, training.mirrored)).to(device)
+        tints = random_tints(*draws, training.colour) if training.colour else None
         self._tints = None if tints is None else torch.from_numpy(tints).to(device)
         self._rates = torch.from_numpy(rates.astype(np.float32)).to(device)
         self.at = torch.zeros(1, dtype=torch.int64, device=device)
         self.losses = torch.zeros(steps, device=device)
-        self.optimiser = _optimiser(model, training.rate, device)
+        self.optimiser = _optimiser(model, training.optimiser, training.rate, device)
         classes = len(TARGETS[stage.experiment.classes])
         weights = stock.weights(lengths, classes) if training.balanced else None
         self._loss_of = nn.CrossEntropyLoss(weights, ignore_index=IGNORED)
@@ -228,21 +253,30 @@ class _Step:
         loss = self._loss_of(logits.float(), truth)
         loss.backward()
         for group in self.optimiser.param_groups:
-            group["lr"].copy_(self._rates[self.at][0])
+            group["lr"].copy_(self._rates[self.at][0] * group["times"])
         self.optimiser.step()
+        if self._average:
+            self._average.add(self.at)
         self.losses.index_copy_(0, self.at, loss.detach()[None])
         self.at += 1
 
 
-def _optimiser(model: nn.Module, rate: float, device: torch.device) -> torch.optim.Optimizer:
-    """AdamW that decays weights, but not biases or normalisation; its rates are tensors."""
-    decayed = [p for p in model.parameters() if p.ndim > 1]
-    plain = [p for p in model.parameters() if p.ndim <= 1]
-    groups = [
-        {"params": parameters, "weight_decay": decay, "lr": torch.tensor(rate, device=device)}
-        for parameters, decay in ((decayed, 1e-2), (plain, 0.0))
-    ]
-    return torch.optim.AdamW(groups, fused=True, capturable=device.type == "cuda")
+def _optimiser(model: nn.Module, kind: str, rate: float, device: torch.device) -> torch.optim.Optimizer:
+    """AdamW that decays weights, but not biases or normalisation, or DeepLab v2's SGD; its rates are tensors."""
+    if kind == "sgd":
+        classifier = list(classifier_of(model).parameters())
+        others = [p for p in model.parameters() if not any(p is own for own in classifier)]
+        groups = [{"params": others, "times": 1.0}, {"params": classifier, "times": 10.0}]
+        options: dict[str, Any] = {"momentum": 0.9, "weight_decay": 5e-4}
+    else:
+        decayed = [p for p in model.parameters() if p.ndim > 1]
+        plain = [p for p in model.parameters() if p.ndim <= 1]
+        groups = [{"params": decayed, "weight_decay": 1e-2}, {"params": plain, "weight_decay": 0.0}]
+        groups = [{**group, "times": 1.0} for group in groups]
+        options = {"capturable": device.type == "cuda"}
+    for group in groups:
+        group["lr"] = torch.tensor(rate, device=device)
+    return {"adamw": torch.optim.AdamW, "sgd": torch.optim.SGD}[kind](groups, fused=True, **options)
 
 
 def _autocast(device: torch.device) -> Any:
