@@ -253,10 +253,11 @@ experiment-unseen: install .venv-train/.installed
 # PyTorch beside it: 1.2 GB, since CUDA's libraries, which PyTorch's wheel for Linux asks for, are left out.
 test-train: $(VENV)/.test-installed .torch/.installed
 	PYTHONPATH=.torch $(BIN)/python -c 'import torch, torchvision'
-	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_training_folds.py python/tests/test_training_paper.py python/tests/test_torch.py \
+	PYTHONPATH=.torch $(BIN)/python -m pytest -q python/tests/test_training.py python/tests/test_training_folds.py python/tests/test_training_paper.py \
+	    python/tests/test_training_detection.py python/tests/test_torch.py \
 	    python/tests/test_export_torchvision.py
 
-TORCH := torch==2.15.0 torchvision==0.29.2
+TORCH := torch==2.15.0 torchvision==0.29.2 scipy==1.17.1
 TORCH_NEEDS := filelock fsspec jinja2 networkx sympy typing-extensions "cuda-toolkit[cudart]==13.2.2; platform_system == 'Linux'"
 .torch/.installed: python/tests/without_cuda.py | $(VENV)/.installed
 	rm -rf .torch

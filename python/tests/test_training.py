@@ -184,8 +184,28 @@ def test_tints_change_colours_and_nothing_else():
         tints = torch.ones(2, 6)
         tints[:, factor] = 0.8
         assert torch.allclose(tinted(rgb, tints), expected, atol=1e-5), factor
-    drawn = random_tints(50, 4, 0.4, 1)
+    drawn = random_tints(50, 4, 1, 0.4)
     assert 0.6 <= drawn.min() < 0.62 and abs(drawn[..., 3:] - 1).max() <= 0.2 and len(np.unique(drawn)) == drawn.size
+
+
+def test_class_mix_pastes_classes_of_the_other_set_with_their_labels():
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.stock import class_mixed, random_classes
+
+    rgb = torch.arange(4.0)[:, None, None, None].expand(4, 3, 2, 3)
+    truth = torch.tensor([[0, 1, 255], [2, 2, 255]]).expand(4, 2, 3)
+    taken = torch.zeros(4, 3, dtype=torch.bool)
+    taken[1, 0] = taken[3, 2] = taken[3, 1] = True
+    mixed, ids = class_mixed(rgb, truth, taken)
+    # The second gets class 0 of the third, the fourth classes 1 and 2 of the first; what is ignored is never taken.
+    assert mixed[0].unique().tolist() == [0] and mixed[2].unique().tolist() == [2]
+    assert mixed[1, 0].tolist() == [[2, 1, 1], [1, 1, 1]] and mixed[3, 2].tolist() == [[3, 0, 3], [0, 0, 3]]
+    assert (ids == truth).all()
+    other = truth.clone()
+    other[0] = 1
+    assert class_mixed(rgb, other, taken)[1][3].tolist() == [[1, 1, 1], [1, 1, 1]]
+    drawn = random_classes(500, 4, 1, 0.5, 10)
+    assert drawn.any(2).mean() == pytest.approx(0.5, abs=0.05) and drawn.mean() == pytest.approx(0.25, abs=0.03)
 
 
 def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
@@ -230,13 +250,13 @@ def test_the_table_agrees_with_trove_evaluate(finished, tmp_path):
 
 
 def test_the_table_has_the_papers_form():
-    a = {"row": "P", "seed": 1, "confusion": [[8, 2], [0, 10]], "curve": [[0, 20, 1.0]]}
-    b = {"row": "S+P[M]", "seed": 1, "confusion": [[10, 0], [0, 10]], "curve": [[0, 20, 0.5]]}
+    a = {"row": "P", "seed": 1, "outer": [[8, 2], [0, 10]], "curve": [[0, 20, 1.0]]}
+    b = {"row": "S+P[M]", "seed": 1, "outer": [[10, 0], [0, 10]], "curve": [[0, 20, 0.5]]}
     rows = {r["row"]: table.summary([r, {**r, "seed": 2}]) for r in (a, b)}
-    text = table.markdown(["road", "car"], rows, {"S+P[M]": "P"})
+    text = table.markdown(["road", "car"], "mIoU", rows, {"S+P[M]": "P"})
     assert "| P | 80.00 | 83.33 | 81.67 ± 0.00 | 90.00 |" in text
     assert "S+P[M] against P: +18.33 mIoU" in text
-    assert r"S+P[M] & 100.00 & 100.00 & 100.00 $\pm$ 0.00 & 100.00 \\" in table.latex(["road", "car"], rows)
+    assert r"S+P[M] & 100.00 & 100.00 & 100.00 $\pm$ 0.00 & 100.00 \\" in table.latex(["road", "car"], "mIoU", rows)
     assert table.curves([a, b]).count("<polyline") == 2
 
 
@@ -270,7 +290,7 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
     assert len(list((tmp_path / "stopped").rglob("checkpoint.pt"))) == 1
     (resumed,) = training.run(found, "S", tmp_path / "stopped", lines.append)
     assert {**resumed, "seconds": 0} == {**whole, "seconds": 0}
-    accuracy = np.trace(whole["confusion"]) / np.sum(whole["confusion"])
+    accuracy = np.trace(whole["outer"]) / np.sum(whole["outer"])
     assert accuracy > 0.85, f"{accuracy}, {whole['curve']}"
     assert not list((tmp_path / "whole").rglob("checkpoint.pt"))
 

@@ -167,7 +167,7 @@ def result(row, fold="A", seed=1, total=2, right=8, inner=8, count=2):
         "fold": fold,
         "seed": seed,
         "total": total,
-        "confusion": counts[right],
+        "outer": counts[right],
         "inner": counts[inner],
         "images": {"P2": count, "Pall": count},
         "curve": [],
@@ -196,10 +196,10 @@ def test_gains_are_over_the_same_fold_and_seed():
     base = [result("P2", "A", right=2), result("P2", "B", right=6)]
     more = [result("C+P2[M]", "B", right=8), result("C+P2[M]", "A", right=4), result("C+P2[M]", "C", right=10)]
     rows = {"P2": table.summary(base), "C+P2[M]": table.summary(more)}
-    a, b = ([table.miou(r["confusion"]) for r in runs] for runs in (base, more))
+    a, b = ([table.mean(r["outer"]) for r in runs] for runs in (base, more))
     gains = np.array([b[1] - a[0], b[0] - a[1]])
     half = table.interval(gains)
-    text = table.markdown(["road", "car"], rows, {"C+P2[M]": "P2"})
+    text = table.markdown(["road", "car"], "mIoU", rows, {"C+P2[M]": "P2"})
     assert f"against P2: {gains.mean():+.2f} mIoU (95 % interval {gains.mean() - half:+.2f}" in text
 
 
@@ -214,9 +214,9 @@ def test_a_curve_tells_how_many_real_pictures_frames_replace():
     more = learning.Line(np.array([10, 100]), np.array([[25.0, 25.0, 99.0], [51.0, 51.0, 99.0]]), [*runs[:2], ("C", 1)])
     found = learning.replaced(more, base)
     assert found[0] == pytest.approx((10**1.5,) * 3) and np.isinf(found[1]).all()
-    text = learning.markdown({"P*": base, "C+P*[M]": more}, {"C+P*[M]": "P*"})
+    text = learning.markdown({"P*": base, "C+P*[M]": more}, {"C+P*[M]": "P*"}, "mIoU")
     assert "| as good as P* with | 32 (32 to 32) | more than 1000 (more than 1000 to more than 1000) |" in text
-    assert learning.picture({"P*": base, "C+P*[M]": more}).count("<polyline") == 2
+    assert learning.picture({"P*": base, "C+P*[M]": more}, "mIoU").count("<polyline") == 2
 
 
 def test_the_report_has_every_rung_and_every_row_at_its_best(experiment, tmp_path):
@@ -272,7 +272,7 @@ def test_a_finished_run_is_not_trained_again_and_a_stage_has_as_many_steps_as_it
     (first,) = training.run(found, "C+P2[F]", tmp_path / "out", lines.append)
     assert (first["fold"], first["seed"], first["total"]) == ("B", 2, 5)
     assert [(point[0], point[1]) for point in first["curve"]] == [(0, 3), (1, 2)]
-    assert np.sum(first["confusion"]) <= 8 * 16 * 12 and np.sum(first["inner"]) <= 4 * 16 * 12
+    assert np.sum(first["outer"]) <= 8 * 16 * 12 and np.sum(first["inner"]) <= 4 * 16 * 12
     assert first["images"] == {"C": 18, "P2": 2}
     for model in (tmp_path / "out").rglob("model.pt"):
         model.unlink()
@@ -297,9 +297,9 @@ def test_a_rung_is_what_a_run_that_ends_there_has_learnt_and_survives_an_interru
 
     rungs = learnt("[4, 8, 45]", "ladder")
     assert [rung["total"] for rung in rungs] == [4, 8, 45]
-    assert rungs[0]["confusion"] != rungs[1]["confusion"] != rungs[2]["confusion"]
+    assert rungs[0]["outer"] != rungs[1]["outer"] != rungs[2]["outer"]
     (alone,) = learnt("8", "alone")
-    assert alone["confusion"] == rungs[1]["confusion"] and alone["inner"] == rungs[1]["inner"]
+    assert alone["outer"] == rungs[1]["outer"] and alone["inner"] == rungs[1]["inner"]
 
     class Stopped(Exception):
         pass

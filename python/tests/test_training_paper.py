@@ -87,17 +87,17 @@ def test_the_paper_s_rows_train_by_its_protocol(protocol, tmp_path):
     found = read(protocol)
     (first,) = training.run(found, "S+P[F]", tmp_path / "out", lambda line: None)
     assert [point[:2] for point in first["curve"]] == [[0, 2], [1, 2]]
-    assert np.sum(first["confusion"]) > 0 and np.shape(first["confusion"]) == (len(labels.PAPER),) * 2
+    assert np.sum(first["outer"]) > 0 and np.shape(first["outer"]) == (len(labels.PAPER),) * 2
     assert first["curve"][1][2] < first["curve"][0][2]
 
 
 def test_deeplab_learns_by_its_own_optimiser(protocol):
     torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
     from trove.train.models import classifier_of, network
-    from trove.train.training import _optimiser
+    from trove.train.training import optimiser
 
-    model = network("deeplab", 12, None)
-    groups = _optimiser(model, "sgd", 1e-4, torch.device("cpu")).param_groups
+    model = network("deeplab", "paper", None)
+    groups = optimiser(model, "sgd", 1e-4, torch.device("cpu")).param_groups
     others, classifier = groups
     assert {id(p) for p in classifier["params"]} == {id(p) for p in classifier_of(model).parameters()}
     assert len(others["params"]) + len(classifier["params"]) == len(list(model.parameters()))

@@ -31,7 +31,7 @@ root   = "data/camvid"
 split  = "val"
 
 [training]
-model  = "small"              # or "unet", "deeplab"
+model  = "small"              # or "unet", "deeplab"; "ssdlite" detects: boxes around the connected parts of classes
 steps  = 600                  # of each stage of every row; or epochs = 30, of a row's own images
 total  = 2000                 # instead: of all stages of a row; or a ladder such as [500, 2000, 8000]
 averaged = true               # the rate stays as it is and weights are averaged, as ladders need; otherwise it falls
@@ -43,6 +43,7 @@ balanced = true               # rare classes weigh more in the loss
 zoom = 1.4                    # cut at any place, from as large as can be to so many times smaller; 1 is none of that
 mirrored = true               # half of the pictures
 colour = 0.4                  # brightness, contrast, saturation and balance are drawn anew by up to ±40 %, for every row
+class_mix = 0.5               # this share of pictures get half of the classes of another one in the batch, of the other set
 
 Several counts are one line of a curve: a row `S+P*[M]` stands for `S+P25[M]`, `S+P100[M]` and so on, in `compare` too.
 
@@ -70,7 +71,7 @@ import numpy as np
 
 from trove.train.data import FORMATS, ZOOM
 from trove.train.folds import Folds, Pool, digest
-from trove.train.labels import TARGETS
+from trove.train.labels import DETECTED, DETECTORS, TARGETS
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -100,6 +101,7 @@ class Training:
     optimiser: str = "adamw"
     zoom: float = 1.4
     mirrored: bool = True
+    class_mix: float = 0.0
 
     def settings(self) -> dict[str, Any]:
         """Everything that affects the result of a run, except its seed and what is as by default."""
@@ -139,6 +141,16 @@ class Experiment:
     folds: tuple[str, ...] = ("",)
     trial: Trial = field(default_factory=Trial)
     training: Training = field(default_factory=Training)
+
+    @property
+    def measure(self) -> str:
+        """What the mean over classes is called."""
+        return "AP50" if self.training.model in DETECTORS else "mIoU"
+
+    @property
+    def names(self) -> list[str]:
+        """The classes that results are by."""
+        return list(DETECTED[self.classes]) if self.training.model in DETECTORS else TARGETS[self.classes]
 
     def trials(self) -> list[Trial]:
         """Every seed with every fold, so that what is cut short has whole seeds."""
@@ -274,6 +286,8 @@ def _training(path: Path, entry: dict[str, Any]) -> Training:
         raise ExperimentError(f"{path}: training.total: a ladder needs averaged = true; expected that or one number")
     if not 0 <= entry.get("colour", 0) < 1:
         raise ExperimentError(f"{path}: training.colour: expected 0 to below 1, found {entry['colour']}")
+    if not 0 <= entry.get("class_mix", 0) <= 1:
+        raise ExperimentError(f"{path}: training.class_mix: expected 0 to 1, found {entry['class_mix']}")
     if not 1 <= entry.get("zoom", 1) <= ZOOM:
         raise ExperimentError(f"{path}: training.zoom: expected 1 to {ZOOM}, found {entry['zoom']}")
     if entry.get("optimiser", "adamw") not in ("adamw", "sgd"):

@@ -32,6 +32,13 @@ PAPER = _counted("trove13")
 IDD_LITE = _counted("idd-lite")
 
 TARGETS = {"camvid": CAMVID, "paper": PAPER, "idd-lite": IDD_LITE}
+# Networks that find boxes, and what they find of a target's classes.
+DETECTED = {
+    "camvid": {"vehicle": ["car"], "person": ["pedestrian"], "cyclist": ["bicyclist"]},
+    "paper": {"vehicle": ["car", "bus", "truck"], "person": ["person"], "rider": ["rider"]},
+    "idd-lite": {"vehicle": ["vehicle"], "living thing": ["living thing"]},
+}
+DETECTORS = ("ssdlite",)
 # The label set whose names a target's are.
 _SETS = {"camvid": "camvid", "paper": "trove13", "idd-lite": "idd-lite"}
 # The classes of trees, and of what is seen between their twigs.

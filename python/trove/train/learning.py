@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from trove.train.table import interval, miou
+from trove.train.table import interval, mean
 
 # Draws of the bootstrap, and the quantiles of a 95 % interval.
 _DRAWS, _QUANTILES = 2000, (0.025, 0.975)
@@ -13,10 +13,10 @@ _DRAWS, _QUANTILES = 2000, (0.025, 0.975)
 
 @dataclass(frozen=True)
 class Line:
-    """A curve: numbers of real pictures (N,), mIoU of every (fold, seed) in percent (N, runs)."""
+    """A curve: numbers of real pictures (N,), the measure of every (fold, seed) in percent (N, runs)."""
 
     counts: np.ndarray
-    mious: np.ndarray
+    means: np.ndarray
     runs: list[tuple[str, int]]
 
 
@@ -28,21 +28,21 @@ def lines(stars: dict[str, list[tuple[str, str]]], results: list[dict[str, Any]]
         runs = [run for run in points[0] if all(run in point for point in points)] if points else []
         if runs:
             counts = [np.mean([p[run]["images"][name] for run in runs]) for p, (_, name) in zip(points, rows)]
-            mious = [[miou(point[run]["confusion"]) for run in runs] for point in points]
-            found[star] = Line(np.array(counts), np.array(mious), runs)
+            means = [[mean(point[run]["outer"]) for run in runs] for point in points]
+            found[star] = Line(np.array(counts), np.array(means), runs)
     return found
 
 
-def as_good_as(counts: np.ndarray, mious: np.ndarray, reached: float) -> float:
-    """How many real pictures reach a mIoU, on straight lines between the points of a curve over the logarithm.
+def as_good_as(counts: np.ndarray, means: np.ndarray, reached: float) -> float:
+    """How many real pictures reach a measure, on straight lines between the points of a curve over the logarithm.
 
     The smallest number if fewer may do, infinity if the curve never gets there.
     """
-    if reached <= mious[0]:
+    if reached <= means[0]:
         return float(counts[0])
     for i in range(1, len(counts)):
-        if mious[i] >= reached:
-            share = (reached - mious[i - 1]) / (mious[i] - mious[i - 1])
+        if means[i] >= reached:
+            share = (reached - means[i - 1]) / (means[i] - means[i - 1])
             return float(counts[i - 1] * (counts[i] / counts[i - 1]) ** share)
     return float("inf")
 
@@ -53,8 +53,8 @@ def replaced(line: Line, than: Line) -> list[tuple[float, float, float]]:
     The interval is a bootstrap over the folds and seeds that both have.
     """
     both = [run for run in line.runs if run in than.runs]
-    a = line.mious[:, [line.runs.index(run) for run in both]]
-    b = than.mious[:, [than.runs.index(run) for run in both]]
+    a = line.means[:, [line.runs.index(run) for run in both]]
+    b = than.means[:, [than.runs.index(run) for run in both]]
     random = np.random.default_rng(1)
     draws = [random.integers(len(both), size=len(both)) for _ in range(_DRAWS)]
     found = []
@@ -65,13 +65,13 @@ def replaced(line: Line, than: Line) -> list[tuple[float, float, float]]:
     return found
 
 
-def markdown(curves: dict[str, Line], compare: dict[str, str]) -> str:
+def markdown(curves: dict[str, Line], compare: dict[str, str], measure: str) -> str:
     """Tables of the curves, and of how many real pictures each point of a compared one replaces."""
     text = ""
     for star, line in curves.items():
         text += f"| {star} | " + " | ".join(f"{count:.0f}" for count in line.counts) + " |\n"
         text += "|---" * (len(line.counts) + 1) + "|\n"
-        text += "| mIoU | " + " | ".join(_spread(values) for values in line.mious) + " |\n"
+        text += f"| {measure} | " + " | ".join(_spread(values) for values in line.means) + " |\n"
         than = curves.get(compare.get(star, ""))
         if than is not None and set(line.runs) & set(than.runs):
             text += f"| as good as {compare[star]} with | " + " | ".join(
@@ -97,10 +97,10 @@ def _number(count: float, than: Line) -> str:
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM = 720, 400, 56, 350
 
 
-def picture(curves: dict[str, Line]) -> str:
-    """The curves as an SVG image: mIoU over the number of real pictures, which has a logarithmic axis."""
+def picture(curves: dict[str, Line], measure: str) -> str:
+    """The curves as an SVG image: `measure` over the number of real pictures, which has a logarithmic axis."""
     counts = np.concatenate([line.counts for line in curves.values()])
-    means = np.concatenate([line.mious.mean(1) for line in curves.values()])
+    means = np.concatenate([line.means.mean(1) for line in curves.values()])
     least, most = np.floor(means.min() - 1), np.ceil(means.max() + 1)
     span = max(float(np.log(counts.max() / counts.min())), 1e-9)
 
@@ -120,7 +120,7 @@ def picture(curves: dict[str, Line]) -> str:
         parts.append(f'<path d="M{_LEFT} {y(value):.1f}H{_WIDTH - 10}" stroke="#ddd"/>')
     for i, (star, line) in enumerate(curves.items()):
         colour = f"hsl({(210 + 137 * i) % 360},60%,42%)"
-        ends = [(x(c), y(values.mean())) for c, values in zip(line.counts, line.mious)]
+        ends = [(x(c), y(values.mean())) for c, values in zip(line.counts, line.means)]
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in ends)
         parts.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2"/>')
         parts += [f'<circle cx="{a:.1f}" cy="{b:.1f}" r="3" fill="{colour}"/>' for a, b in ends]
@@ -128,7 +128,7 @@ def picture(curves: dict[str, Line]) -> str:
             f'<text x="{_WIDTH - 16}" y="{_BOTTOM - 14 - 18 * i}" text-anchor="end" fill="{colour}">{star}</text>'
         )
     parts.append(f'<text x="{_WIDTH / 2}" y="{_BOTTOM + 40}" text-anchor="middle">real pictures</text>')
-    parts.append('<text x="8" y="14">mIoU, %</text>')
+    parts.append(f'<text x="8" y="14">{measure}, %</text>')
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" font-family="sans-serif" '
         f'font-size="13"><rect width="{_WIDTH}" height="{_HEIGHT}" fill="#fff"/>{"".join(parts)}</svg>\n'

@@ -6,6 +6,9 @@ import torch
 from torch import nn
 from torch.nn import functional as F
 
+from trove.train.detection import detector
+from trove.train.labels import DETECTORS, TARGETS
+
 MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 
 
@@ -101,18 +104,22 @@ class UNet(nn.Module):
 _WIDTHS = {"small": (24, 48, 96, 160), "unet": (48, 96, 192, 384, 512)}
 
 
-def network(name: str, classes: int, weights: Path | None) -> nn.Module:
-    """`deeplab`, `small` or `unet`; `weights` is a file of torchvision's ResNet-50 for `deeplab`, `None` trains from scratch."""
+def network(name: str, target: str, weights: Path | None) -> nn.Module:
+    """`deeplab`, `small`, `unet` or `ssdlite` for a target's classes; `weights` is a file of torchvision's ResNet-50 for
+    `deeplab`, `None` trains from scratch."""
+    classes = len(TARGETS[target])
     if name == "deeplab":
         return Normalised(DeepLabV2(classes, weights))
+    if weights is not None:
+        raise ValueError(f"weights: {name} has no pretrained weights; remove the key")
+    if name in DETECTORS:
+        return detector(target)
     if name in _WIDTHS:
-        if weights is not None:
-            raise ValueError(f"weights: {name} has no pretrained weights; remove the key")
         return Normalised(UNet(classes, _WIDTHS[name]))
-    raise ValueError(f"model: expected deeplab, {' or '.join(_WIDTHS)}, found {name}")
+    raise ValueError(f"model: expected deeplab, {', '.join(_WIDTHS)} or {', '.join(DETECTORS)}, found {name}")
 
 
 def classifier_of(network: nn.Module) -> nn.Module:
     """The layers of a network that make its classes out of features."""
-    body = network.body
+    body = getattr(network, "body", network)
     return body.branches if isinstance(body, DeepLabV2) else body.head

@@ -102,6 +102,21 @@ def random_tints(steps: int, batch: int, seed: int, spread: float) -> np.ndarray
     return 1 + tints
 
 
+def random_classes(steps: int, batch: int, seed: int, share: float, classes: int) -> np.ndarray:
+    """What `class_mixed` takes, at random: (steps, batch, classes), half of the classes for a share of the images."""
+    random = np.random.default_rng((seed, 3))
+    return (random.random((steps, batch, 1)) < share) & (random.random((steps, batch, classes)) < 0.5)
+
+
+def class_mixed(rgb: torch.Tensor, truth: torch.Tensor, taken: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+    """Images (B, 3, h, w) and labels (B, h, w), each with the classes `taken` (B, classes) of the one that stands as far
+    from the batch's end as it does from its beginning (ClassMix, Olsson et al. 2021)."""
+    known = F.pad(taken, (0, IGNORED + 1 - taken.shape[1]))
+    theirs = truth.flip(0)
+    pasted = known.gather(1, theirs.flatten(1)).view_as(theirs)
+    return torch.where(pasted[:, None], rgb.flip(0), rgb), torch.where(pasted, theirs, truth)
+
+
 def tinted(rgb: torch.Tensor, tints: torch.Tensor) -> torch.Tensor:
     """Images (B, 3, h, w), 0 to 1, with other colours: `tints` (B, 6) are the factors of brightness, contrast about the
     image's mean, saturation about each pixel's mean, and of each channel."""

@@ -16,9 +16,15 @@ def interval(values: np.ndarray) -> float:
     return float("nan") if n < 2 else _STUDENT[min(n - 2, 9)] * float(np.std(values, ddof=1)) / n**0.5
 
 
-def miou(counts: list[list[int]]) -> float:
-    """Mean IoU of pixel counts (truth, prediction), percent."""
-    return 100 * float(np.nanmean(iou(np.array(counts))))
+def by_class(measured: list[Any]) -> np.ndarray:
+    """Percent of each class: the IoU of pixel counts (truth, prediction), or what is measured by class already."""
+    values = np.array(measured)
+    return 100 * iou(values) if values.ndim == 2 else values
+
+
+def mean(measured: list[Any]) -> float:
+    """The mean over classes, percent."""
+    return float(np.nanmean(by_class(measured)))
 
 
 def at_its_best(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -26,7 +32,7 @@ def at_its_best(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
     found = []
     for row, fold in dict.fromkeys((r["row"], r["fold"]) for r in results):
         runs = [r for r in results if (r["row"], r["fold"]) == (row, fold)]
-        score = {total: np.mean([miou(r["inner"]) for r in runs if r["total"] == total]) for total in _totals(runs)}
+        score = {total: np.mean([mean(r["inner"]) for r in runs if r["total"] == total]) for total in _totals(runs)}
         found += [r for r in runs if r["total"] == max(score, key=lambda total: score[total])]
     return found
 
@@ -36,20 +42,20 @@ def _totals(results: list[dict[str, Any]]) -> list[int]:
 
 
 def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
-    """Means over the folds and seeds of one row, percent: `iou` per class, `miou` and its interval, `accuracy`.
+    """Means over the folds and seeds of one row, percent: `classes`, their `mean` and its interval `half`, `accuracy`.
 
-    `mious` are those of each (fold, seed).
+    `means` are those of each (fold, seed).
     """
-    counts = [np.array(result["confusion"]) for result in results]
-    ious = np.array([iou(c) for c in counts]) * 100
-    mious = np.nanmean(ious, axis=1)
-    accuracy = np.array([np.trace(c) / c.sum() for c in counts]) * 100
+    found = [np.array(result["outer"]) for result in results]
+    classes = np.array([by_class(result["outer"]) for result in results])
+    means = np.nanmean(classes, axis=1)
+    accuracy = [100 * np.trace(c) / c.sum() if c.ndim == 2 else np.nan for c in found]
     return {
-        "iou": np.nanmean(ious, axis=0),
-        "miou": float(mious.mean()),
-        "half": interval(mious),
-        "accuracy": float(accuracy.mean()),
-        "mious": {(result.get("fold", ""), result["seed"]): float(m) for result, m in zip(results, mious)},
+        "classes": np.nanmean(classes, axis=0),
+        "mean": float(means.mean()),
+        "half": interval(means),
+        "accuracy": float(np.mean(accuracy)),
+        "means": {(result.get("fold", ""), result["seed"]): float(m) for result, m in zip(results, means)},
     }
 
 
@@ -60,33 +66,33 @@ def _rows(summaries: dict[str, dict[str, Any]]) -> list[list[str]]:
     rows = []
     for row, s in summaries.items():
         half = "" if np.isnan(s["half"]) else f" ± {s['half']:.2f}"
-        rows.append([row, *map(number, s["iou"]), number(s["miou"]) + half, number(s["accuracy"])])
+        rows.append([row, *map(number, s["classes"]), number(s["mean"]) + half, number(s["accuracy"])])
     return rows
 
 
-def markdown(classes: list[str], summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
-    """A Markdown table with a line for every gain requested."""
-    head = ["trained on", *classes, "mIoU", "accuracy"]
+def markdown(classes: list[str], measure: str, summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
+    """A Markdown table with a line for every gain requested; `measure` is what the mean over classes is called."""
+    head = ["trained on", *classes, measure, "accuracy"]
     lines = [head, ["---"] * len(head), *_rows(summaries)]
     text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
     for better, than in compare.items():
         if better in summaries and than in summaries:
             # Folds and seeds pair the runs: the same seed begins with the same weights.
-            a, b = summaries[better]["mious"], summaries[than]["mious"]
+            a, b = summaries[better]["means"], summaries[than]["means"]
             both = [which for which in a if which in b]
             if not both:
                 continue
             apart = np.array([a[which] - b[which] for which in both])
             half = interval(apart)
-            text += f"\n{better} against {than}: {apart.mean():+.2f} mIoU" + (
+            text += f"\n{better} against {than}: {apart.mean():+.2f} {measure}" + (
                 "" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})"
             )
     return text + "\n"
 
 
-def latex(classes: list[str], summaries: dict[str, dict[str, Any]]) -> str:
+def latex(classes: list[str], measure: str, summaries: dict[str, dict[str, Any]]) -> str:
     """The same as a LaTeX tabular."""
-    head = ["Training", *classes, "mIoU", "Acc."]
+    head = ["Training", *classes, measure, "Acc."]
     lines = [" & ".join(line).replace("_", r"\_").replace("±", r"$\pm$") + r" \\" for line in [head, *_rows(summaries)]]
     body = "\n".join([lines[0], r"\hline", *lines[1:]])
     return f"\\begin{{tabular}}{{l{'r' * (len(head) - 1)}}}\n\\hline\n{body}\n\\hline\n\\end{{tabular}}\n"

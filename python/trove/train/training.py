@@ -12,40 +12,22 @@ from typing import Any
 import numpy as np
 import torch
 from torch import nn
-from torch.nn import functional as F
 
 from trove.train.average import Average
-from trove.train.confusion import iou
 from trove.train.data import Pictures, mixed_batches
+from trove.train.detection import Detection
 from trove.train.experiment import Experiment, Trial, read
 from trove.train.folds import Pool
-from trove.train.labels import IGNORED, TARGETS
+from trove.train.labels import DETECTORS, TARGETS
 from trove.train.models import classifier_of, network
-from trove.train.stock import MIDDLE, Stock, random_cuts, random_tints, tinted
+from trove.train.segmentation import Segmentation
+from trove.train.stock import Stock, class_mixed, random_classes, random_cuts, random_tints, tinted
+from trove.train.table import mean
 
 # Steps between two lines of the curve, and before a GPU's steps are recorded.
 _LINE_EVERY, _WARM_UP = 20, 5
 # Steps between two checkpoints, and seconds that lie between them at least.
 _SAVE_EVERY, _SAVE_AFTER_S = 100, 30.0
-# Images that are measured at once.
-_MEASURED = 20
-
-
-def measure(model: nn.Module, stock: Stock, size: tuple[int, int], classes: int) -> np.ndarray:
-    """Pixel counts (truth, prediction) over all images, each cut in the middle to `size` (width, height)."""
-    model.eval()
-    confusion = torch.zeros(classes * classes, dtype=torch.int64, device=stock.device)
-    with torch.no_grad(), _autocast(stock.device):
-        for start in range(0, len(stock), _MEASURED):
-            chosen = torch.arange(start, min(start + _MEASURED, len(stock)), device=stock.device)
-            cuts = torch.tensor(MIDDLE, device=stock.device).expand(len(chosen), 4)
-            rgb, truth = stock.cut(chosen, cuts, size)
-            logits = F.interpolate(model(rgb).float(), truth.shape[1:], mode="bilinear", align_corners=False)
-            counted = truth != IGNORED
-            pairs = truth[counted] * classes + logits.argmax(1)[counted]
-            confusion += torch.bincount(pairs, minlength=classes * classes)
-    counts: np.ndarray = confusion.cpu().numpy().reshape(classes, classes)
-    return counts
 
 
 def run_rows(path: Path, out: Path, threads: int, trial: Trial, rows: list[str]) -> list[dict[str, Any]]:
@@ -61,10 +43,11 @@ def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None])
 
     Finished work in `out` is not repeated, started work is resumed, and rows with the same first stage share it; a
     folder's name contains a hash of everything that went into it, so other data or settings get another folder.
-    Returns `{"row", "fold", "seed", "total", "confusion", "inner", "images", "curve", "seconds"}` for each rung:
-    `total` is its steps (0 without `total` in the file), `inner` the confusion on what choices are made by or `None`,
-    `images` how many each set has, `curve` holds (stage, step, loss), and `seconds` is the time that the whole run
-    spent on what no other row had trained.
+    Returns `{"row", "fold", "seed", "total", "outer", "inner", "images", "curve", "seconds"}` for each rung:
+    `total` is its steps (0 without `total` in the file), `outer` what is measured on what is reported and `inner` on what
+    choices are made by or `None`: pixel counts (truth, prediction) or the average precision of each class in percent.
+    `images` is how many each set has, `curve` holds (stage, step, loss), and `seconds` is the time that the whole run spent on what no
+    other row had trained.
     """
     trial, folders = experiment.trial, experiment.folders(row, out)
     name = f"{row} {trial}"
@@ -76,8 +59,8 @@ def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None])
         partial.replace(result)
     found = json.loads(result.read_text())
     rungs = found.pop("rungs")
-    mious = [f"{100 * np.nanmean(iou(np.array(rung['confusion']))):.2f}" for rung in rungs]
-    say(f"{name}: mIoU {', '.join(mious)}, {found['seconds']:.0f} s")
+    means = [f"{mean(rung['outer']):.2f}" for rung in rungs]
+    say(f"{name}: {experiment.measure} {', '.join(means)}, {found['seconds']:.0f} s")
     return [{"row": row, "fold": trial.fold, "seed": trial.seed, **rung, **found} for rung in rungs]
 
 
@@ -90,14 +73,15 @@ def _found(
     torch.backends.cudnn.benchmark = True
     trial, training = experiment.trial, experiment.training
     torch.manual_seed(trial.seed)
-    classes, began = len(TARGETS[experiment.classes]), time.perf_counter()
-    model = network(training.model, classes, training.weights).to(device)
+    began = time.perf_counter()
+    model = network(training.model, experiment.classes, training.weights).to(device)
+    task = _task(experiment, None)
     told: dict[str, list[Any]] = {"curve": [], "rungs": []}
 
     def measured(learnt: nn.Module, total: int) -> dict[str, Any]:
-        pools = {"confusion": experiment.val, "inner": experiment.inner}
+        pools = {"outer": experiment.val, "inner": experiment.inner}
         return {"total": total} | {
-            name: pool and measure(learnt, _stock(experiment, pool, device), experiment.size, classes).tolist()
+            name: pool and task.measure(learnt, _stock(experiment, pool, device), experiment.size).tolist()
             for name, pool in pools.items()
         }
 
@@ -118,6 +102,13 @@ def _found(
     told["rungs"].append(measured(model, rungs[steps]))
     images = {name: len(experiment.pools[name].samples) for _, names in folders for name in names}
     return {**told, "images": images, "seconds": time.perf_counter() - began}
+
+
+def _task(experiment: Experiment, weights: torch.Tensor | None) -> Segmentation | Detection:
+    """What networks of the experiment's model learn; `weights` are those of each class."""
+    if experiment.training.model in DETECTORS:
+        return Detection(experiment.classes)
+    return Segmentation(len(experiment.names), weights)
 
 
 def _stock(experiment: Experiment, pool: Pool, device: torch.device) -> Stock:
@@ -211,15 +202,19 @@ class _Step:
         self._cuts = torch.from_numpy(random_cuts(*draws, training.zoom, training.mirrored)).to(device)
         tints = random_tints(*draws, training.colour) if training.colour else None
         self._tints = None if tints is None else torch.from_numpy(tints).to(device)
+        classes = len(TARGETS[stage.experiment.classes])
+        weights = stock.weights(lengths, classes) if training.balanced else None
+        self._task = _task(stage.experiment, weights)
+        taken = random_classes(*draws, training.class_mix, classes) if training.class_mix else None
+        self._taken = None if taken is None else torch.from_numpy(taken).to(device)
         self._rates = torch.from_numpy(rates.astype(np.float32)).to(device)
         self.at = torch.zeros(1, dtype=torch.int64, device=device)
         self.losses = torch.zeros(steps, device=device)
-        self.optimiser = _optimiser(model, training.optimiser, training.rate, device)
-        classes = len(TARGETS[stage.experiment.classes])
-        weights = stock.weights(lengths, classes) if training.balanced else None
-        self._loss_of = nn.CrossEntropyLoss(weights, ignore_index=IGNORED)
+        self.optimiser = optimiser(model, training.optimiser, training.rate, device)
         self._recorded: Any = None
-        self._stream = torch.cuda.Stream(device) if device.type == "cuda" and stock.resident else None
+        self._stream = (
+            torch.cuda.Stream(device) if device.type == "cuda" and stock.resident and self._task.recordable else None
+        )
         self._before = _WARM_UP
 
     def __call__(self) -> None:
@@ -245,12 +240,11 @@ class _Step:
         self.optimiser.zero_grad(set_to_none=True)
         rgb, truth = self._stock.cut(self._members[self.at][0], self._cuts[self.at][0], self._size)
         if self._tints is not None:
-            rgb = tinted(rgb, self._tints[self.at][0]).contiguous(memory_format=torch.channels_last)
-        with _autocast(self._stock.device):
-            logits = self._model(rgb)
-        # As in DeepLab v2 the loss is taken at the logits' size.
-        truth = F.interpolate(truth[:, None].float(), logits.shape[-2:], mode="nearest")[:, 0].long()
-        loss = self._loss_of(logits.float(), truth)
+            rgb = tinted(rgb, self._tints[self.at][0])
+        if self._taken is not None:
+            rgb, truth = class_mixed(rgb, truth, self._taken[self.at][0])
+        rgb = rgb.contiguous(memory_format=torch.channels_last)
+        loss = self._task.loss(self._model, rgb, truth)
         loss.backward()
         for group in self.optimiser.param_groups:
             group["lr"].copy_(self._rates[self.at][0] * group["times"])
@@ -261,7 +255,7 @@ class _Step:
         self.at += 1
 
 
-def _optimiser(model: nn.Module, kind: str, rate: float, device: torch.device) -> torch.optim.Optimizer:
+def optimiser(model: nn.Module, kind: str, rate: float, device: torch.device) -> torch.optim.Optimizer:
     """AdamW that decays weights, but not biases or normalisation, or DeepLab v2's SGD; its rates are tensors."""
     if kind == "sgd":
         classifier = list(classifier_of(model).parameters())
@@ -277,16 +271,6 @@ def _optimiser(model: nn.Module, kind: str, rate: float, device: torch.device) -
     for group in groups:
         group["lr"] = torch.tensor(rate, device=device)
     return {"adamw": torch.optim.AdamW, "sgd": torch.optim.SGD}[kind](groups, fused=True, **options)
-
-
-def _autocast(device: torch.device) -> Any:
-    """bfloat16 where the device has matrix units for it; elsewhere it is slower than float32."""
-    if device.type == "cuda":
-        fast = torch.cuda.get_device_capability(device)[0] >= 8
-    else:
-        fast = getattr(torch.cpu, "_is_amx_tile_supported", lambda: False)()
-    # Every weight is used once a step, and what is kept of one step would be missing in a recorded one.
-    return torch.autocast(device.type, torch.bfloat16, enabled=fast, cache_enabled=False)
 
 
 def _save(path: Path, state: dict[str, Any]) -> None:

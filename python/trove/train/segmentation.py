@@ -1,0 +1,50 @@
+"""Training to segment: every pixel of an image has a class."""
+
+import numpy as np
+import torch
+from torch import nn
+from torch.nn import functional as F
+
+from trove.train.labels import IGNORED
+from trove.train.precision import autocast
+from trove.train.stock import MIDDLE, Stock
+
+# Images that are measured at once.
+_MEASURED = 20
+
+
+class Segmentation:
+    """The loss and the measure of networks that give logits (N, classes, h, w) of images (N, 3, H, W)."""
+
+    # Whether a GPU can record a step: all that it needs is on the device.
+    recordable = True
+
+    def __init__(self, classes: int, weights: torch.Tensor | None):
+        self._classes = classes
+        self._loss = nn.CrossEntropyLoss(weights, ignore_index=IGNORED)
+
+    def loss(self, model: nn.Module, rgb: torch.Tensor, truth: torch.Tensor) -> torch.Tensor:
+        """The mean loss over labelled pixels of images (B, 3, h, w) with labels (B, h, w)."""
+        with autocast(rgb.device):
+            logits = model(rgb)
+        # As in DeepLab v2 the loss is taken at the logits' size.
+        truth = F.interpolate(truth[:, None].float(), logits.shape[-2:], mode="nearest")[:, 0].long()
+        loss: torch.Tensor = self._loss(logits.float(), truth)
+        return loss
+
+    def measure(self, model: nn.Module, stock: Stock, size: tuple[int, int]) -> np.ndarray:
+        """Pixel counts (truth, prediction) over all images, each cut in the middle to `size` (width, height)."""
+        model.eval()
+        classes = self._classes
+        confusion = torch.zeros(classes * classes, dtype=torch.int64, device=stock.device)
+        with torch.no_grad(), autocast(stock.device):
+            for start in range(0, len(stock), _MEASURED):
+                chosen = torch.arange(start, min(start + _MEASURED, len(stock)), device=stock.device)
+                cuts = torch.tensor(MIDDLE, device=stock.device).expand(len(chosen), 4)
+                rgb, truth = stock.cut(chosen, cuts, size)
+                logits = F.interpolate(model(rgb).float(), truth.shape[1:], mode="bilinear", align_corners=False)
+                counted = truth != IGNORED
+                pairs = truth[counted] * classes + logits.argmax(1)[counted]
+                confusion += torch.bincount(pairs, minlength=classes * classes)
+        counts: np.ndarray = confusion.cpu().numpy().reshape(classes, classes)
+        return counts
