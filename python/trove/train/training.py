@@ -46,8 +46,8 @@ def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None])
     Returns `{"row", "fold", "seed", "total", "outer", "inner", "images", "curve", "seconds"}` for each rung:
     `total` is its steps (0 without `total` in the file), `outer` what is measured on what is reported and `inner` on what
     choices are made by or `None`: pixel counts (truth, prediction) or the average precision of each class in percent.
-    `images` is how many each set has, `curve` holds (stage, step, loss), and `seconds` is the time that the whole run spent on what no
-    other row had trained.
+    `images` is how many each set has, `curve` holds (stage, step, loss), and `seconds` is the time that the whole run
+    spent on what no other row had trained.
     """
     trial, folders = experiment.trial, experiment.folders(row, out)
     name = f"{row} {trial}"
@@ -76,7 +76,7 @@ def _found(
     began = time.perf_counter()
     model = network(training.model, experiment.classes, training.weights).to(device)
     task = _task(experiment, None)
-    told: dict[str, list[Any]] = {"curve": [], "rungs": []}
+    told: dict[str, list[Any]] = {"curve": [], "rungs": [], "seconds": []}
 
     def measured(learnt: nn.Module, total: int) -> dict[str, Any]:
         pools = {"outer": experiment.val, "inner": experiment.inner}
@@ -91,17 +91,20 @@ def _found(
         if trained.exists():
             state = torch.load(trained, map_location=device, weights_only=True)
             model.load_state_dict(state["model"])
-            told = state["told"]
+            told = state["told"] | {"seconds": told["seconds"]}
             continue
         folder.mkdir(parents=True, exist_ok=True)
         before = {step: total for step, total in rungs.items() if last and step < steps}
         stage = _Stage(experiment, names, number, steps, before, trial.seed * 1000 + number, folder / "checkpoint.pt")
         _train(stage, model, device, told, measured, say)
+        told["seconds"].append(time.perf_counter() - began)
+        began = time.perf_counter()
         _save(trained, {"model": model.state_dict(), "told": told})
         stage.checkpoint.unlink(missing_ok=True)
     told["rungs"].append(measured(model, rungs[steps]))
     images = {name: len(experiment.pools[name].samples) for _, names in folders for name in names}
-    return {**told, "images": images, "seconds": time.perf_counter() - began}
+    told["seconds"].append(time.perf_counter() - began)
+    return {**told, "images": images, "seconds": sum(told["seconds"])}
 
 
 def _task(experiment: Experiment, weights: torch.Tensor | None) -> Segmentation | Detection:
@@ -162,9 +165,10 @@ def _train(
         for name, part in resumed.items():
             part.load_state_dict(state[name])
         first = state["step"]
-        told.update(state["told"])
+        told.update(state["told"], seconds=[*state["told"]["seconds"], state["seconds"]])
     step.at.fill_(first)
-    line, saved = first, time.monotonic()
+    began = saved = time.perf_counter()
+    line = first
     for done in range(first + 1, steps + 1):
         step()
         if done % _LINE_EVERY == 0 or done == steps:
@@ -174,10 +178,10 @@ def _train(
             say(f"stage {stage.number + 1} on {'+'.join(names)}, step {done} of {steps}, loss {loss:.3f}")
         if average and done in stage.rungs:
             told["rungs"].append(measured(average.put_into(copy.deepcopy(model)), stage.rungs[done]))
-        if done % _SAVE_EVERY == 0 and done < steps and time.monotonic() - saved >= _SAVE_AFTER_S:
+        if done % _SAVE_EVERY == 0 and done < steps and time.perf_counter() - saved >= _SAVE_AFTER_S:
             state = {name: part.state_dict() for name, part in resumed.items()}
-            _save(checkpoint, state | {"step": done, "told": told})
-            saved = time.monotonic()
+            _save(checkpoint, state | {"step": done, "told": told, "seconds": time.perf_counter() - began})
+            saved = time.perf_counter()
     if average:
         average.put_into(model)
 
