@@ -256,7 +256,7 @@ def test_the_table_has_the_papers_form():
     rows = {r["row"]: table.summary([r, {**r, "seed": 2}]) for r in (a, b)}
     text = table.markdown(["road", "car"], "mIoU", rows, {"S+P[M]": "P"})
     assert "| P | 80.00 | 83.33 | 81.67 ± 0.00 | 90.00 |" in text
-    assert "S+P[M] against P: +18.33 mIoU" in text
+    assert text.endswith("\nS+P[M] against P: +18.33 (95 % interval +18.33 to +18.33) mIoU\n")
     assert r"S+P[M] & 100.00 & 100.00 & 100.00 $\pm$ 0.00 & 100.00 \\" in table.latex(["road", "car"], "mIoU", rows)
     assert table.curves([a, b]).count("<polyline") == 2
 

@@ -200,7 +200,14 @@ def test_gains_are_over_the_same_fold_and_seed():
     gains = np.array([b[1] - a[0], b[0] - a[1]])
     half = table.interval(gains)
     text = table.markdown(["road", "car"], "mIoU", rows, {"C+P2[M]": "P2"})
-    assert f"against P2: {gains.mean():+.2f} mIoU (95 % interval {gains.mean() - half:+.2f}" in text
+    whole = f"{gains.mean():+.2f} (95 % interval {gains.mean() - half:+.2f} to {gains.mean() + half:+.2f})"
+    told = f"C+P2[M] against P2: {whole} mIoU; with folds alone as independent {whole}: B {gains[1]:+.2f}, A {gains[0]:+.2f}"
+    assert told in text.splitlines()
+    lines = text.splitlines()
+    assert lines[-4] == "| trained on | A | B | C |" and lines[-2] == f"| P2 | {a[0]:.2f} | {a[1]:.2f} | – |"
+    # Seeds of a fold count as one.
+    apart = {("A", 1): 1.0, ("A", 2): 3.0, ("B", 1): 6.0}
+    assert table.by_fold(apart) == {"A": 2.0, "B": 6.0}
 
 
 def test_a_curve_tells_how_many_real_pictures_frames_replace():

@@ -60,18 +60,16 @@ def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _rows(summaries: dict[str, dict[str, Any]]) -> list[list[str]]:
-    def number(value: float) -> str:
-        return "–" if np.isnan(value) else f"{value:.2f}"
-
     rows = []
     for row, s in summaries.items():
         half = "" if np.isnan(s["half"]) else f" ± {s['half']:.2f}"
-        rows.append([row, *map(number, s["classes"]), number(s["mean"]) + half, number(s["accuracy"])])
+        rows.append([row, *map(_number, s["classes"]), _number(s["mean"]) + half, _number(s["accuracy"])])
     return rows
 
 
 def markdown(classes: list[str], measure: str, summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
-    """A Markdown table with a line for every gain requested; `measure` is what the mean over classes is called."""
+    """A Markdown table with a line for every gain requested, and one of the means by fold; `measure` is what the mean over
+    classes is called."""
     head = ["trained on", *classes, measure, "accuracy"]
     lines = [head, ["---"] * len(head), *_rows(summaries)]
     text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
@@ -82,12 +80,35 @@ def markdown(classes: list[str], measure: str, summaries: dict[str, dict[str, An
             both = [which for which in a if which in b]
             if not both:
                 continue
-            apart = np.array([a[which] - b[which] for which in both])
-            half = interval(apart)
-            text += f"\n{better} against {than}: {apart.mean():+.2f} {measure}" + (
-                "" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})"
-            )
+            apart = {which: a[which] - b[which] for which in both}
+            text += f"\n{better} against {than}: {_gain(np.array([*apart.values()]))} {measure}"
+            folds = by_fold(apart)
+            if len(folds) > 1:
+                text += f"; with folds alone as independent {_gain(np.array([*folds.values()]))}: "
+                text += ", ".join(f"{fold} {gain:+.2f}" for fold, gain in folds.items())
+    folds = {row: by_fold(s["means"]) for row, s in summaries.items()}
+    names = list(dict.fromkeys(fold for means in folds.values() for fold in means))
+    if len(names) > 1:
+        lines = [["trained on", *names], ["---"] * (1 + len(names))]
+        lines += [[row, *(_number(means.get(name, np.nan)) for name in names)] for row, means in folds.items()]
+        text += "\n\n" + "\n".join("| " + " | ".join(line) + " |" for line in lines)
     return text + "\n"
+
+
+def by_fold(values: dict[tuple[str, int], float]) -> dict[str, float]:
+    """The mean over seeds of each fold."""
+    folds = list(dict.fromkeys(fold for fold, _ in values))
+    return {name: float(np.mean([value for (fold, _), value in values.items() if fold == name])) for name in folds}
+
+
+def _gain(apart: np.ndarray) -> str:
+    half = interval(apart)
+    told = "" if np.isnan(half) else f" (95 % interval {apart.mean() - half:+.2f} to {apart.mean() + half:+.2f})"
+    return f"{apart.mean():+.2f}{told}"
+
+
+def _number(value: float) -> str:
+    return "–" if np.isnan(value) else f"{value:.2f}"
 
 
 def latex(classes: list[str], measure: str, summaries: dict[str, dict[str, Any]]) -> str:
