@@ -70,9 +70,7 @@ def _rows(summaries: dict[str, dict[str, Any]]) -> list[list[str]]:
 def markdown(classes: list[str], measure: str, summaries: dict[str, dict[str, Any]], compare: dict[str, str]) -> str:
     """A Markdown table with a line for every gain requested, and one of the means by fold; `measure` is what the mean over
     classes is called."""
-    head = ["trained on", *classes, measure, "accuracy"]
-    lines = [head, ["---"] * len(head), *_rows(summaries)]
-    text = "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+    text = _table(["trained on", *classes, measure, "accuracy"], _rows(summaries))
     for better, than in compare.items():
         if better in summaries and than in summaries:
             # Folds and seeds pair the runs: the same seed begins with the same weights.
@@ -86,13 +84,16 @@ def markdown(classes: list[str], measure: str, summaries: dict[str, dict[str, An
             if len(folds) > 1:
                 text += f"; with folds alone as independent {_gain(np.array([*folds.values()]))}: "
                 text += ", ".join(f"{fold} {gain:+.2f}" for fold, gain in folds.items())
-    folds = {row: by_fold(s["means"]) for row, s in summaries.items()}
-    names = list(dict.fromkeys(fold for means in folds.values() for fold in means))
+    means = {row: by_fold(s["means"]) for row, s in summaries.items()}
+    names = list(dict.fromkeys(fold for each in means.values() for fold in each))
     if len(names) > 1:
-        lines = [["trained on", *names], ["---"] * (1 + len(names))]
-        lines += [[row, *(_number(means.get(name, np.nan)) for name in names)] for row, means in folds.items()]
-        text += "\n\n" + "\n".join("| " + " | ".join(line) + " |" for line in lines)
-    return text + "\n"
+        rows = [[row, *(_number(each.get(name, np.nan)) for name in names)] for row, each in means.items()]
+        text += "\n\n" + _table(["trained on", *names], rows)
+    return text.rstrip("\n") + "\n"
+
+
+def _table(head: list[str], rows: list[list[str]]) -> str:
+    return "".join("| " + " | ".join(line) + " |\n" for line in [head, ["---"] * len(head), *rows])
 
 
 def by_fold(values: dict[tuple[str, int], float]) -> dict[str, float]:
