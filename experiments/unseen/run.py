@@ -37,6 +37,7 @@ EXPERIMENTS = {
     "camvid": Frames("camvid", "britain"),
     "idd-lite": Frames("idd-lite", "india", recolored=False),
     "camvid-small": Frames("camvid", "britain"),
+    "idd-lite-small": Frames("idd-lite", "india", recolored=False),
     "detection-small": Frames("camvid", "britain"),
     "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "sensor")),
 }
