@@ -1,7 +1,10 @@
 """`python -m trove.train`: what goes in, what comes out, and a small run on generated frames."""
 
+import contextlib
 import json
+import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -296,6 +299,39 @@ def test_a_small_network_learns_generated_frames_and_goes_on_where_it_was_stoppe
     accuracy = np.trace(whole["outer"]) / np.sum(whole["outer"])
     assert accuracy > 0.85, f"{accuracy}, {whole['curve']}"
     assert not list((tmp_path / "whole").rglob("checkpoint.pt"))
+
+
+def test_a_row_that_fails_is_told_and_the_others_are_trained(finished, experiment, tmp_path):
+    pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    text = experiment.read_text().replace("epochs = 1", "steps = 2")
+    experiment.write_text(text.replace(f'pictures = "{finished}"', 'pictures = "missing"'))
+    for jobs in (1, 2):
+        out = tmp_path / str(jobs)
+        command = [sys.executable, "-m", "trove.train", experiment, "--threads", 1, "--jobs", jobs, "--out", out]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        assert done.returncode == 1
+        (error,) = done.stderr.splitlines()
+        assert error.startswith("error: S+C+R[M], seed 1: FileNotFoundError") and "missing" in error
+        rows = [line.split("|")[1].strip() for line in done.stdout.splitlines() if line.startswith("|")]
+        assert rows == ["trained on", "---", "S", "S+R[F]"]
+
+
+def test_an_interruption_ends_all_rows_at_once(experiment, tmp_path):
+    pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    # Longer than anybody waits.
+    experiment.write_text(experiment.read_text().replace("epochs = 1", "steps = 100000"))
+    command = [sys.executable, "-m", "trove.train", experiment, "--threads", 1, "--jobs", 2, "--out", tmp_path / "out"]
+    with subprocess.Popen(
+        list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as running:
+        try:
+            assert "step" in running.stdout.readline()
+            os.killpg(running.pid, signal.SIGINT)
+            _, errors = running.communicate(timeout=60)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(running.pid, signal.SIGKILL)
+    assert running.returncode == 1 and errors.endswith("interrupted; run the same command to resume\n")
 
 
 def test_rows_trained_at_the_same_time_find_what_they_find_alone(finished, experiment, tmp_path):

@@ -1,7 +1,9 @@
 """`python -m trove.train EXPERIMENT.toml --out DIR`: trains every row of the table and writes it."""
 
 import argparse
+import signal
 import sys
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -43,19 +45,35 @@ def main() -> int:
         results: list[dict[str, Any]] = []
         train = partial(run_rows, options.experiment, options.out, options.threads)
         groups = [(trial, group) for trial in experiment.trials() for group in experiment.alike(rows)]
-        with ProcessPoolExecutor(options.jobs, get_context("spawn")) as jobs:
-            # After every group, so that an interrupted experiment has a table too.
-            for found in (jobs.map if options.jobs > 1 else map)(train, *zip(*groups)):
-                results += found
-                write(experiment, rows, results, options.out)
+        failed = False
+        # Workers end at once when interrupted, instead of taking the next rows.
+        ends = signal.signal, (signal.SIGINT, signal.SIG_DFL)
+        with ProcessPoolExecutor(options.jobs, get_context("spawn"), *ends) as jobs:
+            calls: list[Callable[[], list[dict[str, Any]]]] = [partial(train, *group) for group in groups]
+            if options.jobs > 1:
+                calls = [jobs.submit(call).result for call in calls]
+            try:
+                for (trial, group), call in zip(groups, calls):
+                    try:
+                        results += call()
+                    except Exception as error:
+                        # The others are worth having.
+                        failed = True
+                        print(f"error: {', '.join(group)}, {trial}: {type(error).__name__}: {error}", file=sys.stderr)
+                        continue
+                    # After every group, so that an interrupted experiment has a table too.
+                    write(experiment, rows, results, options.out)
+            finally:
+                jobs.shutdown(cancel_futures=True)
     except (ExperimentError, ValueError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("interrupted; run the same command to resume", file=sys.stderr)
         return 1
-    print((options.out / "table.md").read_text())
-    return 0
+    if results:
+        print((options.out / "table.md").read_text())
+    return int(failed)
 
 
 if __name__ == "__main__":
