@@ -142,6 +142,18 @@ def test_pictures_of_a_set_may_depend_on_the_fold(experiment, tmp_path):
     assert found.labels == frame / "class.png" and found.place == "place"
 
 
+def test_colours_come_from_what_is_trained_on_alone(experiment, tmp_path):
+    pool = read(experiment, Trial("B")).pools["R"]
+    folder = pool.linked(tmp_path / "targets")
+    # What was there before, of another fold or gone, does not stay.
+    (folder / "B_B_000.png").symlink_to(tmp_path / "camvid/images/train/B_000.png")
+    (folder / "A_A_000.png").unlink()
+    (folder / "A_A_001.png").unlink()
+    (folder / "A_A_001.png").symlink_to(tmp_path / "elsewhere.png")
+    pool.linked(folder)
+    assert {link.resolve() for link in folder.iterdir()} == {sample.picture.resolve() for sample in pool.samples}
+
+
 @pytest.mark.parametrize(
     ("change", "expected"),
     [

@@ -13,12 +13,10 @@ import torch
 from torch import nn
 
 from trove.train.labels import DETECTED, TARGETS
-from trove.train.stock import MIDDLE, Stock
+from trove.train.stock import Stock
 
 # Parts that are narrower or lower than so many pixels have no box.
 LEAST_PX = 6
-# Images that are measured at once.
-_MEASURED = 20
 
 
 def detector(classes: str) -> nn.Module:
@@ -70,10 +68,7 @@ class Detection:
         model.eval()
         truths, found = [], []
         with torch.no_grad():
-            for start in range(0, len(stock), _MEASURED):
-                chosen = torch.arange(start, min(start + _MEASURED, len(stock)), device=stock.device)
-                cuts = torch.tensor(MIDDLE, device=stock.device).expand(len(chosen), 4)
-                rgb, truth = stock.cut(chosen, cuts, size)
+            for rgb, truth in stock.whole(size):
                 truths += [boxes_of(ids, self._classes) for ids in truth.cpu().numpy()]
                 for one in model(list(rgb)):
                     boxes, kinds, scores = (one[name].cpu().numpy() for name in ("boxes", "labels", "scores"))

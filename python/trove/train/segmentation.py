@@ -7,10 +7,7 @@ from torch.nn import functional as F
 
 from trove.train.labels import IGNORED
 from trove.train.precision import autocast
-from trove.train.stock import MIDDLE, Stock
-
-# Images that are measured at once.
-_MEASURED = 20
+from trove.train.stock import Stock
 
 
 class Segmentation:
@@ -38,10 +35,7 @@ class Segmentation:
         classes = self._classes
         confusion = torch.zeros(classes * classes, dtype=torch.int64, device=stock.device)
         with torch.no_grad(), autocast(stock.device):
-            for start in range(0, len(stock), _MEASURED):
-                chosen = torch.arange(start, min(start + _MEASURED, len(stock)), device=stock.device)
-                cuts = torch.tensor(MIDDLE, device=stock.device).expand(len(chosen), 4)
-                rgb, truth = stock.cut(chosen, cuts, size)
+            for rgb, truth in stock.whole(size):
                 logits = F.interpolate(model(rgb).float(), truth.shape[1:], mode="bilinear", align_corners=False)
                 counted = truth != IGNORED
                 pairs = truth[counted] * classes + logits.argmax(1)[counted]

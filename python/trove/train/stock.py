@@ -1,5 +1,7 @@
 """Images and labels where the network is: on a GPU they are sent there once and cut there."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import torch
 from torch.nn import functional as F
@@ -9,8 +11,8 @@ from trove.train.labels import IGNORED
 
 # The cut that shows as much of an image as there is: its zoom, where it lies from 0 to 1, and whether it is mirrored.
 MIDDLE = (1.0, 0.5, 0.5, 0.0)
-# Images whose labels are counted at once.
-_COUNTED = 64
+# Images whose labels are counted at once, and those that are measured at once.
+_COUNTED, _MEASURED = 64, 20
 
 
 class Stock:
@@ -60,6 +62,12 @@ class Stock:
         )
         ids = F.grid_sample(labels[:, None].float(), grid, "nearest", padding_mode="border", align_corners=False)
         return (rgb / 255).contiguous(memory_format=torch.channels_last), ids[:, 0].long()
+
+    def whole(self, size: tuple[int, int]) -> Iterator[tuple[torch.Tensor, torch.Tensor]]:
+        """All images in turn, some at once, as `cut` gives them: each cut in the middle, as large as it can be."""
+        for start in range(0, len(self), _MEASURED):
+            chosen = torch.arange(start, min(start + _MEASURED, len(self)), device=self.device)
+            yield self.cut(chosen, torch.tensor(MIDDLE, device=self.device).expand(len(chosen), 4), size)
 
     def weights(self, lengths: list[int], classes: int) -> torch.Tensor:
         """1 / ln(1.02 + p) for every class with a share p of the pixels (Paszke et al. 2016), each set weighted equally.
