@@ -63,6 +63,30 @@ def test_average_precision_is_that_of_its_definition():
     assert detection.average_precision(truths, [nothing] * 2, 2).tolist() == [0, 0]
 
 
+def test_classes_of_a_detector_count_from_one():
+    import torch
+
+    ids = torch.full((1, 40, 60), labels.CAMVID.index("road"))
+    ids[:, 10:20, 5:25], ids[:, 30:38, 40:50] = (labels.CAMVID.index(name) for name in ("car", "bicyclist"))
+    boxes = torch.tensor([[5.0, 10, 25, 20], [40, 30, 50, 38]])
+
+    class Knows(torch.nn.Module):
+        def forward(self, images, targets=None):
+            if targets is None:
+                return [{"boxes": boxes, "labels": torch.tensor([1, 3]), "scores": torch.ones(2)} for _ in images]
+            assert targets[0]["boxes"].tolist() == boxes.tolist() and targets[0]["labels"].tolist() == [1, 3]
+            return {"classes": torch.tensor(2.0), "boxes": torch.tensor(1.0)}
+
+    class One:
+        def whole(self, size):
+            yield torch.zeros(1, 3, 40, 60), ids
+
+    task = detection.Detection("camvid")
+    assert task.loss(Knows(), torch.zeros(1, 3, 40, 60), ids).item() == 3
+    vehicle, person, cyclist = task.measure(Knows(), One(), (60, 40))
+    assert vehicle == cyclist == pytest.approx(100) and np.isnan(person)
+
+
 def test_every_target_s_detected_classes_are_its_own():
     for target, kinds in labels.DETECTED.items():
         assert all(name in labels.TARGETS[target] for names in kinds.values() for name in names)
