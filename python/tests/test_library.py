@@ -309,8 +309,10 @@ def test_judging_commands_answer_what_they_print(finished, tmp_path):
     assert curation["kept"] == 3 and told[-1][0] == told[-1][1] == len(library.open(finished))
     chosen = library.open(finished, curated=tmp_path / "list.json")
     assert len(chosen) == curation["train"] + curation["val"]
-    recoloring = library.recolor(finished, finished, out=tmp_path / "recolored", strength=0.5)
+    recoloring = library.recolor(finished, finished, out=tmp_path / "recolored", strength=0.5, detail=True)
     assert recoloring["pictures"] == len(library.open(finished)) and (tmp_path / "recolored/before_after.png").exists()
+    # Towards itself nothing becomes sharper than 8 bits leave it.
+    assert recoloring["after"]["sharpness"] == pytest.approx(recoloring["before"]["sharpness"], rel=0.02)
 
 
 def test_every_option_of_a_command_is_one_of_its_function():

@@ -193,10 +193,12 @@ def test_what_recolouring_did_is_shown(finished, tmp_path, shown):
     found = json.loads(ran("recolor", *args, "--page", tmp_path / "page.html", "--json"))
     page = shown(tmp_path / "page.html")
     assert f"{found['pictures']} images, towards the colours of 3 in photos" in page.text
-    signed = [[f"{m:.1f} ± {d:.1f}" for m, d in zip(side["mean"], side["deviation"])] for side in
-              (found["before"], found["target"], found["after"])]  # fmt: skip
+    told = [
+        [*(f"{m:.1f} ± {d:.1f}" for m, d in zip(s["mean"], s["deviation"])), "{:.2f}, {:.2f}".format(*s["sharpness"])]
+        for s in (found["before"], found["target"], found["after"])
+    ]
     rows = page.rows("Colours of all pixels")
-    assert [row[1:] for row in rows] == signed and [row[0] for row in rows] == ["before", "target", "after"]
+    assert [row[1:] for row in rows] == told and [row[0] for row in rows] == ["before", "target", "after"]
     classes = {row[0]: row for row in page.rows("Mean colours by class")}
     assert "road" in classes and sum(float(row[1]) for row in classes.values()) == pytest.approx(100, abs=0.2)
     pixels = [np.array(Image.open(path)) for path in sorted(finished.rglob("class.png"))]

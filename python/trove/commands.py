@@ -221,6 +221,7 @@ def recolor(
     method: str = "set",
     space: str = "lab",
     strength: float = 0.75,
+    detail: bool = False,
     to_labels: AnyPath | None = None,
     to_classes: AnyPath = "trove20",
     page: AnyPath | None = None,
@@ -228,6 +229,7 @@ def recolor(
 ) -> Recoloring:
     """Matches the colours of the images below `folder` to those below `to` and writes them below `out`.
 
+    With `detail` they become as sharp, too.
     `page` gets a page with images before and after, mean colours by class, and histograms.
     """
     recoloring: Recoloring = _run(
@@ -239,6 +241,7 @@ def recolor(
         method=method,
         space=space,
         strength=strength,
+        detail=detail,
         to_labels=to_labels,
         to_classes=to_classes,
         page=page,

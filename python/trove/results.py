@@ -128,10 +128,14 @@ class Curation(TypedDict):
 
 
 class ColorStatistics(TypedDict):
-    """Mean and standard deviation of the three channels."""
+    """Mean and standard deviation of the three channels, and how strong fine detail is in coarser detail's amplitude.
+
+    `sharpness` is of periods of 2 to 4 and 4 to 8 pixels beside 8 to 16, `None` for images that show nothing.
+    """
 
     mean: list[float]
     deviation: list[float]
+    sharpness: list[float] | None
 
 
 class Recoloring(TypedDict):

@@ -1,6 +1,7 @@
 //! Pictures in the colours of others: Reinhard, Ashikhmin, Gooch and Shirley 2001 (Color Transfer between Images), with
-//! the paper's blend of both sides' means and deviations, or histograms matched class by class.
+//! the paper's blend of both sides' means and deviations, or histograms matched class by class; also as sharp as others.
 
+mod detail;
 mod histogram;
 mod output;
 mod report;
@@ -15,6 +16,8 @@ use trove_model::{Class, ClassMap, Seed};
 
 use crate::JudgeError;
 use crate::pictures::{OnProgress, by_key, each, label_files, photographs, read, read_labels};
+pub use detail::Detail;
+use detail::sharpen;
 pub use histogram::{Histograms, Matching};
 use output::{Identity, OutputFolder};
 pub use report::report;
@@ -45,6 +48,8 @@ pub struct Settings {
     pub space: Space,
     /// How far towards the target, 0 (not at all) to 1 (as in Reinhard et al.).
     pub strength: f32,
+    /// Whether pictures also become as sharp as the target's.
+    pub detail: bool,
     /// Label pictures of the target, for histograms, and their numbering.
     pub target_labels: Option<(PathBuf, ClassMap)>,
 }
@@ -57,7 +62,33 @@ pub struct Recoloring {
     /// How many of them were there before.
     pub kept: usize,
     /// Of the pictures before, those of the target, and of the pictures as they were written, in the space.
-    pub statistics: [Statistics; 3],
+    pub measures: [Measures; 3],
+}
+
+/// What is measured of pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measures {
+    /// Their colours.
+    pub colors: Statistics,
+    /// How sharp they are.
+    pub detail: Detail,
+}
+
+impl Measures {
+    /// Of a picture's pixels, row by row.
+    fn of(pixels: &[[f32; 3]], width: u32) -> Self {
+        Self { colors: Statistics::of(pixels), detail: Detail::of(pixels, width as usize) }
+    }
+
+    /// Of all of them together.
+    fn joined<'a>(all: impl Iterator<Item = &'a Self>) -> Self {
+        let mut sum = Self::default();
+        for one in all {
+            sum.colors.join(&one.colors);
+            sum.detail.join(&one.detail);
+        }
+        sum
+    }
 }
 
 /// Colours of 8-bit pictures: one value more than a code apart would be seen, so deviations of nothing are not divided by.
@@ -82,10 +113,10 @@ pub fn recolor(
     // Targets are read for their statistics, sources too unless each is its own measure, and every source to be moved.
     let passes = if matches!(settings.method, Method::PerPicture | Method::Paired) { 1 } else { 2 };
     let steps = targets.len() + passes * sources.len();
-    let singly = picture_statistics(&targets, settings.space, &|done, _| progress(done, steps))?;
-    let wanted = joined(singly.iter());
+    let singly = measured(&targets, settings.space, &|done, _| progress(done, steps))?;
+    let wanted = Measures::joined(singly.iter());
     let after_targets = |done: usize, _: usize| progress(targets.len() + done, steps);
-    let whole = || set_statistics(&sources, settings.space, &after_targets);
+    let whole = || Ok::<_, JudgeError>(Measures::joined(measured(&sources, settings.space, &after_targets)?.iter()));
     let (before, towards, counted) = match (settings.method, &settings.target_labels) {
         (Method::PerPicture, _) => (None, Towards::All(wanted), None),
         (Method::Paired, _) => (None, Towards::Drawn(singly), None),
@@ -94,7 +125,7 @@ pub fn recolor(
             let before = whole()?;
             let own = histograms(&with_own_labels(&sources)?, Some(set))?;
             let target = histograms(&with_labels(target, &targets, folder, set)?, None)?;
-            (Some(before), Towards::Classes(own.towards(&target), set), Some([own.pixels(), target.pixels()]))
+            (Some(before), Towards::Classes(own.towards(&target), set, wanted), Some([own.pixels(), target.pixels()]))
         }
         (Method::HistogramPerClass, None) => {
             return Err(JudgeError::unexpected(target, "labels for histograms by class", "none", "name their folder"));
@@ -102,11 +133,12 @@ pub fn recolor(
     };
     let identity = Identity {
         classes: counted,
+        detail: settings.detail.then(|| format!("{:?}", wanted.detail)),
         method: format!("{:?}", settings.method),
-        source: before.map(|s| format!("{s:?}")),
+        source: before.map(|s| format!("{:?}", s.colors)),
         space: format!("{:?}", settings.space),
         strength: settings.strength.into(),
-        target: format!("{wanted:?}"),
+        target: format!("{:?}", wanted.colors),
     };
     let output = OutputFolder::open(out, &identity.text())?;
     let recolored = |path: &PathBuf| {
@@ -114,15 +146,15 @@ pub fn recolor(
         let written = || read(&output.path(below)).map(|picture| picture.into_rgb8());
         let kept = output.finished(below, path);
         if kept && let Some(before) = before {
-            return Ok((kept, before, Statistics::of(&in_space(&written()?, settings.space))));
+            return Ok((kept, before, measures(&written()?, settings.space)));
         }
         let picture = read(path)?.into_rgb8();
         let mut pixels = in_space(&picture, settings.space);
-        let own = before.unwrap_or_else(|| Statistics::of(&pixels));
+        let own = before.unwrap_or_else(|| Measures::of(&pixels, picture.width()));
         let after = if kept {
             written()?
         } else {
-            towards.apply(&mut pixels, &own, settings.strength, (path, below, &picture))?;
+            towards.apply(&mut pixels, &own, settings, (path, below, &picture))?;
             let (width, height) = picture.dimensions();
             let codes = RgbImage::from_fn(width, height, |x, y| {
                 image::Rgb(settings.space.to_srgb(pixels[(y * width + x) as usize]))
@@ -130,52 +162,57 @@ pub fn recolor(
             output.write(below, &encoded(path, &codes)?)?;
             codes
         };
-        Ok((kept, own, Statistics::of(&in_space(&after, settings.space))))
+        Ok((kept, own, measures(&after, settings.space)))
     };
     let last = |done: usize, _: usize| progress(steps - sources.len() + done, steps);
-    let done: Vec<(bool, Statistics, Statistics)> = each(&sources, &last, recolored)?;
+    let done: Vec<(bool, Measures, Measures)> = each(&sources, &last, recolored)?;
     let below = |path: &PathBuf| output.path(path.strip_prefix(source).unwrap_or(path));
     Ok(Recoloring {
         kept: done.iter().filter(|row| row.0).count(),
-        statistics: [
-            before.unwrap_or_else(|| joined(done.iter().map(|row| &row.1))),
+        measures: [
+            before.unwrap_or_else(|| Measures::joined(done.iter().map(|row| &row.1))),
             wanted,
-            joined(done.iter().map(|row| &row.2)),
+            Measures::joined(done.iter().map(|row| &row.2)),
         ],
         pictures: sources.iter().map(|path| (below(path), path.clone())).collect(),
     })
 }
 
-/// What colours are moved towards.
+/// What pictures are moved towards.
 enum Towards<'a> {
-    /// The statistics of all of the target.
-    All(Statistics),
+    /// The measures of all of the target.
+    All(Measures),
     /// Those of one of its pictures.
-    Drawn(Vec<Statistics>),
-    /// Histograms by class, in the numbers of a set.
-    Classes(Matching, &'a ClassMap),
+    Drawn(Vec<Measures>),
+    /// Histograms by class, in the numbers of a set; in detail the measures of all.
+    Classes(Matching, &'a ClassMap, Measures),
 }
 
 impl Towards<'_> {
-    /// Moves a picture's pixels, whose statistics to move from are `own`; it lies at a path, and `below` the source.
+    /// Moves a picture's pixels, whose measures to move from are `own`; it lies at a path, and `below` the source.
     fn apply(
         &self,
         pixels: &mut [[f32; 3]],
-        own: &Statistics,
-        strength: f32,
+        own: &Measures,
+        settings: &Settings,
         (path, below, picture): (&Path, &Path, &RgbImage),
     ) -> Result<(), JudgeError> {
+        let strength = settings.strength;
+        let wanted = match self {
+            Self::All(wanted) | Self::Classes(_, _, wanted) => wanted,
+            Self::Drawn(singly) => &singly[drawn(below, singly.len())],
+        };
         match self {
-            Self::All(wanted) => move_towards(pixels, own, wanted, strength),
-            Self::Drawn(singly) => {
-                move_towards(pixels, own, &singly[drawn(below, singly.len())], strength);
-            }
-            Self::Classes(matching, set) => {
+            Self::All(_) | Self::Drawn(_) => move_towards(pixels, &own.colors, &wanted.colors, strength),
+            Self::Classes(matching, set, _) => {
                 for (pixel, class) in pixels.iter_mut().zip(own_classes(path, picture, set)?) {
                     let matched = matching.apply(*pixel, class);
                     *pixel = std::array::from_fn(|c| pixel[c] + strength * (matched[c] - pixel[c]));
                 }
             }
+        }
+        if settings.detail {
+            sharpen(pixels, picture.width() as usize, &own.detail, &wanted.detail, strength);
         }
         Ok(())
     }
@@ -217,19 +254,13 @@ fn in_space(picture: &RgbImage, space: Space) -> Vec<[f32; 3]> {
     picture.pixels().map(|pixel| space.from_srgb(pixel.0)).collect()
 }
 
-fn set_statistics(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Statistics, JudgeError> {
-    Ok(joined(picture_statistics(paths, space, progress)?.iter()))
+fn measures(picture: &RgbImage, space: Space) -> Measures {
+    Measures::of(&in_space(picture, space), picture.width())
 }
 
 /// Of every picture alone.
-fn picture_statistics(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Vec<Statistics>, JudgeError> {
-    each(paths, progress, |path| Ok(Statistics::of(&in_space(&read(path)?.into_rgb8(), space))))
-}
-
-fn joined<'a>(all: impl Iterator<Item = &'a Statistics>) -> Statistics {
-    let mut sum = Statistics::default();
-    all.for_each(|one| sum.join(one));
-    sum
+fn measured(paths: &[PathBuf], space: Space, progress: OnProgress) -> Result<Vec<Measures>, JudgeError> {
+    each(paths, progress, |path| Ok(measures(&read(path)?.into_rgb8(), space)))
 }
 
 /// Histograms by class: of labels in our own classes as numbers of a set, of others as they are.

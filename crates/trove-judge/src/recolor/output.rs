@@ -17,6 +17,9 @@ const PRIVATE: &str = ".trove";
 pub(super) struct Identity {
     /// Pixels by class id, of the source and the target, for histograms.
     pub(super) classes: Option<[BTreeMap<u8, u64>; 2]>,
+    /// How sharp the target is, where pictures become so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) detail: Option<String>,
     pub(super) method: String,
     /// Statistics of the whole source, where they count.
     pub(super) source: Option<String>,

@@ -8,7 +8,7 @@ use trove_model::ClassMap;
 use super::histogram::{Histograms, value};
 use super::space::Space;
 use super::statistics::Statistics;
-use super::{Method, Recoloring, Settings, drawn, ids, in_space, own_classes, own_labels, with_labels};
+use super::{Measures, Method, Recoloring, Settings, drawn, ids, in_space, own_classes, own_labels, with_labels};
 use crate::JudgeError;
 use crate::page::plots::{Plot, curves};
 use crate::page::{Cell, Column, Figure, Page, Picture, Table};
@@ -39,8 +39,9 @@ pub fn report(source: &Path, target: &Path, settings: &Settings, done: &Recolori
         Method::PerSet => "mean and deviation of the whole set",
         Method::HistogramPerClass => "histograms class by class",
     };
+    let detail = if settings.detail { ", and sharpness" } else { "" };
     page.text(&format!(
-        "{} images, towards the colours of {} in {}: {method}, with strength {}.",
+        "{} images, towards the colours of {} in {}: {method}{detail}, with strength {}.",
         done.pictures.len(),
         targets.len(),
         title(target),
@@ -49,12 +50,18 @@ pub fn report(source: &Path, target: &Path, settings: &Settings, done: &Recolori
     let space = settings.space;
     page.section("Colours of all pixels");
     page.text(&format!("Mean ± standard deviation; the patch has the mean colour. {}", told(space)));
-    let mut table = Table::new([Column::words("side")].into_iter().chain(channels(space).map(Column::numbers)));
-    for ((_, name), statistics) in SIDES.iter().zip([0, 1, 2].map(|side| &done.statistics[side])) {
-        let (mean, deviation) = (statistics.mean(), statistics.deviation());
+    page.text(
+        "Sharpness is how strong details of 2 to 4 and of 4 to 8 pixels are beside those of 8 to 16, in lightness.",
+    );
+    let columns = channels(space).into_iter().chain(["sharpness"]).map(Column::numbers);
+    let mut table = Table::new([Column::words("side")].into_iter().chain(columns));
+    for ((_, name), Measures { colors, detail }) in SIDES.iter().zip(&done.measures) {
+        let (mean, deviation) = (colors.mean(), colors.deviation());
         let cells =
             [0, 1, 2].map(|c| Cell::from(format!("{} ± {}", number(mean[c], space), number(deviation[c], space))));
-        table.row([Cell::colored(*name, color(mean, space))].into_iter().chain(cells));
+        let sharpness = detail.sharpness().map(|octaves| octaves.map(|octave| format!("{octave:.2}")).join(", "));
+        let sharpness = Cell::from(sharpness.unwrap_or_default());
+        table.row([Cell::colored(*name, color(mean, space))].into_iter().chain(cells).chain([sharpness]));
     }
     page.table("Colours of all pixels", &table);
 

@@ -6,16 +6,16 @@ use trove_model::Seed;
 use super::*;
 
 fn settings(method: Method, strength: f32) -> Settings {
-    Settings { method, space: Space::Lab, strength, target_labels: None }
+    Settings { method, space: Space::Lab, strength, detail: false, target_labels: None }
 }
 
 fn run(source: &Path, target: &Path, out: &Path, settings: &Settings) -> Result<Recoloring, JudgeError> {
     recolor(source, target, out, settings, &|_, _| true)
 }
 
-/// Statistics of what lies in a folder.
-fn statistics(folder: &Path, space: Space) -> Statistics {
-    set_statistics(&photographs(folder).unwrap(), space, &|_, _| true).unwrap()
+/// Measures of what lies in a folder.
+fn measures_below(folder: &Path, space: Space) -> Measures {
+    Measures::joined(measured(&photographs(folder).unwrap(), space, &|_, _| true).unwrap().iter())
 }
 
 /// A picture whose three channels in a space are independent Gaussians, up to 8-bit codes.
@@ -41,7 +41,7 @@ fn pairs_are_as_different_as_the_targets_pictures() {
     }
     let out = folder.path().join("out");
     let done = run(&s, &t, &out, &settings(Method::Paired, 1.0)).unwrap();
-    let lightness = |path: &PathBuf| statistics(path.parent().unwrap(), Space::Lab).mean()[0];
+    let lightness = |path: &PathBuf| measures_below(path.parent().unwrap(), Space::Lab).colors.mean()[0];
     let mut found: Vec<f64> = done.pictures.iter().map(|(after, _)| lightness(after)).collect();
     found.sort_by(f64::total_cmp);
     assert!(found.iter().all(|l| (l - 30.0).abs() < 0.5 || (l - 70.0).abs() < 0.5), "{found:?}");
@@ -63,8 +63,9 @@ fn a_gaussian_becomes_the_gaussian_of_the_target_up_to_rounding() {
         for (method, strength) in [(Method::PerSet, 1.0), (Method::PerSet, 0.5), (Method::PerPicture, 1.0)] {
             let out = folder.path().join(format!("{method:?}{strength}"));
             let asked = Settings { space, ..settings(method, strength) };
-            let [before, target, after] = run(&s, &t, &out, &asked).unwrap().statistics;
-            assert_eq!(after, statistics(&out, space), "told is what was written");
+            let measures = run(&s, &t, &out, &asked).unwrap().measures;
+            assert_eq!(measures[2], measures_below(&out, space), "told is what was written");
+            let [before, target, after] = measures.map(|measures| measures.colors);
             for c in 0..3 {
                 let blend = |a: f64, b: f64| a + f64::from(strength) * (b - a);
                 let mean = blend(before.mean()[c], target.mean()[c]);
@@ -76,6 +77,53 @@ fn a_gaussian_becomes_the_gaussian_of_the_target_up_to_rounding() {
                     after.deviation()[c]
                 );
             }
+        }
+    }
+}
+
+/// Noise of so much contrast that is smoothed so many times, so that its fine detail is gone.
+fn noise(path: &Path, contrast: f32, smoothings: usize, seed: u64) {
+    let mut random = Seed(seed).random();
+    let mut image =
+        RgbImage::from_fn(160, 120, |_, _| image::Rgb([(128.0 + contrast * (random.unit() as f32 - 0.5)) as u8; 3]));
+    for _ in 0..smoothings {
+        image = image::imageops::blur(&image, 0.6);
+    }
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    image.save(path).unwrap();
+}
+
+#[test]
+fn detail_becomes_as_sharp_as_the_targets_by_every_method_and_colors_as_without() {
+    let folder = tempfile::tempdir().unwrap();
+    let [s, t] = ["s", "t"].map(|name| folder.path().join(name));
+    for i in 0..4u64 {
+        noise(&s.join(format!("{i}/rgb.png")), 100.0, 1, i);
+        // The target's have another contrast; half of them are sharper, the others softer.
+        noise(&t.join(format!("{i}.png")), 150.0, i as usize % 2 * 2, 10 + i);
+    }
+    for method in [Method::PerSet, Method::PerPicture, Method::Paired] {
+        let [plain, sharp] = [false, true].map(|detail| {
+            let out = folder.path().join(format!("{method:?}{detail}"));
+            run(&s, &t, &out, &Settings { detail, ..settings(method, 1.0) }).unwrap()
+        });
+        let finest = |measures: &Measures| measures.detail.sharpness().unwrap()[0];
+        let [before, target, after] = sharp.measures.map(|measures| finest(&measures));
+        assert!(
+            (before / target - 1.0).abs() > 0.3 && (finest(&plain.measures[2]) / before - 1.0).abs() < 0.05,
+            "{method:?}"
+        );
+        let colors = [&plain, &sharp].map(|done| done.measures[2].colors.mean()[0]);
+        assert!((colors[0] - colors[1]).abs() < 0.3, "{method:?}: {colors:?}");
+        if method != Method::Paired {
+            assert!((after / target - 1.0).abs() < 0.12, "{method:?}: {before} {target} {after}");
+            continue;
+        }
+        // Each is as sharp as the one that it is drawn towards.
+        for (path, from) in &sharp.pictures {
+            let towards = t.join(format!("{}.png", drawn(from.strip_prefix(&s).unwrap(), 4)));
+            let of = |path: &Path| finest(&measures(&read(path).unwrap().into_rgb8(), Space::Lab));
+            assert!((of(path) / of(&towards) - 1.0).abs() < 0.12, "{}: {} {}", path.display(), of(path), of(&towards));
         }
     }
 }
@@ -101,13 +149,15 @@ fn a_second_run_keeps_what_stands_and_another_target_is_refused() {
     let bytes = || ["a", "b", "c"].map(|name| std::fs::read(out.join(name).join("rgb.png")).unwrap());
     let first = bytes();
     let again = run(&s, &t, &out, &asked).unwrap();
-    assert_eq!((again.kept, again.statistics, bytes()), (3, done.statistics, first));
+    assert_eq!((again.kept, again.measures, bytes()), (3, done.measures, first));
     // A source that was made anew is recoloured anew.
     let later = SystemTime::now() + Duration::from_secs(60);
     File::options().append(true).open(s.join("b/rgb.png")).unwrap().set_modified(later).unwrap();
     assert_eq!(run(&s, &t, &out, &asked).unwrap().kept, 2);
     let stronger = run(&s, &t, &out, &settings(Method::PerPicture, 0.5)).unwrap_err().to_string();
     assert!(stronger.contains("strength") && stronger.contains("another --out"), "{stronger}");
+    let sharper = run(&s, &t, &out, &Settings { detail: true, ..asked.clone() }).unwrap_err().to_string();
+    assert!(sharper.contains("detail") && sharper.contains("another --out"), "{sharper}");
     assert!(run(&s, &t, &s.join("within"), &asked).unwrap_err().to_string().contains("outside"));
     assert!(run(&s, &t, &t, &asked).unwrap_err().to_string().contains("outside"));
     let foreign = folder.path().join("f");

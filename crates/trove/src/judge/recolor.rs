@@ -1,11 +1,11 @@
-//! `trove recolor`: pictures in the colours of others.
+//! `trove recolor`: pictures in the colours of others, and as sharp.
 
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use trove_judge::recolor::{Method, Recoloring, Settings, Space, Statistics, recolor, report};
+use trove_judge::recolor::{Measures, Method, Recoloring, Settings, Space, recolor, report};
 use trove_model::Raster;
 use trove_write::{write_atomically, write_sheet};
 
@@ -41,6 +41,9 @@ pub(crate) struct Recolor {
     /// Strength, from 0 (no change) to 1 (full match).
     #[arg(long, default_value_t = 0.75, value_parser = share_f32)]
     strength: f32,
+    /// Match sharpness too: how strong fine detail is beside coarser detail.
+    #[arg(long)]
+    detail: bool,
     /// Labels of IMAGES under the same names, for `--method classes`, and for classes on the page.
     #[arg(long, value_name = "LABELS", required_if_eq("method", "classes"))]
     to_labels: Option<PathBuf>,
@@ -91,6 +94,7 @@ impl Recolor {
                 SpaceName::LAlphaBeta => Space::LAlphaBeta,
             },
             strength: self.strength,
+            detail: self.detail,
             target_labels: match &self.to_labels {
                 Some(labels) => Some((labels.clone(), self.to_classes.read()?)),
                 None => None,
@@ -103,23 +107,30 @@ impl Recolor {
         if let Some(page) = &self.page {
             write_atomically(page, report(&self.dir, &self.to, &settings, &done)?.as_bytes())?;
         }
-        let statistics = |s: &Statistics| json!({ "mean": s.mean(), "deviation": s.deviation() });
-        let [before, target, after] = &done.statistics;
+        let told = |m: &Measures| {
+            let sharpness = m.detail.sharpness();
+            json!({ "mean": m.colors.mean(), "deviation": m.colors.deviation(), "sharpness": sharpness })
+        };
+        let [before, target, after] = &done.measures;
         let json = json!({
             "out": out.to_string_lossy(),
             "pictures": done.pictures.len(),
             "kept": done.kept,
-            "before": statistics(before),
-            "target": statistics(target),
-            "after": statistics(after),
+            "before": told(before),
+            "target": told(target),
+            "after": told(after),
             "page": sheet.to_string_lossy(),
         });
         let shown = self.page.clone().unwrap_or(sheet);
         Ok(Answer::new(self.json, json, move || {
             let new = done.pictures.len() - done.kept;
-            println!("{} images, {new} of them new; means and deviations of the three channels:", done.pictures.len());
-            for (name, s) in ["before", "target", "after"].iter().zip(&done.statistics) {
-                println!("  {name:7} {:8.2?} ± {:6.2?}", s.mean(), s.deviation());
+            println!(
+                "{} images, {new} of them new; means and deviations of the three channels, and sharpness:",
+                done.pictures.len()
+            );
+            for (name, Measures { colors, detail }) in ["before", "target", "after"].iter().zip(&done.measures) {
+                let sharpness = detail.sharpness().unwrap_or_default();
+                println!("  {name:7} {:8.2?} ± {:6.2?}  {sharpness:4.2?}", colors.mean(), colors.deviation());
             }
             println!("see {}", shown.display());
         }))
