@@ -39,16 +39,17 @@ EXPERIMENTS = {
     "camvid-small": Frames("camvid", "britain"),
     "idd-lite-small": Frames("idd-lite", "india", recolored=False),
     "detection-small": Frames("camvid", "britain"),
-    "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "sensor")),
+    "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "textures", "sensor")),
 }
 
 
 def changed(recipes: Path, change: str) -> Path:
-    """A folder of recipes like those in `recipes`, with what `changes/CHANGE.toml` has in their place."""
+    """A folder of recipes like those in `recipes`, with what `changes/none.toml` and `changes/CHANGE.toml` say."""
     folder = OUT / "recipes" / f"{recipes.name}-{change}"
     folder.mkdir(parents=True, exist_ok=True)
     link(OUT / "recipes/data", HERE / "data")
-    changes = tomllib.loads((HERE / f"changes/{change}.toml").read_text())
+    changes, own = (tomllib.loads((HERE / f"changes/{name}.toml").read_text()) for name in ("none", change))
+    changes = merged(changes, own)
     for path in recipes.glob("*.toml"):
         if path.stem == "camera":
             shutil.copy(path, folder)

@@ -131,12 +131,36 @@ def test_the_virtual_scene_is_a_binary_gltf(recipe, tmp_path):
     report = json.loads(done.stdout)
     data = (tmp_path / "scene.glb").read_bytes()
     assert data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data) == report["bytes"]
+    root = gltf(data)
     picture = check_output.exr(sky)
     assert picture.shape[1] == 2 * picture.shape[0] and picture[0].mean() > 0
-    root = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     assert {camera["name"] for camera in root["cameras"]} >= {"ego.CAM_FRONT", "ego.CAM_BACK"}
     assert root["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] == "directional"
     assert "map.path_to_road_median_m" in report["report"]["measurements"]
+
+
+def gltf(data):
+    """The JSON of a binary glTF file."""
+    return json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+
+
+def test_without_textures_a_scene_has_its_outlines_alone(recipe, tmp_path):
+    flat = tmp_path / "flat.toml"
+    flat.write_text(recipe.read_text() + "[assets]\ntextures = false\n")
+    roots = []
+    for path in (recipe, flat):
+        done = trove("build", path, "--out", tmp_path / "scene.glb")
+        assert done.returncode == 0, done.stderr
+        roots.append(gltf((tmp_path / "scene.glb").read_bytes()))
+    textured, plain = roots
+    assert plain["nodes"] == textured["nodes"] and len(plain["materials"]) == len(textured["materials"])
+    pairs = list(zip(textured["materials"], plain["materials"]))
+    assert any("normalTexture" in before for before, _ in pairs)
+    for before, after in pairs:
+        shades = after["pbrMetallicRoughness"]
+        is_cut_out = before.get("alphaMode") == "MASK"
+        assert after["name"] == before["name"] and ("baseColorTexture" in shades) <= is_cut_out
+        assert not {"normalTexture", "emissiveTexture"} & set(after) and "metallicRoughnessTexture" not in shades
 
 
 def test_what_a_card_runs_makes_the_processor_s_pictures(recipe, tmp_path):

@@ -415,6 +415,11 @@ impl Site {
         }
     }
 
+    /// Takes pattern and relief from all surfaces: each has the mean colour of its texture.
+    pub fn flatten(&mut self) {
+        self.stock.flatten();
+    }
+
     /// The number of the recording vehicle.
     pub fn ego_id(&self, drive: &Drive) -> InstanceId {
         track_id(drive.tracks.len())

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
+use crate::tone_curve::decoded;
 use crate::{Beam, Role};
 
 /// What a texture's numbers mean.
@@ -31,6 +32,33 @@ pub struct Texture {
     pub rgba: Vec<[u8; 4]>,
     /// What the numbers mean.
     pub color_space: ColorSpace,
+}
+
+impl Texture {
+    /// What a texel means: linear colour, or plain numbers, and alpha, 0 to 1.
+    pub fn decoded(&self, texel: [u8; 4]) -> Vec4 {
+        let numbers = Vec4::from(texel.map(|value| f32::from(value) / 255.0));
+        match self.color_space {
+            ColorSpace::Linear => numbers,
+            ColorSpace::Srgb => numbers.truncate().map(decoded).extend(numbers.w),
+        }
+    }
+
+    /// The mean of the texels whose alpha is at least `cutoff`, decoded, and how many of all they are; without any it is
+    /// white, and all.
+    pub fn mean(&self, cutoff: f32) -> (Vec4, f32) {
+        let mut counts = [[0.0f32; 4]; 256];
+        let mut there = 0.0;
+        for texel in self.rgba.iter().filter(|texel| f32::from(texel[3]) >= 255.0 * cutoff) {
+            there += 1.0;
+            texel.iter().enumerate().for_each(|(channel, value)| counts[usize::from(*value)][channel] += 1.0);
+        }
+        if there == 0.0 {
+            return (Vec4::ONE, 1.0);
+        }
+        let sum: Vec4 = (0..=255).zip(counts).map(|(value, count)| self.decoded([value; 4]) * Vec4::from(count)).sum();
+        (sum / there, there / self.rgba.len() as f32)
+    }
 }
 
 /// How texture coordinates come about.

@@ -293,6 +293,9 @@ pub struct AssetsSection {
     pub top_k: usize,
     /// Resolution of the built-in textures: 1 (at most 1024 texels a side), 2 or 4.
     pub texture_scale: u32,
+    /// Whether surfaces have patterns and relief; otherwise each has the mean colour of its texture.
+    #[serde(skip_serializing_if = "Clone::clone")]
+    pub textures: bool,
 }
 
 /// `[views]`
@@ -385,7 +388,7 @@ pub struct OutputSection {
 
 impl Default for AssetsSection {
     fn default() -> Self {
-        Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3, texture_scale: 1 }
+        Self { libraries: vec![crate::PROCEDURAL.into()], top_k: 3, texture_scale: 1, textures: true }
     }
 }
 

@@ -50,7 +50,10 @@ impl<'a> VirtualScene<'a> {
         let mut views = view_settings(recipe)?;
         variation.change(&mut views);
         let there = Drive { projection: variation.projection(drive.projection), ..drive.clone() };
-        let site = trove_build::build_at(&there, moments, map, library, &settings, report)?;
+        let mut site = trove_build::build_at(&there, moments, map, library, &settings, report)?;
+        if !recipe.assets.textures {
+            site.flatten();
+        }
         let factors = variation.factors(recipe, &site);
         let views = ViewPlan::new(moments.drive, &site, views, settings.seeds, report);
         let (lidars, radars) = (lidars(recipe, drive, report)?, radars(recipe, drive, report)?);

@@ -37,13 +37,14 @@ class Stock:
         return len(self._items)
 
     def cut(self, chosen: torch.Tensor, cuts: torch.Tensor, size: tuple[int, int]) -> tuple[torch.Tensor, torch.Tensor]:
-        """Images (B, 3, h, w), 0 to 1, channels last, and labels (B, h, w), of `size` (width, height).
+        """Images (B, 3, h, w), 0 to 1, and labels (B, h, w), of `size` (width, height).
 
         `cuts` (B, 4) are zooms from 1 on, places from 0 to 1 along both axes, and whether to mirror (above 0.5): the
         largest rectangle of that aspect ratio, divided by the zoom.
         """
         if self.resident:
-            pictures, labels = self._pictures[chosen], self._labels[chosen]
+            # Many times as fast as an index on a processor.
+            pictures, labels = self._pictures.index_select(0, chosen), self._labels.index_select(0, chosen)
         else:
             pictures, labels = self._read(chosen.tolist())
         sides = self.sizes[chosen]
@@ -61,7 +62,7 @@ class Stock:
             pictures.permute(0, 3, 1, 2).float(), grid, "bilinear", padding_mode="border", align_corners=False
         )
         ids = F.grid_sample(labels[:, None].float(), grid, "nearest", padding_mode="border", align_corners=False)
-        return (rgb / 255).contiguous(memory_format=torch.channels_last), ids[:, 0].long()
+        return rgb.contiguous() / 255, ids[:, 0].long()
 
     def whole(self, size: tuple[int, int]) -> Iterator[tuple[torch.Tensor, torch.Tensor]]:
         """All images in turn, some at once, as `cut` gives them: each cut in the middle, as large as it can be."""

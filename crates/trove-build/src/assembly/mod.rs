@@ -1,6 +1,7 @@
 //! Puts the parts of a place together: one stock of meshes and materials, one numbering.
 
 mod feet;
+mod flat;
 mod legs;
 mod lens;
 mod movement;

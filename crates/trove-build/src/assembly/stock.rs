@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use trove_model::{Asset, Beam, CarColors, Kind, Mapping, Material, Mesh, Role, Seed, Texture, Tiling};
 
+use super::flat::Flat;
 use super::legs::Legs;
 use super::lens;
 use super::pedals::Pedals;
@@ -110,6 +111,14 @@ impl Stock {
         }
         let base_color = (known.base_color * factor).min(known.base_color.max(Vec3::ONE));
         self.material(&Material { base_color, ..known.clone() })
+    }
+
+    /// Takes pattern and relief from all surfaces.
+    pub(crate) fn flatten(&mut self) {
+        let mut flat = Flat::default();
+        self.materials.iter_mut().for_each(|material| flat.flatten(material));
+        // They are no longer what they were looked up by.
+        self.material_index.clear();
     }
 
     /// The indices of the materials of an asset's individual; in the dark the lenses of street lamps are lit.

@@ -1,7 +1,7 @@
 //! What formats say about materials, in the terms of `Material`.
 
 use glam::{Vec2, Vec3, Vec4, vec2};
-use trove_model::{ColorSpace, Material, Texture};
+use trove_model::{Material, Texture};
 
 use super::picture::Pixels;
 
@@ -119,34 +119,19 @@ pub(super) fn with_alpha(mut base: Pixels, opacity: &Pixels) -> Pixels {
     base
 }
 
-/// Mean of a texture: linear colour and alpha.
-pub(super) fn mean(texture: &Texture) -> Vec4 {
-    let step = (texture.rgba.len() / 4096).max(1);
-    let texels = texture.rgba.iter().step_by(step);
-    let count = texels.len().max(1) as f32;
-    texels.map(|t| linear(texture, *t)).sum::<Vec4>() / count
-}
-
 /// The texel at a texture coordinate (v up): linear colour and alpha.
 pub(super) fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
     let uv = if uv.is_finite() { uv } else { Vec2::ZERO };
     let uv = vec2(uv.x - uv.x.floor(), 1.0 - (uv.y - uv.y.floor()));
     let x = ((uv.x * texture.width as f32) as u32).min(texture.width.saturating_sub(1));
     let y = ((uv.y * texture.height as f32) as u32).min(texture.height.saturating_sub(1));
-    texture.rgba.get((y * texture.width + x) as usize).map_or(Vec4::ONE, |t| linear(texture, *t))
-}
-
-fn linear(texture: &Texture, texel: [u8; 4]) -> Vec4 {
-    let decode = |v: u8| match (texture.color_space, f32::from(v) / 255.0) {
-        (ColorSpace::Linear, v) => v,
-        (ColorSpace::Srgb, v) if v <= 0.04045 => v / 12.92,
-        (ColorSpace::Srgb, v) => ((v + 0.055) / 1.055).powf(2.4),
-    };
-    Vec4::new(decode(texel[0]), decode(texel[1]), decode(texel[2]), f32::from(texel[3]) / 255.0)
+    texture.rgba.get((y * texture.width + x) as usize).map_or(Vec4::ONE, |t| texture.decoded(*t))
 }
 
 #[cfg(test)]
 mod tests {
+    use trove_model::ColorSpace;
+
     use super::*;
 
     #[test]

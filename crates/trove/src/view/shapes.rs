@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
 use meshopt::{SimplifyOptions, VertexDataAdapter};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -33,8 +33,6 @@ const LEVELS: i32 = 7;
 const TILE_M: f32 = 40.0;
 /// Detail of a road user, metres.
 const BODY_DETAIL_M: f32 = 0.012;
-/// Texels of a map that its mean is taken of.
-const TEXELS: usize = 8192;
 /// Triangles a separate piece, below which a part is foliage: it is thinned out, since its pieces have no edges to collapse.
 const OF_FOLIAGE: usize = 12;
 
@@ -421,38 +419,19 @@ struct Look {
 
 impl Looks {
     fn of(materials: &[Material]) -> Self {
-        let mut means: BTreeMap<*const Texture, (Vec3, f32)> = BTreeMap::new();
+        let mut means: BTreeMap<*const Texture, (Vec4, f32)> = BTreeMap::new();
         let mut look = |material: &Material| {
             let map = material.base_color_map.as_ref();
-            let (mean, coverage) = map.map_or((Vec3::ONE, 1.0), |map| {
-                *means.entry(Arc::as_ptr(map)).or_insert_with(|| mean(map, material.alpha_cutoff))
+            let (mean, coverage) = map.map_or((Vec4::ONE, 1.0), |map| {
+                *means.entry(Arc::as_ptr(map)).or_insert_with(|| map.mean(material.alpha_cutoff))
             });
-            let seen = material.base_color * mean;
+            let seen = material.base_color * mean.truncate();
             // Glass is dark from outside.
             let color = seen * (1.0 - 0.85 * material.transmission) + material.emission.min(Vec3::ONE);
             Look { color, coverage }
         };
         Self(materials.iter().map(&mut look).collect())
     }
-}
-
-/// Mean colour, linear, of what is there, and how much that is.
-fn mean(map: &Texture, cutoff: f32) -> (Vec3, f32) {
-    let (mut sum, mut count, mut all) = (Vec3::ZERO, 0.0, 0.0);
-    // An odd step goes through all columns.
-    for [r, g, b, a] in map.rgba.iter().step_by((map.rgba.len() / TEXELS) | 1) {
-        all += 1.0;
-        if f32::from(*a) >= 255.0 * cutoff {
-            sum += Vec3::new(linear(*r), linear(*g), linear(*b));
-            count += 1.0;
-        }
-    }
-    if count == 0.0 { (Vec3::ONE, 1.0) } else { (sum / count, count / all) }
-}
-
-fn linear(value: u8) -> f32 {
-    let value = f32::from(value) / 255.0;
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

@@ -119,7 +119,7 @@ impl<'a> Looks<'a> {
             let map = reference("/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture");
             let mean = map
                 .and_then(|r| self.textures.texture(&r, ColorSpace::Srgb, model))
-                .map_or(Vec4::ONE, |t| looks::mean(&t));
+                .map_or(Vec4::ONE, |t| t.mean(0.0).0);
             let (base, metalness) =
                 looks::metal_of_specular(four("diffuseFactor").truncate(), specular * mean.truncate());
             (material.base_color, material.metalness) = (base, metalness);
