@@ -30,16 +30,17 @@ class Frames:
     changes: tuple[str, ...] = ()
     # Whether frames also come in the colours of what each fold trains on.
     recolored: bool = True
+    # Whether its networks are small enough for a processor.
+    small: bool = True
 
 
-# Those of small networks are for a processor.
 EXPERIMENTS = {
-    "camvid": Frames("camvid", "britain"),
-    "idd-lite": Frames("idd-lite", "india", recolored=False),
+    "camvid": Frames("camvid", "britain", small=False),
+    "idd-lite": Frames("idd-lite", "india", recolored=False, small=False),
     "camvid-small": Frames("camvid", "britain"),
     "idd-lite-small": Frames("idd-lite", "india", recolored=False),
-    "detection-small": Frames("camvid", "britain"),
     "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "textures", "sensor")),
+    "detection-small": Frames("camvid", "britain"),
 }
 
 
@@ -119,12 +120,14 @@ def main() -> int:
         description=__doc__.splitlines()[0], epilog="Example: run.py --data ~/datasets --only camvid"
     )
     parser.add_argument("--data", type=Path, required=True, help="folder with osm, camvid and idd-lite in it")
-    parser.add_argument("--only", choices=EXPERIMENTS, help="one of the experiments; otherwise all but the small ones")
+    parser.add_argument("--only", choices=EXPERIMENTS, help="one of the experiments")
+    parser.add_argument("--small", action="store_true", help="all that a processor can train, in place of the others")
     parser.add_argument("--rows", nargs="*", default=[], help="only these rows of the tables")
     parser.add_argument("--threads", type=int, default=1, help="threads on the CPU for each network; 0 is all")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="groups of rows that are trained at once")
     options = parser.parse_args()
-    chosen = [options.only] if options.only else [name for name in EXPERIMENTS if not name.endswith("-small")]
+    alike = [name for name, frames in EXPERIMENTS.items() if frames.small == options.small]
+    chosen = [options.only] if options.only else alike
     for folder in ("osm", *dict.fromkeys(EXPERIMENTS[name].real for name in chosen)):
         if not (options.data / folder).is_dir():
             expected = f"expected a folder {folder}, found none; see docs/experiment.md"
