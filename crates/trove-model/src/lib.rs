@@ -78,6 +78,7 @@ mod seed;
 mod sensor;
 mod shot;
 mod snow;
+mod srgb;
 mod state;
 mod street_map;
 mod surface_kind;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::tone_curve::decoded;
+use crate::srgb::decoded;
 use crate::{Beam, Role};
 
 /// What a texture's numbers mean.

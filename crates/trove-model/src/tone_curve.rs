@@ -1,6 +1,7 @@
 //! A camera's response: from exposed light to encoded brightness, and back.
 
 use crate::Film;
+use crate::srgb::{decoded, encoded};
 
 /// From exposed light, in which a grey card is [`ToneCurve::GREY`], to 8-bit sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,15 +69,6 @@ impl Film {
 /// Bright light brought below 1, which it reaches at white; the dark stays as it is (Reinhard et al. 2002, eq. 4).
 fn held_back(exposed: f32) -> f32 {
     exposed * (1.0 + exposed / (ToneCurve::WHITE * ToneCurve::WHITE)) / (1.0 + exposed)
-}
-
-/// sRGB's encoding (IEC 61966-2-1).
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
-}
-
-pub(crate) fn decoded(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Brightness of a colour (Rec. 709).
