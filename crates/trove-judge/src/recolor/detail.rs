@@ -55,11 +55,12 @@ pub(super) fn sharpen(pixels: &mut [[f32; 3]], width: usize, from: &Detail, to: 
     let times: [f64; MATCHED] = std::array::from_fn(|octave| {
         1.0 + f64::from(strength) * ((to[octave] / from[octave]).clamp(1.0 / MOST, MOST) - 1.0)
     });
-    let Some(own) = Detail::of(pixels, width).sharpness() else { return };
-    let wanted: [f64; MATCHED] = std::array::from_fn(|octave| own[octave] * times[octave]);
+    let mut wanted = None;
     for _ in 0..ROUNDS {
         let octaves = octaves(pixels, width);
         let Some(own) = Detail::of_octaves(&octaves).sharpness() else { return };
+        let wanted: [f64; MATCHED] =
+            *wanted.get_or_insert_with(|| std::array::from_fn(|octave| own[octave] * times[octave]));
         for (octave, detail) in octaves[..MATCHED].iter().enumerate() {
             let more = (wanted[octave] / own[octave] - 1.0) as f32;
             pixels.iter_mut().zip(detail).for_each(|(pixel, detail)| pixel[0] += more * detail);

@@ -18,6 +18,11 @@ fn measures_below(folder: &Path, space: Space) -> Measures {
     Measures::joined(measured(&photographs(folder).unwrap(), space, &|_, _| true).unwrap().iter())
 }
 
+fn save(path: &Path, image: &RgbImage) {
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    image.save(path).unwrap();
+}
+
 /// A picture whose three channels in a space are independent Gaussians, up to 8-bit codes.
 fn gaussian(path: &Path, space: Space, mean: [f32; 3], deviation: [f32; 3], seed: u64) {
     let mut random = Seed(seed).random();
@@ -25,8 +30,7 @@ fn gaussian(path: &Path, space: Space, mean: [f32; 3], deviation: [f32; 3], seed
     let image = RgbImage::from_fn(120, 90, |_, _| {
         image::Rgb(space.to_srgb(std::array::from_fn(|c| mean[c] + deviation[c] * normal() as f32)))
     });
-    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    image.save(path).unwrap();
+    save(path, &image);
 }
 
 #[test]
@@ -89,8 +93,7 @@ fn noise(path: &Path, contrast: f32, smoothings: usize, seed: u64) {
     for _ in 0..smoothings {
         image = image::imageops::blur(&image, 0.6);
     }
-    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    image.save(path).unwrap();
+    save(path, &image);
 }
 
 #[test]
@@ -171,8 +174,7 @@ fn picture(path: &Path, middle: [u8; 3], contrast: f32) {
         let wave = ((x as f32 * 0.4).sin() + (y as f32 * 0.3).cos()) * contrast;
         image::Rgb(middle.map(|m| (f32::from(m) + wave).clamp(0.0, 255.0) as u8))
     });
-    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    image.save(path).unwrap();
+    save(path, &image);
 }
 
 #[test]
