@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import town
 from trove.train.experiment import Trial, read, tomllib
 
 HERE = Path(__file__).resolve().parent
@@ -39,7 +40,9 @@ EXPERIMENTS = {
     "idd-lite": Frames("idd-lite", "india", recolored=False, small=False),
     "camvid-small": Frames("camvid", "britain"),
     "idd-lite-small": Frames("idd-lite", "india", recolored=False),
-    "ablation-small": Frames("camvid", "britain", ("none", "light", "traffic", "models", "textures", "sensor")),
+    "ablation-small": Frames(
+        "camvid", "britain", ("none", "light", "traffic", "models", "textures", "sensor", "layout")
+    ),
     "detection-small": Frames("camvid", "britain"),
 }
 
@@ -49,6 +52,7 @@ def changed(recipes: Path, change: str) -> Path:
     folder = OUT / "recipes" / f"{recipes.name}-{change}"
     folder.mkdir(parents=True, exist_ok=True)
     link(OUT / "recipes/data", HERE / "data")
+    (OUT / "recipes/town.osm").write_text(town.osm())
     changes, own = (tomllib.loads((HERE / f"changes/{name}.toml").read_text()) for name in ("none", change))
     changes = merged(changes, own)
     for path in recipes.glob("*.toml"):

@@ -22,6 +22,7 @@ def unseen(tmp_path):
     # Its data classes look for it there.
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(__import__("sys").modules, "unseen_run", module)
+        patch.syspath_prepend(tmp_path / "unseen")
         spec.loader.exec_module(module)
         yield module
 
@@ -64,11 +65,13 @@ def test_a_change_takes_the_place_of_what_every_recipe_says(unseen, tmp_path):
         for name in names - {"camera.toml"}:
             before, after = (tomllib.loads((f / name).read_text()) for f in (unseen.HERE / "britain", folder))
             assert after == unseen.merged(before, wanted) != before
-            assert (
-                after["variations"]["count"] == 2 and after["render"]["spp"] == 1 and after["place"] == before["place"]
-            )
-            assert (folder / after["map"]["osm"]).parent == folder / "../data/osm"
+            assert after["variations"]["count"] == 2 and after["render"]["spp"] == 1
             done = trove("generate", folder / name, "--dry-run")
+            if "map" in own:
+                # A map that comes with the change.
+                assert done.returncode == 0, done.stderr
+                continue
+            assert (folder / after["map"]["osm"]).parent == folder / "../data/osm"
             assert ".osm" in done.stderr and "expected one of" not in done.stderr, done.stderr
     both = unseen.merged({"a": 1, "b": {"c": 2, "d": 3}}, {"b": {"c": 4}, "e": {"f": 5}})
     assert both == {"a": 1, "b": {"c": 4, "d": 3}, "e": {"f": 5}}
