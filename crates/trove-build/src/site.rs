@@ -151,7 +151,7 @@ pub fn build_at(
     let conditions = Conditions::new(drive, settings.light.time_ns(drive), settings.weather.season());
     let Weather { falling, wind_mps, snow, people_respond, .. } = settings.weather;
     let outdoors = if people_respond { conditions.outdoors(falling, snow) } else { conditions.outdoors(None, 0.0) };
-    let library = &library.in_season(conditions.season()).dressed_for(outdoors);
+    let library = &library.in_season(conditions.season()).found_in(locale.country.as_deref()).dressed_for(outdoors);
 
     // What lies and stands for good.
     let Ground { heights: ground, spans, land } = ground(drive, map, relief, locale.kerb.height_m, bounds, report);

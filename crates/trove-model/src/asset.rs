@@ -36,7 +36,7 @@ pub struct Asset {
     pub coarser: Vec<Coarser>,
     /// How often it is drawn among those that fit as well; 1 is ordinary.
     pub commonness: f32,
-    /// ISO 3166-1 codes of the countries in which it stands; empty: everywhere.
+    /// ISO 3166-1 codes of the countries in which it is met; empty: everywhere.
     pub countries: Vec<String>,
     /// When what it wears is worn; empty: always, as for all that wears nothing.
     pub worn_in: Vec<Outdoors>,

@@ -1,4 +1,4 @@
-//! The library as it looks over the year, and who of it is dressed for the weather.
+//! The library as it looks over the year, what of it is met in a country, and who of it is dressed for the weather.
 
 use std::collections::BTreeSet;
 
@@ -33,6 +33,12 @@ impl Asset {
 }
 
 impl AssetLibrary {
+    /// The library without what stands in other countries; without a country all that stands in some alone is left out.
+    pub fn found_in(self, country: Option<&str>) -> Self {
+        let stays = |asset: &Asset| asset.countries.is_empty() || asset.countries.iter().any(|c| Some(&**c) == country);
+        Self { assets: self.assets.into_iter().filter(stays).collect(), ..self }
+    }
+
     /// The library without who is not dressed for it; of a kind of which nobody is, all stay.
     pub fn dressed_for(self, outdoors: Outdoors) -> Self {
         let dressed: BTreeSet<Kind> = self.assets.iter().filter(|a| a.suits(outdoors)).map(|a| a.kind).collect();
@@ -63,6 +69,22 @@ mod tests {
         };
         assert_eq!(seen(Season::Autumn), [(1, 0.0), (2, 0.8)]);
         assert_eq!(seen(Season::Summer), [(1, 0.0), (1, 0.0)]);
+    }
+
+    #[test]
+    fn what_stands_in_some_countries_is_met_in_these_alone() {
+        let asset = |id: &str, countries: &[&str]| Asset {
+            countries: countries.iter().map(|c| (*c).to_owned()).collect(),
+            ..Asset::new(id, Kind::Car, Class::Car, Mesh::default(), Vec::new(), "test")
+        };
+        let assets = vec![asset("car/a", &[]), asset("car/b", &["IN", "LK"]), asset("car/c", &["GB"])];
+        let library = AssetLibrary { assets, ..AssetLibrary::default() };
+        let found = |country: Option<&str>| {
+            library.clone().found_in(country).assets.iter().map(|a| a.id.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(found(Some("LK")), ["car/a", "car/b"]);
+        assert_eq!(found(Some("GB")), ["car/a", "car/c"]);
+        assert_eq!(found(None), ["car/a"]);
     }
 
     #[test]

@@ -68,6 +68,23 @@ pub(super) fn soil(seed: u32, detail: u32) -> Canvas {
     })
 }
 
+/// Dry earth that feet have trodden flat: dust of a colour, and stones in it.
+pub(super) fn trodden(dust: Vec3, seed: u32, detail: u32) -> Canvas {
+    let size = [4.0, 4.0];
+    let noise = |feature_m, salt| Noise::new(Vec2::from_array(size), feature_m, seed * 31 + salt);
+    let (grain, broad, pebble) = (noise(0.03, 1), noise(1.1, 2).field(4), noise(0.07, 3));
+    Canvas::new([512 * detail, 512 * detail], size, |p| {
+        let (g, b) = (grain.fbm(p, 3), broad.at(p));
+        let stone = pebble.near(p);
+        // They lie in heaps, between which it is bare.
+        let is_stone = step(0.22, 0.16, stone.first) * step(0.78 - 0.25 * b, 0.8 - 0.25 * b, stone.id);
+        let earth = dust * (1.0 + 0.16 * g + 0.22 * b);
+        let mut texel = Texel::new(earth.lerp(vec3(0.27, 0.25, 0.225) * (0.6 + 0.5 * stone.id), is_stone), 0.95);
+        texel.height_m = 0.004 * g + 0.012 * b + 0.009 * is_stone;
+        texel
+    })
+}
+
 /// Wet earth that feet and wheels have kneaded, puddles in its hollows.
 pub(super) fn mud(seed: u32, detail: u32) -> Canvas {
     let size = [3.0, 3.0];

@@ -82,6 +82,7 @@ fn ground_recipes() -> Vec<Recipe> {
         plain("paving/setts", Paving, &["setts"], |d| road::setts(vec3(0.2, 0.195, 0.19), 25, d)),
         plain("paving/mosaic", Paving, &["mosaic"], |d| road::mosaic(vec3(0.21, 0.205, 0.2), 26, d)),
         plain("paving/asphalt-walk", Paving, &["asphalt", "asphalt-walk"], move |d| road::asphalt(walk, d)),
+        plain("paving/earth", Paving, &["earth"], |d| ground::trodden(vec3(0.25, 0.19, 0.135), 27, d)),
         plain("kerb/concrete", Kerb, &["concrete"], |d| paving::kerb(vec3(0.3, 0.29, 0.27), false, 31, d)),
         plain("kerb/granite", Kerb, &["granite"], |d| paving::kerb(vec3(0.25, 0.245, 0.24), false, 34, d)),
         plain("kerb/black-white", Kerb, &["black-white"], |d| paving::kerb(vec3(0.3, 0.29, 0.27), true, 32, d)),

@@ -58,7 +58,7 @@ pub(crate) fn buildings(place: &Place<'_>, keep_clear: &RoadSurfaces) -> BuiltBu
     let seen_m = lidar::seen_walls(drive, &all, ground);
     let plot = volumes::Plot { drive, customs, streets: keep_clear, ground, bounds, seen_m: &seen_m };
     let mut houses = volumes::houses(&all, &plot, seed, report);
-    replace::assign(&mut houses, library, locale.country.as_deref(), keep_clear, seed.child("model"), report);
+    replace::assign(&mut houses, library, keep_clear, seed.child("model"), report);
     volumes::beside(&mut houses);
     let grown = grown(&houses);
     let palette = Palette { library, report };

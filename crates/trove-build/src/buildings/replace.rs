@@ -37,15 +37,11 @@ const ABOUT_AS_GOOD: f64 = 0.06;
 pub(super) fn assign<'a>(
     houses: &mut [House<'a>],
     library: &'a AssetLibrary,
-    country: Option<&str>,
     streets: &RoadSurfaces,
     seed: Seed,
     report: &Report,
 ) {
-    let is_local = |asset: &&Asset| {
-        country.is_none_or(|code| asset.countries.is_empty() || asset.countries.iter().any(|c| c == code))
-    };
-    let buildings: Vec<&Asset> = library.of_kind(Kind::Building).filter(is_local).collect();
+    let buildings: Vec<&Asset> = library.of_kind(Kind::Building).collect();
     let plans = buildings.par_iter().filter_map(|asset| Plan::new(asset));
     let plans: Vec<Plan<'a>> = plans.filter(|plan| plan.filled >= WELL_FILLED).collect();
     let bounds = |house: &House<'_>| {

@@ -18,6 +18,8 @@ pub(super) enum Doing {
     Motorcycling,
     Driving,
     Parked,
+    /// An animal beside the road or on its edge.
+    Straying,
 }
 
 impl fmt::Display for Doing {
@@ -27,7 +29,7 @@ impl fmt::Display for Doing {
 }
 
 /// How often each is met.
-fn doings(mix: &TrafficMix) -> [(Doing, f64); 7] {
+fn doings(mix: &TrafficMix) -> [(Doing, f64); 8] {
     [
         (Doing::Walking, mix.walking),
         (Doing::Standing, mix.standing),
@@ -36,6 +38,7 @@ fn doings(mix: &TrafficMix) -> [(Doing, f64); 7] {
         (Doing::Motorcycling, mix.motorcycling),
         (Doing::Driving, mix.driving),
         (Doing::Parked, mix.parked),
+        (Doing::Straying, mix.straying),
     ]
 }
 
@@ -48,6 +51,7 @@ fn kinds(doing: Doing) -> &'static [(Kind, f64)] {
         Doing::Motorcycling => &[(Kind::MotorcycleWithRider, 100.0)],
         Doing::Driving => &[(Kind::Car, 86.0), (Kind::Truck, 9.0), (Kind::Bus, 5.0)],
         Doing::Parked => &[(Kind::Car, 95.0), (Kind::Truck, 5.0)],
+        Doing::Straying => &[(Kind::Animal, 100.0)],
     }
 }
 

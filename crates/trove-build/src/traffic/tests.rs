@@ -5,8 +5,8 @@ use crate::testing;
 use glam::{DVec2, DVec3};
 use room::Outline;
 use trove_model::{
-    AssetLibrary, Bounds, Building, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject, Sides,
-    State, StreetMap,
+    Asset, AssetLibrary, Bounds, Building, DrivingSide, Instance, MapProjection, Origin, Parking, Scene, SceneObject,
+    Sides, State, StreetMap,
 };
 
 use crate::geometry::plane::rectangle;
@@ -133,6 +133,38 @@ fn in_a_place(map: &StreetMap, traffic: Traffic) -> (Drive, Site) {
     let settings = BuildSettings { traffic, ..testing::settings() };
     let site = crate::build(&drive, Some(map), &library(), &settings, &Report::default()).unwrap();
     (drive, site)
+}
+
+/// How many cows there are in a street of a country, and how many three-wheelers, which are met in India alone.
+fn in_a_street_of(country: &str) -> [usize; 2] {
+    let mut library = library();
+    let rickshaw = Asset {
+        countries: vec!["IN".into()],
+        commonness: 8.0,
+        ..testing::asset("car/rickshaw", Kind::Car, [2.65, 1.3, 1.7])
+    };
+    library.assets.extend([testing::asset("animal/cow", Kind::Animal, [2.2, 0.6, 1.4]), rickshaw]);
+    library.assets.sort_by(|a, b| a.id.cmp(&b.id));
+    let map = testing::map_with_road([[-200.0, 0.0], [200.0, 0.0]]);
+    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
+    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
+    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
+    let traffic = Traffic { density: 3.0, ..Traffic::default() };
+    let settings = BuildSettings { traffic, locale: testing::locale(country), ..testing::settings() };
+    let site = crate::build(&drive, Some(&map), &library, &settings, &Report::default()).unwrap();
+    let of = |asset: &str| {
+        let scenes = (0..drive.keyframes.len()).map(|k| site.scene(&drive, k));
+        let is_it = |i: &Instance| i.object.as_ref().is_some_and(|o| o.asset.as_deref() == Some(asset));
+        scenes.map(|scene| scene.instances.iter().filter(|i| is_it(i)).count()).sum::<usize>()
+    };
+    [of("animal/cow"), of("car/rickshaw")]
+}
+
+#[test]
+fn animals_stray_and_models_of_a_country_are_met_where_they_are_at_home() {
+    assert_eq!(in_a_street_of("SG"), [0, 0]);
+    let [cows, rickshaws] = in_a_street_of("IN");
+    assert!(cows > 0 && rickshaws > 5, "{cows} {rickshaws}");
 }
 
 /// Boxes of what is parked in a place along a quiet street that is 7 m wide, by keyframe; nobody may park on its left.

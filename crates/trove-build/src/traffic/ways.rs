@@ -29,6 +29,8 @@ const SHOPPING: f64 = 0.5;
 const JUNCTION_M: f64 = 35.0;
 const ASIDE_M: f64 = 1.5;
 const TURNED_RAD: f64 = 0.35;
+/// Animals stand so far from the kerb, beside half of their length, and from each other, metres.
+const STRAYING_M: f64 = 2.2;
 /// A lane is followed so far, metres.
 const FOLLOWED_M: f64 = 400.0;
 /// A kerb so far beside a lane is that lane's, and cyclists ride so far within its edge, metres.
@@ -112,6 +114,7 @@ impl<'a> Ways<'a> {
             Doing::Waiting => self.waiting(keyframe, shares, random),
             Doing::Cycling | Doing::Motorcycling | Doing::Driving => self.driving(doing, keyframe, shares, random),
             Doing::Parked => self.parked(keyframe, shares, random).map(|motion| vec![motion]),
+            Doing::Straying => self.straying(keyframe, shares, random),
         };
         group.unwrap_or_default()
     }
@@ -160,6 +163,25 @@ impl<'a> Ways<'a> {
             let position = first + kerb.outward.perp() * BESIDE_M * f64::from(n);
             let looks = DVec2::from_angle(random.range(-0.35, 0.35)).rotate(-kerb.outward);
             group.push(standing(Doing::Waiting, position, looks, shares, random)?);
+        }
+        Some(group)
+    }
+
+    /// Animals near each other, on the sidewalk or the edge of the road.
+    fn straying(&self, keyframe: usize, shares: &Shares, random: &mut Random) -> Option<Vec<Motion>> {
+        let &(_, run, i) = self.in_view(&self.on_kerbs, keyframe, PEOPLE_M, random, |spot| spot.0)?;
+        let KerbPoint { position, outward, .. } = self.around.kerbs.runs[run][i];
+        let off_m = random.range(-STRAYING_M, STRAYING_M);
+        let on = if off_m < 0.0 { On::Carriageway } else { On::Sidewalk };
+        let along = outward.perp();
+        let mut group = Vec::new();
+        for n in 0..how_many(&[0.7, 0.2, 0.1], random) {
+            let (kind, size_m) = shares.someone(Doing::Straying, random)?;
+            // Clear of the kerb by half its length, whichever way it looks.
+            let from_kerb_m = off_m + off_m.signum() * size_m.x / 2.0;
+            let at = position + outward * from_kerb_m + along * STRAYING_M * f64::from(n);
+            let place = Place::Spot(at, DVec2::from_angle(random.range(0.0, TAU)));
+            group.push(Motion { kind, size_m, on, place, speed_mps: 0.0 });
         }
         Some(group)
     }

@@ -119,6 +119,9 @@ pub enum KerbLines {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct MarkingCustoms {
+    /// Share of the streets that anything is painted on, and of the crossings without signals of which the map does not
+    /// say whether they are, 0 to 1.
+    pub painted_share: f64,
     /// Between lanes of one direction in towns.
     pub lane: Dash,
     /// Between lanes of one direction on roads built for speed.

@@ -20,6 +20,8 @@ pub struct TrafficMix {
     pub driving: f64,
     /// Cars and trucks that nobody is in.
     pub parked: f64,
+    /// Animals that nobody leads, beside the road and on its edge.
+    pub straying: f64,
     /// Where nobody was recorded, how full kerbs are.
     pub kerb_parking: KerbParking,
     /// What colours cars have.

@@ -84,7 +84,7 @@ pub struct AssetEntry {
     pub commonness: Option<f32>,
     /// What of a building may stand there several times.
     pub repeats: RepeatsEntry,
-    /// ISO 3166-1 codes of the countries in which a building stands; without any: everywhere.
+    /// ISO 3166-1 codes of the countries in which it is met; without any: everywhere.
     pub countries: Vec<String>,
     /// Names of what its clothes are worn in ([`Outdoors`](trove_model::Outdoors)); without any: always.
     pub worn_in: Vec<String>,

@@ -34,13 +34,15 @@ pub(super) struct Crossing {
     style: Option<CrossingStyle>,
 }
 
-/// The dataset's crossings, and the map's where it has none.
+/// The dataset's crossings, and the map's where it has none; `is_painted` tells where one without signals is, of which
+/// neither says so.
 pub(super) fn crossings(
     drive: &Drive,
     map: Option<&StreetMap>,
     carriageway: &[Polygon],
     bounds: Bounds,
     customs: &MarkingCustoms,
+    is_painted: impl Fn(DVec2) -> bool,
 ) -> Vec<Crossing> {
     let furniture = map.map_or(&[][..], |m| &m.furniture);
     let signals: Vec<DVec2> =
@@ -55,7 +57,7 @@ pub(super) fn crossings(
             Some(CrossingMarking::Dashes) => Some(CrossingStyle::Dashes),
             Some(CrossingMarking::Signals) => Some(customs.signalised),
             Some(CrossingMarking::Usual) | None if signalised() => Some(customs.signalised),
-            Some(CrossingMarking::Usual) | None => Some(customs.zebra),
+            Some(CrossingMarking::Usual) | None => is_painted(at).then_some(customs.zebra),
         }
     };
     let near = |p: &Polygon| p.bounds().is_some_and(|b| b.overlaps(&bounds));

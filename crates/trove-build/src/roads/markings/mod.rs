@@ -85,9 +85,18 @@ pub(super) fn markings(
     let bounds = Bounds::around(layout.carriageway.iter().flat_map(|p| p.exterior.iter().copied()));
     let Some(bounds) = bounds else { return Markings::default() };
     let on_left = layout.driving_side.is_left();
-    let crossings = crossings::crossings(drive, map, &layout.carriageway, bounds, customs);
+    let is_painted = |place: Seed| place.random().chance(customs.painted_share);
+    let crossings = {
+        let is_painted = |at: DVec2| is_painted(seed.child("crossing").nth(place(at)));
+        crossings::crossings(drive, map, &layout.carriageway, bounds, customs, is_painted)
+    };
     let junctions = map.map(|m| legs::junctions(m, on_left)).unwrap_or_default();
-    let legs = legs::legs(&layout.stretches, &junctions);
+    let mut legs = legs::legs(&layout.stretches, &junctions);
+    legs.retain(|leg| {
+        let road = leg.road();
+        let painted = seed.child("painted");
+        is_painted(road.name.as_ref().map_or(painted.nth(road.id.unsigned_abs()), |name| painted.child(name)))
+    });
     let control = Control::new(map);
 
     let mut areas: BTreeMap<Paint, Vec<Polygon>> = BTreeMap::new();

@@ -124,6 +124,32 @@ fn cycle_lanes_have_a_line_and_bicycles() {
 }
 
 #[test]
+fn where_few_streets_have_paint_whole_streets_and_crossings_go_without() {
+    // Apart from each other, each crossed in the middle.
+    let street = |i: u32| {
+        let (id, y) = (i64::from(i) + 1, f64::from(i) * 24.0 - 168.0);
+        let road = testing::road(id, RoadKind::Tertiary, &[[-150.0, y], [0.0, y], [150.0, y]]);
+        (road, Furniture::new(100 + id, FurnitureKind::Crossing, DVec2::new(0.0, y)))
+    };
+    let (roads, furniture): (Vec<_>, Vec<_>) = (0..15).map(street).unzip();
+    let map = StreetMap { roads, furniture, ..StreetMap::default() };
+    let painted = |country: &str| {
+        let (markings, _) = painted(country, &map);
+        let count = |from: f64, to: f64| {
+            let of = |road: &trove_model::Road| {
+                let y = road.centreline[0].y;
+                !within(&markings, [from, y - 8.0], [to, y + 8.0]).is_empty()
+            };
+            map.roads.iter().filter(|road| of(road)).count()
+        };
+        [count(20.0, 140.0), count(-2.0, 2.0)]
+    };
+    assert_eq!(painted(SINGAPORE), [15, 15]);
+    let [streets, crossings] = painted("IN");
+    assert!((1..11).contains(&streets) && (1..11).contains(&crossings), "{streets} {crossings}");
+}
+
+#[test]
 fn lines_that_are_told_are_painted_where_they_are_told() {
     let (markings, _) = painted(UNITED_STATES, &junction());
     let mut told = 0;
