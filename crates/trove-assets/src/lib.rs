@@ -19,6 +19,7 @@
 //! ```
 
 mod buildings;
+mod countries;
 mod cycles;
 mod licence;
 mod measure;

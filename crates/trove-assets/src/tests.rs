@@ -122,10 +122,13 @@ fn everything_that_moves_has_models_within_its_budget() {
 #[test]
 fn sizes_are_those_of_real_ones() {
     // Shortest and longest, narrowest and widest, lowest and highest; cars without their mirrors.
-    let ranges = |kind: Kind| match kind {
+    let ranges = |asset: &Asset| match asset.kind {
+        Kind::Car if asset.tags.has("auto-rickshaw") => Some([(2.5, 2.8), (1.25, 1.35), (1.65, 1.8)]),
         Kind::Car | Kind::PoliceCar => Some([(3.3, 6.0), (1.48, 2.2), (1.25, 2.75)]),
         Kind::Truck => Some([(4.4, 20.5), (1.85, 3.0), (1.75, 4.1)]),
         Kind::Bus => Some([(6.9, 13.5), (2.3, 3.2), (2.6, 4.5)]),
+        // With horns.
+        Kind::Animal if asset.tags.has("cow") => Some([(2.0, 2.4), (0.5, 0.75), (1.4, 1.7)]),
         Kind::Adult => Some([(0.3, 1.2), (0.4, 0.95), (1.5, 2.0)]),
         Kind::Bicycle => Some([(1.3, 2.5), (0.4, 0.75), (0.8, 1.25)]),
         Kind::BicycleWithRider => Some([(1.3, 2.5), (0.4, 0.8), (1.3, 2.0)]),
@@ -134,9 +137,32 @@ fn sizes_are_those_of_real_ones() {
     let fits = |asset: &Asset, ranges: [(f64, f64); 3]| {
         ranges.into_iter().zip(asset.size_m.to_array()).all(|((low, high), size)| (low..=high).contains(&size))
     };
-    let outside = ASSETS.iter().filter(|a| ranges(a.kind).is_some_and(|ranges| !fits(a, ranges)));
+    let outside = ASSETS.iter().filter(|a| ranges(a).is_some_and(|ranges| !fits(a, ranges)));
     let outside: Vec<String> = outside.map(|a| format!("{} {}", a.id, a.size_m)).collect();
     assert_eq!(outside, Vec::<String>::new());
+}
+
+#[test]
+fn what_only_south_asia_has_stands_only_there() {
+    let is_there = |asset: &&Asset| asset.tags.has("auto-rickshaw") || asset.tags.has("cow");
+    let (there, elsewhere): (Vec<&Asset>, Vec<&Asset>) =
+        ASSETS.iter().filter(|a| a.kind.is_vehicle() || a.kind == Kind::Animal).partition(is_there);
+    assert_eq!(there.len(), 4);
+    assert!(there.iter().all(|a| a.countries == ["BD", "IN", "LK", "NP", "PK"]));
+    assert!(elsewhere.iter().all(|a| a.countries.is_empty()));
+}
+
+#[test]
+fn the_driver_of_an_auto_rickshaw_sits_in_its_middle_before_the_passengers() {
+    for asset in ASSETS.iter().filter(|a| a.tags.has("auto-rickshaw")) {
+        let middles = |group: &str| -> Vec<glam::Vec3> {
+            let meshes = asset.extras.iter().filter(|e| e.group == group && e.when_driven).map(|e| e.mesh.bounds());
+            meshes.map(Option::unwrap).map(|(low, high)| (low + high) / 2.0).collect()
+        };
+        let [driver] = middles("driver")[..] else { panic!("{}", asset.id) };
+        assert!(driver.y.abs() < 0.02, "{} {driver}", asset.id);
+        assert!(middles("passenger").iter().all(|p| p.x < driver.x - 0.5), "{}", asset.id);
+    }
 }
 
 /// A row of a table of tags in the documentation: a kind, and its tags but for its own word.

@@ -1,4 +1,4 @@
-//! Animals that run about streets: dogs, cats, pigeons.
+//! Animals that run about streets: dogs, cats, pigeons; cattle have a file of their own.
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
 use trove_model::{Asset, Kind, Material};
@@ -15,13 +15,13 @@ pub(super) fn assets() -> Vec<Asset> {
     ]
 }
 
-fn animal(model: Model, name: &str, commonness: f32) -> Asset {
+pub(super) fn animal(model: Model, name: &str, commonness: f32) -> Asset {
     let asset = model.asset(&format!("animal/{name}"), Kind::Animal, Kind::Animal.class());
     Asset { commonness, ..asset }.tagged([name])
 }
 
 /// Hair or feathers of a colour.
-fn coat(color: Vec3) -> Material {
+pub(super) fn coat(color: Vec3) -> Material {
     Material { sheen: 0.6, ..Material::plain("coat", color, 0.9) }
 }
 

@@ -4,6 +4,7 @@ mod animals;
 mod barriers;
 mod bins;
 mod carts;
+mod cattle;
 mod cones;
 mod fences;
 mod finish;
@@ -54,6 +55,7 @@ pub(crate) fn assets(plans: &StreetPlans) -> Vec<Asset> {
         barriers::assets(),
         bins::assets(),
         carts::assets(),
+        vec![cattle::cow()],
         cones::others(),
         fences::assets(),
         fittings::assets(),

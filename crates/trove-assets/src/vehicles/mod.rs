@@ -1,4 +1,4 @@
-//! Cars, lorries, buses and machines.
+//! Cars, auto-rickshaws, lorries, buses and machines.
 //!
 //! All are put together in a [`workshop::Workshop`], which knows the [`slots::Slots`] that vehicles are made of, from
 //! parts that are shared: wheels, hulls, plates, what is written on them. Cars are told by plans in data files.
@@ -10,6 +10,7 @@ mod decal;
 mod hull;
 mod machines;
 mod plate;
+mod rickshaw;
 mod slots;
 mod trucks;
 mod wheel;
@@ -23,5 +24,5 @@ pub(crate) use plate::{PLATE_M, any as number_plate};
 
 /// Every model of this family; cars as these plans tell.
 pub(crate) fn assets(cars: &[CarPlan]) -> Vec<Asset> {
-    [cars::assets(cars), trucks::assets(), buses::assets(), machines::assets()].concat()
+    [cars::assets(cars), rickshaw::assets(), trucks::assets(), buses::assets(), machines::assets()].concat()
 }

@@ -35,7 +35,7 @@ impl Workshop {
         work
     }
 
-    fn with(id: &str, paints: &[Vec3], flakes: f32, second: &[Vec3], plate: Material) -> Self {
+    pub(super) fn with(id: &str, paints: &[Vec3], flakes: f32, second: &[Vec3], plate: Material) -> Self {
         let mut model = Model::default();
         let slots = Slots::new(&mut model, paints, flakes, second);
         let plate = model.slot(plate, &[]);
@@ -171,7 +171,7 @@ impl Workshop {
 }
 
 /// The inside of a reflector that opens towards +x.
-fn bowl(radius_m: f32) -> Shape {
+pub(super) fn bowl(radius_m: f32) -> Shape {
     let profile = [vec2(0.0, -0.6), vec2(0.45, -0.52), vec2(0.8, -0.3), vec2(1.0, 0.0)].map(|p| p * radius_m);
     Shape::lathe(&profile, 16).inside_out().turned(Quat::from_rotation_y(FRAC_PI_2))
 }
