@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use super::{FLOOR_M, FRONT_AXLE_M, REAR_AXLE_M, WHEEL_M};
+use super::measures::{FLOOR_M, FRONT_AXLE_M, REAR_AXLE_M, WHEEL_M};
 use crate::shape::{Curve, Prism, Shape, arc};
 use crate::vehicles::workshop::{Workshop, block, cut_out};
 

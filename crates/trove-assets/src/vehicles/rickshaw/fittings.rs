@@ -6,7 +6,7 @@ use glam::{Quat, Vec3, vec2, vec3};
 
 use super::body::Cowl;
 use super::inside::BAR;
-use super::{FRONT_AXLE_M, REAR_AXLE_M, WHEEL_M};
+use super::measures::{FRONT_AXLE_M, REAR_AXLE_M, WHEEL_M};
 use crate::shape::{Shape, arc};
 use crate::vehicles::decal::on_front;
 use crate::vehicles::plate::PLATE_M;

@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 
-use super::FLOOR_M;
+use super::measures::FLOOR_M;
 use crate::people::{Figure, Hair, Outfit, Physique, Pose, Wardrobe};
 use crate::shape::Shape;
 use crate::vehicles::workshop::{Workshop, block};

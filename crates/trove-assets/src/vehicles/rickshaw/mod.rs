@@ -4,6 +4,7 @@ mod body;
 mod fittings;
 mod hood;
 mod inside;
+mod measures;
 
 use glam::{Vec3, vec3};
 use trove_model::{Asset, Kind};
@@ -34,12 +35,6 @@ const SCHEMES: [Scheme; 3] = [
     // As in Delhi and Bangalore: they run on gas.
     Scheme { id: "car/auto-rickshaw-green", body: &GREENS, hood: &YELLOWS, lamps_m: 0.3, commonness: 3.0 },
 ];
-
-const WHEEL_M: f32 = 0.225;
-const FRONT_AXLE_M: f32 = 0.31;
-const REAR_AXLE_M: f32 = 2.31;
-/// Height of the floor.
-const FLOOR_M: f32 = 0.3;
 
 /// Every auto-rickshaw.
 pub(super) fn assets() -> Vec<Asset> {
