@@ -52,8 +52,10 @@ def changed(recipes: Path, change: str) -> Path:
     folder = OUT / "recipes" / f"{recipes.name}-{change}"
     folder.mkdir(parents=True, exist_ok=True)
     link(OUT / "recipes/data", HERE / "data")
-    (OUT / "recipes/town.osm").write_text(town.osm())
     changes, own = (tomllib.loads((HERE / f"changes/{name}.toml").read_text()) for name in ("none", change))
+    if "map" in own:
+        middle = own["place"]["lat_deg"], own["place"]["lon_deg"]
+        (folder / own["map"]["osm"]).write_text(town.osm(*middle))
     changes = merged(changes, own)
     for path in recipes.glob("*.toml"):
         if path.stem == "camera":

@@ -3,7 +3,6 @@
 import math
 import random
 
-LAT_DEG, LON_DEG = 51.5, -0.1
 # Half of its side, and how far its streets are apart, metres.
 _HALF_M, _BLOCK_M = 550.0, (45.0, 140.0)
 # How far a crossing is from where a grid would have it, metres.
@@ -18,13 +17,14 @@ _EARTH_M = 6_371_000.0
 class _Map:
     """Nodes and ways as they are added, in metres about the middle."""
 
-    def __init__(self) -> None:
+    def __init__(self, lat_deg: float, lon_deg: float) -> None:
+        self.lat_deg, self.lon_deg = lat_deg, lon_deg
         self.nodes: list[str] = []
         self.ways: list[str] = []
 
     def node(self, x_m: float, y_m: float, **tags: str) -> int:
-        lat = LAT_DEG + math.degrees(y_m / _EARTH_M)
-        lon = LON_DEG + math.degrees(x_m / (_EARTH_M * math.cos(math.radians(LAT_DEG))))
+        lat = self.lat_deg + math.degrees(y_m / _EARTH_M)
+        lon = self.lon_deg + math.degrees(x_m / (_EARTH_M * math.cos(math.radians(self.lat_deg))))
         number = len(self.nodes) + 1
         self.nodes.append(f'<node id="{number}" lat="{lat:.7f}" lon="{lon:.7f}">{_tags(tags)}</node>')
         return number
@@ -38,9 +38,9 @@ def _tags(tags: dict[str, str]) -> str:
     return "".join(f'<tag k="{key.replace("_", ":")}" v="{value}"/>' for key, value in tags.items())
 
 
-def osm(seed: int = 1) -> str:
-    """The extract; the same for the same seed."""
-    draw, town = random.Random(seed), _Map()
+def osm(lat_deg: float, lon_deg: float) -> str:
+    """The extract of a town about a place; always the same town."""
+    draw, town = random.Random(1), _Map(lat_deg, lon_deg)
 
     def lines() -> list[float]:
         found = [-_HALF_M]
@@ -66,11 +66,8 @@ def osm(seed: int = 1) -> str:
         for j in range(len(ys) - 1):
             corners = [grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]]
             _block(town, draw, [corner[:2] for corner in corners])
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n<osm version="0.6">\n{_joined(town)}\n</osm>\n'
-
-
-def _joined(town: _Map) -> str:
-    return "\n".join([*town.nodes, *town.ways])
+    head = ['<?xml version="1.0" encoding="UTF-8"?>', '<osm version="0.6">']
+    return "\n".join([*head, *town.nodes, *town.ways, "</osm>\n"])
 
 
 def _block(town: _Map, draw: random.Random, corners: list[tuple[float, float]]) -> None:

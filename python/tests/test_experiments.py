@@ -72,6 +72,7 @@ def test_a_change_takes_the_place_of_what_every_recipe_says(unseen, tmp_path):
                 assert done.returncode == 0, done.stderr
                 continue
             assert (folder / after["map"]["osm"]).parent == folder / "../data/osm"
+            assert after["place"] == before["place"]
             assert ".osm" in done.stderr and "expected one of" not in done.stderr, done.stderr
     both = unseen.merged({"a": 1, "b": {"c": 2, "d": 3}}, {"b": {"c": 4}, "e": {"f": 5}})
     assert both == {"a": 1, "b": {"c": 4, "d": 3}, "e": {"f": 5}}

@@ -127,11 +127,14 @@ fn a_place_without_a_recording_gets_the_usual_number_at_each_standpoint() {
 
 /// A place on a map, with what drives, stands and walks in it.
 fn in_a_place(map: &StreetMap, traffic: Traffic) -> (Drive, Site) {
+    in_a_place_of(map, &library(), &BuildSettings { traffic, ..testing::settings() })
+}
+
+fn in_a_place_of(map: &StreetMap, library: &AssetLibrary, settings: &BuildSettings) -> (Drive, Site) {
     let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
     let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
     let drive = crate::place_drive(map, &plan, Seed(1), &Report::default()).unwrap();
-    let settings = BuildSettings { traffic, ..testing::settings() };
-    let site = crate::build(&drive, Some(map), &library(), &settings, &Report::default()).unwrap();
+    let site = crate::build(&drive, Some(map), library, settings, &Report::default()).unwrap();
     (drive, site)
 }
 
@@ -146,12 +149,9 @@ fn in_a_street_of(country: &str) -> [usize; 2] {
     library.assets.extend([testing::asset("animal/cow", Kind::Animal, [2.2, 0.6, 1.4]), rickshaw]);
     library.assets.sort_by(|a, b| a.id.cmp(&b.id));
     let map = testing::map_with_road([[-200.0, 0.0], [200.0, 0.0]]);
-    let projection = MapProjection::spherical(1.3, 103.8, DVec2::ZERO);
-    let plan = PlacePlan { name: "p", projection, size_m: 300.0, driving_side: DrivingSide::Left, time_ns: 0 };
-    let drive = crate::place_drive(&map, &plan, Seed(1), &Report::default()).unwrap();
     let traffic = Traffic { density: 3.0, ..Traffic::default() };
     let settings = BuildSettings { traffic, locale: testing::locale(country), ..testing::settings() };
-    let site = crate::build(&drive, Some(&map), &library, &settings, &Report::default()).unwrap();
+    let (drive, site) = in_a_place_of(&map, &library, &settings);
     let of = |asset: &str| {
         let scenes = (0..drive.keyframes.len()).map(|k| site.scene(&drive, k));
         let is_it = |i: &Instance| i.object.as_ref().is_some_and(|o| o.asset.as_deref() == Some(asset));

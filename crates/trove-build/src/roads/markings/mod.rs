@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
 use trove_model::{
-    Bounds, CentreLine, Dash, Drive, KerbLines, LinePattern, MarkPattern, MarkingCustoms, Paint, Polygon, Report,
+    Bounds, CentreLine, Dash, Drive, KerbLines, LinePattern, MarkPattern, MarkingCustoms, Paint, Polygon, Report, Road,
     RoadKind, Seed, StreetMap,
 };
 
@@ -85,17 +85,15 @@ pub(super) fn markings(
     let bounds = Bounds::around(layout.carriageway.iter().flat_map(|p| p.exterior.iter().copied()));
     let Some(bounds) = bounds else { return Markings::default() };
     let on_left = layout.driving_side.is_left();
-    let is_painted = |place: Seed| place.random().chance(customs.painted_share);
-    let crossings = {
-        let is_painted = |at: DVec2| is_painted(seed.child("crossing").nth(place(at)));
-        crossings::crossings(drive, map, &layout.carriageway, bounds, customs, is_painted)
-    };
+    let is_painted = |of: Seed| of.random().chance(customs.painted_share);
+    let is_zebra = |at: DVec2| is_painted(seed.child("crossing").nth(place(at)));
+    let crossings = crossings::crossings(drive, map, &layout.carriageway, bounds, customs, is_zebra);
     let junctions = map.map(|m| legs::junctions(m, on_left)).unwrap_or_default();
     let mut legs = legs::legs(&layout.stretches, &junctions);
+    let streets = seed.child("painted");
     legs.retain(|leg| {
-        let road = leg.road();
-        let painted = seed.child("painted");
-        is_painted(road.name.as_ref().map_or(painted.nth(road.id.unsigned_abs()), |name| painted.child(name)))
+        let Road { name, id, .. } = leg.road();
+        is_painted(name.as_ref().map_or(streets.nth(id.unsigned_abs()), |name| streets.child(name)))
     });
     let control = Control::new(map);
 
