@@ -367,13 +367,14 @@ fn has_length(folder: &Path, file: &WrittenFile) -> bool {
 
 /// An error where the folder holds something that is not of an earlier run.
 pub(crate) fn refuse_foreign(root: &Path) -> Result<()> {
-    if root.join(PRIVATE).exists() || !root.exists() {
-        return Ok(());
-    }
-    let mut entries =
-        std::fs::read_dir(root).with_context(|| format!("{}: expected a folder to write to", root.display()))?;
+    let entries = match std::fs::read_dir(root) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        entries => entries.with_context(|| format!("{}: expected a folder to write to", root.display()))?,
+    };
+    // Looked at once: a run that starts at the same time may make the folder between two looks.
+    let names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
     ensure!(
-        entries.next().is_none(),
+        names.is_empty() || names.iter().any(|name| name == PRIVATE),
         "{}: expected an empty folder or one of an earlier run, found other files; choose another --out",
         root.display()
     );
@@ -513,6 +514,23 @@ mod tests {
         assert!(message.contains("expected format 2, found none") && message.contains("--out"), "{message}");
         std::fs::write(dir.path().join("note.txt"), "mine").unwrap();
         assert!(OutputFolder::open(dir.path(), &identity(1), None).is_err());
+    }
+
+    #[test]
+    fn a_folder_that_another_run_is_making_is_not_foreign() {
+        let dir = tempfile::tempdir().unwrap();
+        let root = dir.path().join("out");
+        std::thread::scope(|scope| {
+            let others = scope.spawn(|| {
+                for _ in 0..5000 {
+                    std::fs::create_dir_all(root.join(PRIVATE)).unwrap();
+                    std::fs::remove_dir_all(&root).unwrap();
+                }
+            });
+            while !others.is_finished() {
+                refuse_foreign(&root).unwrap();
+            }
+        });
     }
 
     #[test]
