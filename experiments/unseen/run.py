@@ -29,17 +29,15 @@ class Frames:
     real: str
     recipes: str
     changes: tuple[str, ...] = ()
-    # Whether frames also come in the colours of what each fold trains on.
-    recolored: bool = True
     # Whether its networks are small enough for a processor.
     small: bool = True
 
 
 EXPERIMENTS = {
     "camvid": Frames("camvid", "britain", small=False),
-    "idd-lite": Frames("idd-lite", "india", recolored=False, small=False),
+    "idd-lite": Frames("idd-lite", "india", small=False),
     "camvid-small": Frames("camvid", "britain"),
-    "idd-lite-small": Frames("idd-lite", "india", recolored=False),
+    "idd-lite-small": Frames("idd-lite", "india"),
     "ablation-small": Frames(
         "camvid", "britain", ("none", "light", "traffic", "models", "textures", "sensor", "layout")
     ),
@@ -109,7 +107,7 @@ def prepared(name: str) -> bool:
         frames = OUT / place.parent.name / place.stem
         if not run(f"frames of {frames.parent.name}", *trove, "generate", place, "--out", frames):
             return False
-    for fold in read(HERE / f"{name}.toml").folds if what.recolored else ():
+    for fold in read(HERE / f"{name}.toml").folds:
         # What the fold trains on, and nothing that it is measured on or chooses by.
         real = read(HERE / f"{name}.toml", Trial(fold)).pools["R"].linked(OUT / "targets" / fold)
         to = ["--to", real, "--method", "paired", "--strength", 1]

@@ -50,7 +50,7 @@ def test_every_experiment_of_unseen_places_has_its_files(unseen):
         assert (unseen.HERE / frames.recipes).is_dir() and f'root   = "data/{frames.real}"' in text
         folders = [f"{frames.recipes}-{change}" for change in frames.changes] or [frames.recipes]
         assert all(f'"out/{folder}"' in text for folder in folders)
-        assert all(f'"out/recolored/{{fold}}/{folder}"' in text for folder in folders if frames.recolored)
+        assert all(f'"out/recolored/{{fold}}/{folder}"' in text for folder in folders)
 
 
 def test_a_change_takes_the_place_of_what_every_recipe_says(unseen, tmp_path):
