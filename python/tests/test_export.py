@@ -9,6 +9,7 @@ import time
 
 import numpy as np
 import pytest
+import trove as library
 from conftest import files, trove
 from exports import exported
 from PIL import Image, ImageDraw
@@ -476,3 +477,58 @@ def test_a_recipe_names_what_a_run_is_exported_as(recipe, finished, tmp_path):
     named.write_text(text + '[output]\nformats = ["cocoo"]\n')
     done = trove("generate", named, "--out", run)
     assert done.returncode == 1 and "did you mean `coco`?" in done.stderr
+
+
+@pytest.fixture(scope="module")
+def parted(recipe, tmp_path_factory):
+    """The quick recipe with parts of objects, larger, so that riders have pixels."""
+    path = recipe.with_name("parted.toml")
+    path.write_text(
+        recipe.read_text().replace("scale = 0.1", "scale = 0.3").replace("spp = 4", "spp = 1")
+        + '[output]\nfiles = ["rgb", "class", "instance", "part", "masks"]\n'
+    )
+    out = tmp_path_factory.mktemp("parted") / "out"
+    assert trove("generate", path, "--out", out).returncode == 0
+    done = trove("verify", out, "--labels")
+    assert done.returncode == 0, done.stdout
+    return out
+
+
+def test_riders_are_apart_from_what_they_ride_where_frames_tell_parts(parted, tmp_path):
+    coco = pytest.importorskip("pycocotools.coco")
+    parts = {row["name"]: row["id"] for row in json.loads((parted / "manifest.json").read_text())["parts"]}
+    truth = coco.COCO(str(exported(parted, tmp_path / "coco", "coco")[0] / "annotations/instances_train.json"))
+    points = coco.COCO(str(tmp_path / "coco/annotations/person_keypoints_train.json"))
+    cityscapes, _ = exported(parted, tmp_path / "cityscapes", "cityscapes")
+    tables, riders = frames(parted), 0
+    for image in truth.imgs.values():
+        folder, table = tables[image["trove_path"]]
+        instance, part = picture(folder / "instance.png"), picture(folder / "part.png")
+        rows = truth.loadAnns(truth.getAnnIds(image["id"]))
+        for row in table["objects"]:
+            rider = {"bicycle_with_rider": "cyclist", "motorcycle_with_rider": "motorcyclist"}.get(row["kind"])
+            if rider is None or not (instance == row["id"]).any():
+                continue
+            riders += 1
+            person = (instance == row["id"]) & (part == parts[rider])
+            masks = {truth.cats[a["category_id"]]["name"]: a for a in rows if a["track_id"] == row["id"]}
+            cycle = row["kind"].split("_")[0]
+            for name, pixels in [("person", person), (cycle, (instance == row["id"]) & ~person)]:
+                assert (name in masks) == pixels.any()
+                assert not pixels.any() or (truth.annToMask(masks[name]).astype(bool) == pixels).all()
+            # Both have points and whole outlines of one person alone.
+            assert sum(a["track_id"] == row["id"] for a in points.loadAnns(points.getAnnIds(image["id"]))) == 1
+            assert all(("a_segm" in mask) == (len(masks) == 1) for mask in masks.values())
+    assert riders > 1
+    # Whoever reads frames in Python sees what the export has, where a rider is 25 and a bicycle 33.
+    seen = set()
+    for frame in library.open(parted):
+        labels = frame.labels("cityscapes")
+        paths = [path for path in cityscapes.rglob("*_labelIds.png") if (picture(path) == labels).all()]
+        assert len(paths) == 1
+        ids, numbers = labels, picture(str(paths[0]).replace("labelIds", "instanceIds"))
+        assert (numbers[ids == 25] // 1000 == 25).all() and (numbers[ids == 33] // 1000 == 33).all()
+        seen |= set(np.unique(ids)) & {25, 32, 33}
+        with pytest.raises(library.TroveError, match=r"expected one of .*cityscapes"):
+            frame.labels("cityscape")
+    assert {25, 33} <= seen

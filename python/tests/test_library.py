@@ -82,7 +82,7 @@ def test_every_image_is_what_other_libraries_read(finished):
 def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_path):
     scalars, vectors = ["range", "roughness"], ["normal_world", "albedo", "object_coordinates"]
     vectors += ["scene_flow_forward", "scene_flow_backward"]
-    names = ["class", "instance", "depth", "panoptic", "coverage", *scalars, *vectors]
+    names = ["class", "instance", "depth", "panoptic", "coverage", "part", *scalars, *vectors]
     files = [*names, "masks"]
     asked = recipe.with_name("asked.toml")
     asked.write_text(f'{recipe.read_text()}[output]\nfiles = {json.dumps(files)}\n[labels]\nglass = "behind"\n')
@@ -92,18 +92,19 @@ def test_images_that_were_asked_for_are_what_other_libraries_read(recipe, tmp_pa
         assert sorted(frame.images) == sorted(names) and frame.table["glass"] == "behind"
         assert frame.panoptic.dtype == np.uint32
         assert np.array_equal(frame.panoptic, 65536 * frame.class_.astype(np.uint32) + frame.instance)
-        assert np.array_equal(frame.coverage, np.asarray(Image.open(frame.path / "coverage.png")))
+        for name in ("coverage", "part"):
+            assert np.array_equal(getattr(frame, name), np.asarray(Image.open(frame.path / f"{name}.png")))
         for name in [*scalars, *vectors]:
             array = frame.range_m if name == "range" else getattr(frame, name)
             expected = check_output.exr(frame.path / f"{name}.exr")
             assert array.dtype == np.float32 and np.array_equal(array, expected, equal_nan=True), name
             assert array.ndim == (2 if name in scalars else 3)
-        for label in ["panoptic", "coverage", *scalars, *vectors]:
+        for label in ["panoptic", "coverage", "part", *scalars, *vectors]:
             assert np.asarray(frame.overlay(label)).shape == (*frame.class_.shape, 3), label
         check_masks(frame)
         if frame.name.endswith("k001/ego.CAM_FRONT"):
             assert rendered.masks == frame.masks and pickle.loads(pickle.dumps(rendered)).masks == frame.masks
-            for name in ["panoptic", "range_m", "albedo", "scene_flow_forward", "coverage"]:
+            for name in ["panoptic", "range_m", "albedo", "scene_flow_forward", "coverage", "part"]:
                 assert np.array_equal(getattr(rendered, name), getattr(frame, name), equal_nan=True), name
             return
     raise AssertionError("no frame of the front camera")

@@ -1,11 +1,14 @@
 """`python -m trove.train` on places that are held out: what is trained on, chosen by and measured on, and what is told."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
 from PIL import Image
+from trove._trove import StoredFrame
 from trove.train import labels, learning, report, table
+from trove.train.data import Pictures, Sample
 from trove.train.experiment import ExperimentError, Trial, read
 
 EXPERIMENT = """
@@ -278,6 +281,25 @@ def test_numbers_of_idd_lite_are_its_classes():
     assert {i: labels.IDD_LITE[ours[i]] for i in named} == named
     with pytest.raises(ValueError, match="numbered as camvid"):
         labels.lookup("camvid", "idd-lite")
+
+
+def test_frames_that_tell_objects_and_parts_are_trained_on_by_them(finished, tmp_path):
+    folder = next(path.parent for path in sorted(finished.glob("*/v00/*/*/class.png")))
+    sample = [Sample(folder / "rgb.png", folder / "class.png")]
+    width, height = Image.open(folder / "rgb.png").size
+    for target in labels.TARGETS:
+        found = Pictures(sample, "native", target, (width, height))[0][1]
+        own = StoredFrame(folder).labels(labels.SETS[target])
+        trained = labels.lookup(labels.SETS[target], target)[own]
+        # Crowns are closed besides.
+        assert (found == trained).mean() > 0.9
+        bare = tmp_path / target
+        bare.mkdir()
+        for name in ("rgb.png", "class.png"):
+            shutil.copy(folder / name, bare)
+        plain = Pictures([Sample(bare / "rgb.png", bare / "class.png")], "native", target, (width, height))[0][1]
+        kinds = labels.lookup("native", target)[np.asarray(Image.open(folder / "class.png"))] != trained
+        assert kinds.any() and (found != plain).any() and not (found != plain)[~kinds].any()
 
 
 def test_a_finished_run_is_not_trained_again_and_a_stage_has_as_many_steps_as_it_says(experiment, tmp_path):

@@ -33,6 +33,7 @@ class Manifest(TypedDict):
     recipe: dict[str, Any]
     versions: dict[str, Any]
     classes: list[dict[str, Any]]
+    parts: list[dict[str, Any]]
     drives: list[dict[str, Any]]
     licences: list[dict[str, str]]
     frames: list[FrameRow]

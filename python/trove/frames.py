@@ -58,6 +58,7 @@ _OVERLAYS = {
     "scene_flow_backward": "scene_flow",
     "object_coordinates": "object_coordinates",
     "coverage": "coverage",
+    "part": "part",
 }
 
 
@@ -245,6 +246,21 @@ class Frame:
     def coverage(self) -> Bytes:
         """Share of the pixel, in 255ths, that shows what its centre shows: H × W, `uint8`."""
         return self._read("coverage")
+
+    @cached_property
+    def part(self) -> Bytes:
+        """The part of its object that the pixel shows, by the manifest's `parts`: H × W, `uint8`; 0: none of them."""
+        return self._read("part")
+
+    def labels(self, classes: str | PathLike[str]) -> Bytes:
+        """What each pixel shows, in the numbers of a class map: H × W, `uint8`.
+
+        `classes` is the name of one (`cityscapes`, `coco`, …) or a file, as for `trove export`. Objects' kinds count
+        where there is `instance.png`, and parts, such as riders, where there is `part.png`. Only for frames in folders.
+        """
+        if self.path is None:
+            raise TroveError("labels: expected a frame of trove.open, found one that was rendered in memory")
+        return StoredFrame(self.path).labels(str(classes))
 
     def mask(self, thing: Object) -> npt.NDArray[np.bool_]:
         """The pixels that show an object: H × W, `bool`."""

@@ -6,8 +6,8 @@ mod street;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-use glam::Vec2;
-use trove_model::{Asset, Class, KEYPOINTS, Kind, Outdoors};
+use glam::{Vec2, Vec3};
+use trove_model::{Asset, Class, KEYPOINTS, Kind, Outdoors, Role};
 
 use crate::{Ingredients, assets};
 
@@ -52,6 +52,50 @@ fn everyone_on_foot_and_on_wheels_has_points_in_their_body() {
         }
     }
     assert!(people > 20, "{people}");
+}
+
+#[test]
+fn riders_are_told_apart_from_what_they_ride() {
+    let corners = |asset: &Asset, role: Role| {
+        let is_of = |slot: &u16| asset.slots[usize::from(*slot)].material.role == Some(role);
+        let triangles = asset.mesh.triangles.iter().zip(&asset.mesh.slots).filter(|(_, slot)| is_of(slot));
+        triangles.flat_map(|(t, _)| t.map(|i| asset.mesh.positions[i as usize])).collect::<Vec<_>>()
+    };
+    for asset in &*ASSETS {
+        let rider = match asset.kind {
+            Kind::BicycleWithRider => Role::Cyclist,
+            Kind::MotorcycleWithRider => Role::Motorcyclist,
+            _ => {
+                let of_riders = [Role::Cyclist, Role::Motorcyclist, Role::Ridden];
+                let told = asset.slots.iter().find(|slot| slot.material.role.is_some_and(|r| of_riders.contains(&r)));
+                assert!(told.is_none(), "{}", asset.id);
+                continue;
+            }
+        };
+        let (person, cycle) = (corners(asset, rider), corners(asset, Role::Ridden));
+        assert!(asset.slots.iter().all(|slot| slot.material.role.is_some()), "{}: all of it is told", asset.id);
+        // Heads are of the person, wheels of the cycle, and points of the body are nearer to the person.
+        let [head, foot] = [&person, &cycle].map(|p| p.iter().map(|p| p.z).fold(f32::NEG_INFINITY, f32::max));
+        assert!(head > foot && head > asset.size_m.z as f32 - 0.01, "{}: {head} {foot}", asset.id);
+        assert!(cycle.iter().any(|p| p.z < 0.01) && person.iter().all(|p| p.z > 0.01), "{}", asset.id);
+        for point in asset.keypoints.unwrap() {
+            let off_m = |of: &[Vec3]| of.iter().map(|p| p.distance(point)).fold(f32::INFINITY, f32::min);
+            assert!(off_m(&person) < 0.2, "{}", asset.id);
+        }
+    }
+}
+
+#[test]
+fn boards_and_awnings_of_shops_are_told() {
+    let with = |role: Role| {
+        let has = |asset: &&Asset| asset.slots.iter().any(|slot| slot.material.role == Some(role));
+        ASSETS.iter().filter(has).collect::<Vec<_>>()
+    };
+    for role in [Role::ShopSign, Role::Awning] {
+        let found = with(role);
+        assert!(!found.is_empty(), "{role:?}");
+        assert!(found.iter().all(|asset| asset.kind == Kind::Building), "{role:?}");
+    }
 }
 
 #[test]

@@ -30,12 +30,13 @@ pub enum FrameFile {
     SceneFlowBackward,
     ObjectCoordinates,
     Coverage,
+    Part,
     Masks,
 }
 
 impl FrameFile {
     /// All that there are.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Radiance,
         Self::Rgb,
         Self::Class,
@@ -56,6 +57,7 @@ impl FrameFile {
         Self::SceneFlowBackward,
         Self::ObjectCoordinates,
         Self::Coverage,
+        Self::Part,
         Self::Masks,
     ];
 
@@ -82,6 +84,7 @@ impl FrameFile {
             Self::SceneFlowBackward => "scene_flow_backward.exr",
             Self::ObjectCoordinates => "object_coordinates.exr",
             Self::Coverage => "coverage.png",
+            Self::Part => "part.png",
             Self::Masks => MaskTable::NAME,
         }
     }
@@ -112,6 +115,7 @@ impl FrameFile {
             Self::SceneFlowBackward => Some(ExtraLabel::SceneFlowBackward),
             Self::ObjectCoordinates => Some(ExtraLabel::ObjectCoordinates),
             Self::Coverage => Some(ExtraLabel::Coverage),
+            Self::Part => Some(ExtraLabel::Part),
             Self::Masks => Some(ExtraLabel::AmodalMasks),
             Self::Radiance
             | Self::Rgb

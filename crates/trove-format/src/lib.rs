@@ -65,7 +65,7 @@ pub use frame_file::FrameFile;
 pub use grid::{GridClass, GridObject, GridTable};
 pub use journal::{FrameLine, Inputs, Journal, JournalLine, PlanLine, RunIdentity, Versions, WrittenFile};
 pub use lanes::{KerbRow, LaneRow, LanesFile, LineRow};
-pub use manifest::{ClassEntry, Counterfactual, FrameRow, MadeRows, Manifest, ManifestDrive, ManifestRows};
+pub use manifest::{ClassEntry, Counterfactual, FrameRow, MadeRows, Manifest, ManifestDrive, ManifestRows, PartEntry};
 pub use masks::{MaskRow, MaskTable, RunLengths};
 pub use plain_drive::{
     PlainBox, PlainCamera, PlainDrive, PlainEgoBody, PlainGeoPose, PlainGeoreference, PlainKeyframe, PlainLane,

@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Deserialize, Serialize, Serializer};
 use trove_files::OutputRoot;
-use trove_model::{CLASSES, ClassRow};
+use trove_model::{CLASSES, ClassRow, Role};
 
 use crate::{DriveRow, Factors, FormatError, Source, Versions, file};
 
@@ -27,6 +27,9 @@ pub struct Manifest {
     pub versions: Versions,
     /// The class table, ordered by id.
     pub classes: Vec<ClassEntry>,
+    /// The table of parts, ordered by id; missing in folders written by earlier versions.
+    #[serde(default)]
+    pub parts: Vec<PartEntry>,
     /// The drives that frames were made from.
     pub drives: Vec<ManifestDrive>,
     /// Every source of all drives, each once, in alphabetical order.
@@ -66,6 +69,16 @@ pub struct ClassEntry {
     pub coco_id: u8,
     /// CamVid's id in its 12-class form; 11 is unlabelled.
     pub camvid_id: u8,
+}
+
+/// A part of objects that labels tell apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct PartEntry {
+    /// Value in `part.png`, where 0 is none of them.
+    pub id: u8,
+    /// Its name (`cyclist`).
+    pub name: String,
 }
 
 /// A drive, with the sources of what was built from it.
@@ -135,6 +148,13 @@ impl ClassEntry {
     }
 }
 
+impl PartEntry {
+    /// The table of parts, ordered by id.
+    pub fn all() -> Vec<Self> {
+        Role::ALL.iter().map(|(role, name)| Self { id: role.id(), name: (*name).to_owned() }).collect()
+    }
+}
+
 impl Manifest {
     /// The file's name.
     pub const NAME: &str = "manifest.json";
@@ -167,12 +187,12 @@ impl Manifest {
     /// # Errors
     /// What the system says, or a row that cannot be made.
     pub fn write(&self, rows: ManifestRows<'_>, mut to: impl Write) -> io::Result<()> {
-        let Self { format, seed, recipe, versions, classes, drives, licences, .. } = self;
+        let Self { format, seed, recipe, versions, classes, parts, drives, licences, .. } = self;
         let ManifestRows { frames, sweeps, radars, grids } = rows;
         let [frames, sweeps, radars, grids] = [frames, sweeps, radars, grids].map(Rows::new);
         let (format, seed) = (*format, *seed);
         let written =
-            Written { format, seed, recipe, versions, classes, drives, licences, frames, sweeps, radars, grids };
+            Written { format, seed, recipe, versions, classes, parts, drives, licences, frames, sweeps, radars, grids };
         serde_json::to_writer_pretty(&mut to, &written)?;
         to.write_all(b"\n")
     }
@@ -218,6 +238,7 @@ struct Written<'a> {
     recipe: &'a serde_json::Value,
     versions: &'a Versions,
     classes: &'a [ClassEntry],
+    parts: &'a [PartEntry],
     drives: &'a [ManifestDrive],
     licences: &'a [Source],
     frames: Rows<'a>,

@@ -147,6 +147,7 @@ fn manifest() -> Manifest {
             card: None,
         },
         classes: ClassEntry::all(),
+        parts: PartEntry::all(),
         drives: vec![ManifestDrive { drive: site.drive, sources: site.sources.clone() }],
         licences: site.sources,
         frames: vec![FrameRow {

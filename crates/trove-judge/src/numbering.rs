@@ -6,7 +6,7 @@ use std::path::Path;
 use image::DynamicImage;
 use png::{BitDepth, ColorType};
 use trove_format::FrameTable;
-use trove_model::{Class, ClassMap, InstanceCoding, Kind, Raster};
+use trove_model::{Class, ClassMap, InstanceCoding, Kind, Raster, Role};
 
 use crate::JudgeError;
 use crate::pictures::{BY_ID, BY_TRAIN_ID, OURS, color_type, name, read, read_labels};
@@ -64,9 +64,9 @@ pub(crate) fn read_as(
     if let Some(i) = labels.data.iter().position(|id| !known[usize::from(*id)]) {
         return Err(unknown(path, own, &labels, i));
     }
-    let refined = if own.name == "trove20" { finer(path, &labels, wanted)? } else { None };
+    let refined = if own.name == "trove20" { finer(path, &labels, wanted)? } else { Vec::new() };
     labels.data.iter_mut().for_each(|id| *id = numbers[usize::from(*id)]);
-    for (i, id) in refined.into_iter().flatten() {
+    for (i, id) in refined {
         labels.data[i] = id;
     }
     Ok(Judged { labels, objects })
@@ -111,30 +111,45 @@ fn read_coded(path: &Path, map: &ClassMap) -> Result<(Raster<u8>, Option<Vec<u16
     }
 }
 
-/// Pixels of our own labels at which an object's kind says more than its class, with their numbers in a map that is finer;
-/// `None` where none is, or where there is no `instance.png`.
-fn finer(path: &Path, labels: &Raster<u8>, wanted: &ClassMap) -> Result<Option<Vec<(usize, u8)>>, JudgeError> {
-    let (Some(folder), instances) = (path.parent(), path.with_file_name(INSTANCES)) else { return Ok(None) };
+/// Pixels of our own labels at which an object's kind, or a part of it, says more than its class, with their numbers in a
+/// map that is finer.
+fn finer(path: &Path, labels: &Raster<u8>, wanted: &ClassMap) -> Result<Vec<(usize, u8)>, JudgeError> {
     let says_more = |kind: &Kind| Class::ALL.iter().any(|class| wanted.object_id(*class, *kind) != wanted.id(*class));
-    let is_there = || folder.join(FrameTable::NAME).is_file() && instances.is_file();
-    if !(Kind::ALL.iter().any(says_more) && is_there()) {
-        return Ok(None);
+    let knows_more = wanted.knows_parts() || Kind::ALL.iter().any(says_more);
+    let Some(folder) = path.parent().filter(|folder| knows_more && folder.join(FrameTable::NAME).is_file()) else {
+        return Ok(Vec::new());
+    };
+    let [instances, parts] = [INSTANCES, PARTS].map(|file| Some(folder.join(file)).filter(|path| path.is_file()));
+    if instances.is_none() && parts.is_none() {
+        return Ok(Vec::new());
     }
+    let objects = instances.map(|instances| read_objects(&instances, labels, path)).transpose()?;
+    let parts = parts.filter(|_| wanted.knows_parts()).map(|parts| read_parts(&parts, labels, path)).transpose()?;
     let table = FrameTable::read(folder)?;
-    let kinds = table.objects.iter().filter_map(|object| {
-        let id = wanted.object_id(object.class, object.kind);
-        (id != wanted.id(object.class)).then_some((object.id, (object.class, id)))
+    let kinds: BTreeMap<u32, (Class, Kind)> =
+        table.objects.iter().map(|object| (object.id, (object.class, object.kind))).collect();
+    let refined = labels.data.iter().enumerate().filter_map(|(i, id)| {
+        let class = Class::from_id(*id)?;
+        let object = objects.as_ref().and_then(|objects| kinds.get(&u32::from(objects[i])));
+        let kind = object.filter(|(of, _)| *of == class).map(|(_, kind)| *kind);
+        let part = parts.as_ref().and_then(|parts| Role::from_id(parts[i]));
+        let id = wanted.part_id(class, kind, part);
+        (id != wanted.id(class)).then_some((i, id))
     });
-    let kinds: BTreeMap<u32, (Class, u8)> = kinds.collect();
-    if kinds.is_empty() {
-        return Ok(None);
+    Ok(refined.collect())
+}
+
+/// The parts of objects of our own frames.
+const PARTS: &str = "part.png";
+
+/// The numbers of parts beside some labels.
+fn read_parts(path: &Path, labels: &Raster<u8>, of: &Path) -> Result<Vec<u8>, JudgeError> {
+    let parts = read_labels(path)?.data;
+    if parts.len() != labels.data.len() {
+        let expected = format!("{} pixels, like {}", labels.data.len(), name(of));
+        return Err(JudgeError::unexpected(path, expected, parts.len().to_string(), "run trove generate again"));
     }
-    let objects = read_objects(&instances, labels, path)?;
-    let refined = objects.into_iter().enumerate().filter_map(|(i, object)| {
-        let (class, id) = kinds.get(&u32::from(object))?;
-        (labels.data[i] == class.id()).then_some((i, *id))
-    });
-    Ok(Some(refined.collect()))
+    Ok(parts)
 }
 
 /// The objects of our own frames.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use crate::{Class, InstanceId, Keypoints, Raster};
+use crate::{Class, InstanceId, Keypoints, Raster, Role};
 
 /// A picture and its labels.
 #[derive(Clone, Debug)]
@@ -68,6 +68,7 @@ pub enum ExtraLabel {
     SceneFlowBackward,
     ObjectCoordinates,
     Coverage,
+    Part,
     /// Of each object: [`ObjectLabel::amodal_mask`].
     AmodalMasks,
 }
@@ -93,6 +94,8 @@ pub struct ExtraLabels {
     pub object_coordinates: Option<Raster<[f32; 3]>>,
     /// Share of the pixel, in 255ths, that shows what its centre shows: the same object, or no object and the same class.
     pub coverage: Option<Raster<u8>>,
+    /// The part of its object that the pixel shows, which is its material's role.
+    pub part: Option<Raster<Option<Role>>>,
 }
 
 /// What labels tell of a pane of glass.

@@ -1,7 +1,7 @@
-//! Roles of materials, by which a scene does something with their surfaces.
+//! Roles of materials, by which a scene does something with their surfaces, and labels tell parts of objects.
 
 /// What the surfaces of a material do in a scene besides looking as they look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Role {
     /// The lens of a street lamp: it shines in the dark.
@@ -26,11 +26,26 @@ pub enum Role {
     NameAlongX,
     /// The plate that lies along the y axis, likewise.
     NameAlongY,
+    /// Who rides a bicycle, with clothes, helmet and bag.
+    Cyclist,
+    /// Who rides a motorcycle, likewise.
+    Motorcyclist,
+    /// A cycle that somebody rides.
+    Ridden,
+    /// The board of a shop, with its name.
+    ShopSign,
+    /// Cloth that shades a shop's window.
+    Awning,
+    /// A kerb's stones.
+    Kerb,
+    /// Where people walk on trodden earth.
+    Unpaved,
 }
 
 impl Role {
-    /// Every role with its name in files.
-    pub const ALL: [(Self, &str); 11] = [
+    /// Every role with its name in files. Its place, counted from 1, is its number in pictures of labels: new ones come
+    /// last.
+    pub const ALL: [(Self, &str); 18] = [
         (Self::StreetLamp, "street_lamp"),
         (Self::WallLamp, "wall_lamp"),
         (Self::RoomLamp, "room_lamp"),
@@ -42,7 +57,29 @@ impl Role {
         (Self::Insulator, "insulator"),
         (Self::NameAlongX, "name_along_x"),
         (Self::NameAlongY, "name_along_y"),
+        (Self::Cyclist, "cyclist"),
+        (Self::Motorcyclist, "motorcyclist"),
+        (Self::Ridden, "ridden"),
+        (Self::ShopSign, "shop_sign"),
+        (Self::Awning, "awning"),
+        (Self::Kerb, "kerb"),
+        (Self::Unpaved, "unpaved"),
     ];
+
+    /// Its number in pictures of labels, where 0 is no role.
+    pub fn id(self) -> u8 {
+        Self::ALL.iter().position(|(known, _)| *known == self).map_or(0, |place| place as u8 + 1)
+    }
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
+    }
+
+    /// The role with a number.
+    pub fn from_id(id: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(id).checked_sub(1)?).map(|(role, _)| *role)
+    }
 
     /// The role with a name.
     pub fn from_name(name: &str) -> Option<Self> {

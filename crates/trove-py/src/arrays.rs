@@ -3,7 +3,7 @@
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use trove::{Occlusion, Raster, colors};
+use trove::{Occlusion, Raster, Role, colors};
 
 /// Rows × columns.
 pub(crate) fn values<T: Element>(py: Python<'_>, raster: Raster<T>) -> PyResult<Bound<'_, PyAny>> {
@@ -25,9 +25,14 @@ pub(crate) fn occlusion(py: Python<'_>, raster: Raster<Occlusion>) -> PyResult<B
     values(py, raster.map(|occlusion| occlusion.value()))
 }
 
+/// As in `part.png`.
+pub(crate) fn parts(py: Python<'_>, raster: Raster<Option<Role>>) -> PyResult<Bound<'_, PyAny>> {
+    values(py, raster.map(|part| part.map_or(0, Role::id)))
+}
+
 /// The names of what [`label_colors`] knows.
 const COLORED: &str = "class, instance, panoptic, depth, normal, normal_world, albedo, flow, scene_flow, object_coordinates, \
-                       roughness, coverage, occluded or change";
+                       roughness, coverage, part, occluded or change";
 
 /// The colours (H, W, 3; `uint8`) in which a label's array is shown.
 #[pyfunction]
@@ -44,6 +49,7 @@ pub(crate) fn label_colors<'py>(
             0 => colors::of_class((segment >> 16) as u8),
             id => colors::of_instance(id),
         })?,
+        "part" => colored(array, |part: u8| colors::of_instance(part.into()))?,
         "occluded" | "coverage" => colored(array, |value: u8| [value; 3])?,
         "roughness" => colored(array, |share: f32| colors::of_shares([share; 3]))?,
         "normal_world" => colored_vectors(array, colors::of_normal_world)?,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use trove::{FrameFile, RunLengths, StoredFrame};
 
-use crate::arrays::{channels, occlusion, values};
+use crate::arrays::{channels, occlusion, parts, values};
 use crate::error::trove_error;
 
 /// A finished frame's folder; its images are read, without Python's lock, when they are asked for.
@@ -22,6 +22,11 @@ impl PyStoredFrame {
     /// `frame.json`, as text.
     fn table(&self) -> PyResult<String> {
         String::from_utf8(self.0.table.to_json()).map_err(trove_error)
+    }
+
+    /// What each pixel shows, in the numbers of a class map.
+    fn labels<'py>(&self, py: Python<'py>, classes: &str) -> PyResult<Bound<'py, PyAny>> {
+        values(py, py.detach(|| trove::mapped_labels(&self.0, classes)).map_err(trove_error)?)
     }
 
     /// The image of a name, such as `flow_forward`, as an array.
@@ -42,6 +47,7 @@ impl PyStoredFrame {
             FrameFile::OccludedBackward => occlusion(py, py.detach(|| frame.occluded_backward()).map_err(trove_error)?),
             FrameFile::Panoptic => values(py, py.detach(|| frame.panoptic()).map_err(trove_error)?),
             FrameFile::Coverage => values(py, py.detach(|| frame.coverage()).map_err(trove_error)?),
+            FrameFile::Part => parts(py, py.detach(|| frame.part()).map_err(trove_error)?),
             file @ (FrameFile::Range | FrameFile::Roughness) => {
                 values(py, py.detach(|| frame.numbers(file)).map_err(trove_error)?)
             }

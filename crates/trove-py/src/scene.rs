@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use trove::{FreeCamera, PictureRequest, Raster, ReadyScene};
 
-use crate::arrays::{channels, occlusion, values};
+use crate::arrays::{channels, occlusion, parts, values};
 use crate::attended::attended;
 use crate::error::trove_error;
 
@@ -118,6 +118,9 @@ impl PyReadyScene {
         }
         if let Some(coverage) = extra.coverage {
             images.set_item("coverage", values(py, coverage)?)?;
+        }
+        if let Some(part) = extra.part {
+            images.set_item("part", parts(py, part)?)?;
         }
         Ok((table, images, masks))
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use trove_files::{LARGEST_TEXT, read_text};
-use trove_model::{CLASSES, Class, ClassMap, ClassMapEntry, InstanceCoding, Kind};
+use trove_model::{CLASSES, Class, ClassMap, ClassMapEntry, InstanceCoding, Kind, Role};
 
 use crate::ReadError;
 use crate::toml_fault::{self, nearest};
@@ -42,6 +42,8 @@ struct Row {
     trove: Vec<String>,
     #[serde(default)]
     kinds: Vec<String>,
+    #[serde(default)]
+    parts: Vec<String>,
     paper13: Option<String>,
 }
 
@@ -60,8 +62,8 @@ struct Fault {
 /// Reads a class map.
 ///
 /// # Errors
-/// A file that cannot be read, is no TOML, has keys, classes or kinds that are not known (with the nearest that is), or ids,
-/// names, classes or kinds twice.
+/// A file that cannot be read, is no TOML, has keys, classes, kinds or parts that are not known (with the nearest that is), or
+/// ids, names, classes, kinds or parts twice.
 pub fn read_class_map(path: &Path) -> Result<ClassMap, ReadError> {
     let text = read_text(path, LARGEST_TEXT).map_err(|source| ReadError::io(path, source))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -128,6 +130,13 @@ fn entry(row: Row) -> Result<ClassMapEntry, Fault> {
             found: format!("{name:?}{}", nearest(name, Kind::ALL.iter().map(|kind| kind.name()))),
         })
     });
+    let parts = row.parts.iter().map(|name| {
+        Role::from_name(name).ok_or_else(|| Fault {
+            place: place("parts"),
+            expected: "parts of objects, as in the manifest".into(),
+            found: format!("{name:?}{}", nearest(name, Role::ALL.iter().map(|(_, name)| *name))),
+        })
+    });
     let paper13 = row.paper13.as_ref().map(|name| {
         let paper = ClassMap::named("paper13").expect("a built-in map");
         let known = paper.classes.iter().find(|class| class.name == *name).map(|class| class.id);
@@ -140,6 +149,7 @@ fn entry(row: Row) -> Result<ClassMapEntry, Fault> {
     Ok(ClassMapEntry {
         ours: ours.collect::<Result<_, _>>()?,
         kinds: kinds.collect::<Result<_, _>>()?,
+        parts: parts.collect::<Result<_, _>>()?,
         paper13: paper13.transpose()?,
         id: row.id,
         thing: row.thing,
@@ -170,6 +180,7 @@ trove = ["road"]
 id = 9
 name = "post"
 kinds = ["street_lamp", "utility_pole"]
+parts = ["kerb"]
 paper13 = "traffic_pole"
 [[class]]
 id = 5
@@ -194,6 +205,7 @@ trove = ["void", "traffic_cone"]
         assert_eq!(of, [3, 1, 5, 0]);
         assert_eq!(map.object_id(Class::TrafficSign, Kind::StreetLamp), 9);
         assert_eq!(map.object_id(Class::TrafficSign, Kind::TrafficSign), 0);
+        assert_eq!(map.part_id(Class::Road, None, Some(Role::Kerb)), 9);
         let vehicle = map.class(3).unwrap();
         assert!(vehicle.thing && vehicle.rgb == [0, 0, 142] && map.class(1).unwrap().rgb == GREY);
     }
@@ -215,6 +227,7 @@ trove = ["void", "traffic_cone"]
         check("thing = true", "things = true", &["line 6", "unknown field `things`", "did you mean \"thing\"?"]);
         check("\"jeep\"", "\"jep\"", &["class \"vehicle\", trove", "TRoVE's 20", "\"jep\"; did you mean \"jeep\"?"]);
         check("street_lamp", "streetlamp", &["class \"post\", kinds", "did you mean \"street_lamp\"?"]);
+        check("\"kerb\"", "\"curb\"", &["class \"post\", parts", "parts of objects", "did you mean \"kerb\"?"]);
         check("\"traffic_pole\"", "\"pole\"", &["paper13", "did you mean"]);
         check("id = 9", "id = 3", &["class \"post\"", "that of \"vehicle\""]);
         check("id = 9", "id = 0", &["class \"post\"", "unlabelled", "0"]);

@@ -3,7 +3,7 @@
 mod opacity;
 
 use glam::Vec3;
-use trove_model::{Mapping, Material, Tiling};
+use trove_model::{Mapping, Material, Role, Tiling};
 use trove_trace::{Bsdf, NONE, Parameters, Surface, alpha};
 
 use crate::light::{Beams, Shines};
@@ -17,6 +17,8 @@ pub(crate) use opacity::Opacity;
 pub(crate) struct PreparedMaterial {
     pub(crate) scatters: trove_trace::Material<MapOf>,
     retroreflection: f32,
+    /// What it is for.
+    pub(crate) role: Option<Role>,
 }
 
 impl PreparedMaterial {
@@ -52,8 +54,7 @@ impl PreparedMaterial {
             uv_scale,
             mapping,
             tiling,
-            // For whoever builds scenes.
-            role: _,
+            role,
         } = material;
         let ior = ior.max(1.0);
         let share = |x: &f32| x.clamp(0.0, 1.0);
@@ -101,7 +102,7 @@ impl PreparedMaterial {
                 alpha: alpha(scatters.roughness),
             }),
         };
-        (Self { scatters, retroreflection: share(retroreflection) }, opacity)
+        (Self { scatters, retroreflection: share(retroreflection), role: *role }, opacity)
     }
 
     /// Whether light that comes from behind is scattered to the front.

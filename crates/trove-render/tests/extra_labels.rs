@@ -11,7 +11,7 @@ use solids::{ball, cube};
 use trove_model::{
     Body, Camera, Class, Cuboid, Distortion, Environment, EnvironmentMap, ExtraLabel, GlassLabels, Instance,
     InstanceId, Kind, LabelSettings, Labels, Lens, Light, Material, Mesh, Occlusion, Origin, Placement, Pose, Raster,
-    Scene, SceneObject, Shot, World,
+    Role, Scene, SceneObject, Shot, World,
 };
 use trove_render::{Denoising, KernelChoice, Renderer, RendererOptions};
 
@@ -217,7 +217,7 @@ fn area_above(corner: DVec2, side: &impl Fn(DVec2) -> f64) -> f64 {
 }
 
 #[test]
-fn albedo_and_roughness_are_the_materials() {
+fn albedo_roughness_and_parts_are_the_materials() {
     let cubes = [BRICK, METAL, WET].into_iter().zip([-2.0, 0.0, 2.0]).map(|(material, x)| {
         let world_from_mesh = DAffine3::from_translation(PLACE + DVec3::new(x, 5.0, 0.0));
         Instance {
@@ -229,12 +229,14 @@ fn albedo_and_roughness_are_the_materials() {
         .at_rest()
     });
     let scene = scene(cubes.collect());
-    for labels in by_all_kernels(&scene, &shot(&[ExtraLabel::Albedo, ExtraLabel::Roughness])) {
+    for labels in by_all_kernels(&scene, &shot(&[ExtraLabel::Albedo, ExtraLabel::Roughness, ExtraLabel::Part])) {
         let (albedo, roughness) = (labels.extra.albedo.unwrap(), labels.extra.roughness.unwrap());
+        let part = labels.extra.part.unwrap();
         let mut seen = [0; 5];
         for i in 0..albedo.data.len() {
             let (color, roughness, id) = (Vec3::from(albedo.data[i]), roughness.data[i], labels.instance.data[i]);
             seen[id as usize] += 1;
+            assert_eq!(part.data[i], (id == 3).then_some(Role::ShopSign), "the metal's");
             match id {
                 0 => assert!(color.is_nan_mask().all() && roughness.is_nan(), "sky"),
                 1 => assert!(
@@ -314,7 +316,7 @@ fn outside_the_image_circle_nothing_is_defined() {
     assert!((0..coverage.len()).any(|i| labels.class.data[i] == Class::Road && coverage[i] < 200));
 }
 
-const ALL: [ExtraLabel; 8] = [
+const ALL: [ExtraLabel; 9] = [
     ExtraLabel::Range,
     ExtraLabel::NormalWorld,
     ExtraLabel::Albedo,
@@ -323,6 +325,7 @@ const ALL: [ExtraLabel; 8] = [
     ExtraLabel::SceneFlowBackward,
     ExtraLabel::ObjectCoordinates,
     ExtraLabel::Coverage,
+    ExtraLabel::Part,
 ];
 
 fn look(scene: &Scene, shot: &Shot) -> Labels {
@@ -407,7 +410,7 @@ fn scene(instances: Vec<Instance>) -> Scene {
         materials: vec![
             brick.clone(),
             Material { transmission: 1.0, roughness: 0.0, ..Material::default() },
-            Material { metalness: 1.0, roughness: 0.3, ..brick.clone() },
+            Material { metalness: 1.0, roughness: 0.3, role: Some(Role::ShopSign), ..brick.clone() },
             Material { wetness: 1.0, ..brick },
         ],
         instances,

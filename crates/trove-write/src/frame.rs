@@ -74,6 +74,7 @@ fn check_sizes(capture: &Capture, width: u32, height: u32) -> Result<(), WriteEr
     found.extend(extra.scene_flow_backward.iter().map(|flow| size("scene_flow_backward", flow)));
     found.extend(extra.object_coordinates.iter().map(|points| size("object_coordinates", points)));
     found.extend(extra.coverage.iter().map(|coverage| size("coverage", coverage)));
+    found.extend(extra.part.iter().map(|part| size("part", part)));
     match found.iter().find(|(_, w, h, len)| (*w, *h) != (width, height) || *len != width as usize * height as usize) {
         None if width > 0 && height > 0 => Ok(()),
         None => Err(WriteError::Mismatch(format!("an image of {width}×{height} pixels"))),

@@ -6,7 +6,7 @@ use std::{fs, io};
 
 use trove_files::{OutputRoot, write_piecewise};
 use trove_format::{FrameFile, FrameTable, Manifest, ManifestRows, RunReport, WrittenFile};
-use trove_model::{Class, InstanceId, Labels, Occlusion, Raster};
+use trove_model::{Class, InstanceId, Labels, Occlusion, Raster, Role};
 
 use crate::files::{FolderInTheMaking, Maker, sha256_file};
 use crate::{Frame, Grid, RadarCycle, Sweep, WriteError, contact_sheet, exr_file, masks, png_file, write_atomically};
@@ -223,6 +223,10 @@ fn encode(file: FrameFile, frame: &Frame) -> Result<Vec<u8>, WriteError> {
             exr_file::encode(name, made(name, &labels.extra.object_coordinates)?, ["R", "G", "B"])
         }
         FrameFile::Coverage => png_file::grey(name, width, height, &made(name, &labels.extra.coverage)?.data),
+        FrameFile::Part => {
+            let parts = made(name, &labels.extra.part)?.map(|part| part.map_or(0, Role::id));
+            png_file::grey(name, width, height, &parts.data)
+        }
         FrameFile::Masks => Ok(masks::mask_table(labels).ok_or_else(|| not_asked(name))?.to_json()),
         FrameFile::Change => {
             let change = frame.change.as_ref();

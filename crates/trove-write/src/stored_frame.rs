@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use image::{DynamicImage, GrayImage, ImageDecoder, ImageFormat, ImageReader};
 use trove_files::{Budget, open_regular};
 use trove_format::{FrameFile, FrameTable, MaskTable, ObjectRow, RunLengths};
-use trove_model::{Class, InPatches, Occlusion, Patches, Raster};
+use trove_model::{Class, InPatches, Occlusion, Patches, Raster, Role};
 
 use crate::{WriteError, exr_parts, masks};
 
@@ -211,6 +211,16 @@ impl StoredFrame {
     pub fn coverage(&self) -> Result<Raster<u8>, WriteError> {
         let picture = self.png(FrameFile::Coverage)?.into_luma8();
         Ok(Raster { width: picture.width(), height: picture.height(), data: picture.into_raw() })
+    }
+
+    /// The part of its object that each pixel shows.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`], and a number that no part has.
+    pub fn part(&self) -> Result<Raster<Option<Role>>, WriteError> {
+        let picture = self.png(FrameFile::Part)?.into_luma8();
+        let part = |id| if id == 0 { Some(None) } else { Role::from_id(id).map(Some) };
+        self.meant(FrameFile::Part, &picture, part, "which no part has")
     }
 
     /// The numbers of `range.exr` (metres along the ray; +inf: sky), `depth.exr` or `roughness.exr` (NaN: sky).

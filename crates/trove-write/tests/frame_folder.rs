@@ -8,9 +8,9 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3, Vec3};
 use trove_format::{FrameFile, FrameTable, LensModel, WrittenFile};
 use trove_model::{
-    CLASSES, Capture, CaptureStats, Class, Color, Cuboid, Distortion, Environment, ExtraLabels, Instance, InstanceId,
-    Kind, Labels, Lens, Light, MapProjection, Mask, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky, PixelBox, Pose,
-    Raster, Scene, SceneObject, Seed, Shot, State,
+    CLASSES, Capture, CaptureStats, Class, ClassMap, Color, Cuboid, Distortion, Environment, ExtraLabels, Instance,
+    InstanceId, Kind, Labels, Lens, Light, MapProjection, Mask, Mesh, ObjectLabel, Occlusion, Origin, PhysicalSky,
+    PixelBox, Pose, Raster, Role, Scene, SceneObject, Seed, Shot, State,
 };
 use trove_write::{Frame, FrameFolders, FrameMeta, Maker, StoredFrame, WriteError, sha256_file, write_atomically};
 
@@ -115,6 +115,7 @@ fn capture() -> Capture {
             scene_flow_backward: Some(Raster::filled(W, H, [f32::NAN; 3])),
             object_coordinates: Some(Raster::filled(W, H, [0.25, 0.5, 1.0])),
             coverage: Some(Raster::from_fn(W, H, |x, _| x as u8)),
+            part: Some(Raster::from_fn(W, H, |x, _| Role::from_id((x % 19) as u8))),
         },
         objects: vec![object],
     };
@@ -170,7 +171,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let (dir, capture) = (root.path().join("scene-0103/v00/k005/ego.CAM_FRONT"), capture());
     let files = write(&dir, &capture).unwrap();
 
-    assert_eq!(names(&dir).len(), 21);
+    assert_eq!(names(&dir).len(), 22);
     assert_eq!(names(dir.parent().unwrap()), ["ego.CAM_FRONT"], "nothing half-made is left");
     for file in &files {
         assert_eq!(file.sha256, sha256_file(&dir.join(&file.name)).unwrap());
@@ -223,6 +224,8 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
         }
     }
     assert_eq!(png("coverage.png").as_luma8().unwrap().as_raw(), &extra.coverage.as_ref().unwrap().data);
+    let parts: Vec<u8> = (0..W * H).map(|i| (i % W % 19) as u8).collect();
+    assert_eq!(png("part.png").as_luma8().unwrap().as_raw(), &parts);
     // As panopticapi reads them: R + 256 · G + 65536 · B.
     let segments = png("panoptic.png").into_rgb8();
     let number = |p: &image::Rgb<u8>| u32::from(p[0]) + 256 * u32::from(p[1]) + 65_536 * u32::from(p[2]);
@@ -231,6 +234,7 @@ fn every_value_that_goes_in_comes_out_of_the_files() {
     let stored = StoredFrame::open(&dir).unwrap();
     assert!(stored.panoptic().unwrap().data.iter().copied().eq(segments.pixels().map(number)));
     assert_eq!(stored.coverage().unwrap(), extra.coverage.clone().unwrap());
+    assert_eq!(stored.part().unwrap(), extra.part.clone().unwrap());
     assert_eq!(stored.numbers(FrameFile::Range).unwrap(), extra.range_m.clone().unwrap());
     assert_eq!(stored.vectors(FrameFile::SceneFlowForward).unwrap(), extra.scene_flow_forward.clone().unwrap());
 
@@ -283,7 +287,7 @@ fn labels_alone_leave_no_picture() {
     let dir = root.path().join("frame");
     let files = write(&dir, &Capture { color: None, ..capture() }).unwrap();
     assert!(files.iter().all(|f| f.name != "rgb.png" && f.name != "radiance.exr"));
-    assert_eq!(names(&dir).len(), 19);
+    assert_eq!(names(&dir).len(), 20);
 }
 
 #[test]
@@ -339,6 +343,27 @@ fn several_that_make_the_same_frame_at_once_leave_it_whole_once() {
         assert_eq!(names(root.path()), ["frame"]);
         fs::remove_dir_all(root.path().join("frame")).unwrap();
     }
+}
+
+#[test]
+fn labels_in_other_numbers_tell_riders_from_what_they_ride() {
+    let root = tempfile::tempdir().unwrap();
+    let mut capture = capture();
+    capture.labels.class = Raster::from_fn(W, H, |x, _| if x < 24 { Class::CycleRider } else { Class::Road });
+    capture.labels.instance = Raster::from_fn(W, H, |x, _| if x < 24 { 700 } else { 0 });
+    let part = |y| if y < 8 { Role::Cyclist } else { Role::Ridden };
+    capture.labels.extra.part = Some(Raster::from_fn(W, H, |x, y| (x < 24).then(|| part(y))));
+    write(&root.path().join("frame"), &capture).unwrap();
+    let labels = || {
+        let map = ClassMap::named("cityscapes").unwrap();
+        let found = StoredFrame::open(&root.path().join("frame")).unwrap().labels(&map).unwrap();
+        [found.at(5, 2), found.at(5, 12), found.at(30, 2)].map(|id| *id)
+    };
+    assert_eq!(labels(), [25, 33, 7]);
+    fs::remove_file(root.path().join("frame/part.png")).unwrap();
+    assert_eq!(labels(), [25, 25, 7], "a rider as a whole");
+    fs::remove_file(root.path().join("frame/instance.png")).unwrap();
+    assert_eq!(labels(), [25, 25, 7]);
 }
 
 #[test]

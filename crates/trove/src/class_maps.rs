@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
-use trove_model::ClassMap;
+use anyhow::{Result, anyhow};
+use trove_model::{ClassMap, Raster};
 use trove_read::read_class_map;
+use trove_write::StoredFrame;
 
 use crate::recipe::nearest;
 
@@ -31,6 +32,15 @@ impl std::str::FromStr for ClassMapChoice {
         let known = ClassMap::NAMES.join(", ");
         Err(format!("expected one of {known}, or a FILE.toml (docs/judge.md){}", nearest(text, &ClassMap::NAMES)))
     }
+}
+
+/// What each pixel of a frame shows, in the numbers of a class map, which is named or a file.
+///
+/// # Errors
+/// A map that is not known or cannot be read, and a frame whose labels cannot.
+pub fn mapped_labels(frame: &StoredFrame, classes: &str) -> Result<Raster<u8>> {
+    let choice: ClassMapChoice = classes.parse().map_err(|error| anyhow!("classes: {error}"))?;
+    Ok(frame.labels(&choice.read()?)?)
 }
 
 impl ClassMapChoice {

@@ -54,10 +54,11 @@ mod view;
 mod virtual_scene;
 mod watch;
 
+pub use class_maps::mapped_labels;
 pub use cli::{call, main};
 pub use ready_scene::{FreeCamera, PictureRequest, ReadyScene};
 pub use trove_format::{FrameFile, RunLengths};
-pub use trove_model::{Occlusion, Raster, label_table};
+pub use trove_model::{Occlusion, Raster, Role, label_table};
 pub use trove_write::{StoredFrame, colors, encode_picture, mask_table, painted};
 pub use watch::{Follower, Watch};
 

@@ -8,8 +8,9 @@ from typing import ClassVar
 import numpy as np
 from PIL import Image
 
+from trove._trove import StoredFrame
 from trove.format import read_curated
-from trove.train.labels import CROWNS, lookup
+from trove.train.labels import CROWNS, SETS, lookup
 
 
 @dataclass(frozen=True)
@@ -110,12 +111,10 @@ class Pictures:
 
     def _read(self, sample: Sample) -> tuple[np.ndarray, np.ndarray]:
         picture: Image.Image = Image.open(sample.picture).convert("RGB")
-        labels: Image.Image = Image.open(sample.labels)
-        if labels.mode not in ("L", "P"):
-            labels = labels.getchannel(0)
+        labels, numbering = _labels(sample, self.numbering, self.target)
         if picture.size != labels.size:
             raise ValueError(f"{sample.labels}: expected {picture.size} pixels, like the image, found {labels.size}")
-        labels = Image.fromarray(lookup(self.numbering, self.target)[np.asarray(labels)])
+        labels = Image.fromarray(lookup(numbering, self.target)[np.asarray(labels)])
         if self.numbering == "native" and self.target in CROWNS:
             labels = _outlined_crowns(labels, *CROWNS[self.target])
         scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * self.zoom
@@ -126,6 +125,15 @@ class Pictures:
                 labels.resize(size, Image.Resampling.NEAREST),
             )
         return np.asarray(picture), np.asarray(labels)
+
+
+def _labels(sample: Sample, numbering: str, target: str) -> tuple[Image.Image, str]:
+    """The picture of the labels, and how it is numbered: frames that have objects or parts tell more than classes."""
+    finer = [sample.labels.with_name(name) for name in ("instance.png", "part.png")]
+    if numbering == "native" and any(path.exists() for path in finer):
+        return Image.fromarray(StoredFrame(sample.labels.parent).labels(SETS[target])), SETS[target]
+    labels: Image.Image = Image.open(sample.labels)
+    return labels if labels.mode in ("L", "P") else labels.getchannel(0), numbering
 
 
 def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) -> Image.Image:

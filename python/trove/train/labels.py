@@ -40,7 +40,7 @@ DETECTED = {
 }
 DETECTORS = ("ssdlite",)
 # The label set whose names a target's are.
-_SETS = {"camvid": "camvid", "paper": "trove13", "idd-lite": "idd-lite"}
+SETS = {"camvid": "camvid", "paper": "trove13", "idd-lite": "idd-lite"}
 # The classes of trees, and of what is seen between their twigs.
 CROWNS = {
     "camvid": (CAMVID.index("tree"), CAMVID.index("sky"), CAMVID.index("building")),
@@ -50,6 +50,7 @@ CROWNS = {
 # The table of each numbering and the column that holds its numbers.
 _NUMBERINGS = {
     "native": ("trove20", "id"),
+    "trove13": ("trove13", "id"),
     "camvid": ("camvid", "id"),
     "idd-lite": ("idd-lite", "id"),
     "cityscapes": ("cityscapes", "id"),
@@ -61,13 +62,13 @@ _NUMBERINGS = {
 def lookup(numbering: str, target: str) -> np.ndarray:
     """The target's index for each of 256 ids, `uint8`; `IGNORED` if it has none.
 
-    `numbering` is `native` (class.png), `camvid`, `idd-lite`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
+    `numbering` is `native` (class.png), `trove13`, `camvid`, `idd-lite`, `cityscapes` (ids) or `cityscapes-train` (trainIds, which KITTI-STEP
     shares). Raises `ValueError` for a numbering that has no counterpart in the target.
     """
     label_set, column = _NUMBERINGS.get(numbering, ("", ""))
     rows = _rows(label_set) if label_set else []
     # A set names its classes in a column for each other set that it has a counterpart in.
-    names = "name" if label_set == _SETS[target] else _SETS[target]
+    names = "name" if label_set == SETS[target] else SETS[target]
     if not rows or names not in rows[0]:
         raise ValueError(f"labels numbered as {numbering} cannot be converted to the classes {target}")
     classes = TARGETS[target]

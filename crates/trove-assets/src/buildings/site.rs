@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::{Mat3, Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::{Asset, Class, Kind, Material, Surface};
+use trove_model::{Asset, Class, Kind, Material, Role, Surface};
 
 use crate::shape::{Model, Shape};
 
@@ -55,6 +55,17 @@ impl<'a> Site<'a> {
         }
         let name = material.name.clone();
         let slot = self.model.slot(material, colors);
+        self.slots.push((name, slot));
+        slot
+    }
+
+    /// A slot like another one, with a role.
+    pub(super) fn slot_for(&mut self, role: Role, like: u16) -> u16 {
+        let name = format!("{} of slot {like}", role.name());
+        if let Some((_, slot)) = self.slots.iter().find(|s| s.0 == name) {
+            return *slot;
+        }
+        let slot = self.model.slot_for(role, like);
         self.slots.push((name, slot));
         slot
     }

@@ -1,7 +1,7 @@
 //! What hangs on a wall or stands on a roof, in the axes of its place.
 
 use glam::{Quat, Vec2, Vec3, vec2, vec3};
-use trove_model::Material;
+use trove_model::{Material, Role};
 
 use super::finish;
 use super::parts::{Rail, ShapePlan};
@@ -117,6 +117,7 @@ impl Spot {
     fn awning(self, site: &mut Site<'_>, cloth: u16, size: Vec2) {
         let row = |out: f32, z: f32| vec![vec3(-size.x / 2.0, -out, z), vec3(size.x / 2.0, -out, z)];
         let sheet = Shape::sheet(&[row(size.y, -0.7), row(size.y, -0.45), row(0.05, 0.0)]);
+        let cloth = site.slot_for(Role::Awning, cloth);
         self.add(site, cloth, sheet.plate(0.02));
     }
 
@@ -200,6 +201,7 @@ impl Spot {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             slots: vec![0, 0],
         };
+        let slot = site.slot_for(Role::ShopSign, slot);
         self.add(site, slot, face);
     }
 

@@ -5,7 +5,7 @@ mod motorcycle;
 mod parts;
 mod rider;
 
-use trove_model::{Asset, Kind};
+use trove_model::{Asset, Kind, Role};
 
 use crate::people::{Hair, Leg, Outfit, Physique};
 use crate::shape::{Model, Shape};
@@ -80,7 +80,13 @@ fn cycle(id: &str, kind: Kind, build: impl Fn(&Parts) -> Shape, rider: Option<Ri
     let parts = Parts::new(&mut model, id);
     model.add_marked(build(&parts));
     if let Some(rider) = rider {
+        let of_cycle = model.slots().len();
+        model.slots().iter_mut().for_each(|slot| _ = slot.material.role.get_or_insert(Role::Ridden));
+        // Helmet and bag are of the cycle's materials, but not parts of it.
+        let parts = Parts::new(&mut model, id);
         rider.sit(&mut model, &parts);
+        let role = if kind == Kind::BicycleWithRider { Role::Cyclist } else { Role::Motorcyclist };
+        model.slots()[of_cycle..].iter_mut().for_each(|slot| slot.material.role = Some(role));
     }
     model.asset(id, kind, kind.class())
 }

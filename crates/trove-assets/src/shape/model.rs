@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3, vec3};
-use trove_model::{Asset, Class, Extra, Keypoints, Kind, Material, Mesh, Slot};
+use trove_model::{Asset, Class, Extra, Keypoints, Kind, Material, Mesh, Role, Slot};
 
 use super::{Prism, Shape};
 
@@ -24,6 +24,19 @@ impl Model {
     /// A slot with a material; `paints` are the base colours that it is seen in, a colour as often as it is common.
     pub(crate) fn slot(&mut self, material: Material, paints: &[Vec3]) -> u16 {
         self.slots.push(Slot::new(material, paints.to_vec()));
+        self.slots.len() as u16 - 1
+    }
+
+    /// The slots so far, in the order of their numbers.
+    pub(crate) fn slots(&mut self) -> &mut [Slot] {
+        &mut self.slots
+    }
+
+    /// A slot like another one, with a role.
+    pub(crate) fn slot_for(&mut self, role: Role, like: u16) -> u16 {
+        let mut slot = self.slots[usize::from(like)].clone();
+        slot.material.role = Some(role);
+        self.slots.push(slot);
         self.slots.len() as u16 - 1
     }
 

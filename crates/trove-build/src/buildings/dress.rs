@@ -138,13 +138,17 @@ fn fittings(
         sheet
     };
     let cast = palette.fitting(SurfaceKind::Concrete, ANY, random).material;
-    let sign = palette.fitting(SurfaceKind::ShopSign, ANY, random).material;
+    let sign = Material { role: Some(Role::ShopSign), ..palette.fitting(SurfaceKind::ShopSign, ANY, random).material };
     let back = palette.fitting(SurfaceKind::RoomBack, ANY, random).material;
     let stone = |color: Vec3| {
         let color = color * (Vec3::ONE * 0.6 + paint * 0.4) / 0.31;
         Material { base_color: cast.base_color * color, name: "facade stone".into(), ..cast.clone() }
     };
     let plain = |name: &str, color: Vec3, roughness: f32| Material::plain(name, color, roughness);
+    let awning = |name: &str, color: Vec3| {
+        let role = Some(Role::Awning);
+        Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, role, ..plain(name, color, 0.9) }
+    };
     let tint = (design.glass * 0.87).min(Vec3::ONE);
     let glass = |name: &str, color: Vec3| Material { transmission: 0.92, ..plain(name, color, 0.02) };
     vec![
@@ -174,8 +178,8 @@ fn fittings(
         Material { role: Some(Role::ShopPanel), ..plain("light panel", Vec3::splat(0.7), 0.5) },
         Material { role: Some(Role::SignLamp), ..plain("sign lamp", Vec3::splat(0.6), 0.3) },
         Material { role: Some(Role::WallLamp), ..plain("wall lamp", Vec3::splat(0.6), 0.3) },
-        Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning", cloth, 0.9) },
-        Material { sheen: 0.4, translucency: 0.2, dirt: 0.2, ..plain("awning stripe", vec3(0.55, 0.54, 0.5), 0.9) },
+        awning("awning", cloth),
+        awning("awning stripe", vec3(0.55, 0.54, 0.5)),
         sign,
         Material { translucency: 0.5, ..plain("scaffold net", vec3(0.08, 0.25, 0.14), 0.9) },
         Material { dirt: 0.4, ..plain("plank", vec3(0.3, 0.22, 0.13), 0.85) },
@@ -313,6 +317,8 @@ mod tests {
         assert_eq!(dress.materials[Slot::Glass as usize].name, "window glass");
         assert_eq!(dress.materials[Slot::Lamp as usize].name, "wall lamp");
         assert_eq!(dress.materials[Slot::LightPanel as usize].name, "light panel");
+        let roles = [Slot::Sign, Slot::Cloth, Slot::Stripe].map(|slot| dress.materials[slot as usize].role);
+        assert_eq!(roles, [Some(Role::ShopSign), Some(Role::Awning), Some(Role::Awning)]);
     }
 
     #[test]

@@ -20,7 +20,7 @@ mod tests;
 mod wear;
 
 use glam::DVec2;
-use trove_model::{Bounds, Class, DrivingSide, Mesh, Polygon, RoadPlan, SurfaceKind};
+use trove_model::{Bounds, Class, DrivingSide, Material, Mesh, Polygon, RoadPlan, Role, SurfaceKind};
 
 pub use bends::with_bends;
 pub(crate) use course::{Lane, LaneUse};
@@ -136,8 +136,17 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
             SurfaceKind::Paving => &locale.surfaces.sidewalk,
             _ => &[],
         };
-        palette.fitting(kind, tags, &mut seed.child(seed_name(kind)).random()).material
+        let surface = palette.fitting(kind, tags, &mut seed.child(seed_name(kind)).random());
+        let role = match kind {
+            SurfaceKind::Kerb => Some(Role::Kerb),
+            SurfaceKind::Paving if surface.tags.has("earth") => Some(Role::Unpaved),
+            _ => surface.material.role,
+        };
+        Material { role, ..surface.material }
     };
+    let paving = material(SurfaceKind::Paving);
+    // Nobody lays kerb stones along trodden earth.
+    let kerb_stone = if paving.role == Some(Role::Unpaved) { paving.clone() } else { material(SurfaceKind::Kerb) };
 
     let water = covers.iter().find(|c| c.kind == SurfaceKind::Water).map_or(&[][..], |c| &c.area);
     let areas = [
@@ -164,9 +173,9 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
         seed: seed.child("surfacing"),
     };
     let mut pieces = surfacing.pieces();
-    let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| {
+    let mut put = |mesh: Mesh, class: Class, material: Material| {
         if !mesh.triangles.is_empty() {
-            pieces.push(Piece::stuff(mesh, class, material(kind)));
+            pieces.push(Piece::stuff(mesh, class, material));
         }
     };
     let on_border = |a: DVec2, b: DVec2| {
@@ -178,10 +187,11 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
     let mut kerb = drape.raised(&layout.kerb, kerb_m);
     wear::alignment::follow_edges(&mut kerb, &layout.carriageway, on_border);
     kerb.append(&drape.faces(&layout.carriageway, &kerb::profile(kerb_m), on_border), 0);
-    add(kerb, Class::Sidewalk, SurfaceKind::Kerb);
+    put(kerb, Class::Sidewalk, kerb_stone);
     let mut pavement = drape.raised(&layout.pavement, kerb_m);
     surfacing.align(&mut pavement);
-    add(pavement, Class::Sidewalk, SurfaceKind::Paving);
+    put(pavement, Class::Sidewalk, paving);
+    let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| put(mesh, class, material(kind));
     add(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, SurfaceKind::Asphalt);
     let lawn = Lawn::new(conditions, seeds.vegetation.child("roads").child("lawn"));
     for cover in &covers {

@@ -1,8 +1,11 @@
 //! What holds of every place's surfaces, on a made-up street with a map around it.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 use trove_model::{
-    AssetLibrary, Bounds, Class, DrivingSide, HeightField, LaneMap, Polygon, Raster, Report, RoadKind, Seed, StreetMap,
+    AssetLibrary, Bounds, Class, DrivingSide, HeightField, LaneMap, Material, Polygon, Raster, Report, RoadKind, Role,
+    Seed, StreetMap, Surface, SurfaceKind, Tags,
 };
 
 use super::decks::Lift;
@@ -130,6 +133,30 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
     let paint = heights(Class::Road, true);
     assert!(!paint.is_empty() && paint.iter().all(|h| (h - 0.004).abs() < 0.02));
     assert!(heights(Class::Sidewalk, false).iter().all(|h| (-0.03..built.kerb_m + 0.02).contains(h)));
+}
+
+#[test]
+fn kerbs_are_told_from_sidewalks_but_along_trodden_earth() {
+    let (drive, map, ground) = (drive(), map(), hilly());
+    let roles = |tags: &[&str]| {
+        let surface = |kind: SurfaceKind| Surface {
+            id: kind.name().into(),
+            kind,
+            tags: Tags::new(tags),
+            material: Material::default(),
+            size_m: [1.0; 2],
+            cells: [1; 2],
+            design: None,
+        };
+        let surfaces_of = [SurfaceKind::Paving, SurfaceKind::Kerb].map(surface).to_vec();
+        let library = AssetLibrary { surfaces: surfaces_of, ..AssetLibrary::default() };
+        let built =
+            surfaces(&place(&drive, Some(&map), bounds(), &ground, &library, &Seed(7).into(), &Report::default()));
+        let of_walks = built.pieces.into_iter().filter(|piece| piece.class == Class::Sidewalk);
+        of_walks.map(|piece| piece.materials[0].role).collect::<BTreeSet<_>>()
+    };
+    assert_eq!(roles(&["slabs"]), [None, Some(Role::Kerb)].into());
+    assert_eq!(roles(&["earth"]), [Some(Role::Unpaved)].into());
 }
 
 #[test]

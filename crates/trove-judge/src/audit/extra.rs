@@ -1,6 +1,7 @@
 //! Files that only some recipes ask for, held to those that say the same in another way.
 
 use glam::{DVec3, Vec3};
+use trove_model::{Class, Kind, Role};
 
 use super::finding::{Check, Count, Notes};
 use super::flow::{Looked, WAYS};
@@ -13,6 +14,7 @@ const AGREE: f64 = 0.999;
 pub(super) fn check(looked: &Looked, notes: &mut Notes) {
     let frame = looked.frame;
     panoptic(frame, notes);
+    parts(frame, notes);
     scene_flow(looked, notes);
     let Some(eye) = &looked.eye else { return };
     range(frame, eye, notes);
@@ -33,6 +35,30 @@ fn panoptic(frame: &LabelledFrame, notes: &mut Notes) {
         let what =
             format!("panoptic.png: expected class.png and instance.png in one, found others on {} pixels", wrong.len());
         notes.found(Check::Panoptic, 1.0, what, wrong);
+    }
+}
+
+/// Riders are on ridden cycles, boards at houses, kerbs beside roads.
+fn parts(frame: &LabelledFrame, notes: &mut Notes) {
+    let (Some(part), Some(class)) = (&frame.part, &frame.class) else { return };
+    notes.look(Check::Classes);
+    let cycles = frame.ids(|object| object.kind == Kind::BicycleWithRider);
+    let motorcycles = frame.ids(|object| object.kind == Kind::MotorcycleWithRider);
+    let is_of = |ids: &[bool], x, y| frame.instance.as_ref().is_none_or(|ids_of| ids[usize::from(*ids_of.at(x, y))]);
+    let fits = |[x, y]: [u32; 2], part: Role| match part {
+        Role::Cyclist => is_of(&cycles, x, y) && *class.at(x, y) == Class::CycleRider,
+        Role::Motorcyclist => is_of(&motorcycles, x, y) && *class.at(x, y) == Class::MotorcycleRider,
+        Role::Ridden => is_of(&cycles, x, y) || is_of(&motorcycles, x, y),
+        Role::ShopSign | Role::Awning => *class.at(x, y) == Class::Building,
+        Role::Kerb | Role::Unpaved => *class.at(x, y) == Class::Sidewalk,
+        // Lamps, and what names are written on, are of many things.
+        _ => true,
+    };
+    let wrong = pixels(part).filter(|(pixel, part)| part.is_some_and(|part| !fits(*pixel, part)));
+    let wrong: Vec<_> = wrong.map(|(pixel, _)| pixel).collect();
+    if !wrong.is_empty() {
+        let what = format!("part.png: expected parts where what has them is, found others on {} pixels", wrong.len());
+        notes.found(Check::Classes, 1.0, what, wrong);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use trove_format::{FrameTable, Matrix4, ObjectOrigin, ObjectRow, SweepTable};
-use trove_model::{Class, InPatches, Lens, LidarPoint, Occlusion, Patches, Raster};
+use trove_model::{Class, InPatches, Lens, LidarPoint, Occlusion, Patches, Raster, Role};
 
 /// What is known of a frame; images that it does not have are `None`. Those in patches have those of [`patches`].
 #[derive(Clone, Debug)]
@@ -27,6 +27,8 @@ pub struct LabelledFrame {
     pub occluded: [Option<Raster<Occlusion>>; 2],
     /// 65536 · class + object.
     pub panoptic: Option<Raster<u32>>,
+    /// Parts of objects.
+    pub part: Option<Raster<Option<Role>>>,
     /// Metres along the ray; +inf: sky.
     pub range_m: Option<InPatches<f32>>,
     /// Unit normals in World; 0: sky.

@@ -2,7 +2,7 @@
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, RgbImage};
 use trove_format::{FrameTable, GlassPolicy, LensModel, ObjectOrigin, ObjectRow, Projection};
-use trove_model::Kind;
+use trove_model::{Kind, Role};
 
 use super::*;
 
@@ -169,6 +169,23 @@ fn a_finer_map_asks_for_the_kinds_of_our_objects() {
     // Trailers are not judged in Cityscapes.
     assert_eq!(found.counts.confusion.pixels(13), 0);
     assert_eq!((found.accuracy.unwrap().value, iou(&found, "truck")), (1.0, None));
+}
+
+#[test]
+fn a_finer_map_asks_for_the_parts_of_our_objects() {
+    let folder = tempfile::tempdir().unwrap();
+    let (p, t) = (folder.path().join("p"), folder.path().join("t"));
+    // A cyclist and the bicycle, and a bicycle of another's model, which tells no parts.
+    let riders = [Kind::BicycleWithRider; 2];
+    frame(&t.join("k/ego.A"), &[12, 12, 12, 9], &[1, 1, 2, 0], &riders);
+    write(&p.join("k/ego.A.png"), greys(&[25, 33, 25, 7]));
+    let right = || run(&p, &t, &within("cityscapes")).map(|found| found.accuracy.unwrap().value);
+    assert_eq!(right().unwrap(), 0.75);
+    write(&t.join("k/ego.A/part.png"), greys(&[Role::Cyclist.id(), Role::Ridden.id(), 0, 0]));
+    assert_eq!(right().unwrap(), 1.0);
+    write(&t.join("k/ego.A/part.png"), greys(&[0; 3]));
+    let message = right().unwrap_err().to_string();
+    assert!(message.contains("part.png") && message.contains("4 pixels, like class.png"), "{message}");
 }
 
 #[test]

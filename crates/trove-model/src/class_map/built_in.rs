@@ -4,18 +4,20 @@ use std::num::NonZero;
 
 use super::map::{ClassMap, ClassMapEntry, InstanceCoding, OURS, PAPER};
 use crate::class::{IGNORED, Table};
-use crate::{Class, Kind, label_table};
+use crate::{Class, Kind, Role, label_table};
 
 /// Waymo's own tools write this.
 const WAYMO_DIVISOR: NonZero<u16> = NonZero::new(1000).unwrap();
 /// Which kinds go elsewhere than their class does, by map.
 const KINDS: &str = include_str!("kinds.tsv");
+/// Which parts of objects go elsewhere than the objects do, by map.
+const PARTS: &str = include_str!("parts.tsv");
 
 /// Where a map stands.
 struct Source {
     /// The table of its classes.
     table: &'static str,
-    /// The column of `trove20.tsv` and of `kinds.tsv` with the names of its classes, or of a finer map's that it is part of.
+    /// The column of `trove20.tsv`, `kinds.tsv` and `parts.tsv` with the names of its classes, or of a finer map's that it is part of.
     column: &'static str,
     /// Pictures hold training ids.
     by_train_id: bool,
@@ -83,7 +85,10 @@ fn entries(source: &Source) -> Vec<ClassMapEntry> {
     // A class that only a finer map has is unlabelled here.
     let belongs =
         |table: &Table, i, to| row(&classes, table.text(i, source.column)).map_or(source.unlabelled, id) == to;
-    let of_kinds = if kinds.has(source.column) { 0..kinds.len() } else { 0..0 };
+    let rows = |table: &Table| if table.has(source.column) { 0..table.len() } else { 0..0 };
+    let (parts, of_kinds) = (Table::new(PARTS), rows(&kinds));
+    // A part without a name there has no number of its own.
+    let of_parts = rows(&parts).filter(|row| !parts.text(*row, source.column).is_empty());
     let entry = |i: usize| ClassMapEntry {
         id: id(i),
         name: classes.text(i, "name").to_owned(),
@@ -93,6 +98,9 @@ fn entries(source: &Source) -> Vec<ClassMapEntry> {
         ours: Class::ALL.into_iter().filter(|class| belongs(&ours, usize::from(class.id()), id(i))).collect(),
         kinds: (of_kinds.clone().filter(|row| belongs(&kinds, *row, id(i))))
             .map(|row| Kind::from_name(kinds.text(row, "kind")).expect("a known kind"))
+            .collect(),
+        parts: (of_parts.clone().filter(|row| belongs(&parts, *row, id(i))))
+            .map(|row| Role::from_name(parts.text(row, "part")).expect("a known part"))
             .collect(),
         paper13: match source.table {
             "trove13" => Some(id(i)),

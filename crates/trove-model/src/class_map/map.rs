@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
 
-use crate::{Class, Kind};
+use crate::{Class, Kind, Role};
 
 /// The map of `class.png`.
 pub(super) const OURS: &str = "trove20";
@@ -28,6 +28,8 @@ pub struct ClassMap {
     of_ours: [u8; 20],
     /// Number of each kind that goes elsewhere than its class does.
     of_kinds: BTreeMap<Kind, u8>,
+    /// Number of each part of objects that goes elsewhere than they do.
+    of_parts: BTreeMap<Role, u8>,
 }
 
 /// A class of a [`ClassMap`].
@@ -76,6 +78,8 @@ pub struct ClassMapEntry {
     pub ours: Vec<Class>,
     /// Kinds that belong to it although their class does not.
     pub kinds: Vec<Kind>,
+    /// Parts of objects that belong to it, whatever they are part of.
+    pub parts: Vec<Role>,
     /// The id of the paper's 13 classes that it belongs to; without it, that of `ours` where they agree.
     pub paper13: Option<u8>,
 }
@@ -95,8 +99,8 @@ impl ClassMap {
     /// A map of some classes in any order. Our classes that none of them lists are unlabelled.
     ///
     /// # Errors
-    /// Ids or names that are there twice, the number for `unlabelled` among the classes that count, and classes and kinds
-    /// of ours that two classes list.
+    /// Ids or names that are there twice, the number for `unlabelled` among the classes that count, and classes, kinds
+    /// and parts of ours that two classes list.
     pub fn new(
         name: &str,
         unlabelled: u8,
@@ -105,7 +109,7 @@ impl ClassMap {
     ) -> Result<Self, ClassMapFault> {
         entries.sort_by_key(|entry| entry.id);
         let (mut ids, mut names) = (BTreeMap::new(), BTreeSet::new());
-        let (mut ours, mut of_kinds) = (BTreeMap::new(), BTreeMap::new());
+        let (mut ours, mut of_kinds, mut of_parts) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
         let mut counted = 0..NOTHING;
         let mut classes = Vec::with_capacity(entries.len());
         for entry in &entries {
@@ -131,6 +135,11 @@ impl ClassMap {
                     return fault("kinds that no other class lists", kind.name().into());
                 }
             }
+            for part in &entry.parts {
+                if of_parts.insert(*part, entry.id).is_some_and(|other| other != entry.id) {
+                    return fault("parts that no other class lists", part.name().into());
+                }
+            }
             let of_13: BTreeSet<u8> = entry.ours.iter().map(|class| class.row().class13).collect();
             classes.push(MappedClass {
                 id: entry.id,
@@ -142,7 +151,7 @@ impl ClassMap {
             });
         }
         let of_ours = Class::ALL.map(|class| ours.get(&class).copied().unwrap_or(unlabelled));
-        Ok(Self { name: name.to_owned(), classes, unlabelled, instances, of_ours, of_kinds })
+        Ok(Self { name: name.to_owned(), classes, unlabelled, instances, of_ours, of_kinds, of_parts })
     }
 
     /// The number of one of our classes.
@@ -153,6 +162,27 @@ impl ClassMap {
     /// The number of an object, whose kind may say more than its class.
     pub fn object_id(&self, class: Class, kind: Kind) -> u8 {
         self.of_kinds.get(&kind).copied().unwrap_or(self.id(class))
+    }
+
+    /// The number of a part of something, which may be an object of some kind. What somebody rides is numbered as what
+    /// nobody rides where riders have a number of their own.
+    pub fn part_id(&self, class: Class, kind: Option<Kind>, part: Option<Role>) -> u8 {
+        if let Some(id) = part.and_then(|part| self.of_parts.get(&part)) {
+            return *id;
+        }
+        let ridden = match kind {
+            Some(Kind::BicycleWithRider) => Some((Role::Cyclist, Kind::Bicycle)),
+            Some(Kind::MotorcycleWithRider) => Some((Role::Motorcyclist, Kind::Motorcycle)),
+            _ => None,
+        };
+        let parted = ridden.filter(|(rider, _)| part.is_some() && self.of_parts.contains_key(rider));
+        let kind = parted.map(|(_, cycle)| cycle).or(kind);
+        kind.map_or(self.id(class), |kind| self.object_id(class, kind))
+    }
+
+    /// Whether a part of some object has a number of its own.
+    pub fn knows_parts(&self) -> bool {
+        !self.of_parts.is_empty()
     }
 
     /// The class of a number; `None` for one that has none.

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::num::NonZero;
 
 use super::*;
-use crate::{Class, Kind};
+use crate::{Class, Kind, Role};
 
 fn map(name: &str) -> ClassMap {
     ClassMap::named(name).unwrap()
@@ -136,6 +136,55 @@ fn kinds_say_more_than_classes_where_a_map_is_finer() {
 }
 
 #[test]
+fn parts_say_more_than_objects_where_a_map_is_finer() {
+    let (bicycle, motorcycle) = (Kind::BicycleWithRider, Kind::MotorcycleWithRider);
+    let of = |name: &str, kind: Kind, part| map(name).part_id(kind.class(), Some(kind), part);
+    // A cyclist and the bicycle, a motorcyclist and the lamp of the motorcycle, by the datasets' documentation.
+    for (name, expected) in [
+        ("cityscapes", [25, 33, 25, 32]),
+        ("cityscapes-train", [12, 18, 12, 17]),
+        ("kitti-step", [12, 18, 12, 17]),
+        ("coco", [1, 2, 1, 4]),
+        ("waymo", [10, 6, 11, 7]),
+        ("idd-lite", [2, 3, 2, 3]),
+        // Theirs are one, as ours are.
+        ("camvid", [10, 10, 11, 11]),
+        ("trove20", [12, 12, 16, 16]),
+        ("paper13", [5, 5, 5, 5]),
+    ] {
+        let found = [
+            of(name, bicycle, Some(Role::Cyclist)),
+            of(name, bicycle, Some(Role::Ridden)),
+            of(name, motorcycle, Some(Role::Motorcyclist)),
+            of(name, motorcycle, Some(Role::Headlamp)),
+        ];
+        assert_eq!(found, expected, "{name}");
+        // A model that does not tell its parts is numbered as a whole, and so is what nobody rides.
+        assert_eq!(of(name, bicycle, None), map(name).object_id(Class::CycleRider, bicycle), "{name}");
+        let parked = map(name).object_id(Class::MotorcycleRider, Kind::Motorcycle);
+        assert_eq!(of(name, Kind::Motorcycle, Some(Role::TailLamp)), parked, "{name}");
+        assert_eq!(map(name).knows_parts(), !["camvid", "trove20", "paper13"].contains(&name), "{name}");
+    }
+    // IDD has kerbs and boards of shops among what stands beside the road, and trodden earth is driven on.
+    let part = |class: Class, part| map("idd-lite").part_id(class, None, Some(part));
+    assert_eq!([part(Class::Sidewalk, Role::Kerb), part(Class::Sidewalk, Role::Unpaved)], [4, 0]);
+    assert_eq!([part(Class::Building, Role::ShopSign), part(Class::Building, Role::RoomLamp)], [4, 5]);
+    let of_kind = |kind: Kind| map("idd-lite").object_id(kind.class(), kind);
+    assert_eq!([Kind::Animal, Kind::Bicycle, Kind::Debris, Kind::Bench].map(of_kind), [2, 3, 4, 4]);
+}
+
+#[test]
+fn roles_have_numbers_and_names_of_their_own() {
+    for (place, (role, name)) in Role::ALL.into_iter().enumerate() {
+        assert_eq!((usize::from(role.id()), role.name()), (place + 1, name));
+        assert_eq!((Role::from_id(role.id()), Role::from_name(name)), (Some(role), Some(role)));
+    }
+    assert_eq!([Role::from_id(0), Role::from_id(Role::ALL.len() as u8 + 1)], [None; 2]);
+    // Written down, since files have them.
+    assert_eq!([Role::StreetLamp, Role::NameAlongY, Role::Cyclist, Role::Unpaved].map(Role::id), [1, 11, 12, 18]);
+}
+
+#[test]
 fn numbers_are_changed_only_into_maps_where_they_are_known() {
     let change = |from: &str, to: &str| map(from).in_map(&map(to));
     let check = |from: &str, to: &str, pairs: &[(u8, u8)]| {
@@ -159,8 +208,9 @@ fn numbers_are_changed_only_into_maps_where_they_are_known() {
 }
 
 fn entry(id: u8, name: &str, ours: &[Class]) -> ClassMapEntry {
-    let (ours, kinds) = (ours.to_vec(), Vec::new());
-    ClassMapEntry { id, name: name.into(), thing: false, ignored: false, rgb: [0; 3], ours, kinds, paper13: None }
+    let (name, ours) = (name.to_owned(), ours.to_vec());
+    let (kinds, parts, rgb) = (Vec::new(), Vec::new(), [0; 3]);
+    ClassMapEntry { id, name, thing: false, ignored: false, rgb, ours, kinds, parts, paper13: None }
 }
 
 #[test]
@@ -195,4 +245,6 @@ fn what_is_listed_twice_is_refused() {
     check(vec![entry(255, "a", &[])], "a", "255");
     let fence = |id, name| ClassMapEntry { kinds: vec![Kind::Fence], ..entry(id, name, &[]) };
     check(vec![fence(1, "a"), fence(2, "b")], "b", "fence");
+    let kerb = |id, name| ClassMapEntry { parts: vec![Role::Kerb], ..entry(id, name, &[]) };
+    check(vec![kerb(1, "a"), kerb(2, "b")], "b", "kerb");
 }

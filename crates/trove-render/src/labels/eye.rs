@@ -102,8 +102,9 @@ impl<'a> Eye<'a> {
     fn extra(&self, band: &mut ExtraBand<'_>, i: usize, seen: &Seen, point: DVec3, then: [Option<Spot>; 2]) {
         put(&mut band.range_m, i, || seen.range_m as f32);
         put(&mut band.normal_world, i, || seen.normal.as_vec3().to_array());
-        if band.albedo.is_some() || band.roughness.is_some() {
+        if band.albedo.is_some() || band.roughness.is_some() || band.part.is_some() {
             let (surface, material) = self.scene.surface(&seen.hit, &seen.ray);
+            put(&mut band.part, i, || material.role);
             let (albedo, roughness) = material.look(&surface);
             put(&mut band.albedo, i, || albedo.to_array());
             put(&mut band.roughness, i, || roughness);
@@ -151,4 +152,5 @@ fn nothing(band: &mut Band<'_>, i: usize, shown: u32, class: Class) {
     put(&mut extra.roughness, i, || f32::NAN);
     extra.scene_flow.iter_mut().for_each(|layer| put(layer, i, || NOTHING));
     put(&mut extra.object_coordinates, i, || NOTHING);
+    put(&mut extra.part, i, || None);
 }

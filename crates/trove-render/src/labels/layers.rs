@@ -2,7 +2,7 @@
 
 use std::slice::ChunksMut;
 
-use trove_model::{Class, ExtraLabel, ExtraLabels, Labels, Occlusion, Raster, Shot};
+use trove_model::{Class, ExtraLabel, ExtraLabels, Labels, Occlusion, Raster, Role, Shot};
 
 use super::pixel::Shown;
 
@@ -35,6 +35,7 @@ pub(super) struct ExtraBand<'a> {
     pub roughness: Option<&'a mut [f32]>,
     pub scene_flow: [Option<&'a mut [[f32; 3]]>; 2],
     pub object_coordinates: Option<&'a mut [[f32; 3]]>,
+    pub part: Option<&'a mut [Option<Role>]>,
 }
 
 impl Layers {
@@ -57,6 +58,7 @@ impl Layers {
             scene_flow_backward: wants(ExtraLabel::SceneFlowBackward).then(vectors),
             object_coordinates: wants(ExtraLabel::ObjectCoordinates).then(vectors),
             coverage: None,
+            part: wants(ExtraLabel::Part).then(|| Raster::filled(width, height, None)),
         };
         let labels = Labels {
             class: Raster::filled(width, height, Class::Void),
@@ -92,6 +94,7 @@ impl Layers {
         let mut before = chunks(&mut extra.scene_flow_backward, pixels);
         let mut after = chunks(&mut extra.scene_flow_forward, pixels);
         let mut object_coordinates = chunks(&mut extra.object_coordinates, pixels);
+        let mut part = chunks(&mut extra.part, pixels);
         let mut band = || {
             Some(Band {
                 shown: shown.next()?,
@@ -109,6 +112,7 @@ impl Layers {
                     roughness: next(&mut roughness),
                     scene_flow: [next(&mut before), next(&mut after)],
                     object_coordinates: next(&mut object_coordinates),
+                    part: next(&mut part),
                 },
             })
         };

@@ -58,7 +58,7 @@ impl Dataset for Cityscapes {
             unit.write(&name.path("gtFine", "gtFine_color.png"), &color)?;
 
             let segments = labels.segments(&self.map);
-            let numbers = Numbers::of(&segments, &frame.table.objects, unit);
+            let numbers = Numbers::of(&segments, unit);
             let instances = labels.ids.data.iter().zip(&labels.instance.data);
             let instances: Vec<u16> = instances.map(|(id, object)| numbers.of_pixel(*id, *object)).collect();
             let png = png_file::grey16("gtFine_instanceIds.png", width, height, &instances)?;
@@ -144,14 +144,13 @@ impl Name {
 
 /// The numbers of a picture's objects among those of their class, from 0.
 struct Numbers {
-    /// For each object its value in `instanceIds`, by the object's id.
-    objects: Vec<Option<u16>>,
+    /// Values in `instanceIds` of what is of an object.
+    segments: BTreeMap<Segment, u16>,
 }
 
 impl Numbers {
-    fn of(segments: &[(Segment, Extent)], objects: &[ObjectRow], unit: &mut Unit<'_>) -> Self {
-        let last = objects.iter().map(|object| object.id).max().unwrap_or(0);
-        let mut numbers = Self { objects: vec![None; last as usize + 1] };
+    fn of(segments: &[(Segment, Extent)], unit: &mut Unit<'_>) -> Self {
+        let mut numbers = Self { segments: BTreeMap::new() };
         let mut next = [0; 256];
         for (segment, _) in segments.iter().filter(|(segment, _)| segment.object > 0) {
             let number = &mut next[usize::from(segment.id)];
@@ -159,20 +158,19 @@ impl Numbers {
                 unit.clip("objects beyond 1000 of a class in a picture, which became a group", 1);
                 continue;
             }
-            if let Some(place) = numbers.objects.get_mut(usize::from(segment.object)) {
-                *place = Some(u16::from(segment.id) * MOST_OBJECTS as u16 + *number as u16);
-            }
+            numbers.segments.insert(*segment, u16::from(segment.id) * MOST_OBJECTS as u16 + *number as u16);
             *number += 1;
         }
         numbers
     }
 
+    /// Of an object; where its rider has a number of its own, that of what is ridden.
     fn of_object(&self, object: u32) -> Option<u16> {
-        self.objects.get(object as usize).copied().flatten()
+        self.segments.iter().rfind(|(segment, _)| u32::from(segment.object) == object).map(|(_, number)| *number)
     }
 
     fn of_pixel(&self, id: u8, object: u16) -> u16 {
-        self.of_object(object.into()).unwrap_or(id.into())
+        self.segments.get(&Segment { id, object }).copied().unwrap_or(id.into())
     }
 
     /// Segments by their value in `instanceIds`.

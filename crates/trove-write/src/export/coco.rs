@@ -41,14 +41,15 @@ impl Dataset for CocoInstances {
         for &number in frames {
             let (frame, labels) = image(plan, number, &self.map, unit)?;
             let masks = if frame.has(FrameFile::Masks) { frame.masks()?.objects } else { Vec::new() };
-            for (segment, extent) in labels.segments(&self.map) {
-                if segment.object == 0 {
-                    continue;
-                }
-                let mask = mask(&labels, segment, extent.bounds);
+            let segments = labels.segments(&self.map);
+            for (segment, extent) in segments.iter().filter(|(segment, _)| segment.object > 0) {
+                // Of a rider and what is ridden there are two.
+                let is_whole = segments.iter().filter(|(other, _)| other.object == segment.object).count() == 1;
+                let is_person = self.map.class(segment.id).is_some_and(|class| class.name == "person");
+                let mask = mask(&labels, *segment, extent.bounds);
                 let runs = run_lengths(&mask, labels.ids.width, labels.ids.height);
                 let mut annotation = json!({
-                    "id": number as u64 * 65536 + u64::from(segment.object),
+                    "id": (number as u64) << 24 | u64::from(segment.id) << 16 | u64::from(segment.object),
                     "image_id": number,
                     "category_id": segment.id,
                     "bbox": extent.xywh(),
@@ -58,7 +59,7 @@ impl Dataset for CocoInstances {
                     "track_id": segment.object,
                 });
                 let object = frame.table.objects.iter().find(|object| object.id == u32::from(segment.object));
-                if let Some(object) = object
+                if let Some(object) = object.filter(|_| is_whole)
                     && let Some(masks) = masks.iter().find(|masks| masks.id == object.id)
                 {
                     // As KINS names them.
@@ -67,7 +68,7 @@ impl Dataset for CocoInstances {
                     annotation["a_bbox"] = json!(object.amodal_box.map(|bounds| Extent { area: 0, bounds }.xywh()));
                 }
                 unit.row(ANNOTATIONS, &annotation)?;
-                if let Some(points) = object.and_then(|object| object.keypoints) {
+                if let Some(points) = object.filter(|_| is_whole || is_person).and_then(|object| object.keypoints) {
                     annotation["category_id"] = json!(PERSON);
                     annotation["keypoints"] = keypoints(&points);
                     annotation["num_keypoints"] =

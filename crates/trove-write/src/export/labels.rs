@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trove_format::ObjectRow;
+use trove_format::{FrameFile, ObjectRow};
 use trove_model::{ClassMap, Raster};
 
 use crate::{StoredFrame, WriteError};
@@ -54,23 +54,35 @@ impl Extent {
     }
 }
 
-impl MappedLabels {
-    /// Of a frame; an object's kind may say more than its class.
-    pub(crate) fn read(frame: &StoredFrame, map: &ClassMap) -> Result<Self, WriteError> {
-        let (class, instance) = (frame.class()?, frame.instance()?);
-        let last = instance.data.iter().copied().max().unwrap_or(0);
+impl StoredFrame {
+    /// What each pixel shows, in a class map's numbers: by its class, by its object's kind where there is `instance.png`,
+    /// and by the part that it shows of it where there is `part.png`.
+    ///
+    /// # Errors
+    /// As for [`StoredFrame::rgb`].
+    pub fn labels(&self, map: &ClassMap) -> Result<Raster<u8>, WriteError> {
+        let class = self.class()?;
+        let objects = if self.has(FrameFile::Instance) { self.instance()?.data } else { vec![0; class.data.len()] };
+        let parts = if map.knows_parts() && self.has(FrameFile::Part) { Some(self.part()?.data) } else { None };
+        let last = objects.iter().copied().max().unwrap_or(0);
         let mut kinds = vec![None; usize::from(last) + 1];
-        for ObjectRow { id, kind, .. } in &frame.table.objects {
+        for ObjectRow { id, kind, .. } in &self.table.objects {
             if let Some(place) = kinds.get_mut(*id as usize) {
                 *place = Some(*kind);
             }
         }
-        let id = |(class, object): (&_, &u16)| match kinds[usize::from(*object)] {
-            Some(kind) => map.object_id(*class, kind),
-            None => map.id(*class),
+        let id = |i: usize| {
+            let part = parts.as_ref().and_then(|parts| parts[i]);
+            map.part_id(class.data[i], kinds[usize::from(objects[i])], part)
         };
-        let data = class.data.iter().zip(&instance.data).map(id).collect();
-        Ok(Self { ids: Raster { data, ..class.map(|_| 0) }, instance })
+        Ok(Raster { data: (0..objects.len()).map(id).collect(), ..class.map(|_| 0) })
+    }
+}
+
+impl MappedLabels {
+    /// Of a frame that has objects.
+    pub(crate) fn read(frame: &StoredFrame, map: &ClassMap) -> Result<Self, WriteError> {
+        Ok(Self { ids: frame.labels(map)?, instance: frame.instance()? })
     }
 
     /// The segments of the picture, without what is not labelled or does not count.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use trove_format::{
     ClassEntry, Factors, FrameFile, FrameRow, FrameTable, GlassPolicy, LensModel, LightFactor, Manifest, Matrix4,
-    ObjectOrigin, ObjectRow, Projection, Source, Versions,
+    ObjectOrigin, ObjectRow, PartEntry, Projection, Source, Versions,
 };
 use trove_model::{
     Class, Color, ExtraLabels, InstanceId, Kind, Labels, Mask, ObjectLabel, Occlusion, PixelBox, Raster, Season, State,
@@ -234,6 +234,7 @@ pub(crate) fn finished(root: &Path, frames: &[Made]) {
             card: None,
         },
         classes: ClassEntry::all(),
+        parts: PartEntry::all(),
         drives: vec![],
         licences: vec![Source { source: "made".into(), licence: "CC0-1.0".into() }],
         frames: rows.collect(),

@@ -180,6 +180,7 @@ impl FrameReader for Stored {
                 read.file(FrameFile::OccludedBackward, StoredFrame::occluded_backward),
             ],
             panoptic: read.file(FrameFile::Panoptic, StoredFrame::panoptic),
+            part: read.file(FrameFile::Part, StoredFrame::part),
             range_m: read.file(FrameFile::Range, |frame| frame.numbers_in(FrameFile::Range, patches)),
             normal_world: read.file(FrameFile::NormalWorld, |frame| frame.vectors_in(FrameFile::NormalWorld, patches)),
             object_coordinates: read

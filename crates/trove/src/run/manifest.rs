@@ -3,8 +3,8 @@
 use anyhow::{Context, Result};
 use trove_build::{AssetFit, ObjectFit};
 use trove_format::{
-    AssetFitRow, ClassEntry, FORMAT, FitRow, Manifest, ManifestDrive, RunIdentity, RunReport, SceneReport, SiteFile,
-    Source,
+    AssetFitRow, ClassEntry, FORMAT, FitRow, Manifest, ManifestDrive, PartEntry, RunIdentity, RunReport, SceneReport,
+    SiteFile, Source,
 };
 use trove_model::Report;
 
@@ -112,6 +112,7 @@ pub(super) fn manifest(seed: u64, identity: RunIdentity, sites: &[SiteSummary]) 
         recipe: identity.recipe,
         versions: identity.versions,
         classes: ClassEntry::all(),
+        parts: PartEntry::all(),
         drives,
         licences,
         frames: Vec::new(),

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use trove_model::{Class, InPatches, Occlusion, Raster};
+use trove_model::{Class, InPatches, Occlusion, Raster, Role};
 
 use super::flow::{self, Looked};
 use super::{Audit, Check, LabelForm, LabelledFrame, LabelledSweep, audit, frame};
@@ -39,7 +39,7 @@ fn change_known<T>(image: &mut Option<InPatches<T>>, change: impl FnMut(&mut T))
 type Fault = (&'static str, Check, fn(&mut LabelledFrame));
 
 /// What may be wrong with a frame.
-const FAULTS: [Fault; 38] = [
+const FAULTS: [Fault; 40] = [
     ("a file is damaged", Check::Files, |f| f.damage.push("depth.exr: cut short".into())),
     ("the image is black", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [0; 3])),
     ("the image is blown", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [255; 3])),
@@ -133,6 +133,10 @@ const FAULTS: [Fault; 38] = [
     }),
     ("a focal length is negative", Check::Camera, |f| f.table.intrinsics[1][1] *= -1.0),
     ("panoptic labels are of another frame", Check::Panoptic, |f| shift(&mut f.panoptic, 1)),
+    ("a board is the rider of a car", Check::Classes, |f| {
+        change(&mut f.part, |part| *part = part.map(|_| Role::Cyclist));
+    }),
+    ("boards are everywhere", Check::Classes, |f| change(&mut f.part, |part| *part = Some(Role::ShopSign))),
     ("range is depth", Check::Depth, |f| f.range_m = f.depth_m.clone().map(whole)),
     ("World's normals are the camera's", Check::Normals, |f| f.normal_world = f.normal.clone()),
     ("object coordinates are mirrored", Check::Boxes, |f| {

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use serde_json::json;
 use trove_format::{FrameTable, SweepTable};
-use trove_model::{Class, Distortion, InPatches, InstanceId, Lens, LidarPoint, Occlusion, Patches, Raster};
+use trove_model::{Class, Distortion, InPatches, InstanceId, Lens, LidarPoint, Occlusion, Patches, Raster, Role};
 
 use super::super::{FrameReader, LabelledFrame, LabelledSweep};
 
@@ -160,6 +160,9 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
     let normal_of = |hit: &Hit| camera_from_world.transform_vector3(hit.normal).as_vec3().to_array();
     let normal = hit.map(|hit| hit.as_ref().map_or([0.0; 3], normal_of));
     let panoptic = Raster { data: class.data.iter().zip(&instance.data).map(one_number).collect(), ..class.map(|_| 0) };
+    // The house has a board.
+    let board = |hit: &Hit| (hit.id == HOUSE && (2.5..3.0).contains(&hit.point.z)).then_some(Role::ShopSign);
+    let part = hit.map(|hit| hit.as_ref().and_then(board));
     let range_m = hit.map(|hit| hit.as_ref().map_or(f32::INFINITY, |h| h.point.distance(pose.translation) as f32));
     let normal_world = hit.map(|hit| hit.as_ref().map_or([0.0; 3], |hit| hit.normal.as_vec3().to_array()));
     let object_coordinates = hit.map(|hit| {
@@ -206,6 +209,7 @@ fn frame(view: usize, moment: usize) -> LabelledFrame {
         flow,
         occluded,
         panoptic: Some(panoptic),
+        part: Some(part),
         range_m: Some(whole(range_m)),
         normal_world: Some(whole(normal_world)),
         object_coordinates: Some(whole(object_coordinates)),
