@@ -74,6 +74,8 @@ fn riders_are_told_apart_from_what_they_ride() {
         };
         let (person, cycle) = (corners(asset, rider), corners(asset, Role::Ridden));
         assert!(asset.slots.iter().all(|slot| slot.material.role.is_some()), "{}: all of it is told", asset.id);
+        let lamps = asset.slots.iter().filter(|slot| slot.material.role == Some(Role::Headlamp)).count();
+        assert!(lamps <= 1, "{}: nothing that is worn shines", asset.id);
         // Heads are of the person, wheels of the cycle, and points of the body are nearer to the person.
         let [head, foot] = [&person, &cycle].map(|p| p.iter().map(|p| p.z).fold(f32::NEG_INFINITY, f32::max));
         assert!(head > foot && head > asset.size_m.z as f32 - 0.01, "{}: {head} {foot}", asset.id);
