@@ -61,10 +61,15 @@ impl StoredFrame {
     /// # Errors
     /// As for [`StoredFrame::rgb`].
     pub fn labels(&self, map: &ClassMap) -> Result<Raster<u8>, WriteError> {
+        let objects = if self.has(FrameFile::Instance) { Some(self.instance()?) } else { None };
+        self.mapped(map, objects.as_ref())
+    }
+
+    fn mapped(&self, map: &ClassMap, objects: Option<&Raster<u16>>) -> Result<Raster<u8>, WriteError> {
         let class = self.class()?;
-        let objects = if self.has(FrameFile::Instance) { self.instance()?.data } else { vec![0; class.data.len()] };
+        let object = |i: usize| objects.map_or(0, |objects| objects.data[i]);
         let parts = if map.knows_parts() && self.has(FrameFile::Part) { Some(self.part()?.data) } else { None };
-        let last = objects.iter().copied().max().unwrap_or(0);
+        let last = objects.and_then(|objects| objects.data.iter().max()).copied().unwrap_or(0);
         let mut kinds = vec![None; usize::from(last) + 1];
         for ObjectRow { id, kind, .. } in &self.table.objects {
             if let Some(place) = kinds.get_mut(*id as usize) {
@@ -73,16 +78,17 @@ impl StoredFrame {
         }
         let id = |i: usize| {
             let part = parts.as_ref().and_then(|parts| parts[i]);
-            map.part_id(class.data[i], kinds[usize::from(objects[i])], part)
+            map.part_id(class.data[i], kinds[usize::from(object(i))], part)
         };
-        Ok(Raster { data: (0..objects.len()).map(id).collect(), ..class.map(|_| 0) })
+        Ok(Raster { data: (0..class.data.len()).map(id).collect(), ..class.map(|_| 0) })
     }
 }
 
 impl MappedLabels {
     /// Of a frame that has objects.
     pub(crate) fn read(frame: &StoredFrame, map: &ClassMap) -> Result<Self, WriteError> {
-        Ok(Self { ids: frame.labels(map)?, instance: frame.instance()? })
+        let instance = frame.instance()?;
+        Ok(Self { ids: frame.mapped(map, Some(&instance))?, instance })
     }
 
     /// The segments of the picture, without what is not labelled or does not count.
