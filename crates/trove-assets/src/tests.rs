@@ -76,7 +76,7 @@ fn riders_are_told_apart_from_what_they_ride() {
         assert!(asset.slots.iter().all(|slot| slot.material.role.is_some()), "{}: all of it is told", asset.id);
         let lamps = asset.slots.iter().filter(|slot| slot.material.role == Some(Role::Headlamp)).count();
         assert!(lamps <= 1, "{}: nothing that is worn shines", asset.id);
-        // Heads are of the person, wheels of the cycle, and points of the body are nearer to the person.
+        // Heads are of the person, wheels of the cycle, and points of the body are at the person.
         let [head, foot] = [&person, &cycle].map(|p| p.iter().map(|p| p.z).fold(f32::NEG_INFINITY, f32::max));
         assert!(head > foot && head > asset.size_m.z as f32 - 0.01, "{}: {head} {foot}", asset.id);
         assert!(cycle.iter().any(|p| p.z < 0.01) && person.iter().all(|p| p.z > 0.01), "{}", asset.id);
@@ -89,12 +89,9 @@ fn riders_are_told_apart_from_what_they_ride() {
 
 #[test]
 fn boards_and_awnings_of_shops_are_told() {
-    let with = |role: Role| {
-        let has = |asset: &&Asset| asset.slots.iter().any(|slot| slot.material.role == Some(role));
-        ASSETS.iter().filter(has).collect::<Vec<_>>()
-    };
     for role in [Role::ShopSign, Role::Awning] {
-        let found = with(role);
+        let has = |asset: &&Asset| asset.slots.iter().any(|slot| slot.material.role == Some(role));
+        let found: Vec<_> = ASSETS.iter().filter(has).collect();
         assert!(!found.is_empty(), "{role:?}");
         assert!(found.iter().all(|asset| asset.kind == Kind::Building), "{role:?}");
     }

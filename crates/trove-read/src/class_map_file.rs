@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use trove_files::{LARGEST_TEXT, read_text};
-use trove_model::{CLASSES, Class, ClassMap, ClassMapEntry, InstanceCoding, Kind, Role};
+use trove_model::{CLASSES, ClassMap, ClassMapEntry, InstanceCoding, Kind, Role};
 
 use crate::ReadError;
 use crate::toml_fault::{self, nearest};
@@ -115,28 +115,11 @@ fn parse(text: &str, name: &str) -> Result<ClassMap, Fault> {
 
 fn entry(row: Row) -> Result<ClassMapEntry, Fault> {
     let place = |key: &str| format!("class {:?}, {key}", row.name);
-    let ours = row.trove.iter().map(|name| {
-        let known = Class::ALL.into_iter().find(|class| class.row().name == name);
-        known.ok_or_else(|| Fault {
-            place: place("trove"),
-            expected: "names of TRoVE's 20 classes".into(),
-            found: format!("{name:?}{}", nearest(name, CLASSES.iter().map(|row| row.name))),
-        })
-    });
-    let kinds = row.kinds.iter().map(|name| {
-        Kind::from_name(name).ok_or_else(|| Fault {
-            place: place("kinds"),
-            expected: "kinds of objects, as in frame.json".into(),
-            found: format!("{name:?}{}", nearest(name, Kind::ALL.iter().map(|kind| kind.name()))),
-        })
-    });
-    let parts = row.parts.iter().map(|name| {
-        Role::from_name(name).ok_or_else(|| Fault {
-            place: place("parts"),
-            expected: "parts of objects, as in the manifest".into(),
-            found: format!("{name:?}{}", nearest(name, Role::ALL.iter().map(|(_, name)| *name))),
-        })
-    });
+    let classes: Vec<_> = CLASSES.iter().map(|row| (row.class, row.name)).collect();
+    let ours = known(&row.trove, &classes, &place("trove"), "names of TRoVE's 20 classes")?;
+    let kinds = Kind::ALL.map(|kind| (kind, kind.name()));
+    let kinds = known(&row.kinds, &kinds, &place("kinds"), "kinds of objects, as in frame.json")?;
+    let parts = known(&row.parts, &Role::ALL, &place("parts"), "parts of objects, as in the manifest")?;
     let paper13 = row.paper13.as_ref().map(|name| {
         let paper = ClassMap::named("paper13").expect("a built-in map");
         let known = paper.classes.iter().find(|class| class.name == *name).map(|class| class.id);
@@ -147,9 +130,9 @@ fn entry(row: Row) -> Result<ClassMapEntry, Fault> {
         })
     });
     Ok(ClassMapEntry {
-        ours: ours.collect::<Result<_, _>>()?,
-        kinds: kinds.collect::<Result<_, _>>()?,
-        parts: parts.collect::<Result<_, _>>()?,
+        ours,
+        kinds,
+        parts,
         paper13: paper13.transpose()?,
         id: row.id,
         thing: row.thing,
@@ -159,10 +142,23 @@ fn entry(row: Row) -> Result<ClassMapEntry, Fault> {
     })
 }
 
+/// What names stand for.
+fn known<T: Copy>(names: &[String], all: &[(T, &str)], place: &str, expected: &str) -> Result<Vec<T>, Fault> {
+    let find = |name: &String| {
+        all.iter().find(|(_, known)| known == name).map(|(known, _)| *known).ok_or_else(|| Fault {
+            place: place.into(),
+            expected: expected.into(),
+            found: format!("{name:?}{}", nearest(name, all.iter().map(|(_, name)| *name))),
+        })
+    };
+    names.iter().map(find).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use trove_model::Class;
 
     const MAP: &str = r#"
 unlabelled = 0

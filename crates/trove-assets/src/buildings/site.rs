@@ -50,22 +50,20 @@ impl<'a> Site<'a> {
 
     /// The same in one of some colours.
     pub(super) fn painted(&mut self, material: Material, colors: &[Vec3]) -> u16 {
-        if let Some((_, slot)) = self.slots.iter().find(|s| s.0 == material.name) {
-            return *slot;
-        }
-        let name = material.name.clone();
-        let slot = self.model.slot(material, colors);
-        self.slots.push((name, slot));
-        slot
+        self.once(material.name.clone(), |model| model.slot(material, colors))
     }
 
     /// A slot like another one, with a role.
     pub(super) fn slot_for(&mut self, role: Role, like: u16) -> u16 {
-        let name = format!("{} of slot {like}", role.name());
+        self.once(format!("{} of slot {like}", role.name()), |model| model.slot_for(role, like))
+    }
+
+    /// The slot of a name, which is added where there is none yet.
+    fn once(&mut self, name: String, add: impl FnOnce(&mut Model) -> u16) -> u16 {
         if let Some((_, slot)) = self.slots.iter().find(|s| s.0 == name) {
             return *slot;
         }
-        let slot = self.model.slot_for(role, like);
+        let slot = add(&mut self.model);
         self.slots.push((name, slot));
         slot
     }

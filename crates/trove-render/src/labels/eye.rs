@@ -102,9 +102,8 @@ impl<'a> Eye<'a> {
     fn extra(&self, band: &mut ExtraBand<'_>, i: usize, seen: &Seen, point: DVec3, then: [Option<Spot>; 2]) {
         put(&mut band.range_m, i, || seen.range_m as f32);
         put(&mut band.normal_world, i, || seen.normal.as_vec3().to_array());
-        if band.albedo.is_some() || band.roughness.is_some() || band.part.is_some() {
+        if band.albedo.is_some() || band.roughness.is_some() {
             let (surface, material) = self.scene.surface(&seen.hit, &seen.ray);
-            put(&mut band.part, i, || material.role);
             let (albedo, roughness) = material.look(&surface);
             put(&mut band.albedo, i, || albedo.to_array());
             put(&mut band.roughness, i, || roughness);
@@ -121,6 +120,7 @@ impl<'a> Eye<'a> {
                 (point_body / object.cuboid.size_m + 0.5).as_vec3().to_array()
             })
         });
+        put(&mut band.part, i, || self.scene.material(&seen.hit).role);
     }
 
     /// What a pixel shows of the sky, and where that leads.

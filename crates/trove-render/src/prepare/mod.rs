@@ -210,11 +210,15 @@ impl PreparedScene {
         &self.shapes.opacities[self.placed(hit.instance).material(hit)]
     }
 
+    /// The material at a ray's hit.
+    pub(crate) fn material(&self, hit: &Hit) -> &PreparedMaterial {
+        &self.materials[self.placed(hit.instance).material(hit)]
+    }
+
     /// The surface at a ray's hit, and its material.
     pub(crate) fn surface(&self, hit: &Hit, ray: &Ray) -> (Surface, &PreparedMaterial) {
-        let placed = self.placed(hit.instance);
-        let material = &self.materials[placed.material(hit)];
-        let mut surface = surface(placed, hit, ray);
+        let material = self.material(hit);
+        let mut surface = surface(self.placed(hit.instance), hit, ray);
         if self.comes_down.has_snow() || material.is_wet() {
             let bears = self.instances[hit.instance as usize].bears;
             surface.exposure = exposure(&self.comes_down.view(), bears, &surface, &ray.plain(), |looking| {
