@@ -16,6 +16,10 @@ const BUILT_IN: &str = include_str!("locales.toml");
 const LIKE: &str = "like";
 const COUNTRIES: &str = "countries";
 const COUNTRY: &str = "country";
+/// Lists of which something is always taken.
+const NEVER_EMPTY: [&str; 2] = ["models", "sidewalk"];
+/// No length, share or colour is above this.
+const LARGEST: f64 = 1000.0;
 const REMEDY: &str = "correct it as docs/locales.md describes";
 
 /// A mistake in a table.
@@ -36,6 +40,28 @@ impl Fault {
         let Self { place, expected, found } = self;
         ReadError::Format { path: path.to_owned(), place, expected, found, remedy: REMEDY.into() }
     }
+}
+
+/// Finds numbers that are no length, share or colour, and lists that lack what is taken from them.
+fn check(keys: &Keys, place: &str) -> Result<(), Fault> {
+    keys.iter().try_for_each(|(key, value)| check_value(value, key, &format!("{place} {key}")))
+}
+
+fn check_value(value: &Value, key: &str, place: &str) -> Result<(), Fault> {
+    let number = match value {
+        Value::Table(keys) => return check(keys, place),
+        Value::Array(values) if values.is_empty() && NEVER_EMPTY.contains(&key) => {
+            return Err(Fault::new(place, "at least one", "none"));
+        }
+        Value::Array(values) => return values.iter().try_for_each(|value| check_value(value, key, place)),
+        Value::Float(number) => *number,
+        Value::Integer(number) => *number as f64,
+        _ => return Ok(()),
+    };
+    if (0.0..=LARGEST).contains(&number) {
+        return Ok(());
+    }
+    Err(Fault::new(place, format!("a number from 0 to {LARGEST}"), number.to_string()))
 }
 
 /// Rows by their names, and the groups of the countries that are listed.
@@ -104,6 +130,7 @@ impl Table {
     /// The customs of a country or a group.
     pub(super) fn locale(&self, name: &str) -> Result<Locale, Fault> {
         let mut keys = self.resolved(name, &mut Vec::new())?;
+        check(&keys, &format!("[{name}]"))?;
         if is_code(name) {
             keys.insert(COUNTRY.into(), name.into());
         }

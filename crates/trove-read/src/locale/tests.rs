@@ -277,6 +277,10 @@ fn mistakes_in_a_user_s_table_are_named() {
             "SE",
         ),
         ("[SE]\nkerb.height_m = \"high\"\n", "[SE]", "expected"),
+        ("[SE]\nkerb.height_m = -0.1\n", "[SE] kerb height_m", "a number from 0 to 1000"),
+        ("[SE]\nstreet.small_spacing_m = [5.0, nan]\n", "[SE] street small_spacing_m", "a number from 0 to 1000"),
+        ("[SE]\nsurfaces.sidewalk = []\n", "[SE] surfaces sidewalk", "at least one"),
+        ("[SE]\nlamps.main.models = []\n", "[SE] lamps main models", "at least one"),
         ("[SE\n", "line 1", "a table of locales"),
         ("SE = 1\n", "SE", "a row"),
     ] {
