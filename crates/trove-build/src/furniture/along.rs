@@ -8,8 +8,6 @@ use crate::surroundings::{KERB_STEP_M, KerbPoint};
 
 /// A lamp on the other side is at least so far away as a share of the spacing.
 const ACROSS: f64 = 0.48;
-/// Small things follow one another within this, metres.
-const SMALL_SPACING_M: [f64; 2] = [9.0, 30.0];
 /// Things of the same kind keep this far apart, metres.
 const ALIKE_M: f64 = 14.0;
 /// Bollards stand in rows of so many, this far apart, metres.
@@ -82,8 +80,9 @@ fn small_things(
     random: &mut Random,
     report: &Report,
 ) {
-    let models = as_often(&yard.locale.street.small);
-    let mut at_m = random.range(0.0, SMALL_SPACING_M[1]);
+    let customs = &yard.locale.street;
+    let (models, [least_m, most_m]) = (as_often(&customs.small), customs.small_spacing_m);
+    let mut at_m = random.range(0.0, most_m);
     while let Some(kerb) = run.get((at_m / KERB_STEP_M) as usize) {
         let Some(model) = random.pick(&models).copied() else { return };
         let kind = model.kind;
@@ -96,6 +95,6 @@ fn small_things(
                 yard.place_at_kerb(kind, &words(&model.tags), kerb, Source::MadeUp, report);
             }
         }
-        at_m += random.range(SMALL_SPACING_M[0], SMALL_SPACING_M[1]) + count as f64 * BOLLARD_STEP_M;
+        at_m += random.range(least_m, most_m).max(0.0) + count as f64 * BOLLARD_STEP_M;
     }
 }

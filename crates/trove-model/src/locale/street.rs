@@ -159,6 +159,8 @@ fn once() -> u32 {
 pub struct StreetCustoms {
     /// What stands along sidewalks.
     pub small: Vec<ModelShare>,
+    /// From one of these to the next, from and to, metres.
+    pub small_spacing_m: [f64; 2],
     /// Tags of mailboxes.
     pub mailbox: Vec<String>,
     /// Whether sidewalks of main roads have railings here and there.
