@@ -89,6 +89,17 @@ def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkey
     assert after[0] == before[0] and after[1] != before[1]
     experiment.write_text(experiment.read_text().replace("epochs = 1", "epochs = 2"))
     assert read(experiment).folders("S", tmp_path)[0] != before[0]
+    # The set whose labels are as rendered, and what is measured on.
+    drawn = [read(experiment).folders(row, tmp_path)[0] for row in ("S", "S+C")]
+    experiment.write_text(experiment.read_text().replace("pictures =", "drawn = false\npictures ="))
+    rendered = [read(experiment).folders(row, tmp_path)[0] for row in ("S", "S+C")]
+    assert rendered[0] == drawn[0] and rendered[1] != drawn[1]
+    # Where there is one set alone nothing is normalised otherwise.
+    rows = ("S", "S+C+R[M]")
+    together = [read(experiment).folders(row, tmp_path)[0] for row in rows]
+    experiment.write_text(experiment.read_text().replace("batch = 2", "batch = 2\nnorm_by_set = true"))
+    apart = [read(experiment).folders(row, tmp_path)[0] for row in rows]
+    assert apart[0] == together[0] and apart[1] != together[1]
 
 
 @pytest.mark.parametrize(
@@ -100,6 +111,11 @@ def test_other_data_or_settings_have_another_folder(experiment, tmp_path, monkey
         (('format = "native"', 'format = "kitti"'), "format: expected one of"),
         (('of = "S"', 'of = "T"'), "sets.R.of"),
         (("[val]", "[test]"), "test is not known"),
+        (("count = 2", "drawn = true"), "sets.R.drawn is not known"),
+        (
+            ("epochs = 1", 'epochs = 1\nmodel = "ssdlite"\nnorm_by_set = true'),
+            "training.norm_by_set: expected a network",
+        ),
         (("epochs = 1", "total = [2, 4]"), "training.total: a ladder needs averaged = true"),
     ],
 )
@@ -218,10 +234,94 @@ def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
     ids[150:200, 140:150] = 7  # someone before them
     Image.new("RGB", (320, 240)).save(tmp_path / "a.png"), Image.fromarray(ids).save(tmp_path / "b.png")
     sample = [Sample(tmp_path / "a.png", tmp_path / "b.png")]
-    found = Pictures(sample, "native", "camvid", (320, 240))[0][1]
+    found = Pictures(sample, "native", "camvid", (320, 240), drawn=True)[0][1]
     tree, someone, sky = (labels.CAMVID.index(name) for name in ("tree", "pedestrian", "sky"))
     assert (found[100:150, 100:200] == tree).all() and (found[150:200, 140:150] == someone).all()
     assert (found[:95] == sky).all() and (found[:, :90] == sky).all()
+    rendered = Pictures(sample, "native", "camvid", (320, 240))[0][1]
+    assert (rendered == labels.lookup("native", "camvid")[ids]).all()
+
+
+def test_what_is_too_small_to_draw_is_what_is_around_it():
+    from trove.train.drawn import as_drawn
+
+    sky, road, someone, pole = (labels.CAMVID.index(name) for name in ("sky", "road", "pedestrian", "pole"))
+    ids = np.full((180, 240), sky, np.uint8)
+    ids[90:] = road
+    ids[100:103, 50:53] = someone  # nine pixels
+    ids[120, 50:60] = someone  # ten
+    ids[85:95, 100] = pole  # one part of ten, aslant
+    ids[[30, 31, 32], [30, 31, 32]] = labels.IGNORED
+    expected = ids.copy()
+    expected[100:103, 50:53] = road
+    expected[[30, 31, 32], [30, 31, 32]] = sky
+    assert (as_drawn(ids, "camvid") == expected).all()
+    # Twice as large pictures have four times as many pixels of the same thing.
+    twice = ids.repeat(2, 0).repeat(2, 1)
+    assert (as_drawn(twice, "camvid") == expected.repeat(2, 0).repeat(2, 1)).all()
+    # Nothing that is large enough: all stays.
+    specks = np.arange(5 * 7, dtype=np.uint8).reshape(5, 7).repeat(3, 0).repeat(3, 1)
+    large = np.zeros((240, 320), np.uint8)
+    large[:15, :21] = specks
+    assert (as_drawn(large, "camvid") == 0).all() and (as_drawn(large[:15, :15] + 100, "camvid") >= 100).all()
+
+
+def test_sets_are_normalised_each_by_itself_and_the_last_one_s_statistics_are_kept():
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.segmentation import Segmentation
+
+    torch.manual_seed(1)
+    model = torch.nn.Sequential(torch.nn.BatchNorm2d(3), torch.nn.Conv2d(3, 4, 1))
+    batches = []
+    model.register_forward_hook(lambda _, given, __: batches.append(len(given[0])))
+    bright, dark = 5 + torch.rand(3, 3, 8, 8), torch.rand(2, 3, 8, 8)
+    truth = torch.randint(0, 4, (5, 8, 8))
+    task = Segmentation(4, None, [3, 2])
+    loss = task.loss(model, torch.cat([bright, dark]), truth)
+    assert model[0].momentum == 0.1
+    assert torch.allclose(model[0].running_mean, 0.1 * dark.mean((0, 2, 3)), atol=1e-6)
+    assert torch.isfinite(loss) and batches == [3, 2]
+
+
+def test_a_network_doubts_what_it_finds_hard_to_tell(experiment, tmp_path):
+    torch = pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    from trove.train.doubt import doubts
+
+    class Halves(torch.nn.Module):
+        """Sure of class 0 where a picture is dark, undecided between 1 and 2 where it is bright."""
+
+        def forward(self, rgb):
+            bright = rgb[:, :1] > 0.5
+            return torch.cat([20.0 * ~bright, 20.0 * bright, 20.0 * bright, torch.full_like(rgb[:, :1], -20)], 1)
+
+    rgb = torch.zeros(2, 3, 4, 6)
+    rgb[..., 3:] = 1
+    stock = SimpleNamespace(whole=lambda size: iter([(rgb, None)]))
+    found = doubts(Halves(), stock, (6, 4))
+    # Entropies 0, ln 2 and ln 2; nobody has seen the last.
+    assert found == pytest.approx([0, 1.5, 1.5, 1], abs=1e-4)
+
+
+def test_weights_of_doubt_choose_frames(finished, experiment, tmp_path):
+    pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    experiment.write_text(experiment.read_text().replace("epochs = 1", 'epochs = 1\nmodel = "small"'))
+    weights = tmp_path / "doubt.toml"
+    ask = [sys.executable, "-m", "trove.train.doubt", experiment, "--out", tmp_path / "runs", "--weights", weights]
+    done = subprocess.run([*ask, "--row", "S", "--of", "S"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert weights.read_text().endswith(done.stdout) and done.stdout.count("\n") == len(labels.CAMVID)
+    out, page = tmp_path / "list.json", tmp_path / "page.html"
+    choose = ["--count", 3, "--min-classes", 2, "--out", out, "--page", page]
+    chosen = trove("curate", finished, "--classes", "camvid", "--weights", weights, *choose)
+    assert chosen.returncode == 0, chosen.stderr
+    refused = trove("curate", finished, "--weights", weights, *choose)
+    assert refused.returncode == 1 and "expected a class of trove20 that counts" in refused.stderr
+    for wrong, expected in (
+        (["--row", "X", "--of", "S"], "--row: expected one of S, "),
+        (["--row", "S", "--of", "X"], "--of: "),
+    ):
+        refused = subprocess.run([*ask, *wrong], capture_output=True, text=True)
+        assert refused.returncode == 1 and expected in refused.stderr
 
 
 def test_picture_and_labels_of_other_sizes_are_refused(tmp_path):

@@ -165,6 +165,7 @@ def test_colours_come_from_what_is_trained_on_alone(experiment, tmp_path):
         (('[folds]\nof = "R"', '[folds]\nof = "P"'), "folds.of: expected a set with a format of its own, found P"),
         (("inner = 0.25", "inner = 1.5"), "folds: inner: expected a share"),
         (("inner = 0.25", "count = 4"), "folds: count: expected 2 to 3"),
+        (('root = "camvid"\n[folds]', 'root = "camvid"\ndrawn = true\n[folds]'), "sets.C.drawn is not known"),
         (("batch = 2", "batch = 2\ncolour = 1.0"), "training.colour: expected 0 to below 1"),
     ],
 )
@@ -298,7 +299,6 @@ def test_frames_that_tell_objects_are_trained_on_by_their_kinds(finished, tmp_pa
             )
             kinds = labels.lookup(numbering, target)[StoredFrame(folder).labels(numbering)]
             others = kinds != labels.lookup("native", target)[np.asarray(Image.open(folder / "class.png"))]
-            # Crowns are closed in both alike.
             assert (by_kind == by_class)[~others].all()
             assert (by_kind == kinds)[others].sum() >= 0.9 * others.sum()
             differ[target] += others.sum()

@@ -188,6 +188,7 @@ def curate(
     *,
     count: int = 5000,
     classes: AnyPath = "trove20",
+    weights: AnyPath | None = None,
     min_classes: int = 6,
     duplicate_bits: int = 2,
     val_share: float = 0.1,
@@ -196,13 +197,18 @@ def curate(
     page: AnyPath | None = None,
     progress: Progress | None = None,
 ) -> Curation:
-    """Selects the frames of `folder` most worth training on and writes their list, `out`, and a page about them."""
+    """Selects the frames of `folder` most worth training on and writes their list, `out`, and a page about them.
+
+    `weights` is a file of what each of the `classes` is worth (TOML, `class = weight`), as `python -m trove.train.doubt`
+    writes it.
+    """
     curation: Curation = _run(
         "curate",
         [folder],
         progress,
         count=count,
         classes=classes,
+        weights=weights,
         min_classes=min_classes,
         duplicate_bits=duplicate_bits,
         val_share=val_share,

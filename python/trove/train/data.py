@@ -3,14 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from PIL import Image
 
 from trove._trove import StoredFrame
 from trove.format import read_curated
-from trove.train.labels import CROWNS, SETS, lookup
+from trove.train.drawn import as_drawn
+from trove.train.labels import SETS, lookup
 
 
 @dataclass(frozen=True)
@@ -84,22 +85,32 @@ ZOOM = 1.4
 class Pictures:
     """Pairs of an image (H, W, 3) and its labels (H, W) in the target's ids, both `uint8`.
 
+    `drawn` gives labels that were rendered the look of drawn ones.
     They have their own size, or if that is more than a cut of `size` (width, height) enlarged by `zoom` needs, as much
     as that needs. Up to 2 GiB of them are kept, for all objects of this class together.
     """
 
     KEPT_BYTES = 2 << 30
-    _kept: ClassVar[dict[tuple[Sample, str, str, tuple[int, int], float], tuple[np.ndarray, np.ndarray]]] = {}
+    _kept: ClassVar[dict[tuple[Any, ...], tuple[np.ndarray, np.ndarray]]] = {}
     _kept_bytes: ClassVar[int] = 0
 
-    def __init__(self, samples: list[Sample], numbering: str, target: str, size: tuple[int, int], zoom: float = ZOOM):
+    def __init__(
+        self,
+        samples: list[Sample],
+        numbering: str,
+        target: str,
+        size: tuple[int, int],
+        zoom: float = ZOOM,
+        drawn: bool = False,
+    ):
         self.samples, self.numbering, self.target, self.size, self.zoom = samples, numbering, target, size, zoom
+        self.drawn = drawn
 
     def __len__(self) -> int:
         return len(self.samples)
 
     def __getitem__(self, index: int) -> tuple[np.ndarray, np.ndarray]:
-        key = (self.samples[index], self.numbering, self.target, self.size, self.zoom)
+        key = (self.samples[index], self.numbering, self.target, self.size, self.zoom, self.drawn)
         if key not in self._kept:
             pair = self._read(self.samples[index])
             size_bytes = sum(array.nbytes for array in pair)
@@ -114,9 +125,8 @@ class Pictures:
         labels, numbering = _labels(sample, self.numbering, self.target)
         if picture.size != labels.size:
             raise ValueError(f"{sample.labels}: expected {picture.size} pixels, like the image, found {labels.size}")
-        labels = Image.fromarray(lookup(numbering, self.target)[np.asarray(labels)])
-        if self.numbering == "native" and self.target in CROWNS:
-            labels = _outlined_crowns(labels, *CROWNS[self.target])
+        ids = lookup(numbering, self.target)[np.asarray(labels)]
+        labels = Image.fromarray(as_drawn(ids, self.target) if self.drawn else ids)
         scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * self.zoom
         if scale < 1:
             size = (round(picture.width * scale), round(picture.height * scale))
@@ -136,34 +146,16 @@ def _labels(sample: Sample, numbering: str, target: str) -> tuple[Image.Image, s
     return labels if labels.mode in ("L", "P") else labels.getchannel(0), numbering
 
 
-def _outlined_crowns(labels: Image.Image, tree: int, sky: int, building: int) -> Image.Image:
-    """Labels as annotators draw them: a crown is one surface, so sky and houses seen between twigs are tree.
-
-    Trees are closed by a hundredth of the width on each side.
-    """
-    ids = np.asarray(labels)
-    radius = labels.width // 100
-    closed = ~_spread(~_spread(ids == tree, radius), radius)
-    behind = (ids == sky) | (ids == building)
-    return Image.fromarray(np.where(closed & behind, np.uint8(tree), ids))
-
-
-def _spread(mask: np.ndarray, radius: int) -> np.ndarray:
-    """Where the mask (H, W) is true within `radius` pixels along both axes."""
-    for _ in range(2):
-        wide = mask.copy()
-        for shift in range(1, radius + 1):
-            wide[shift:] |= mask[:-shift]
-            wide[:-shift] |= mask[shift:]
-        mask = wide.T
-    return mask
+def shares_of(batch: int, sets: int) -> list[int]:
+    """How many images of each set a batch has."""
+    return [batch // sets + (i < batch % sets) for i in range(sets)]
 
 
 def mixed_batches(lengths: list[int], batch: int, steps: int, seed: int) -> list[list[tuple[int, int]]]:
     """Batches of (set, index): each has equally many of every set, and each set cycles through all its images."""
     random = np.random.default_rng(seed)
     queues: list[list[int]] = [[] for _ in lengths]
-    shares = [batch // len(lengths) + (i < batch % len(lengths)) for i in range(len(lengths))]
+    shares = shares_of(batch, len(lengths))
     batches = []
     for _ in range(steps):
         members = []

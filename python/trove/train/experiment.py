@@ -19,6 +19,7 @@ seed  = 1                     # what is drawn; "each": anew for every seed of [t
 format = "native"
 root   = "out/camvid-twin"
 frames = "out/camvid-twin/curated.json"      # optional: a list of trove curate
+drawn  = true                 # crowns of trees have outlines, and no part is too small to draw; false: as rendered
 
 [sets.C]                      # S recoloured: a row with C uses it instead of S
 format   = "native"
@@ -43,6 +44,7 @@ balanced = true               # rare classes weigh more in the loss
 zoom = 1.4                    # cut at any place, from as large as can be to so many times smaller; 1 is none of that
 mirrored = true               # half of the pictures
 colour = 0.4                  # brightness, contrast, saturation and balance are drawn anew by up to ±40 %, for every row
+norm_by_set = true            # batch normalisation of each set by itself; the network keeps the last set's statistics
 class_mix = 0.5               # this share of pictures get half of the classes of another one in the batch, of the other set
 
 Several counts are one line of a curve: a row `S+P*[M]` stands for `S+P25[M]`, `S+P100[M]` and so on, in `compare` too.
@@ -63,7 +65,7 @@ tables also show every rung.
 import itertools
 import re
 import sys
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +104,7 @@ class Training:
     zoom: float = 1.4
     mirrored: bool = True
     class_mix: float = 0.0
+    norm_by_set: bool = False
 
     def settings(self) -> dict[str, Any]:
         """Everything that affects the result of a run, except its seed and what is as by default."""
@@ -197,7 +200,10 @@ class Experiment:
         """The folder and the sets of each stage of a row in the experiment's trial."""
         measured = [pool.digest(self.folder) for pool in (self.val, self.inner) if pool]
         folders, name = [], ""
-        key = digest(self.classes, self.size, self.training.settings(), measured)
+        settings = self.training.settings()
+        if all(len(names) == 1 for names in self.stages(row)):
+            settings.pop("norm_by_set", None)
+        key = digest(self.classes, self.size, settings, measured)
         for names, steps in zip(self.stages(row), self.steps(row)):
             key = digest(key, self.trial.seed, steps, [self.pools[name].digest(self.folder) for name in names])
             name += (" then " if name else "") + "+".join(names)
@@ -292,6 +298,8 @@ def _training(path: Path, entry: dict[str, Any]) -> Training:
         raise ExperimentError(f"{path}: training.zoom: expected 1 to {ZOOM}, found {entry['zoom']}")
     if entry.get("optimiser", "adamw") not in ("adamw", "sgd"):
         raise ExperimentError(f"{path}: training.optimiser: expected adamw or sgd, found {entry['optimiser']}")
+    if entry.get("norm_by_set") and entry.get("model") in DETECTORS:
+        raise ExperimentError(f"{path}: training.norm_by_set: expected a network that segments, found {entry['model']}")
     if "seeds" in entry:
         entry["seeds"] = tuple(entry["seeds"])
     if "weights" in entry:
@@ -323,7 +331,8 @@ def _folds(path: Path, entry: dict[str, Any], sets: dict[str, Any]) -> Folds:
 
 
 def _pool(path: Path, place: str, entry: dict[str, Any], fold: str) -> Pool:
-    _known(path, f"{place}.", entry, {"format", "root", "split", "pictures", "frames"})
+    own = {"pictures", "frames", "drawn"} if entry.get("format") == "native" else set()
+    _known(path, f"{place}.", entry, {"format", "root", "split", *own})
     if entry.get("format") not in FORMATS:
         raise ExperimentError(
             f"{path}: {place}.format: expected one of {', '.join(FORMATS)}, found {entry.get('format')}"
@@ -339,12 +348,12 @@ def _pool(path: Path, place: str, entry: dict[str, Any], fold: str) -> Pool:
         raise ExperimentError(
             f"{path}: {place}.root: expected images laid out as {entry['format']} in {root}, found none"
         )
-    return Pool(samples, numbering)
+    return Pool(samples, numbering, entry["format"] == "native" and entry.get("drawn", True))
 
 
 def _part(whole: Pool, count: int, seed: int) -> Pool:
     chosen = np.random.default_rng(seed).permutation(len(whole.samples))[:count]
-    return Pool([whole.samples[i] for i in sorted(chosen)], whole.numbering)
+    return replace(whole, samples=[whole.samples[i] for i in sorted(chosen)])
 
 
 def _known(path: Path, place: str, table: dict[str, Any], keys: set[str]) -> None:

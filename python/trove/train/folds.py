@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +13,11 @@ from trove.train.data import Sample
 
 @dataclass(frozen=True)
 class Pool:
-    """A set of samples and the numbering of their labels."""
+    """A set of samples, the numbering of their labels, and whether those of frames are made as people draw them."""
 
     samples: list[Sample]
     numbering: str
+    drawn: bool = False
 
     def digest(self, base: Path) -> str:
         """A hash of the numbering and of all file sizes and paths relative to `base`, wherever `base` is."""
@@ -25,7 +26,7 @@ class Pool:
             for sample in self.samples
             for f in (sample.picture, sample.labels)
         ]
-        return digest(self.numbering, files)
+        return digest(self.numbering, files, *([self.drawn] if self.numbering == "native" else []))
 
     def linked(self, folder: Path) -> Path:
         """Fills a folder with links to the set's pictures and nothing else, for `trove recolor --to`, and returns it."""
@@ -55,7 +56,7 @@ class Folds:
     """
 
     def __init__(self, of: str, whole: Pool, count: int | None, inner: float):
-        self.of, self._numbering = of, whole.numbering
+        self.of, self._whole = of, whole
         places = sorted({sample.place for sample in whole.samples})
         count = count or len(places)
         if not 2 <= count <= len(places):
@@ -85,8 +86,8 @@ class Folds:
 
     def val(self, held_out: str) -> Pool:
         """What is measured on: all of the fold that is held out."""
-        return Pool([*self._parts[held_out][0], *self._parts[held_out][1]], self._numbering)
+        return replace(self._whole, samples=[*self._parts[held_out][0], *self._parts[held_out][1]])
 
     def _pool(self, held_out: str, part: int) -> Pool:
         others = [parts[part] for name, parts in self._parts.items() if name != held_out]
-        return Pool([sample for samples in others for sample in samples], self._numbering)
+        return replace(self._whole, samples=[sample for samples in others for sample in samples])

@@ -14,7 +14,7 @@ import torch
 from torch import nn
 
 from trove.train.average import Average
-from trove.train.data import Pictures, mixed_batches
+from trove.train.data import Pictures, mixed_batches, shares_of
 from trove.train.detection import Detection
 from trove.train.experiment import Experiment, Trial, read
 from trove.train.folds import Pool
@@ -64,24 +64,38 @@ def run(experiment: Experiment, row: str, out: Path, say: Callable[[str], None])
     return [{"row": row, "fold": trial.fold, "seed": trial.seed, **rung, **found} for rung in rungs]
 
 
+def trained(experiment: Experiment, row: str, out: Path, say: Callable[[str], None]) -> tuple[nn.Module, torch.device]:
+    """The network of a row in the experiment's trial, which is trained like `run` does unless it is finished."""
+    run(experiment, row, out, say)
+    device = _device()
+    model = network(experiment.training.model, experiment.classes, None).to(device)
+    state = torch.load(experiment.folders(row, out)[-1][0] / "model.pt", map_location=device, weights_only=True)
+    model.load_state_dict(state["model"])
+    return model, device
+
+
+def _device() -> torch.device:
+    return torch.device("cuda" if torch.cuda.is_available() else "cpu")
+
+
 def _found(
     experiment: Experiment, row: str, folders: list[tuple[Path, list[str]]], say: Callable[[str], None]
 ) -> dict[str, Any]:
     """What the network that is trained in `folders`, one a stage, has learnt at each rung, its curve and time."""
-    device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    device = _device()
     # Images have one size, so that the fastest convolutions are worth finding.
     torch.backends.cudnn.benchmark = True
     trial, training = experiment.trial, experiment.training
     torch.manual_seed(trial.seed)
     began = time.perf_counter()
     model = network(training.model, experiment.classes, training.weights).to(device)
-    task = _task(experiment, None)
+    task = _task(experiment)
     told: dict[str, list[Any]] = {"curve": [], "rungs": [], "seconds": []}
 
     def measured(learnt: nn.Module, total: int) -> dict[str, Any]:
         pools = {"outer": experiment.val, "inner": experiment.inner}
         return {"total": total} | {
-            name: pool and task.measure(learnt, _stock(experiment, pool, device), experiment.size).tolist()
+            name: pool and task.measure(learnt, stock_of(experiment, pool, device), experiment.size).tolist()
             for name, pool in pools.items()
         }
 
@@ -107,21 +121,23 @@ def _found(
     return {**told, "images": images, "seconds": sum(told["seconds"])}
 
 
-def _task(experiment: Experiment, weights: torch.Tensor | None) -> Segmentation | Detection:
-    """What networks of the experiment's model learn; `weights` are those of each class."""
+def _task(
+    experiment: Experiment, weights: torch.Tensor | None = None, shares: list[int] | None = None
+) -> Segmentation | Detection:
+    """What networks of the experiment's model learn; `weights` and `shares` are as `Segmentation` has them."""
     if experiment.training.model in DETECTORS:
         return Detection(experiment.classes)
-    return Segmentation(len(experiment.names), weights)
+    return Segmentation(len(experiment.names), weights, shares)
 
 
-def _stock(experiment: Experiment, pool: Pool, device: torch.device) -> Stock:
-    """What networks are measured on, kept since many are measured on the same."""
-    of = pool.numbering, experiment.classes, experiment.size, experiment.training.zoom
+def stock_of(experiment: Experiment, pool: Pool, device: torch.device) -> Stock:
+    """What networks are shown as it is, kept since many are measured on the same."""
+    of = pool.numbering, experiment.classes, experiment.size, experiment.training.zoom, pool.drawn
     return _kept(tuple(pool.samples), of, device)
 
 
 @lru_cache(maxsize=8)
-def _kept(samples: tuple[Any, ...], of: tuple[str, str, tuple[int, int], float], device: torch.device) -> Stock:
+def _kept(samples: tuple[Any, ...], of: tuple[str, str, tuple[int, int], float, bool], device: torch.device) -> Stock:
     return Stock([Pictures(list(samples), *of)], device)
 
 
@@ -153,7 +169,7 @@ def _train(
     experiment, names, checkpoint, steps = stage.experiment, stage.names, stage.checkpoint, stage.steps
     pools = [experiment.pools[name] for name in names]
     how = experiment.classes, experiment.size, experiment.training.zoom
-    sets = [Pictures(p.samples, p.numbering, *how) for p in pools]
+    sets = [Pictures(p.samples, p.numbering, *how, p.drawn) for p in pools]
     stock, lengths = Stock(sets, device), [len(s) for s in sets]
     model.train().to(memory_format=torch.channels_last)
     average = Average(model, steps, device) if experiment.training.averaged else None
@@ -208,7 +224,8 @@ class _Step:
         self._tints = None if tints is None else torch.from_numpy(tints).to(device)
         classes = len(TARGETS[stage.experiment.classes])
         weights = stock.weights(lengths, classes) if training.balanced else None
-        self._task = _task(stage.experiment, weights)
+        shares = shares_of(training.batch, len(lengths)) if training.norm_by_set else None
+        self._task = _task(stage.experiment, weights, shares)
         taken = random_classes(*draws, training.class_mix, classes) if training.class_mix else None
         self._taken = None if taken is None else torch.from_numpy(taken).to(device)
         self._rates = torch.from_numpy(rates.astype(np.float32)).to(device)

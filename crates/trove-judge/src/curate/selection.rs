@@ -12,6 +12,8 @@ pub struct Rules {
     pub count: usize,
     /// For each of our classes the one that it counts as, from 0 on; `None` is worth nothing.
     pub classes: [Option<u8>; 20],
+    /// What each of those is worth, none below 0.
+    pub weights: [f64; 20],
     /// Classes that a frame has to show at least: the paper's 6 to 8.
     pub min_classes: usize,
     /// Frames whose hashes differ in at most so many of 64 bits are near-duplicates.
@@ -63,14 +65,14 @@ impl Ord for Gain {
     }
 }
 
-/// Chooses greedily by what a frame adds to Σ √(pixels of a class), which is worth the more the rarer the class is among
-/// those kept. Gains only ever fall, so the best is found lazily (Minoux 1978), and the greedy choice is within 1 − 1/e
+/// Chooses greedily by what a frame adds to Σ weight · √(pixels of a class), which is worth the more the rarer the class
+/// is among those kept. Gains only ever fall, so the best is found lazily (Minoux 1978), and the greedy choice is within 1 − 1/e
 /// of the best one (Nemhauser, Wolsey and Fisher 1978).
 pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
     let mut selection = Selection::default();
     let mut sums = [0.0f64; 20];
     let gain = |sums: &[f64; 20], shares: &[f64; 20]| -> f64 {
-        (0..20).map(|c| (sums[c] + shares[c]).sqrt() - sums[c].sqrt()).sum()
+        (0..20).map(|c| rules.weights[c] * ((sums[c] + shares[c]).sqrt() - sums[c].sqrt())).sum()
     };
     let mut queue = BinaryHeap::new();
     for (i, frame) in frames.iter().enumerate() {
@@ -135,7 +137,7 @@ mod tests {
         frames.push(frame(41, &[(1, 1000)]));
         frames.push(CandidateFrame { hash: frames[29].hash ^ 3, ..frame(42, &[(1, 460), (9, 450), (16, 90)]) });
         let classes = ClassMap::named("trove20").unwrap().train_ids_of_ours();
-        let rules = Rules { count: 31, classes, min_classes: 2, duplicate_bits: 3 };
+        let rules = Rules { count: 31, classes, weights: [1.0; 20], min_classes: 2, duplicate_bits: 3 };
         let found = select(&frames, &rules);
         assert_eq!(found.kept[0], 29);
         assert_eq!((found.kept.len(), found.poor, found.duplicates), (30, 1, 1));
@@ -144,6 +146,10 @@ mod tests {
         let classes = ClassMap::named("camvid").unwrap().train_ids_of_ours();
         let camvid = select(&frames, &Rules { classes, ..rules });
         assert_ne!(camvid.kept[0], 29);
+        // Nor does one that is worth nothing come first.
+        let mut weights = rules.weights;
+        weights[usize::from(rules.classes[16].unwrap())] = 0.0;
+        assert_ne!(select(&frames, &Rules { weights, ..rules }).kept[0], 29);
         // Labels alone of another variation are no duplicate.
         frames.iter_mut().for_each(|frame| frame.has_picture = false);
         frames[31].variation = 1;

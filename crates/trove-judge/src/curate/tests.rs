@@ -93,7 +93,7 @@ fn dataset(root: &Path) {
 fn labels_alone_are_enough_to_choose_and_to_report() {
     let folder = tempfile::tempdir().unwrap();
     dataset(folder.path());
-    let rules = Rules { count: 20, classes: classes(), min_classes: 6, duplicate_bits: 0 };
+    let rules = Rules { count: 20, classes: classes(), weights: [1.0; 20], min_classes: 6, duplicate_bits: 0 };
     let found = curate(folder.path(), rules, 0.3, Seed(1), &|_, _| true).unwrap();
     assert_eq!((found.frames.len(), found.selection.poor, found.selection.duplicates), (12, 1, 1));
     assert_eq!(found.selection.kept.len(), 10);
@@ -107,7 +107,7 @@ fn labels_alone_are_enough_to_choose_and_to_report() {
 #[test]
 fn what_is_no_dataset_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    let rules = Rules { count: 1, classes: classes(), min_classes: 1, duplicate_bits: 0 };
+    let rules = Rules { count: 1, classes: classes(), weights: [1.0; 20], min_classes: 1, duplicate_bits: 0 };
     let message = |root: &Path| curate(root, rules, 0.0, Seed(1), &|_, _| true).unwrap_err().to_string();
     assert!(message(folder.path()).contains("frames of trove generate"));
     dataset(folder.path());

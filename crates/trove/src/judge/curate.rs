@@ -12,6 +12,7 @@ use trove_model::{CLASSES, Seed};
 use trove_write::write_atomically;
 
 use super::share;
+use super::weights::read_weights;
 use crate::answer::Answer;
 use crate::class_maps::ClassMapChoice;
 use crate::progress::Steps;
@@ -28,6 +29,9 @@ pub(crate) struct Curate {
     /// Class map whose classes count, a name or a FILE.toml (docs/judge.md); classes that it ignores add nothing.
     #[arg(long, default_value = "trove20", value_name = "MAP")]
     classes: ClassMapChoice,
+    /// What each class is worth, TOML of `class = weight` as `python -m trove.train.doubt` writes it; others weigh 1.
+    #[arg(long, value_name = "FILE.toml")]
+    weights: Option<PathBuf>,
     /// Minimum number of classes in a frame.
     #[arg(long, default_value_t = 6)]
     min_classes: usize,
@@ -67,9 +71,14 @@ fn list_of(curation: &Curation) -> Curated {
 
 impl Curate {
     pub(crate) fn run(&self, watch: &Watch) -> Result<Answer> {
-        let classes = self.classes.read()?.train_ids_of_ours();
-        let rules =
-            Rules { count: self.count, classes, min_classes: self.min_classes, duplicate_bits: self.duplicate_bits };
+        let map = self.classes.read()?;
+        let rules = Rules {
+            count: self.count,
+            classes: map.train_ids_of_ours(),
+            weights: self.weights.as_deref().map_or(Ok([1.0; 20]), |path| read_weights(path, &map))?,
+            min_classes: self.min_classes,
+            duplicate_bits: self.duplicate_bits,
+        };
         let progress = Steps::new(watch);
         let seed = Seed(self.seed);
         let curation = curate(&self.dir, rules, self.val_share, seed, &|done, total| progress.done(done, total))?;

@@ -4,6 +4,7 @@ pub(crate) mod audit;
 pub(crate) mod curate;
 pub(crate) mod evaluate;
 pub(crate) mod recolor;
+mod weights;
 
 /// A share of 1.
 fn share(text: &str) -> Result<f64, String> {
