@@ -53,9 +53,13 @@ def steps(name: str, options: argparse.Namespace) -> Iterator[list[object]]:
     to = ["--to", real, "--method", "paired", "--strength", 1]
     yield [*trove, "recolor", frames, *to, "--out", out / "recolored"]
     how = ["--threads", options.threads, "--jobs", options.jobs]
-    how += ["--rows", *options.rows] if options.rows else []
     for file in choice.experiments:
-        yield [sys.executable, "-m", "trove.train", HERE / f"{file}.toml", "--out", out / "results" / file, *how]
+        rows = [row for row in options.rows if row in read(HERE / f"{file}.toml").rows]
+        if options.rows and not rows:
+            continue
+        only = ["--rows", *rows] if rows else []
+        train = [sys.executable, "-m", "trove.train", HERE / f"{file}.toml", "--out", out / "results" / file]
+        yield [*train, *how, *only]
 
 
 def main() -> int:

@@ -119,6 +119,19 @@ def prepared(name: str) -> bool:
     return True
 
 
+def chosen_of(name: str, options: argparse.Namespace) -> list[str] | None:
+    """What of an experiment is asked for, as options of `trove.train`; None if it has nothing of that."""
+    experiment, asked = read(HERE / f"{name}.toml"), []
+    has = {"rows": experiment.rows, "folds": experiment.folds, "seeds": map(str, experiment.training.seeds)}
+    for of, known in has.items():
+        wanted = getattr(options, of)
+        found = [one for one in known if one in wanted]
+        if wanted and not found:
+            return None
+        asked += [f"--{of}", *found] if found else []
+    return asked
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__.splitlines()[0], epilog="Example: run.py --data ~/datasets --only camvid"
@@ -126,7 +139,8 @@ def main() -> int:
     parser.add_argument("--data", type=Path, required=True, help="folder with osm, camvid and idd-lite in it")
     parser.add_argument("--only", choices=EXPERIMENTS, help="one of the experiments")
     parser.add_argument("--small", action="store_true", help="all that a processor can train, in place of the others")
-    parser.add_argument("--rows", nargs="*", default=[], help="only these rows of the tables")
+    for name in ("rows", "folds", "seeds"):
+        parser.add_argument(f"--{name}", nargs="+", default=[], help=f"only these {name}, in tables that have them")
     parser.add_argument("--threads", type=int, default=1, help="threads on the CPU for each network; 0 is all")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="groups of rows that are trained at once")
     options = parser.parse_args()
@@ -138,11 +152,13 @@ def main() -> int:
             print(f"error: {options.data}: {expected}", file=sys.stderr)
             return 1
     link(HERE / "data", options.data)
-    rows = ["--rows", *options.rows] if options.rows else []
-    how = ["--threads", options.threads, "--jobs", options.jobs, *rows]
     for name in chosen:
-        train = [sys.executable, "-m", "trove.train", HERE / f"{name}.toml", "--out", OUT / "results" / name, *how]
-        if not prepared(name) or not run(f"training of {name}", *train):
+        if not prepared(name):
+            return 1
+        asked = chosen_of(name, options)
+        train = [sys.executable, "-m", "trove.train", HERE / f"{name}.toml", "--out", OUT / "results" / name]
+        how = ["--threads", options.threads, "--jobs", options.jobs]
+        if asked is not None and not run(f"training of {name}", *train, *how, *asked):
             return 1
     return 0
 

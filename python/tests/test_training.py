@@ -438,6 +438,26 @@ def test_a_row_that_fails_is_told_and_the_others_are_trained(finished, experimen
         assert rows == ["trained on", "---", "S", "S+R[F]"]
 
 
+def test_what_is_asked_for_alone_is_trained_and_must_be_there(experiment, tmp_path):
+    pytest.importorskip("torch", reason="the optional extra [train] is not installed")
+    experiment.write_text(
+        experiment.read_text()
+        .replace("epochs = 1", 'steps = 1\nmodel = "small"')
+        .replace("seeds = [1]", "seeds = [1, 2]")
+    )
+    command = [sys.executable, "-m", "trove.train", experiment, "--out", tmp_path / "out"]
+    done = subprocess.run([*command, "--rows", "S", "--seeds", "2"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert [path.name.split(", ")[:2] for path in (tmp_path / "out/runs").iterdir()] == [["S", "seed 2"]]
+    for wrong, expected in (
+        (["--rows", "S", "T"], "--rows: expected some of S, S+R[F], S+C+R[M], found T"),
+        (["--seeds", "3"], "--seeds: expected some of 1, 2, found 3"),
+        (["--folds", "1"], "--folds: expected none: the file has no [folds], found 1"),
+    ):
+        refused = subprocess.run([*command, *wrong], capture_output=True, text=True)
+        assert refused.returncode == 1 and f"error: {expected}" in refused.stderr, refused.stderr
+
+
 def test_an_interruption_ends_all_rows_at_once(experiment, tmp_path):
     pytest.importorskip("torch", reason="the optional extra [train] is not installed")
     # Longer than anybody waits.

@@ -3,7 +3,7 @@
 import argparse
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -21,7 +21,9 @@ def main() -> int:
     parser.add_argument(
         "--out", type=Path, required=True, help="output folder for runs and table; finished runs are kept"
     )
-    parser.add_argument("--rows", nargs="*", help="train only these rows")
+    parser.add_argument("--rows", nargs="+", help="train only these rows")
+    parser.add_argument("--folds", nargs="+", help="train only while these folds are held out")
+    parser.add_argument("--seeds", nargs="+", type=int, help="train only with these seeds")
     parser.add_argument("--threads", type=int, default=0, help="CPU threads per job; 0 uses all")
     parser.add_argument(
         "--jobs",
@@ -41,10 +43,13 @@ def main() -> int:
 
     try:
         experiment = read(options.experiment)
-        rows = options.rows or experiment.rows
+        rows = _chosen("rows", options.rows, experiment.rows)
+        folds = _chosen("folds", options.folds, experiment.folds)
+        seeds = _chosen("seeds", options.seeds, experiment.training.seeds)
+        trials = [trial for trial in experiment.trials() if trial.fold in folds and trial.seed in seeds]
         results: list[dict[str, Any]] = []
         train = partial(run_rows, options.experiment, options.out, options.threads)
-        groups = [(trial, group) for trial in experiment.trials() for group in experiment.alike(rows)]
+        groups = [(trial, group) for trial in trials for group in experiment.alike(rows)]
         failed = False
         # Workers end at once when interrupted, instead of taking the next rows.
         ends = signal.signal, (signal.SIGINT, signal.SIG_DFL)
@@ -74,6 +79,16 @@ def main() -> int:
     if results:
         print((options.out / "table.md").read_text())
     return int(failed)
+
+
+def _chosen(option: str, wanted: list[Any] | None, known: Sequence[Any]) -> list[Any]:
+    """What is asked for of what the experiment has, or all of it."""
+    unknown = [str(one) for one in wanted or [] if one not in known]
+    if unknown:
+        names = ", ".join(str(one) for one in known if one != "")
+        expected = f"expected some of {names}" if names else "expected none: the file has no [folds]"
+        raise ValueError(f"--{option}: {expected}, found {', '.join(unknown)}")
+    return list(wanted or known)
 
 
 if __name__ == "__main__":
