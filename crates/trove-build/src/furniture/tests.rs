@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use trove_model::{
-    Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, MapLine, Mesh, Polygon, Report, Road,
-    RoadKind, Seed, SidewalkSides, Slot, StreetMap,
+    Asset, AssetLibrary, Bounds, Building, Drive, HeightField, Kind, LineKind, Locale, MapLine, Mesh, Polygon, Report,
+    Road, RoadKind, Seed, SidewalkSides, Slot, StreetMap,
 };
 
 use super::furniture;
@@ -39,8 +39,12 @@ fn furnished(country: &str, map: &StreetMap) -> Furnished {
 
 /// The same with the models of a library.
 fn furnished_from(library: &AssetLibrary, country: &str, map: &StreetMap) -> Furnished {
+    furnished_by(library, &testing::locale(country), map)
+}
+
+/// The same by other customs.
+fn furnished_by(library: &AssetLibrary, locale: &Locale, map: &StreetMap) -> Furnished {
     let mut drive = Drive { lane_map: None, tracks: Vec::new(), ..testing::drive() };
-    let locale = &testing::locale(country);
     for keyframe in &mut drive.keyframes {
         keyframe.boxes.clear();
     }
@@ -319,15 +323,35 @@ fn scaffolding_stands_before_houses_that_are_built_as_high_as_they_are() {
     assert!(many.iter().all(|(id, ..)| id == "scaffolding 4"), "{many:?}");
 }
 
-#[test]
-fn litter_lies_on_sidewalks_only() {
+/// A library with a model for everything that stands on Germany's sidewalks.
+fn library_of_small_things() -> AssetLibrary {
     let mut library = library();
-    library.assets.push(testing::asset("litter", Kind::StreetFurniture, [0.1, 0.1, 0.05]).tagged(["litter"]));
-    // Without it litter would stand in for what else stands on sidewalks.
     let other = testing::asset("other", Kind::StreetFurniture, [0.3, 0.3, 1.0]);
     for small in &testing::locale(GERMANY).street.small {
         library.assets.push(Asset { id: format!("other {:?}", small.tags), ..other.clone() }.tagged(&small.tags));
     }
+    library
+}
+
+#[test]
+fn small_things_stand_as_close_as_a_country_has_them() {
+    let library = library_of_small_things();
+    let count = |small_spacing_m: [f64; 2]| {
+        let mut locale = testing::locale(GERMANY);
+        locale.street.small_spacing_m = small_spacing_m;
+        let found = furnished_by(&library, &locale, &shopping_street());
+        found.scenery.iter().filter(|(id, ..)| id.starts_with("other")).count()
+    };
+    let (few, many) = (count([40.0, 60.0]), count([4.0, 8.0]));
+    // What stands before shops is among them.
+    assert!(many > few + 10, "{few} {many}");
+}
+
+#[test]
+fn litter_lies_on_sidewalks_only() {
+    // Without the others litter would stand in for what else stands on sidewalks.
+    let mut library = library_of_small_things();
+    library.assets.push(testing::asset("litter", Kind::StreetFurniture, [0.1, 0.1, 0.05]).tagged(["litter"]));
     let found = furnished_from(&library, GERMANY, &shopping_street());
     let litter: Vec<&DVec3> = found.scenery.iter().filter(|(id, ..)| id == "litter").map(|(_, at, _)| at).collect();
     assert!(litter.len() > 4 && litter.iter().all(|at| (3.5..9.5).contains(&at.y.abs())), "{litter:?}");
