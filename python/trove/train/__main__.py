@@ -10,6 +10,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from trove.train.command import lacks_torch
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(
@@ -32,10 +34,7 @@ def main() -> int:
         help="seeds and rows to train in parallel, each in its own process",
     )
     options = parser.parse_args()
-    try:
-        import torch  # noqa: F401
-    except ModuleNotFoundError:
-        print("error: PyTorch is missing; pip install 'trove-scenes[train]'", file=sys.stderr)
+    if lacks_torch():
         return 1
     from trove.train.experiment import ExperimentError, read
     from trove.train.report import write

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from trove.train.command import lacks_torch
+
 if TYPE_CHECKING:
     from torch import nn
 
@@ -31,10 +33,7 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True, help="folder of the experiment's runs")
     parser.add_argument("--weights", type=Path, required=True, help="file to write (TOML)")
     options = parser.parse_args()
-    try:
-        import torch  # noqa: F401
-    except ModuleNotFoundError:
-        print("error: PyTorch is missing; pip install 'trove-scenes[train]'", file=sys.stderr)
+    if lacks_torch():
         return 1
     from trove.train.experiment import ExperimentError, Trial, read
     from trove.train.labels import DETECTORS

@@ -95,6 +95,6 @@ fn small_things(
                 yard.place_at_kerb(kind, &words(&model.tags), kerb, Source::MadeUp, report);
             }
         }
-        at_m += random.range(least_m, most_m).max(0.0) + count as f64 * BOLLARD_STEP_M;
+        at_m += random.range(least_m, most_m) + count as f64 * BOLLARD_STEP_M;
     }
 }

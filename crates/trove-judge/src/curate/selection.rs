@@ -66,8 +66,8 @@ impl Ord for Gain {
 }
 
 /// Chooses greedily by what a frame adds to Σ weight · √(pixels of a class), which is worth the more the rarer the class
-/// is among those kept. Gains only ever fall, so the best is found lazily (Minoux 1978), and the greedy choice is within 1 − 1/e
-/// of the best one (Nemhauser, Wolsey and Fisher 1978).
+/// is among those kept. Gains only ever fall, so the best is found lazily (Minoux 1978), and the greedy choice is within
+/// 1 − 1/e of the best one (Nemhauser, Wolsey and Fisher 1978).
 pub fn select(frames: &[CandidateFrame], rules: &Rules) -> Selection {
     let mut selection = Selection::default();
     let mut sums = [0.0f64; 20];

@@ -114,6 +114,7 @@ impl Table {
                 self.rows.remove(&code);
                 self.group_of.insert(code, name.clone());
             }
+            check(&row, &format!("[{name}]"))?;
             rows.push((name, row));
         }
         for (name, row) in rows {
@@ -130,7 +131,6 @@ impl Table {
     /// The customs of a country or a group.
     pub(super) fn locale(&self, name: &str) -> Result<Locale, Fault> {
         let mut keys = self.resolved(name, &mut Vec::new())?;
-        check(&keys, &format!("[{name}]"))?;
         if is_code(name) {
             keys.insert(COUNTRY.into(), name.into());
         }
