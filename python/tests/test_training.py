@@ -229,6 +229,7 @@ def test_class_mix_pastes_classes_of_the_other_set_with_their_labels():
 
 
 def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
+    pytest.importorskip("scipy", reason="the optional extra [train] is not installed")
     ids = np.full((240, 320), 1, np.uint8)  # sky
     ids[100:200, 100:200:3] = 15  # twigs
     ids[150:200, 140:150] = 7  # someone before them
@@ -243,6 +244,7 @@ def test_crowns_are_one_surface_as_annotators_draw_them(tmp_path):
 
 
 def test_what_is_too_small_to_draw_is_what_is_around_it():
+    pytest.importorskip("scipy", reason="the optional extra [train] is not installed")
     from trove.train.drawn import as_drawn
 
     sky, road, someone, pole = (labels.CAMVID.index(name) for name in ("sky", "road", "pedestrian", "pole"))

@@ -10,7 +10,6 @@ from PIL import Image
 
 from trove._trove import StoredFrame
 from trove.format import read_curated
-from trove.train.drawn import as_drawn
 from trove.train.labels import SETS, lookup
 
 
@@ -126,7 +125,12 @@ class Pictures:
         if picture.size != labels.size:
             raise ValueError(f"{sample.labels}: expected {picture.size} pixels, like the image, found {labels.size}")
         ids = lookup(numbering, self.target)[np.asarray(labels)]
-        labels = Image.fromarray(as_drawn(ids, self.target) if self.drawn else ids)
+        if self.drawn:
+            # An experiment is read without the extra that SciPy comes with.
+            from trove.train.drawn import as_drawn
+
+            ids = as_drawn(ids, self.target)
+        labels = Image.fromarray(ids)
         scale = max(self.size[0] / picture.width, self.size[1] / picture.height) * self.zoom
         if scale < 1:
             size = (round(picture.width * scale), round(picture.height * scale))
