@@ -38,14 +38,18 @@ pub enum Role {
     Awning,
     /// A kerb's stones.
     Kerb,
-    /// Where people walk on trodden earth.
+    /// Trodden earth that people walk on.
     Unpaved,
+    /// Ground beside the street with slabs or concrete on it: squares, yards.
+    Paved,
+    /// Ground where vehicles are parked.
+    CarPark,
 }
 
 impl Role {
     /// Every role with its name in files. Its place, counted from 1, is its number in pictures of labels: new ones come
     /// last.
-    pub const ALL: [(Self, &str); 18] = [
+    pub const ALL: [(Self, &str); 20] = [
         (Self::StreetLamp, "street_lamp"),
         (Self::WallLamp, "wall_lamp"),
         (Self::RoomLamp, "room_lamp"),
@@ -64,6 +68,8 @@ impl Role {
         (Self::Awning, "awning"),
         (Self::Kerb, "kerb"),
         (Self::Unpaved, "unpaved"),
+        (Self::Paved, "paved"),
+        (Self::CarPark, "car_park"),
     ];
 
     /// Its number in pictures of labels, where 0 is no role.

@@ -1,6 +1,6 @@
 //! What covers the ground beside the streets.
 
-use trove_model::{Bounds, LandKind, Polygon, StreetMap, SurfaceKind};
+use trove_model::{Bounds, LandKind, Polygon, Role, StreetMap, SurfaceKind};
 
 use crate::geometry::plane::{difference, grown, intersection, union};
 
@@ -22,6 +22,17 @@ const COVERS: [(SurfaceKind, &[LandKind]); 7] = [
 pub(super) struct Cover {
     pub kind: SurfaceKind,
     pub area: Vec<Polygon>,
+}
+
+impl Cover {
+    /// What part of the ground this is, where something was laid.
+    pub(super) fn role(&self) -> Option<Role> {
+        match self.kind {
+            SurfaceKind::Paving | SurfaceKind::Concrete => Some(Role::Paved),
+            SurfaceKind::Asphalt => Some(Role::CarPark),
+            _ => None,
+        }
+    }
 }
 
 /// Divides the land among its covers: asphalt where vehicles parked, then as the map says, paved around buildings,

@@ -191,8 +191,7 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
     let mut pavement = drape.raised(&layout.pavement, kerb_m);
     surfacing.align(&mut pavement);
     put(pavement, Class::Sidewalk, paving);
-    let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| put(mesh, class, material(kind));
-    add(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, SurfaceKind::Asphalt);
+    put(drape.raised(&layout.tracks, kerb_m), Class::Sidewalk, material(SurfaceKind::Asphalt));
     let lawn = Lawn::new(conditions, seeds.vegetation.child("roads").child("lawn"));
     for cover in &covers {
         let is_water = cover.kind == SurfaceKind::Water;
@@ -202,15 +201,15 @@ pub(crate) fn surfaces(place: &Place<'_>, spans: &Spans, land: Option<Land<'_>>)
             SurfaceKind::Water => drape.surface(&cover.area, lift_m),
             _ => drape.raised(&cover.area, lift_m),
         };
-        add(mesh, Class::Ground, cover.kind);
+        let mut laid = material(cover.kind);
+        laid.role = laid.role.or(cover.role());
+        put(mesh, Class::Ground, laid);
         if is_water {
-            add(
-                drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border),
-                Class::Ground,
-                SurfaceKind::Concrete,
-            );
+            let quay = drape.faces(&cover.area, &[DVec2::new(0.0, WATER_M), DVec2::new(0.0, kerb_m)], on_border);
+            put(quay, Class::Ground, material(SurfaceKind::Concrete));
         }
     }
+    let mut add = |mesh: Mesh, class: Class, kind: SurfaceKind| put(mesh, class, material(kind));
     let below = Footings::new(bounds, &[(Footing::Carriageway, &layout.above)]);
     let free = |p: DVec2| footings.at(p) != Footing::Carriageway;
     let decks = decks::meshes(&layout.decks, &layout.trenches, &drape, free);

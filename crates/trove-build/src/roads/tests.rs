@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 use trove_model::{
-    AssetLibrary, Bounds, Class, DrivingSide, HeightField, LaneMap, Material, Polygon, Raster, Report, RoadKind, Role,
-    Seed, StreetMap, Surface, SurfaceKind, Tags,
+    AssetLibrary, Bounds, Building, Class, DrivingSide, HeightField, Land, LandKind, LaneMap, Material, Polygon,
+    Raster, Report, RoadKind, Role, Seed, StreetMap, Surface, SurfaceKind, Tags,
 };
 
 use super::decks::Lift;
@@ -135,28 +135,51 @@ fn road_and_sidewalk_differ_by_the_kerb_and_the_paint_lies_on_the_road() {
     assert!(heights(Class::Sidewalk, false).iter().all(|h| (-0.03..built.kerb_m + 0.02).contains(h)));
 }
 
+/// What parts pieces of a class are by their materials, where sidewalks are paved with what has the tags.
+fn roles(map: &StreetMap, class: Class, tags: &[&str]) -> BTreeSet<Option<Role>> {
+    let (drive, ground) = (drive(), hilly());
+    let surface = |kind: SurfaceKind| Surface {
+        id: kind.name().into(),
+        kind,
+        tags: Tags::new(tags),
+        material: Material::default(),
+        size_m: [1.0; 2],
+        cells: [1; 2],
+        design: None,
+    };
+    let surfaces_of = [SurfaceKind::Paving, SurfaceKind::Kerb].map(surface).to_vec();
+    let library = AssetLibrary { surfaces: surfaces_of, ..AssetLibrary::default() };
+    let built = surfaces(&place(&drive, Some(map), bounds(), &ground, &library, &Seed(7).into(), &Report::default()));
+    let of_class = built.pieces.into_iter().filter(|piece| piece.class == class);
+    of_class.map(|piece| piece.materials[0].role).collect()
+}
+
 #[test]
 fn kerbs_are_told_from_sidewalks_but_along_trodden_earth() {
-    let (drive, map, ground) = (drive(), map(), hilly());
-    let roles = |tags: &[&str]| {
-        let surface = |kind: SurfaceKind| Surface {
-            id: kind.name().into(),
-            kind,
-            tags: Tags::new(tags),
-            material: Material::default(),
-            size_m: [1.0; 2],
-            cells: [1; 2],
-            design: None,
-        };
-        let surfaces_of = [SurfaceKind::Paving, SurfaceKind::Kerb].map(surface).to_vec();
-        let library = AssetLibrary { surfaces: surfaces_of, ..AssetLibrary::default() };
-        let built =
-            surfaces(&place(&drive, Some(&map), bounds(), &ground, &library, &Seed(7).into(), &Report::default()));
-        let of_walks = built.pieces.into_iter().filter(|piece| piece.class == Class::Sidewalk);
-        of_walks.map(|piece| piece.materials[0].role).collect::<BTreeSet<_>>()
+    assert_eq!(roles(&map(), Class::Sidewalk, &["slabs"]), [None, Some(Role::Kerb)].into());
+    assert_eq!(roles(&map(), Class::Sidewalk, &["earth"]), [Some(Role::Unpaved)].into());
+}
+
+#[test]
+fn what_is_laid_on_the_ground_is_told_from_what_grows() {
+    let polygon = || {
+        let corners = [[0.0, 30.0], [10.0, 30.0], [10.0, 40.0], [0.0, 40.0]].map(DVec2::from_array);
+        Polygon::simple(corners.to_vec())
     };
-    assert_eq!(roles(&["slabs"]), [None, Some(Role::Kerb)].into());
-    assert_eq!(roles(&["earth"]), [Some(Role::Unpaved)].into());
+    let with = |kind: LandKind, tag: &str| {
+        let land = vec![Land { id: 1, kind, polygon: polygon() }];
+        roles(&StreetMap { land, ..map() }, Class::Ground, &[tag])
+    };
+    assert_eq!(with(LandKind::Parking, "slabs"), [None, Some(Role::CarPark)].into());
+    assert_eq!(with(LandKind::Paved, "slabs"), [None, Some(Role::Paved)].into());
+    assert_eq!(with(LandKind::Paved, "earth"), [None, Some(Role::Unpaved)].into());
+    for kind in [LandKind::Park, LandKind::Sand, LandKind::Farmland, LandKind::Water] {
+        assert_eq!(with(kind, "slabs"), [None].into(), "{kind:?}");
+    }
+    // Around a house.
+    let buildings = vec![Building::new(1, polygon(), None)];
+    let yard = roles(&StreetMap { buildings, ..map() }, Class::Ground, &["slabs"]);
+    assert_eq!(yard, [None, Some(Role::Paved)].into());
 }
 
 #[test]

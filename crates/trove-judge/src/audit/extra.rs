@@ -38,7 +38,7 @@ fn panoptic(frame: &LabelledFrame, notes: &mut Notes) {
     }
 }
 
-/// Riders are on ridden cycles, boards at houses, kerbs beside roads.
+/// Riders are on ridden cycles, boards at houses, kerbs and yards beside roads.
 fn parts(frame: &LabelledFrame, notes: &mut Notes) {
     let (Some(part), Some(class)) = (&frame.part, &frame.class) else { return };
     notes.look(Check::Classes);
@@ -50,7 +50,9 @@ fn parts(frame: &LabelledFrame, notes: &mut Notes) {
         Role::Motorcyclist => is_of(&motorcycles, x, y) && *class.at(x, y) == Class::MotorcycleRider,
         Role::Ridden => is_of(&cycles, x, y) || is_of(&motorcycles, x, y),
         Role::ShopSign | Role::Awning => *class.at(x, y) == Class::Building,
-        Role::Kerb | Role::Unpaved => *class.at(x, y) == Class::Sidewalk,
+        Role::Kerb => *class.at(x, y) == Class::Sidewalk,
+        Role::Unpaved => matches!(class.at(x, y), Class::Sidewalk | Class::Ground),
+        Role::Paved | Role::CarPark => *class.at(x, y) == Class::Ground,
         // Lamps, and what names are written on, are of many things.
         _ => true,
     };

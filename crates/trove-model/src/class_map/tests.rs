@@ -163,7 +163,23 @@ fn parts_say_more_than_objects_where_a_map_is_finer() {
         assert_eq!(of(name, bicycle, None), map(name).object_id(Class::CycleRider, bicycle), "{name}");
         let parked = map(name).object_id(Class::MotorcycleRider, Kind::Motorcycle);
         assert_eq!(of(name, Kind::Motorcycle, Some(Role::TailLamp)), parked, "{name}");
-        assert_eq!(map(name).knows_parts(), !["camvid", "trove20", "paper13"].contains(&name), "{name}");
+        assert_eq!(map(name).knows_parts(), !["trove20", "paper13"].contains(&name), "{name}");
+    }
+    // Yards and car parks are no meadows.
+    let ground = [None, Some(Role::Paved), Some(Role::CarPark)];
+    for (name, expected) in [
+        ("cityscapes", [22, 6, 9]),
+        ("cityscapes-train", [9, 255, 255]),
+        ("kitti-step", [9, 255, 255]),
+        ("camvid", [5, 4, 3]),
+        ("coco", [193, 191, 149]),
+        ("waymo", [26; 3]),
+        ("idd-lite", [1, 1, 0]),
+        ("asprs", [2; 3]),
+        ("trove20", [11; 3]),
+    ] {
+        let found = ground.map(|part| map(name).part_id(Class::Ground, None, part));
+        assert_eq!(found, expected, "{name}");
     }
     // IDD has kerbs and boards of shops among what stands beside the road, and trodden earth is driven on.
     let part = |class: Class, part| map("idd-lite").part_id(class, None, Some(part));
@@ -181,7 +197,7 @@ fn roles_have_numbers_and_names_of_their_own() {
     }
     assert_eq!([Role::from_id(0), Role::from_id(Role::ALL.len() as u8 + 1)], [None; 2]);
     // Written down, since files have them.
-    assert_eq!([Role::StreetLamp, Role::NameAlongY, Role::Cyclist, Role::Unpaved].map(Role::id), [1, 11, 12, 18]);
+    assert_eq!([Role::StreetLamp, Role::NameAlongY, Role::Cyclist, Role::CarPark].map(Role::id), [1, 11, 12, 20]);
 }
 
 #[test]
