@@ -39,7 +39,7 @@ fn change_known<T>(image: &mut Option<InPatches<T>>, change: impl FnMut(&mut T))
 type Fault = (&'static str, Check, fn(&mut LabelledFrame));
 
 /// What may be wrong with a frame.
-const FAULTS: [Fault; 40] = [
+const FAULTS: [Fault; 43] = [
     ("a file is damaged", Check::Files, |f| f.damage.push("depth.exr: cut short".into())),
     ("the image is black", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [0; 3])),
     ("the image is blown", Check::Image, |f| change(&mut f.rgb, |rgb| *rgb = [255; 3])),
@@ -137,6 +137,9 @@ const FAULTS: [Fault; 40] = [
         change(&mut f.part, |part| *part = part.map(|_| Role::Cyclist));
     }),
     ("boards are everywhere", Check::Classes, |f| change(&mut f.part, |part| *part = Some(Role::ShopSign))),
+    ("yards are everywhere", Check::Classes, |f| change(&mut f.part, |part| *part = Some(Role::Paved))),
+    ("car parks are everywhere", Check::Classes, |f| change(&mut f.part, |part| *part = Some(Role::CarPark))),
+    ("earth is everywhere", Check::Classes, |f| change(&mut f.part, |part| *part = Some(Role::Unpaved))),
     ("range is depth", Check::Depth, |f| f.range_m = f.depth_m.clone().map(whole)),
     ("World's normals are the camera's", Check::Normals, |f| f.normal_world = f.normal.clone()),
     ("object coordinates are mirrored", Check::Boxes, |f| {
