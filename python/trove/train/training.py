@@ -19,6 +19,7 @@ from trove.train.detection import Detection
 from trove.train.experiment import Experiment, Trial, read
 from trove.train.folds import Pool
 from trove.train.labels import DETECTORS, TARGETS
+from trove.train.memory import keep_freed
 from trove.train.models import classifier_of, network
 from trove.train.segmentation import Segmentation
 from trove.train.stock import Stock, class_mixed, random_classes, random_cuts, random_tints, tinted
@@ -83,6 +84,7 @@ def _found(
 ) -> dict[str, Any]:
     """What the network that is trained in `folders`, one a stage, has learnt at each rung, its curve and time."""
     device = _device()
+    keep_freed()
     # Images have one size, so that the fastest convolutions are worth finding.
     torch.backends.cudnn.benchmark = True
     trial, training = experiment.trial, experiment.training
